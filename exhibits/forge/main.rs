@@ -1,0 +1,3 @@
+//! The forge: makes every shipped model from stated dimensions.
+
+fn main() {}

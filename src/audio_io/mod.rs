@@ -1,0 +1,1 @@
+//! Microphone and loudspeaker: the only module that names the audio crate.

@@ -1,0 +1,101 @@
+//! The command line: one file per command, arguments and all (design.md section 3).
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub mod bench;
+pub mod breath;
+pub mod check;
+pub mod devices;
+pub mod doctor;
+pub mod explain;
+#[cfg(feature = "kiosk")]
+pub mod kiosk;
+pub mod play;
+#[cfg(feature = "kiosk")]
+pub mod render;
+pub mod schema;
+pub mod sound;
+
+/// How a command ended when it did not succeed.
+#[derive(Debug)]
+pub struct Failure {
+    /// 1 bad input or problems found, 2 usage, 3 a device or driver is missing, 130 interrupted.
+    pub code: u8,
+    /// What, where, why, and what to do. Empty where everything is said already.
+    pub message: String,
+}
+
+impl Failure {
+    /// Bad input, or problems found.
+    pub fn input(message: impl std::fmt::Display) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
+    /// A device or driver is missing.
+    pub fn device(message: impl std::fmt::Display) -> Self {
+        Self { code: 3, message: message.to_string() }
+    }
+}
+
+/// What a command returns.
+pub type Outcome = Result<(), Failure>;
+
+/// Sculptures that hang in virtual air and answer a visitor's breath.
+#[derive(Parser, Debug)]
+#[command(name = "soffio", version, about, long_about = None)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    #[cfg(feature = "kiosk")]
+    Kiosk(kiosk::Args),
+    Play(play::Args),
+    Breath(breath::Args),
+    Sound(sound::Args),
+    #[cfg(feature = "kiosk")]
+    Render(render::Args),
+    Check(check::Args),
+    Explain(explain::Args),
+    Schema(schema::Args),
+    Devices(devices::Args),
+    Doctor(doctor::Args),
+    Bench(bench::Args),
+}
+
+/// Runs the program on the process's arguments.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let outcome = match cli.command {
+        #[cfg(feature = "kiosk")]
+        None => kiosk::run(kiosk::Args::default()),
+        #[cfg(not(feature = "kiosk"))]
+        None => Err(Failure { code: 2, message: "this build has no kiosk; say a command, see --help".into() }),
+        #[cfg(feature = "kiosk")]
+        Some(Command::Kiosk(args)) => kiosk::run(args),
+        Some(Command::Play(args)) => play::run(args),
+        Some(Command::Breath(args)) => breath::run(args),
+        Some(Command::Sound(args)) => sound::run(args),
+        #[cfg(feature = "kiosk")]
+        Some(Command::Render(args)) => render::run(args),
+        Some(Command::Check(args)) => check::run(args),
+        Some(Command::Explain(args)) => explain::run(args),
+        Some(Command::Schema(args)) => schema::run(args),
+        Some(Command::Devices(args)) => devices::run(args),
+        Some(Command::Doctor(args)) => doctor::run(args),
+        Some(Command::Bench(args)) => bench::run(args),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if !failure.message.is_empty() {
+                eprintln!("soffio: {}", failure.message);
+            }
+            ExitCode::from(failure.code)
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Motion by the laws: forces, Lagrange multipliers, integration, impacts, friction.

@@ -1,0 +1,249 @@
+//! An exhibit: glTF model plus constraint sidecar, loaded, checked and resolved into one immutable value.
+//!
+//! Invariant: a value of type [`Exhibit`] is valid. Every index in it is in range, every mass is positive, every
+//! joint connects what it names; the simulation checks nothing again.
+
+use std::path::PathBuf;
+
+use crate::articulation::{Constraint, Spring};
+use crate::bodies::MassProperties;
+use crate::collision::Collider;
+use crate::math::{DVec3, Pose};
+use crate::sound::InstrumentSpec;
+use crate::wind::Surface;
+
+pub mod model;
+pub mod view;
+
+pub use model::Model;
+pub use view::View;
+
+/// A validated exhibit. Immutable: hot reload builds a new one.
+#[derive(Clone, Debug)]
+pub struct Exhibit {
+    /// Folder name and id.
+    pub id: String,
+    /// Where it was loaded from.
+    pub folder: PathBuf,
+    /// The glTF model.
+    pub model: Model,
+    /// World acceleration, m/s².
+    pub gravity: DVec3,
+    /// glTF camera node that the visitor looks through; `None` frames the bounds.
+    pub camera_node: Option<usize>,
+    /// Materials by name, as the sidecar has them.
+    pub materials: Vec<Material>,
+    /// What a pair of materials does that the combine rule (geometric mean) does not say.
+    pub material_pairs: Vec<MaterialPair>,
+    /// Moving bodies. Static nodes are not bodies.
+    pub bodies: Vec<Body>,
+    /// Joints.
+    pub constraints: Vec<Constraint>,
+    /// Springs and dampers.
+    pub springs: Vec<Spring>,
+    /// Wires and cords: drawn as capsules, feel the wind, have mass.
+    pub wires: Vec<Wire>,
+    /// Collision shapes.
+    pub colliders: Vec<Collider>,
+    /// Pairs of bodies that never collide (joined, or excluded by the curator); `None` is the world.
+    pub excluded_pairs: Vec<(Option<usize>, Option<usize>)>,
+    /// What feels the wind.
+    pub wind_surfaces: Vec<Surface>,
+    /// Sounding bodies.
+    pub instruments: Vec<InstrumentSpec>,
+    /// Which motion plays which instrument.
+    pub sounds: Vec<SoundBinding>,
+    /// Attract mode.
+    pub attract: Attract,
+    /// Words by language.
+    pub labels: Labels,
+    /// Who made it, and whose rights it carries.
+    pub credit: Credit,
+}
+
+/// Physical material of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Name in the sidecar.
+    pub name: String,
+    /// kg/m³.
+    pub density: f64,
+    /// Coulomb coefficient while sticking.
+    pub static_friction: f64,
+    /// Coulomb coefficient while sliding.
+    pub dynamic_friction: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Young's modulus, Pa.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Installed loss factor η.
+    pub loss_factor: f64,
+}
+
+/// Override of the combine rule for one pair of materials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialPair {
+    /// Indices of the two materials.
+    pub pair: (usize, usize),
+    /// Coefficient of restitution.
+    pub restitution: Option<f64>,
+    /// Coulomb coefficient while sliding.
+    pub dynamic_friction: Option<f64>,
+    /// Coulomb coefficient while sticking.
+    pub static_friction: Option<f64>,
+}
+
+/// A moving rigid body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Name of its glTF node.
+    pub name: String,
+    /// Index of its glTF node; descendants that are not bodies move with it.
+    pub node: usize,
+    /// Mass, centre, inertia in the node frame.
+    pub properties: MassProperties,
+    /// World pose of the node at reset.
+    pub pose: Pose,
+    /// Initial velocity of the centre of mass, m/s.
+    pub velocity: DVec3,
+    /// Initial angular velocity, world axes, rad/s.
+    pub angular_velocity: DVec3,
+    /// Linear damping rate, 1/s (air other than the wind surfaces' own).
+    pub linear_damping: f64,
+    /// Angular damping rate, 1/s.
+    pub angular_damping: f64,
+    /// Index of its material.
+    pub material: usize,
+}
+
+/// A wire or cord that belongs to a body (or stands still).
+#[derive(Clone, Debug)]
+pub struct Wire {
+    /// Unique in the exhibit.
+    pub name: String,
+    /// Index of the body that carries it; `None` stands still.
+    pub body: Option<usize>,
+    /// Polyline in the node frame of the body (world frame for `None`), m.
+    pub points: Vec<DVec3>,
+    /// m.
+    pub radius: f64,
+    /// Index of the physical material.
+    pub material: usize,
+    /// Linear RGB base colour.
+    pub color: [f32; 3],
+    /// 0 dielectric … 1 metal.
+    pub metallic: f32,
+    /// Perceptual roughness 0…1.
+    pub roughness: f32,
+}
+
+/// Which motion of which body plays which instrument.
+#[derive(Clone, Debug)]
+pub struct SoundBinding {
+    /// Unique in the exhibit.
+    pub name: String,
+    /// Index of the body.
+    pub body: usize,
+    /// What sets it off.
+    pub on: SoundTrigger,
+    /// Index into [`Exhibit::instruments`].
+    pub instrument: usize,
+    /// Node-frame axes of the two largest half extents and the centre, to place a hit on the body.
+    pub frame: (DVec3, DVec3, DVec3),
+    /// Key of the caption in the labels.
+    pub caption: Option<String>,
+}
+
+/// What sets a sound off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SoundTrigger {
+    /// A hit on the body.
+    Impact,
+    /// The wind at the body.
+    Wind,
+}
+
+/// What the exhibit does when nobody is there.
+#[derive(Clone, Debug, Default)]
+pub struct Attract {
+    /// Steps in time order; the script repeats after the last.
+    pub steps: Vec<AttractStep>,
+    /// Length of one round, s.
+    pub duration: f64,
+}
+
+/// One step of the attract script.
+#[derive(Clone, Debug)]
+pub struct AttractStep {
+    /// Seconds since the script began.
+    pub at: f64,
+    /// What happens.
+    pub action: AttractAction,
+}
+
+/// What an attract step does.
+#[derive(Clone, Debug)]
+pub enum AttractAction {
+    /// Shows a text of the labels by its key.
+    Show(String),
+    /// Plays a recorded breath: mono samples and their rate.
+    Blow {
+        /// Mono samples, full scale ±1.
+        samples: std::sync::Arc<[f32]>,
+        /// Hz.
+        sample_rate: u32,
+        /// Pointer in picture coordinates; `None` is the centre.
+        aim: Option<[f64; 2]>,
+    },
+    /// Puts everything back to where it started.
+    Reset,
+}
+
+/// Words by language.
+#[derive(Clone, Debug, Default)]
+pub struct Labels {
+    /// Language code shown first.
+    pub default_language: String,
+    /// In the order of the file.
+    pub languages: Vec<(String, Label)>,
+}
+
+impl Labels {
+    /// The label in `language`, or in the default one.
+    pub fn get(&self, language: &str) -> Option<&Label> {
+        let find = |code: &str| self.languages.iter().find(|(c, _)| c == code).map(|(_, label)| label);
+        find(language).or_else(|| find(&self.default_language)).or_else(|| self.languages.first().map(|(_, l)| l))
+    }
+}
+
+/// Words of one language.
+#[derive(Clone, Debug, Default)]
+pub struct Label {
+    /// Title of the work.
+    pub title: String,
+    /// Maker.
+    pub maker: String,
+    /// Wall text.
+    pub body: String,
+    /// What is to be seen, for those who cannot.
+    pub alt: String,
+    /// Texts by key (`invite`, …).
+    pub text: Vec<(String, String)>,
+    /// Captions of sounds by key.
+    pub caption: Vec<(String, String)>,
+}
+
+/// Who made it, and whose rights it carries.
+#[derive(Clone, Debug, Default)]
+pub struct Credit {
+    /// SPDX id of the model's licence.
+    pub model_license: String,
+    /// Who made the model.
+    pub model_author: String,
+    /// Rights notice shown with the label.
+    pub notice: String,
+    /// Sources of facts on the label.
+    pub sources: Vec<String>,
+}

@@ -1,0 +1,1 @@
+//! The live kiosk: window, visitor, attract mode, staff.

@@ -1,0 +1,5 @@
+//! The `soffio` program.
+
+fn main() -> std::process::ExitCode {
+    soffio::commands::run()
+}

@@ -1,0 +1,132 @@
+//! Vectors, poses and transcendentals: the one place the core takes its functions from.
+//!
+//! Invariant: every transcendental here is software (`libm`), so that the same input gives the same bits on any
+//! platform, in debug and in release. `f64::sqrt` and the four operations are exact by IEEE 754 and used directly.
+//! `f64::powi` is not: its rounding may differ between optimisation levels, so it is forbidden (clippy.toml).
+
+pub use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+pub use libm::{acos, asin, atan2, cos, exp, log as ln, log10, pow, sin, sincos, tanh};
+
+/// π, at hand.
+pub const PI: f64 = std::f64::consts::PI;
+
+/// Rigid placement of a frame in the world: `world = rotation · local + position` (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Unit quaternion, local axes to world axes.
+    pub rotation: DQuat,
+    /// Origin of the frame in the world, m.
+    pub position: DVec3,
+}
+
+impl Default for Pose {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl Pose {
+    /// The world frame itself.
+    pub const IDENTITY: Self = Self { rotation: DQuat::IDENTITY, position: DVec3::ZERO };
+
+    /// World position of a point given in this frame.
+    pub fn point(&self, local: DVec3) -> DVec3 {
+        self.rotation * local + self.position
+    }
+
+    /// World direction of a vector given in this frame.
+    pub fn vector(&self, local: DVec3) -> DVec3 {
+        self.rotation * local
+    }
+
+    /// This frame's coordinates of a world point.
+    pub fn inverse_point(&self, world: DVec3) -> DVec3 {
+        self.rotation.conjugate() * (world - self.position)
+    }
+
+    /// This frame's coordinates of a world vector.
+    pub fn inverse_vector(&self, world: DVec3) -> DVec3 {
+        self.rotation.conjugate() * world
+    }
+
+    /// Pose between `self` (0) and `other` (1): straight line, shortest normalised quaternion path.
+    pub fn interpolate(&self, other: &Self, alpha: f64) -> Self {
+        let sign = if self.rotation.dot(other.rotation) < 0.0 { -1.0 } else { 1.0 };
+        let rotation = (self.rotation * (1.0 - alpha) + other.rotation * (sign * alpha)).normalize();
+        Self { rotation, position: self.position.lerp(other.position, alpha) }
+    }
+
+    /// The pose as a 4×4 matrix, column vectors.
+    pub fn matrix(&self) -> DMat4 {
+        DMat4::from_rotation_translation(self.rotation, self.position)
+    }
+}
+
+/// Rotation by the vector `w` (axis times angle, rad): the exponential map, series near zero.
+pub fn rotation(w: DVec3) -> DQuat {
+    let angle2 = w.length_squared();
+    // sin(θ/2)/θ and cos(θ/2); below 1e-4 rad two terms of the series are exact to rounding.
+    let (s, c) = if angle2 < 1e-8 {
+        (0.5 - angle2 / 48.0, 1.0 - angle2 / 8.0)
+    } else {
+        let angle = angle2.sqrt();
+        let (s, c) = sincos(0.5 * angle);
+        (s / angle, c)
+    };
+    DQuat::from_xyzw(s * w.x, s * w.y, s * w.z, c).normalize()
+}
+
+/// Matrix of the cross product: `skew(a) · b = a × b`.
+pub fn skew(a: DVec3) -> DMat3 {
+    DMat3::from_cols(DVec3::new(0.0, a.z, -a.y), DVec3::new(-a.z, 0.0, a.x), DVec3::new(a.y, -a.x, 0.0))
+}
+
+/// Outer product `a bᵀ`.
+pub fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// Two unit vectors that complete `n` (unit) to a right-handed frame (t, b, n), continuous but for one direction
+/// (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+pub fn tangents(n: DVec3) -> (DVec3, DVec3) {
+    let sign = if n.z >= 0.0 { 1.0 } else { -1.0 };
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    (DVec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), DVec3::new(b, sign + n.y * n.y * a, -n.y))
+}
+
+/// Decibels of an amplitude ratio; silence is −∞.
+pub fn decibels(amplitude: f64) -> f64 {
+    20.0 * log10(amplitude)
+}
+
+/// Amplitude ratio of decibels.
+pub fn from_decibels(db: f64) -> f64 {
+    pow(10.0, db / 20.0)
+}
+
+/// A 64-bit FNV-1a hash of numbers' bits: one word that says whether two runs are the same run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StateHash(pub u64);
+
+impl Default for StateHash {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl StateHash {
+    /// Mixes in the bits of one number.
+    pub fn add(&mut self, value: f64) {
+        for byte in value.to_bits().to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    /// Mixes in a vector.
+    pub fn add_vector(&mut self, v: DVec3) {
+        self.add(v.x);
+        self.add(v.y);
+        self.add(v.z);
+    }
+}

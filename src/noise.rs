@@ -1,0 +1,93 @@
+//! Seeded randomness: hashes, a small generator and gradient noise. The same seed gives the same bits for ever.
+
+/// Mixes a 64-bit word (the finaliser of SplitMix64, Steele et al. 2014): neighbouring inputs give unrelated outputs.
+pub fn hash(mut x: u64) -> u64 {
+    x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+/// A hash of several words.
+pub fn hash_words(words: &[u64]) -> u64 {
+    words.iter().fold(0x5bd1_e995, |h, &w| hash(h ^ w))
+}
+
+/// SplitMix64: a sequence of pseudo-random words from a seed.
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// The sequence of `seed`.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Next 64 random bits.
+    pub fn word(&mut self) -> u64 {
+        let out = hash(self.0);
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        out
+    }
+
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.word() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+
+    /// Uniform in [−1, 1).
+    pub fn signed(&mut self) -> f64 {
+        2.0 * self.unit() - 1.0
+    }
+
+    /// Uniform in [low, high).
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
+
+/// Perlin's gradient noise on the line: zero at the integers, about ±1 between, C² (quintic fade, Perlin 2002).
+pub fn perlin1(x: f64, seed: u64) -> f64 {
+    let cell = x.floor();
+    let t = x - cell;
+    let gradient = |i: f64| (hash(seed ^ hash(i as i64 as u64)) >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0;
+    let (a, b) = (gradient(cell) * t, gradient(cell + 1.0) * (t - 1.0));
+    2.0 * (a + fade(t) * (b - a))
+}
+
+/// Perlin's gradient noise in space, about ±1, C².
+pub fn perlin3(p: glam::DVec3, seed: u64) -> f64 {
+    let cell = p.floor();
+    let t = p - cell;
+    let (u, v, w) = (fade(t.x), fade(t.y), fade(t.z));
+    let corner = |dx: f64, dy: f64, dz: f64| {
+        let at = [(cell.x + dx) as i64 as u64, (cell.y + dy) as i64 as u64, (cell.z + dz) as i64 as u64];
+        // The twelve edge directions of a cube (Perlin 2002), picked by four bits.
+        let (x, y, z) = (t.x - dx, t.y - dy, t.z - dz);
+        match hash_words(&[seed, at[0], at[1], at[2]]) & 15 {
+            0 | 12 => x + y,
+            1 | 13 => y - x,
+            2 => x - y,
+            3 => -x - y,
+            4 => x + z,
+            5 => z - x,
+            6 => x - z,
+            7 => -x - z,
+            8 => y + z,
+            9 | 14 => z - y,
+            10 => y - z,
+            _ => -y - z,
+        }
+    };
+    let mix = |a: f64, b: f64, s: f64| a + s * (b - a);
+    let x00 = mix(corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), u);
+    let x10 = mix(corner(0.0, 1.0, 0.0), corner(1.0, 1.0, 0.0), u);
+    let x01 = mix(corner(0.0, 0.0, 1.0), corner(1.0, 0.0, 1.0), u);
+    let x11 = mix(corner(0.0, 1.0, 1.0), corner(1.0, 1.0, 1.0), u);
+    mix(mix(x00, x10, v), mix(x01, x11, v), w)
+}
+
+/// 6t⁵ − 15t⁴ + 10t³.
+fn fade(t: f64) -> f64 {
+    t * t * t * (t * (6.0 * t - 15.0) + 10.0)
+}

@@ -1,0 +1,1 @@
+//! The same pipeline without a window: WAV in; WAV, pictures, traces and events out.

@@ -1,0 +1,93 @@
+//! Sound made by the motion itself. Knows no bodies: `simulation::sonify` translates.
+//!
+//! Time is a sample index at the synth's rate. Commands are small copies that fit a ring; nothing here allocates
+//! after [`Synth::new`].
+
+/// What the synth is told. Fixed size, so that it travels through a wait-free ring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SoundCommand {
+    /// Something was hit.
+    Strike(Strike),
+    /// The wind of one simulation step; the synth glides from one to the next.
+    Wind(WindSound),
+    /// Fade out everything (an exhibit was changed or reset).
+    Silence {
+        /// When.
+        sample: u64,
+    },
+}
+
+/// One hit of one sounding body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strike {
+    /// When the contact begins.
+    pub sample: u64,
+    /// Index into the exhibit's instruments.
+    pub instrument: u16,
+    /// N s.
+    pub impulse: f32,
+    /// Approach speed, m/s.
+    pub speed: f32,
+    /// Effective mass of the hit, kg (Hertz contact time).
+    pub mass: f32,
+    /// Where on the body: coordinates along its two largest half extents, −1…1 each.
+    pub position: [f32; 2],
+    /// −1 left … 1 right.
+    pub pan: f32,
+    /// From the listener, m.
+    pub distance: f32,
+}
+
+/// The wind as it is heard.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WindSound {
+    /// When.
+    pub sample: u64,
+    /// Speed of the air at the sculpture, m/s, gusts included.
+    pub speed: f32,
+    /// Relative gust at this moment, about ±1: the same turbulence that pushes the plates.
+    pub gust: f32,
+    /// −1 left … 1 right.
+    pub pan: f32,
+}
+
+/// What a sounding body is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoundMaterial {
+    /// Young's modulus, Pa.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// kg/m³.
+    pub density: f64,
+    /// Loss factor η of the installed body: T60 = 2.2/(η f).
+    pub loss_factor: f64,
+}
+
+/// The dimensions a sound is made from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoundBody {
+    /// The two largest half extents of the body, m, the larger first.
+    pub half_extents: [f64; 2],
+    /// Sheet thickness, m.
+    pub thickness: f64,
+    /// Area of one face, m².
+    pub area: f64,
+    /// kg.
+    pub mass: f64,
+}
+
+/// A sounding body of an exhibit, ready to be compiled by the synth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InstrumentSpec {
+    /// Name of the timbre preset (`audio/timbres/<timbre>.toml`).
+    pub timbre: String,
+    /// Its dimensions.
+    pub body: SoundBody,
+    /// Its material.
+    pub material: SoundMaterial,
+    /// Linear gain.
+    pub gain: f64,
+    /// Most simultaneous hits of this body.
+    pub max_voices: usize,
+}
