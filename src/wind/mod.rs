@@ -3,6 +3,9 @@
 use crate::geometry::TriangleMesh;
 
 pub mod blow;
+pub mod force;
+pub mod jet;
+pub mod patches;
 
 /// A surface that feels the wind.
 #[derive(Clone, Debug)]
