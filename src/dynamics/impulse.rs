@@ -16,9 +16,9 @@
 
 use crate::math::{DMat3, DVec2, DVec3};
 
-/// Steps of the compression of a frictionless hit.
+/// Steps in which the slip, or the approach where that is larger, is followed through a hit.
 const STEPS: f64 = 48.0;
-/// Bound on all steps of one hit; jammed hits need more than [`STEPS`].
+/// Bound on all steps of one hit; a jammed hit needs several times [`STEPS`].
 const MOST_STEPS: usize = 4000;
 /// Slip below this share of the approach speed is no slip.
 const STILL: f64 = 1e-9;
@@ -32,7 +32,7 @@ pub fn impulse(k: &DMat3, u: DVec3, mu: f64, e: f64) -> DVec3 {
     if u.z >= 0.0 {
         return p;
     }
-    let step = -u.z / (k.z_axis.z * STEPS);
+    let least = -u.z;
     let still = -u.z * STILL;
     let mut v = u;
     let mut work = 0.0;
@@ -40,6 +40,8 @@ pub fn impulse(k: &DMat3, u: DVec3, mu: f64, e: f64) -> DVec3 {
     for _ in 0..MOST_STEPS {
         let slip = DVec2::new(v.x, v.y);
         let speed = slip.length();
+        // The slip's direction turns with the slip's own size; the ends of both phases are found exactly.
+        let step = speed.max(least) / (k.z_axis.z * STEPS);
         let direction = if speed > still { (-mu * slip / speed).extend(1.0) } else { stick(k, mu) };
         let dv = *k * direction * step;
         let mut share = 1.0;

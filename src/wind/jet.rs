@@ -98,6 +98,9 @@ impl Front {
     /// Remembers one step of `dt` seconds at source speed `speed`.
     pub fn advance(&mut self, speed: f64, dt: f64) {
         self.drive = speed.max(self.drive * exp(-dt / DRIFT_TIME));
+        if self.history.is_empty() {
+            self.history.push_back((0.0, 0.0));
+        }
         let blown = self.history.back().map_or(0.0, |&(phi, _)| phi) + self.drive * dt;
         self.history.push_back((blown, speed));
         if self.history.len() as f64 * dt > MEMORY {

@@ -1,1 +1,4 @@
 //! The test suite: one binary, one module per room.
+
+mod articulation;
+mod dynamics;
