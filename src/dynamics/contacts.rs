@@ -7,7 +7,7 @@
 //! u' = u + K P        K = J_c H⁻¹ J_cᵀ        (three tree solves; J_c the contact's rows, joints held)
 //! ```
 //!
-//! A pair that meets slower than [`REST_SPEED`] *rests*: from then on its approach is taken out without bounce at the
+//! A pair that meets slower than [`REST_SPEED`], or slowly and again within [`CHATTER_TIME`], *rests*: from then on its approach is taken out without bounce at the
 //! end of each substep, and penetration beyond the touching layer is pushed back through the same factor. It is apart
 //! again when it has opened by more than [`RELEASE_GAP`].
 
@@ -21,6 +21,9 @@ use super::impulse::impulse;
 
 /// Slower approaches do not bounce and make no sound, m/s.
 const REST_SPEED: f64 = 4e-3;
+/// Bounces nearer in time than this, and slower than that, are one contact: no ear tells them apart, s and m/s.
+const CHATTER_TIME: f64 = 5e-3;
+const CHATTER_SPEED: f64 = 0.03;
 /// A resting pair that opens farther than this is apart again, m.
 const RELEASE_GAP: f64 = 5e-5;
 /// Impacts resolved at their own time in one step; further ones are resolved as resting.
@@ -89,6 +92,8 @@ pub struct Contacts {
     balls: Vec<(DVec3, f64)>,
     pairs: Vec<SurfacePair>,
     resting: Vec<bool>,
+    /// Seconds since each pair's last hit.
+    since_hit: Vec<f64>,
     sweeps: Vec<Sweep>,
     corners: Corners,
     response: [Vec<Vec6>; 3],
@@ -112,6 +117,7 @@ impl Contacts {
             reach,
             balls,
             resting: vec![false; pairs.len()],
+            since_hit: vec![f64::INFINITY; pairs.len()],
             sweeps: vec![Sweep::STILL; bodies.len()],
             corners: Corners::new(colliders),
             colliders: colliders.to_vec(),
@@ -121,9 +127,12 @@ impl Contacts {
         }
     }
 
-    /// Begins a step.
-    pub(super) fn begin_step(&mut self) {
+    /// Begins a step of `dt` seconds.
+    pub(super) fn begin_step(&mut self, dt: f64) {
         self.impacts_left = MOST_IMPACTS;
+        for since in &mut self.since_hit {
+            *since += dt;
+        }
     }
 
     /// Is any pair resting?
@@ -178,7 +187,9 @@ impl Contacts {
         self.impacts_left = self.impacts_left.saturating_sub(1);
         let SurfacePair { pair, restitution, .. } = self.pairs[hit.pair];
         let speed = -self.approach(hit.pair, &hit.proximity, bodies).dot(hit.proximity.normal);
-        let rests = speed < REST_SPEED;
+        let chatters = self.since_hit[hit.pair] + time < CHATTER_TIME && speed < CHATTER_SPEED;
+        self.since_hit[hit.pair] = -time;
+        let rests = speed < REST_SPEED || chatters;
         let e = if rests { 0.0 } else { restitution };
         let Some((impulse, mass)) = self.push_apart(hit.pair, &hit.proximity, e, system, bodies) else { return };
         self.resting[hit.pair] = rests;

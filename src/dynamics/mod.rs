@@ -30,6 +30,8 @@ use integrate::Rate;
 /// Largest phase of the stiffest tension mode in one substep, rad. The fourth-order method loses the share
 /// (φ⁶/72) of a mode's energy a substep: at 0.1 rad and 1 kHz less than 10⁻⁵ in a second of the stiffest mode.
 const MODE_PHASE: f64 = 0.1;
+/// A free spin is followed this much less finely than a mode, squared: its rates turn with it, its energy hardly moves.
+const SPIN_WEIGHT: f64 = 0.25;
 /// Most substeps of one step: beyond it a mode is followed less finely, not at all less stably.
 const MOST_SUBSTEPS: u32 = 32;
 /// Faster than this is not a sculpture but a fault, m/s and rad/s.
@@ -111,12 +113,14 @@ impl Dynamics {
     pub fn step(&mut self, dt: f64, external: &[Vec6], impacts: &mut Vec<Impact>) -> usize {
         self.before_step.copy_from_slice(&self.bodies);
         self.external.copy_from_slice(external);
-        self.contacts.begin_step();
-        self.substeps = self.substep_count(dt);
+        self.contacts.begin_step(dt);
+        self.substeps = 0;
         let mut done = 0.0;
         while done < dt * (1.0 - 1e-12) {
-            let h = (dt / f64::from(self.substeps)).min(dt - done);
+            // Asked anew each time: a hit changes what there is to follow.
+            let h = (dt / f64::from(self.substep_count(dt))).min(dt - done);
             done += self.substep(h, done, impacts);
+            self.substeps += 1;
         }
         self.restore_bad_bodies()
     }
@@ -147,10 +151,11 @@ impl Dynamics {
         self.system.factor();
     }
 
-    /// Substeps that follow the stiffest tension mode: a body that hangs by the arm r under the load λ turns about
-    /// it with ω² = |λ| |r| / I⊥.
+    /// Substeps that follow the fastest motion: of the tension modes (a body that hangs by the arm r under the load λ
+    /// swings about it with ω² = |λ| |r| / I⊥), or of the free spin.
     fn substep_count(&self, dt: f64) -> u32 {
-        let mut stiffest: f64 = 0.0;
+        let spins = self.bodies.iter().map(|body| SPIN_WEIGHT * body.angular_velocity.length_squared());
+        let mut stiffest = spins.fold(0.0, f64::max);
         for (joint, &load) in self.loads.iter().enumerate() {
             let link = self.system.joints()[joint].link;
             let (arm_a, arm_b) = self.system.arms(joint, &self.bodies);

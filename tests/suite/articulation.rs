@@ -49,10 +49,13 @@ fn figure(random: &mut Random, bodies: usize, loops: usize) -> (Vec<RigidBody>, 
             constraints.push(orientation(random, body, a, b));
         }
     }
-    for extra in 0..loops {
-        let (a, b) = (extra % bodies, (extra + bodies / 2) % bodies);
-        let b = if a == b { None } else { Some(b) };
-        constraints.push(point(random, bodies + extra, Some(a), b));
+    // Loops between pairs that have no joint yet: a second point between the same pair would repeat a row.
+    let mut free: Vec<_> = (0..bodies).flat_map(|a| (0..a).map(move |b| (a, b))).collect();
+    free.retain(|&(a, b)| {
+        !constraints.iter().any(|c: &Constraint| c.bodies() == (Some(a), Some(b)) || c.bodies() == (Some(b), Some(a)))
+    });
+    for (extra, &(a, b)) in free.iter().take(loops).enumerate() {
+        constraints.push(point(random, bodies + extra, Some(a), Some(b)));
     }
     (all, constraints)
 }

@@ -207,7 +207,8 @@ fn two_pendulums_trade_their_speed_as_newton_says() {
     const TRADED: f64 = 1e-3;
     let r = 0.02;
     let ball = |x: f64| body(0.1, DVec3::splat(0.4 * 0.1 * r * r), DVec3::new(x, 0.0, 0.0));
-    let sphere = |b: usize| Collider { body: Some(b), core: vec![DVec3::ZERO], radius: r, material: 0, node: "".into() };
+    let sphere =
+        |b: usize| Collider { body: Some(b), core: vec![DVec3::ZERO], radius: r, material: 0, node: "".into() };
     let mut bodies = vec![ball(0.0), ball(2.0 * r)];
     let hang = |i: usize, x: f64| {
         joint(&format!("nail-{i}"), (Some(i), DVec3::new(0.0, 0.5, 0.0)), (None, DVec3::new(x, 0.5, 0.0)))
@@ -251,18 +252,23 @@ fn a_plate_that_leans_on_another_rests_without_jitter_or_sinking() {
         material: 0,
         node: String::new(),
     };
-    let peg = Collider { body: None, core: vec![DVec3::new(0.06, -0.3, 0.0)], radius: 0.01, material: 0, node: "".into() };
+    let ends = [-0.05, 0.05].map(|z| DVec3::new(0.06, -0.3, z));
+    let peg = Collider { body: None, core: ends.to_vec(), radius: 0.01, material: 0, node: "".into() };
     let colliders = [rod, peg];
     let mut figure = figure(bodies, &constraints);
     figure.colliders = &colliders;
     figure.pairs = surfaces(&colliders, 0.4, 0.3);
     let mut dynamics = Dynamics::new(figure, settings(true));
     let hits = run(&mut dynamics, 6.0);
-    assert!(hits.iter().any(|i| i.kind == ImpactKind::Rest), "it never came to rest");
+    assert!(hits.iter().any(|i| i.kind == ImpactKind::Rest), "it never came to rest: {hits:?}");
     let place = dynamics.bodies[0].position;
     let later = run(&mut dynamics, 4.0);
-    assert!(later.is_empty(), "{} more hits at rest", later.len());
-    // Neither sinks nor creeps: a micrometre in four seconds.
-    assert!((dynamics.bodies[0].position - place).length() < 1e-6);
+    assert!(later.is_empty(), "{later:?}");
+    // It sinks by no more than rounding. Along the peg it creeps: friction acts on speeds at the end of each substep,
+    // so a held body slips by half its acceleration times the substep squared, a few micrometres a second.
+    const SINK: f64 = 1e-9;
+    const CREEP: f64 = 2e-5;
+    let moved = dynamics.bodies[0].position - place;
+    assert!(moved.x.hypot(moved.y) < SINK && moved.z.abs() < CREEP, "moved by {moved}");
     assert!(dynamics.bodies[0].velocity.length() < 1e-4);
 }
