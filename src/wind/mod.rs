@@ -6,6 +6,7 @@ pub mod blow;
 pub mod force;
 pub mod jet;
 pub mod patches;
+pub mod generate;
 
 /// A surface that feels the wind.
 #[derive(Clone, Debug)]

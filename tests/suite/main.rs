@@ -2,3 +2,4 @@
 
 mod articulation;
 mod dynamics;
+mod blow;
