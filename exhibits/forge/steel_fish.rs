@@ -110,21 +110,21 @@ pub fn glb() -> (SteelFish, Vec<u8>) {
         piece.write(&mut scene, *pose);
     }
     // A normal lens a little left of the work and above it, some air on all sides.
-    let target = DVec3::new(0.062, 0.235, 0.0);
+    let target = DVec3::new(0.058, 0.236, 0.0);
     let away = DVec3::new(-0.24, 0.13, 1.0).normalize();
-    scene.camera("CamFront", target + 1.32 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    scene.camera("CamFront", target + 1.20 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
     let copyright = "Original composition of the Soffio project; MIT OR Apache-2.0";
     (fish, scene.into_glb("Standing mobile after Steel Fish", copyright))
 }
 
 fn draw(finishes: &Finishes) -> SteelFish {
-    let orange = disc("OrangeDisc", "OrangeHook", "OrangeStem", 36.7 * MM, 46.0 * MM, finishes.orange);
-    let white = disc("WhiteDisc", "WhiteHook", "WhiteStem", 26.6 * MM, 62.0 * MM, finishes.white);
+    let orange = disc("OrangeDisc", "OrangeHook", "OrangeStem", 35.4 * MM, 60.0 * MM, finishes.orange);
+    let white = disc("WhiteDisc", "WhiteHook", "WhiteStem", 25.8 * MM, 76.0 * MM, finishes.white);
     let b4 = branch(&Branch {
         names: ["B4", "B4Loop", "B4Wire", "B4White", "B4Orange"],
         radius: 0.5 * MM,
         eye: 1.7 * MM,
-        chord: 78.0 * MM,
+        chord: 72.0 * MM,
         droop: 4.0 * MM,
         loads: [white.mass().mass, orange.mass().mass],
     });
@@ -134,7 +134,7 @@ fn draw(finishes: &Finishes) -> SteelFish {
         names: ["B2", "B2Loop", "B2Wire", "B2Red", "B2Branch"],
         radius: 0.6 * MM,
         eye: 2.0 * MM,
-        chord: 118.0 * MM,
+        chord: 102.0 * MM,
         droop: 5.0 * MM,
         loads: [red.mass().mass, b4.mass().mass + below_b4],
     });
@@ -221,19 +221,19 @@ fn stand(finishes: &Finishes) -> Piece {
 /// tail, rises over the needle, and ends in an eye.
 fn boom_rod() -> (Vec<DVec3>, DVec3) {
     let knots = [
-        (-240.0, -25.8, -1.3),
+        (-232.0, -26.4, -1.3),
         (-205.0, -28.3, -1.3),
         (-166.0, -30.3, -1.3),
         (-150.0, -30.8, 1.3),
         (-108.0, -32.8, 1.3),
         (-72.0, -34.8, 1.0),
-        (-48.0, -34.8, 0.0),
-        (-30.0, -26.8, 0.0),
-        (-13.0, -4.0, 0.0),
+        (-50.0, -32.8, 0.0),
+        (-33.0, -24.0, 0.0),
+        (-15.0, -4.0, 0.0),
         (0.0, 4.0, 0.0),
-        (13.0, -4.0, 0.0),
-        (30.0, -26.8, 0.0),
-        (48.0, -34.8, 0.0),
+        (15.0, -4.0, 0.0),
+        (33.0, -24.0, 0.0),
+        (50.0, -33.8, 0.0),
         (72.0, -36.3, 0.0),
         (112.0, -35.3, 0.0),
         (165.0, -31.3, 0.0),
@@ -256,7 +256,7 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
     // An inverted cup: its hollow is a cone of half-angle 34°, the needle's point one of 11°, and the tilt limit of
     // the sidecar lies between.
     let cup = turned(
-        &[mm(0.0, 0.0), mm(4.6, -6.8), mm(5.4, -6.8), mm(5.4, -5.6), mm(2.6, 2.4), mm(1.8, 3.2), mm(0.0, 3.2)],
+        &[mm(0.0, 0.0), mm(3.6, -5.3), mm(4.2, -5.3), mm(4.2, -4.4), mm(2.2, 2.4), mm(1.5, 3.1), mm(0.0, 3.1)],
         false,
         ROUND / 2,
     );
@@ -368,7 +368,7 @@ fn to_mass(outline: Vec<DVec2>, holes: Vec<Vec<DVec2>>, density: f64, mass: f64)
 
 /// A stem hung by its eye from the origin, straight down to `length` m; it ends in a small eye through a plate.
 fn stem(name: &'static str, length: f64) -> Bend {
-    let (radius, eye, foot) = (0.4 * MM, 1.8 * MM, 1.3 * MM);
+    let (radius, eye, foot) = (0.3 * MM, 1.6 * MM, 1.2 * MM);
     let mut points = ring(DVec3::new(0.0, radius - eye, 0.0), eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
     points.push(DVec3::new(0.0, 2.0 * foot - length, 0.0));
     points.extend(ring(DVec3::new(0.0, foot - length, 0.0), foot, DVec3::Y, DVec3::Z, EYE_STEPS).split_off(1));
@@ -435,7 +435,7 @@ fn red_plate(finish: usize) -> Piece {
         let x = solid.mass(STEEL).center.x;
         solid.moved(DVec3::new(-x, 0.0, 0.0))
     };
-    hung_plate("RedPlate", "RedHook", "RedStem", (solid, STEEL, finish), 58.0 * MM)
+    hung_plate("RedPlate", "RedHook", "RedStem", (solid, STEEL, finish), 84.0 * MM)
 }
 
 /// A branch of the mobile.
