@@ -32,12 +32,11 @@ fn main() -> ExitCode {
 }
 
 /// What a curator or a reader wants to know of the balanced work.
-fn report(work: &forge::steel_fish::SteelFish) {
+fn report(work: &forge::mobile::Mobile) {
     for (piece, _) in &work.pieces {
         println!("{:<12} {:7.3} g", piece.name, 1e3 * piece.mass().mass);
     }
     let s = work.statics();
-    println!("lead weight  {:7.3} g", 1e3 * s.lead);
     println!("moving mass  {:7.3} g", 1e3 * s.total_mass);
     println!("imbalance    {:7.1e} m (worst hook)", s.worst_offset);
     println!("yaw inertia  {:7.5} kg m²", s.yaw_inertia);

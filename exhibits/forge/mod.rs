@@ -4,6 +4,7 @@
 //! this code, byte for byte. Invariant: no clock, no randomness without a stated seed, software transcendentals.
 
 pub mod glb;
+pub mod mobile;
 pub mod outline;
 pub mod piece;
 pub mod solid;

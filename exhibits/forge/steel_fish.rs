@@ -12,18 +12,15 @@
 //!
 //! Frames: every piece has x along its rod, y up, z towards the visitor, and its origin at the point it hangs on.
 //!
-//! Balance. A piece is at rest when the torque of its own weight and of the loads at its joints about its origin is
-//! zero, that is when Σ mᵢ xᵢ = Σ mᵢ zᵢ = 0. For a branch of length l with loads m_L, m_R and wire mass w the loop
-//! sits at a = (m_R l + w l/2)/(m_L + m_R + w) from the left; [`branch`] starts there and lets the true centre of
-//! the bent wire correct it. For the boom the lead weight's length is the unknown. It is stable because the centre
-//! of all that hangs is below the point: h = 30 mm, so that it tilts with the period 2π √(I/(M g h)).
+//! Balance: the branches by [`branch`]; for the boom the unknown is the length of the lead weight. It is stable
+//! because the centre of all that hangs is below the point, h = 30 mm: it tilts with the period 2π √(I/(M g h)).
 
-use soffio::bodies::MassProperties;
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::glb::{Finish, Scene};
+use super::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
 use super::outline::{Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring};
-use super::piece::{Bend, NOTHING, Part, Piece, load, yaw};
+use super::piece::{Bend, Part, Piece, load, yaw};
 use super::solid::{Solid, sheet, turned};
 
 /// m.
@@ -32,11 +29,8 @@ const MM: f64 = 1e-3;
 const GRAM: f64 = 1e-3;
 /// Corners of a circle that is seen close.
 const ROUND: usize = 64;
-/// Corners of an eye bent in wire.
-const EYE_STEPS: usize = 10;
 
 /// Densities, kg/m³; the sidecar's materials say the same.
-const STEEL: f64 = 7850.0;
 const ALUMINIUM: f64 = 2700.0;
 const LEAD: f64 = 11_340.0;
 const BRASS: f64 = 8500.0;
@@ -68,15 +62,6 @@ const B4_YAW: f64 = -0.36;
 const ORANGE_YAW: f64 = 0.25;
 const WHITE_YAW: f64 = -0.05;
 
-/// The finished drawing: all pieces, balanced, and where they stand at rest.
-#[derive(Debug)]
-pub struct SteelFish {
-    /// Pieces with the pose of their frames, from the boom downwards.
-    pub pieces: Vec<(Piece, Pose)>,
-    /// What stands still.
-    pub stand: Piece,
-}
-
 /// Materials as they look. Painted sheet is dielectric; rods are bare steel.
 struct Finishes {
     black: usize,
@@ -102,7 +87,7 @@ fn finishes(scene: &mut Scene) -> Finishes {
 }
 
 /// Draws, balances and writes the model.
-pub fn glb() -> (SteelFish, Vec<u8>) {
+pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let fish = draw(&finishes(&mut scene));
     fish.stand.write(&mut scene, Pose::IDENTITY);
@@ -117,7 +102,7 @@ pub fn glb() -> (SteelFish, Vec<u8>) {
     (fish, scene.into_glb("Standing mobile after Steel Fish", copyright))
 }
 
-fn draw(finishes: &Finishes) -> SteelFish {
+fn draw(finishes: &Finishes) -> Mobile {
     let orange = disc("OrangeDisc", "OrangeHook", "OrangeStem", 35.4 * MM, 60.0 * MM, finishes.orange);
     let white = disc("WhiteDisc", "WhiteHook", "WhiteStem", 25.8 * MM, 76.0 * MM, finishes.white);
     let b4 = branch(&Branch {
@@ -149,7 +134,7 @@ fn draw(finishes: &Finishes) -> SteelFish {
     let b4_pose = hung(b2_pose, &b2, "B2Branch", B4_YAW);
     let white_pose = hung(b4_pose, &b4, "B4White", WHITE_YAW);
     let orange_pose = hung(b4_pose, &b4, "B4Orange", ORANGE_YAW);
-    SteelFish {
+    Mobile {
         pieces: vec![
             (boom, boom_pose),
             (b2, b2_pose),
@@ -436,121 +421,4 @@ fn red_plate(finish: usize) -> Piece {
         solid.moved(DVec3::new(-x, 0.0, 0.0))
     };
     hung_plate("RedPlate", "RedHook", "RedStem", (solid, STEEL, finish), 84.0 * MM)
-}
-
-/// A branch of the mobile.
-struct Branch {
-    /// Piece, loop, wire, and the marks of its right (+x) and left (−x) ends.
-    names: [&'static str; 5],
-    /// Of the wire, m.
-    radius: f64,
-    /// Radius of the loop and the eyes, m.
-    eye: f64,
-    /// Between the two loads, m.
-    chord: f64,
-    /// How far the ends droop, m.
-    droop: f64,
-    /// Right and left, kg.
-    loads: [f64; 2],
-}
-
-/// Bends a wire with a loop in it where it balances, and an eye at each end.
-fn branch(branch: &Branch) -> Piece {
-    let [name, hook, wire, right_mark, left_mark] = branch.names;
-    let [right_load, left_load] = branch.loads;
-    let bend = |right: f64| {
-        let left = branch.chord - right;
-        let bottom = branch.radius - 2.0 * branch.eye;
-        // The ends leave the loop level and droop as x², the shape a light wire takes.
-        let arm = |length: f64, side: f64| {
-            (1..=6).map(move |i| {
-                let t = f64::from(i) / 6.0;
-                DVec3::new(side * length * t, bottom - branch.droop * t * t, 0.0)
-            })
-        };
-        let eye_at = |end: DVec3| end - branch.eye * DVec3::Y;
-        let right_eye = eye_at(DVec3::new(right, bottom - branch.droop, 0.0));
-        let left_eye = eye_at(DVec3::new(-left, bottom - branch.droop, 0.0));
-
-        let mut points = ring(left_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS);
-        points.reverse();
-        points.extend(arm(left, -1.0).collect::<Vec<_>>().into_iter().rev().skip(1));
-        points.extend(ring(
-            DVec3::new(0.0, branch.radius - branch.eye, 0.0),
-            branch.eye,
-            DVec3::NEG_Y,
-            DVec3::X,
-            EYE_STEPS,
-        ));
-        points.extend(arm(right, 1.0).take(5));
-        points.extend(ring(right_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS));
-        let rest = (branch.eye - branch.radius) * DVec3::Y;
-        Piece {
-            name,
-            parts: Vec::new(),
-            bends: vec![Bend { name: wire, points, radius: branch.radius, density: STEEL }],
-            marks: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
-        }
-    };
-    let loaded = |piece: &Piece| {
-        let right = load(right_load, piece.mark(right_mark));
-        piece.mass().combine(&right).combine(&load(left_load, piece.mark(left_mark)))
-    };
-    // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
-    let start = left_load / (left_load + right_load) * branch.chord;
-    let right = (0..40).fold(start, |right, _| right - loaded(&bend(right)).center.x);
-    bend(right)
-}
-
-/// The figures of the balanced work.
-#[derive(Clone, Copy, Debug)]
-pub struct Statics {
-    /// kg.
-    pub total_mass: f64,
-    /// Of the lead weight, kg.
-    pub lead: f64,
-    /// First moment of the weight about each piece's hook over its weight: how far its centre stands from under
-    /// the point it hangs on, m; the worst.
-    pub worst_offset: f64,
-    /// About the vertical through the point, loads at their joints, kg m².
-    pub yaw_inertia: f64,
-    /// Depth of the centre of all weights below the point, loads at their joints, m.
-    pub depth: f64,
-    /// s.
-    pub tilt_period: f64,
-}
-
-impl SteelFish {
-    /// Mass properties of piece `i` with what hangs below it as loads at its marks, in its own frame.
-    pub fn loaded(&self, i: usize) -> MassProperties {
-        let (piece, pose) = &self.pieces[i];
-        self.pieces
-            .iter()
-            .enumerate()
-            .filter(|(k, (_, hung))| {
-                *k != i && piece.marks.iter().skip(1).any(|(_, m)| pose.point(*m) == hung.position)
-            })
-            .map(|(k, (_, hung))| load(self.loaded(k).mass, pose.inverse_point(hung.position)))
-            .fold(piece.mass(), |whole, load| whole.combine(&load))
-    }
-
-    /// Weighs and measures the work.
-    pub fn statics(&self) -> Statics {
-        let boom = self.loaded(0);
-        let about_point = boom.inertia_about(DVec3::ZERO);
-        let offset = |i: usize| {
-            let center = self.loaded(i).center;
-            DVec2::new(center.x, center.z).length()
-        };
-        let depth = -boom.center.y;
-        let lead = self.pieces[0].0.parts.iter().find(|part| part.name == "Counterweight");
-        Statics {
-            total_mass: boom.mass,
-            lead: lead.map_or(NOTHING, |part| part.solid.mass(part.density)).mass,
-            worst_offset: (0..self.pieces.len()).map(offset).fold(0.0, f64::max),
-            yaw_inertia: about_point.y_axis.y,
-            depth,
-            tilt_period: 2.0 * PI * (about_point.z_axis.z / (boom.mass * 9.81 * depth)).sqrt(),
-        }
-    }
 }
