@@ -32,7 +32,7 @@ const ROUND: usize = 64;
 
 /// Densities, kg/m³; the sidecar's materials say the same.
 const ALUMINIUM: f64 = 2700.0;
-const LEAD: f64 = 11_340.0;
+const LEAD: f64 = 11_300.0;
 const BRASS: f64 = 8500.0;
 
 /// Sheet of all plates, and how far its edges are broken.
@@ -62,7 +62,7 @@ const B4_YAW: f64 = -0.36;
 const ORANGE_YAW: f64 = 0.25;
 const WHITE_YAW: f64 = -0.05;
 
-/// Materials as they look. Painted sheet is dielectric; rods are bare steel.
+/// Finishes of the meshes; paint is dielectric. How the wires look stands in the sidecar.
 struct Finishes {
     black: usize,
     red: usize,
@@ -177,7 +177,6 @@ fn stand(finishes: &Finishes) -> Piece {
             mm(3.0, top - 17.0),
             mm(2.0, top - 15.0),
             mm(1.6, top - 8.0),
-            mm(0.25, top - 0.7),
             mm(0.0, top),
         ],
         false,
@@ -238,10 +237,10 @@ fn boom_rod() -> (Vec<DVec3>, DVec3) {
 fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
     let (rod, tip) = boom_rod();
     let mm = |r: f64, y: f64| DVec2::new(r, y) * MM;
-    // An inverted cup: its hollow is a cone of half-angle 34°, the needle's point one of 11°, and the tilt limit of
-    // the sidecar lies between.
+    // An inverted cup. Its hollow has a half-angle of 23.5°, the needle one of 11.3°: it can tilt by the 12° that
+    // the sidecar states before the rim meets the needle.
     let cup = turned(
-        &[mm(0.0, 0.0), mm(3.6, -5.3), mm(4.2, -5.3), mm(4.2, -4.4), mm(2.2, 2.4), mm(1.5, 3.1), mm(0.0, 3.1)],
+        &[mm(0.0, 0.0), mm(2.3, -5.3), mm(3.1, -5.3), mm(3.1, -4.4), mm(2.0, 2.4), mm(1.4, 3.1), mm(0.0, 3.1)],
         false,
         ROUND / 2,
     );
