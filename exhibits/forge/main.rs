@@ -10,8 +10,15 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let check = std::env::args().skip(1).any(|argument| argument == "--check");
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits");
+    let artifacts = match forge::artifacts() {
+        Ok(artifacts) => artifacts,
+        Err(error) => {
+            eprintln!("cannot make the breaths: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
     let mut stale = 0;
-    for artifact in forge::artifacts() {
+    for artifact in artifacts {
         let path = root.join(artifact.path);
         let fresh = std::fs::read(&path).is_ok_and(|bytes| bytes == artifact.bytes);
         if fresh {

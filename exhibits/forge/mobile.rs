@@ -15,7 +15,7 @@ use super::outline::ring;
 use super::piece::{Bend, Piece, load};
 
 /// Corners of an eye bent in wire.
-pub const EYE_STEPS: usize = 10;
+pub const EYE_STEPS: usize = 12;
 /// kg/m³.
 pub const STEEL: f64 = 7850.0;
 /// Standard weight, m/s²; the period needs it, the balance does not.

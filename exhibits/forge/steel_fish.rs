@@ -150,45 +150,24 @@ fn draw(finishes: &Finishes) -> Mobile {
 /// Footing of turned steel, a slender post with three stays, and the needle that carries the cup.
 fn stand(finishes: &Finishes) -> Piece {
     let mm = |r: f64, y: f64| DVec2::new(r, y) * MM;
-    let footing = turned(
-        &[
-            mm(0.0, 0.0),
-            mm(72.0, 0.0),
-            mm(73.5, 1.5),
-            mm(73.5, 6.5),
-            mm(72.0, 8.0),
-            mm(14.0, 11.0),
-            mm(13.0, 11.6),
-            mm(0.0, 11.6),
-        ],
-        false,
-        2 * ROUND,
-    );
     let top = POINT_HEIGHT / MM;
-    let post = turned(
-        &[
-            mm(0.0, 11.6),
-            mm(6.0, 11.6),
-            mm(6.0, 20.0),
-            mm(3.4, 24.0),
-            mm(2.6, 120.0),
-            mm(2.0, top - 24.0),
-            mm(3.0, top - 22.0),
-            mm(3.0, top - 17.0),
-            mm(2.0, top - 15.0),
-            mm(1.6, top - 8.0),
-            mm(0.0, top),
-        ],
-        false,
-        ROUND / 2,
-    );
+    #[rustfmt::skip] // rows of a drawing
+    let footing = [
+        mm(0.0, 0.0), mm(72.0, 0.0), mm(73.5, 1.5), mm(73.5, 6.5), mm(72.0, 8.0), mm(14.0, 11.0),
+        mm(13.0, 11.6), mm(0.0, 11.6),
+    ];
+    #[rustfmt::skip] // rows of a drawing
+    let post = [
+        mm(0.0, 11.6), mm(6.0, 11.6), mm(6.0, 20.0), mm(3.4, 24.0), mm(2.6, 120.0), mm(2.0, top - 24.0),
+        mm(3.0, top - 22.0), mm(3.0, top - 17.0), mm(2.0, top - 15.0), mm(1.6, top - 8.0), mm(0.0, top),
+    ];
+    let (footing, post) = (turned(&footing, false, 2 * ROUND), turned(&post, false, ROUND / 2));
     let part = |name, solid, finish| Part { name, solid, place: Pose::IDENTITY, density: STEEL, finish };
     let stays = ["StayA", "StayB", "StayC"].into_iter().enumerate().map(|(i, name)| {
         let turn = yaw(2.0 * PI * (i as f64 / 3.0 + 0.08));
+        #[rustfmt::skip] // rows of a drawing
         let knots = [
-            DVec3::new(58.0, 8.0, 0.0),
-            DVec3::new(30.0, 45.0, 0.0),
-            DVec3::new(9.0, 110.0, 0.0),
+            DVec3::new(58.0, 8.0, 0.0), DVec3::new(30.0, 45.0, 0.0), DVec3::new(9.0, 110.0, 0.0),
             DVec3::new(3.2, 185.0, 0.0),
         ];
         Bend { name, points: open_spline(&knots.map(|k| turn * (k * MM)), 6), radius: 0.9 * MM, density: STEEL }
@@ -204,29 +183,15 @@ fn stand(finishes: &Finishes) -> Piece {
 /// The rod from the fish over the cup to the tip: it runs behind the fish's body, passes through a slot before the
 /// tail, rises over the needle, and ends in an eye.
 fn boom_rod() -> (Vec<DVec3>, DVec3) {
+    #[rustfmt::skip] // rows of a drawing
     let knots = [
-        (-232.0, -26.4, -1.3),
-        (-205.0, -28.3, -1.3),
-        (-166.0, -30.3, -1.3),
-        (-150.0, -30.8, 1.3),
-        (-108.0, -32.8, 1.3),
-        (-72.0, -34.8, 1.0),
-        (-50.0, -32.8, 0.0),
-        (-33.0, -24.0, 0.0),
-        (-15.0, -4.0, 0.0),
-        (0.0, 4.0, 0.0),
-        (15.0, -4.0, 0.0),
-        (33.0, -24.0, 0.0),
-        (50.0, -33.8, 0.0),
-        (72.0, -36.3, 0.0),
-        (112.0, -35.3, 0.0),
-        (165.0, -31.3, 0.0),
-        (220.0, -26.3, 0.0),
-        (270.0, -23.3, 0.0),
-        (304.0, -24.3, 0.0),
-        (314.5, -26.8, 0.0),
+        (-232.0, -26.4, -1.3), (-205.0, -28.3, -1.3), (-166.0, -30.3, -1.3), (-150.0, -30.8, 1.3),
+        (-108.0, -32.8, 1.3), (-72.0, -34.8, 1.0), (-50.0, -32.8, 0.0), (-33.0, -24.0, 0.0),
+        (-15.0, -4.0, 0.0), (0.0, 4.0, 0.0), (15.0, -4.0, 0.0), (33.0, -24.0, 0.0), (50.0, -33.8, 0.0),
+        (72.0, -36.3, 0.0), (112.0, -35.3, 0.0), (165.0, -31.3, 0.0), (220.0, -26.3, 0.0),
+        (270.0, -23.3, 0.0), (304.0, -24.3, 0.0), (314.5, -26.8, 0.0),
     ];
-    let mut points = open_spline(&knots.map(|(x, y, z)| DVec3::new(x, y, z) * MM), 2);
+    let mut points = open_spline(&knots.map(|(x, y, z)| DVec3::new(x, y, z) * MM), 3);
     let eye = 3.0 * MM;
     let center = DVec3::new(TIP_ARM, -27.1 * MM - eye, 0.0);
     points.extend(ring(center, eye, DVec3::Y, DVec3::Z, EYE_STEPS));
@@ -248,15 +213,7 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
     let (fish_center, rod_there) = (fish.mass(STEEL).center, -31.5 * MM);
     let fish_place = Pose { rotation: DQuat::IDENTITY, position: DVec3::new(FISH_ARM, rod_there, 0.0) - fish_center };
 
-    let at_lead = |along: f64| {
-        let i = rod.windows(2).position(|w| w[0].x <= along && along < w[1].x).unwrap_or(0);
-        let direction = rod[i + 1] - rod[i];
-        (
-            rod[i] + direction * ((along - rod[i].x) / direction.x),
-            DQuat::from_rotation_arc(DVec3::X, direction.normalize()),
-        )
-    };
-    let (lead_point, lead_turn) = at_lead(LEAD_ARM);
+    let (lead_point, lead_turn) = threaded(&rod, LEAD_ARM);
     let mut boom = Piece {
         name: "Boom",
         parts: vec![
@@ -278,6 +235,13 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
         finish: finishes.lead,
     });
     boom
+}
+
+/// Where a part threaded on `rod` sits at x = `along`, and how it turns to follow the rod.
+fn threaded(rod: &[DVec3], along: f64) -> (DVec3, DQuat) {
+    let i = rod.windows(2).position(|w| w[0].x <= along && along < w[1].x).unwrap_or(0);
+    let step = rod[i + 1] - rod[i];
+    (rod[i] + step * ((along - rod[i].x) / step.x), DQuat::from_rotation_arc(DVec3::X, step.normalize()))
 }
 
 /// A bored barrel of lead of just this mass, lying along x. Its volume grows linearly with its length.
@@ -303,27 +267,13 @@ fn lead_weight(mass: f64) -> Solid {
 
 /// The fish: a leaf with an open mouth, fins and a forked tail, cut through by an eye, a gill and three ribs.
 fn fish_plate() -> Solid {
+    #[rustfmt::skip] // rows of a drawing
     let knots = [
-        Corner(-94.0, 7.0),
-        Corner(-77.0, 0.0),
-        Corner(-88.0, -9.0),
-        Smooth(-70.0, -20.0),
-        Smooth(-38.0, -29.0),
-        Smooth(-8.0, -30.5),
-        Corner(12.0, -45.0),
-        Corner(17.0, -27.0),
-        Smooth(42.0, -17.0),
-        Smooth(64.0, -8.0),
-        Corner(97.0, -31.0),
-        Smooth(82.0, 3.0),
-        Corner(92.0, 38.0),
-        Smooth(62.0, 11.0),
-        Smooth(40.0, 18.0),
-        Corner(22.0, 24.0),
-        Corner(14.0, 50.0),
-        Smooth(-16.0, 33.0),
-        Smooth(-48.0, 29.0),
-        Smooth(-76.0, 18.5),
+        Corner(-94.0, 7.0), Corner(-77.0, 0.0), Corner(-88.0, -9.0), Smooth(-70.0, -20.0),
+        Smooth(-38.0, -29.0), Smooth(-8.0, -30.5), Corner(12.0, -45.0), Corner(17.0, -27.0),
+        Smooth(42.0, -17.0), Smooth(64.0, -8.0), Corner(97.0, -31.0), Smooth(82.0, 3.0), Corner(92.0, 38.0),
+        Smooth(62.0, 11.0), Smooth(40.0, 18.0), Corner(22.0, 24.0), Corner(14.0, 50.0), Smooth(-16.0, 33.0),
+        Smooth(-48.0, 29.0), Smooth(-76.0, 18.5),
     ];
     let gill = [Corner(-42.0, 18.0), Smooth(-50.0, 0.0), Corner(-43.0, -17.0), Smooth(-46.5, 0.0)];
     let hole = |x: f64, y: f64, a: f64, b: f64, turn: f64| ellipse(DVec2::new(x, y), DVec2::new(a, b), turn, ROUND / 2);
@@ -396,16 +346,10 @@ fn disc(
 
 /// The red plate: a wing, its long end towards the discs. The hole sits above the centre, so it hangs level.
 fn red_plate(finish: usize) -> Piece {
+    #[rustfmt::skip] // rows of a drawing
     let knots = [
-        Corner(-66.0, -6.0),
-        Smooth(-40.0, -13.0),
-        Smooth(-8.0, -15.5),
-        Smooth(22.0, -12.0),
-        Smooth(42.0, -1.0),
-        Smooth(47.0, 9.0),
-        Smooth(38.0, 12.0),
-        Smooth(18.0, 9.5),
-        Smooth(-8.0, 8.5),
+        Corner(-66.0, -6.0), Smooth(-40.0, -13.0), Smooth(-8.0, -15.5), Smooth(22.0, -12.0),
+        Smooth(42.0, -1.0), Smooth(47.0, 9.0), Smooth(38.0, 12.0), Smooth(18.0, 9.5), Smooth(-8.0, 8.5),
         Smooth(-38.0, 3.5),
     ];
     let outline = closed_spline(&knots, 8);

@@ -30,10 +30,25 @@ fn assert_close(what: &str, got: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn the_committed_files_are_what_the_forge_makes() {
-    for artifact in workshop::artifacts() {
+    for artifact in workshop::artifacts().expect("everything can be made") {
         let path = exhibits().join(artifact.path);
         let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         assert!(bytes == artifact.bytes, "{} is stale: run `cargo run --example forge`", artifact.path);
+    }
+}
+
+#[test]
+fn the_breaths_are_short_loud_enough_and_never_clip() {
+    for (name, at_least) in [("gentle", 0.01), ("normal", 0.05), ("strong", 0.1)] {
+        let path = exhibits().join(format!("steel-fish/breaths/{name}.wav"));
+        let mut file = hound::WavReader::open(&path).expect("a WAV file");
+        let spec = file.spec();
+        assert_eq!((spec.channels, spec.sample_rate, spec.bits_per_sample), (1, 16_000, 16), "{name}");
+        let samples: Vec<i16> = file.samples().collect::<Result<_, _>>().expect("all samples");
+        let seconds = samples.len() as f64 / 16_000.0;
+        assert!((2.0..=4.0).contains(&seconds), "{name}: {seconds} s");
+        let peak = f64::from(samples.iter().map(|s| s.unsigned_abs()).max().unwrap_or(0)) / 32768.0;
+        assert!((at_least..0.999).contains(&peak), "{name}: peak {peak} of full scale");
     }
 }
 
