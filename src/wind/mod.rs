@@ -3,6 +3,7 @@
 use crate::geometry::TriangleMesh;
 
 pub mod blow;
+pub mod generate;
 
 /// A surface that feels the wind.
 #[derive(Clone, Debug)]
