@@ -3,3 +3,4 @@
 mod articulation;
 mod dynamics;
 mod blow;
+mod forge;
