@@ -4,3 +4,4 @@ mod articulation;
 mod dynamics;
 mod blow;
 mod forge;
+mod sound;
