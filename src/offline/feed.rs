@@ -1,0 +1,53 @@
+//! A recorded breath as the microphone of a run: the samples of each simulation step.
+//!
+//! Step n hears the samples ⌊n·rate/240⌋ up to, but not including, ⌊(n+1)·rate/240⌋. The bounds are integers, so
+//! every rate is heard whole and in order whatever it is, and the live kiosk and the offline run, which both feed
+//! recordings through here, hear the same samples at the same step.
+
+use std::sync::Arc;
+
+use crate::simulation::{Microphone, STEPS_PER_SECOND};
+
+/// A recording, read step by step.
+#[derive(Clone, Debug)]
+pub struct WavFeed {
+    samples: Arc<[f32]>,
+    sample_rate: u32,
+    step: u64,
+}
+
+impl WavFeed {
+    /// The mono `samples` (full scale ±1) at `sample_rate` Hz, from their start.
+    pub fn new(samples: impl Into<Arc<[f32]>>, sample_rate: u32) -> Self {
+        Self { samples: samples.into(), sample_rate, step: 0 }
+    }
+
+    /// Samples of the next step; empty after the end.
+    pub fn step_samples(&mut self) -> &[f32] {
+        let (low, high) = (self.bound(self.step), self.bound(self.step + 1));
+        self.step += 1;
+        &self.samples[low..high]
+    }
+
+    /// The next step's samples as a microphone that hears no loudspeaker.
+    pub fn microphone(&mut self) -> Microphone<'_> {
+        let sample_rate = self.sample_rate;
+        Microphone { samples: self.step_samples(), sample_rate, reference: &[] }
+    }
+
+    /// Is everything heard?
+    pub fn is_over(&self) -> bool {
+        self.bound(self.step) == self.samples.len()
+    }
+
+    /// Hz.
+    pub fn sample_rate(&self) -> u32 {
+        self.sample_rate
+    }
+
+    /// First sample of a step.
+    fn bound(&self, step: u64) -> usize {
+        let sample = u128::from(step) * u128::from(self.sample_rate) / u128::from(STEPS_PER_SECOND);
+        sample.min(self.samples.len() as u128) as usize
+    }
+}
