@@ -44,8 +44,8 @@ pub struct Scene<'a> {
     pub hears: bool,
     /// Languages offered.
     pub languages: &'a [String],
-    /// Index of the language shown.
-    pub language: usize,
+    /// Code of the language shown.
+    pub language: &'a str,
     /// Seconds, for fading.
     pub time: f64,
     /// Points per millimetre of glass.
@@ -70,7 +70,7 @@ impl Overlay {
     /// Draws over the whole of `picture`; returns where a press means something else than a breath.
     pub fn paint(&mut self, painter: &Painter, picture: Rect, scene: &Scene) -> Vec<(Rect, Request)> {
         self.advance(scene);
-        let code = scene.languages.get(scene.language).map_or("", String::as_str);
+        let code = scene.language;
         let Some(label) = scene.exhibit.labels.get(code) else { return Vec::new() };
         // Sizes are shares of the picture's height, so that type keeps its place in the composition.
         let em = picture.height().min(picture.width() * 0.75) / 45.0;
@@ -150,7 +150,7 @@ impl Page<'_> {
         let mut right = self.picture.right();
         let mut buttons = Vec::new();
         for (i, code) in scene.languages.iter().enumerate().rev() {
-            let shown = i == scene.language;
+            let shown = code == scene.language;
             let font = FontId::proportional(0.85 * self.em);
             let color = if shown { INK } else { SOFT_INK };
             let galley = self.painter.layout_no_wrap(language_name(code).into(), font, color);
@@ -178,7 +178,8 @@ impl Page<'_> {
         let (across, along) = tangents(breath.direction);
         let upright = view.up - breath.direction * view.up.dot(breath.direction);
         let along = upright.try_normalize().unwrap_or(along);
-        let across = if upright.length() > 0.0 { along.cross(breath.direction) } else { across };
+        // Clockwise for whoever looks along the breath.
+        let across = if upright.length() > 0.0 { breath.direction.cross(along) } else { across };
         let circle = |radius: f64, share: f64| -> Vec<Pos2> {
             let corners = (96.0 * share).ceil().max(2.0);
             let at = |i: f64| {

@@ -80,7 +80,7 @@ impl Staff {
             && let Some((at, message)) = self.messages.back()
             && vitals.time - at < TOAST_S
         {
-            egui::Area::new(egui::Id::new("toast")).anchor(Align2::LEFT_TOP, [16.0, 16.0]).show(ui.ctx(), |ui| {
+            egui::Area::new(egui::Id::unique("toast")).anchor(Align2::LEFT_TOP, [16.0, 16.0]).show(ui.ctx(), |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_max_width(560.0);
                     ui.monospace(message);

@@ -16,7 +16,7 @@ use winit::keyboard::{ModifiersState, PhysicalKey};
 use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::config::Config;
-use crate::exhibit::Labels;
+use crate::exhibit::{Label, Labels};
 use crate::simulation::Command;
 
 use super::input::{Key, Phase, Request, Signal, Visitor};
@@ -25,6 +25,7 @@ use super::overlay::{Overlay, Scene};
 use super::reload::Reload;
 use super::screen::{Drawn, Screen};
 use super::staff::{Staff, Vitals, Wish};
+use super::words::language_name;
 
 /// Size of the window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
@@ -63,16 +64,12 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         backends: wgpu::Backends::VULKAN,
         ..wgpu::InstanceDescriptor::new_with_display_handle_from_env(display)
     });
-    let languages = offered(&options.exhibit.labels, &config);
-    let first = &config.languages.first;
-    let first = if first.is_empty() { &options.exhibit.labels.default_language } else { first };
-    let first_language = languages.iter().position(|code| code == first).unwrap_or(0);
     let mut app = App {
         instance,
         interrupted,
         reload: Reload::new(&options.exhibit.folder, config.exhibit.hot_reload),
-        language: first_language,
-        first_language,
+        languages: Vec::new(),
+        language: String::new(),
         waiting: Some(options),
         show: None,
         visitor: Visitor::default(),
@@ -146,9 +143,9 @@ struct App<'a> {
     /// Where a press is not a breath, in points.
     buttons: Vec<(egui::Rect, Request)>,
     staff: Staff,
-    /// Index among the languages offered.
-    language: usize,
-    first_language: usize,
+    /// Languages a visitor can choose from, and the one chosen (empty: none yet).
+    languages: Vec<String>,
+    language: String,
     attracts: bool,
     clock: Clock,
     lost: u32,
@@ -260,19 +257,22 @@ impl App<'_> {
         let frame = show.live.frame();
         let moment = frame.moment(now);
         let view = frame.exhibit.view(show.screen.aspect());
-        let languages = offered(&frame.exhibit.labels, &self.config);
         let size = show.screen.size();
         let vitals = Vitals { adapter: &adapter, frame_s: self.clock.frame_s, size, time: self.clock.seconds(now) };
         let mut wish = None;
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
+            self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
+            if !self.languages.contains(&self.language) {
+                self.language = first(&self.languages, &frame.exhibit.labels, &self.config);
+            }
             let scene = Scene {
                 exhibit: &frame.exhibit,
                 moment: &moment,
                 view,
                 attract_text: frame.attract_text.as_deref(),
                 hears: frame.hears,
-                languages: &languages,
-                language: self.language,
+                languages: &self.languages,
+                language: &self.language,
                 time: vitals.time,
                 points_per_mm: 1.0 / (self.config.screen.mm_per_px as f32 * ui.ctx().pixels_per_point()),
             };
@@ -312,7 +312,7 @@ impl App<'_> {
     fn follow_attract(&mut self, frame: &Frame) {
         if frame.attracts && !self.attracts {
             self.visitor.leave();
-            self.language = self.first_language;
+            self.language.clear();
             self.tell();
         }
         self.attracts = frame.attracts;
@@ -326,11 +326,11 @@ impl App<'_> {
     fn grant(&mut self, events: &ActiveEventLoop, request: Request) {
         match request {
             Request::Close => events.exit(),
-            Request::Language(index) => self.language = index,
+            Request::Language(index) => self.language = self.languages.get(index).cloned().unwrap_or_default(),
             Request::NextLanguage => {
-                let Some(show) = &self.show else { return };
-                let languages = offered(&show.live.frame().exhibit.labels, &self.config);
-                self.language = (self.language + 1) % languages.len().max(1);
+                let shown = self.languages.iter().position(|code| *code == self.language);
+                let next = shown.map_or(0, |shown| (shown + 1) % self.languages.len());
+                self.language = self.languages.get(next).cloned().unwrap_or_default();
             }
             Request::ToggleStaff => {
                 self.staff.open = !self.staff.open;
@@ -380,11 +380,22 @@ fn open(events: &ActiveEventLoop, on_desk: bool) -> Result<Arc<Window>, String> 
     Ok(Arc::new(window))
 }
 
-/// The languages a visitor can choose from, in the order they are offered.
-fn offered(labels: &Labels, config: &Config) -> Vec<String> {
-    let has: Vec<&String> = labels.languages.iter().map(|(code, _)| code).collect();
+/// The languages a visitor can choose from, in the order they are offered: those of the exhibit that the site wants
+/// and the fonts can write.
+fn offered(context: &egui::Context, labels: &Labels, config: &Config) -> Vec<String> {
+    let can_write = |(code, label): &&(String, Label)| {
+        let text = format!("{}{}", language_name(code), label.title);
+        context.fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), &text))
+    };
+    let has: Vec<&String> = labels.languages.iter().filter(can_write).map(|(code, _)| code).collect();
     let wanted: Vec<String> = config.languages.offered.iter().filter(|code| has.contains(code)).cloned().collect();
     if wanted.is_empty() { has.into_iter().cloned().collect() } else { wanted }
+}
+
+/// The language that a visitor finds: the site's, else the exhibit's, else whatever there is.
+fn first(offered: &[String], labels: &Labels, config: &Config) -> String {
+    let wanted = [&config.languages.first, &labels.default_language];
+    wanted.into_iter().find(|code| offered.contains(code)).or(offered.first()).cloned().unwrap_or_default()
 }
 
 /// A window's event as the visitor's signal; `None` where it is none.
