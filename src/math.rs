@@ -5,7 +5,7 @@
 //! `f64::powi` is not: its rounding may differ between optimisation levels, so it is forbidden (clippy.toml).
 
 pub use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
-pub use libm::{acos, asin, atan2, cos, exp, log as ln, log10, pow, sin, sincos, tanh};
+pub use libm::{acos, asin, atan2, cos, exp, log as ln, log10, pow, sin, sincos, sqrt, tanh};
 
 /// π, at hand.
 pub const PI: f64 = std::f64::consts::PI;

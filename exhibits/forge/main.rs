@@ -1,3 +1,59 @@
-//! The forge: makes every shipped model from stated dimensions.
+//! `cargo run --example forge`: makes every shipped model and breath again. With `-- --check` it writes nothing and
+//! fails where a file on disk is not what the forge makes.
 
-fn main() {}
+#[path = "mod.rs"]
+mod forge;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let check = std::env::args().skip(1).any(|argument| argument == "--check");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits");
+    let artifacts = match forge::artifacts() {
+        Ok(artifacts) => artifacts,
+        Err(error) => {
+            eprintln!("cannot make the breaths: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let mut stale = 0;
+    for artifact in artifacts {
+        let path = root.join(artifact.path);
+        let fresh = std::fs::read(&path).is_ok_and(|bytes| bytes == artifact.bytes);
+        if fresh {
+            println!("same   {}", artifact.path);
+        } else if check {
+            eprintln!("STALE  {}: run `cargo run --example forge`", artifact.path);
+            stale += 1;
+        } else if let Err(error) = write(&path, &artifact.bytes) {
+            eprintln!("cannot write {}: {error}", path.display());
+            return ExitCode::FAILURE;
+        } else {
+            println!("wrote  {} ({} bytes)", artifact.path, artifact.bytes.len());
+        }
+    }
+    let (work, _) = forge::steel_fish::glb();
+    report(&work);
+    if stale == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// What a curator or a reader wants to know of the balanced work.
+fn report(work: &forge::mobile::Mobile) {
+    for (piece, _) in &work.pieces {
+        println!("{:<12} {:7.3} g", piece.name, 1e3 * piece.mass().mass);
+    }
+    let s = work.statics();
+    println!("moving mass  {:7.3} g", 1e3 * s.total_mass);
+    println!("imbalance    {:7.1e} m (worst hook)", s.worst_offset);
+    println!("yaw inertia  {:7.5} kg m²", s.yaw_inertia);
+    println!("depth        {:7.2} mm below the point", 1e3 * s.depth);
+    println!("tilt period  {:7.3} s", s.tilt_period);
+}
+
+fn write(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    std::fs::write(path, bytes)
+}

@@ -2,6 +2,14 @@
 
 use crate::math::DVec3;
 
+pub mod block;
+mod loops;
+pub mod rows;
+mod system;
+pub mod tree;
+
+pub use system::System;
+
 /// A point fixed in a body's node frame, or in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {

@@ -61,6 +61,17 @@ pub struct Exhibit {
     pub credit: Credit,
 }
 
+impl Exhibit {
+    /// Restitution and sliding friction between two materials: the pair's own, or the geometric mean of both.
+    pub fn surface_pair(&self, a: usize, b: usize) -> (f64, f64) {
+        let (x, y) = (&self.materials[a], &self.materials[b]);
+        let own = self.material_pairs.iter().find(|p| p.pair == (a, b) || p.pair == (b, a));
+        let restitution = own.and_then(|p| p.restitution).unwrap_or((x.restitution * y.restitution).sqrt());
+        let friction = own.and_then(|p| p.dynamic_friction).unwrap_or((x.dynamic_friction * y.dynamic_friction).sqrt());
+        (restitution, friction)
+    }
+}
+
 /// Physical material of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {

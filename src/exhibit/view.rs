@@ -22,3 +22,15 @@ impl super::Exhibit {
         View { eye: DVec3::new(0.0, 0.3, 1.2), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y, fovy: 0.6 }
     }
 }
+
+impl View {
+    /// The ray through a point of the picture: origin (m) and unit direction.
+    pub fn ray(&self, at: [f64; 2], aspect: f64) -> (DVec3, DVec3) {
+        let forward = (self.target - self.eye).normalize();
+        let right = forward.cross(self.up).normalize();
+        let up = right.cross(forward);
+        let tan = crate::math::sin(0.5 * self.fovy) / crate::math::cos(0.5 * self.fovy);
+        let (x, y) = ((2.0 * at[0] - 1.0) * tan * aspect, (1.0 - 2.0 * at[1]) * tan);
+        (self.eye, (forward + x * right + y * up).normalize())
+    }
+}

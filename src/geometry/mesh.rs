@@ -10,3 +10,13 @@ pub struct TriangleMesh {
     /// Three indices into `positions` per triangle.
     pub triangles: Vec<[u32; 3]>,
 }
+
+impl TriangleMesh {
+    /// A ball around the mesh: the middle of its bounding box and the farthest corner, m.
+    pub fn ball(&self) -> (DVec3, f64) {
+        let low = self.positions.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
+        let high = self.positions.iter().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
+        let center = 0.5 * (low + high);
+        (center, self.positions.iter().fold(0.0, |r: f64, p| r.max(p.distance(center))))
+    }
+}

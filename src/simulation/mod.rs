@@ -1,11 +1,37 @@
 //! The simulation: everything that moves, and the only way time advances.
+//!
+//! One step is 1/240 s and 200 audio samples: breath → aim → wind → motion with its impacts → events and sounds →
+//! dust. Whatever varies is in [`StepInput`]; nothing here reads a clock, a file or a device, so a live run and an
+//! offline one with the same inputs are the same run, bit for bit.
+
+mod aim;
+mod event;
+mod motes;
+mod snapshot;
+mod sonify;
+mod source;
 
 use std::sync::Arc;
 
+use crate::articulation::block::Vec6;
+use crate::bodies::RigidBody;
+use crate::collision::pairs;
+use crate::dynamics::forces::Damping;
+use crate::dynamics::{self, Dynamics, Figure, Impact, ImpactKind, SurfacePair};
 use crate::exhibit::{Exhibit, View};
-use crate::math::{DVec3, Pose};
+use crate::math::{DVec3, StateHash};
 use crate::sound::SoundCommand;
+use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
+use crate::wind::force::{Breath, WindField, WindReport};
+use crate::wind::jet::{Front, Jet};
+
+use aim::{Aim, AimTarget};
+pub use event::{Event, EventKind};
+use motes::Motes;
+pub use snapshot::{BreathView, Diagnostics, Mote, Snapshot};
+use sonify::Listener;
+use source::BreathSource;
 
 /// Simulation steps per second.
 pub const STEPS_PER_SECOND: u64 = 240;
@@ -13,6 +39,12 @@ pub const STEPS_PER_SECOND: u64 = 240;
 pub const SAMPLE_RATE: u32 = 48_000;
 /// Audio samples per step.
 pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
+/// Seconds per step.
+const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
+/// Time constant of the joints' stabiliser, s.
+const STABILIZATION_TIME: f64 = 0.04;
+/// Width over height of a picture nobody described.
+const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
 /// How a breath becomes wind (design.md, two breath profiles).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -22,6 +54,30 @@ pub enum Profile {
     Gallery,
     /// Gain 1, the front travels as a real jet's does.
     True,
+}
+
+/// The gallery's gain is this speed over the breath's own, so that its force grows with the speed and not with its
+/// square: a gentle 3.8 m/s counts eightfold, a hard 17 m/s less than twofold.
+const GALLERY_SPEED: f64 = 30.0;
+/// Bounds of that gain.
+const GALLERY_GAIN: (f64, f64) = (1.0, 8.0);
+
+impl Profile {
+    /// Force gain at a source speed (m/s).
+    pub fn gain(self, speed: f64) -> f64 {
+        match self {
+            Self::Gallery => (GALLERY_SPEED / speed.max(1e-9)).clamp(GALLERY_GAIN.0, GALLERY_GAIN.1),
+            Self::True => 1.0,
+        }
+    }
+
+    /// Its name on the command line and in summaries.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gallery => "gallery",
+            Self::True => "true",
+        }
+    }
 }
 
 /// What is constant over a run, besides the exhibit.
@@ -37,9 +93,9 @@ pub struct Settings {
     pub lip_diameter: f64,
     /// Seed of all that is random.
     pub seed: u64,
-    /// false: no wind of any kind (tests, `--no-wind`).
+    /// false: no wind of any kind, not even still air's drag.
     pub wind: bool,
-    /// false: pivots without friction and bodies without damping (tests of conservation).
+    /// false: pivots without friction and bodies without damping.
     pub friction: bool,
 }
 
@@ -92,135 +148,172 @@ pub struct StepInput<'a> {
     pub commands: &'a [Command],
 }
 
-/// A collision event (design.md section 3, Events).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// Seconds since reset of the run.
-    pub t: f64,
-    /// round(48000 t).
-    pub sample: u64,
-    /// Kind.
-    pub kind: EventKind,
-    /// Bodies by index; `None` is the world.
-    pub bodies: [Option<usize>; 2],
-    /// World, m.
-    pub point: DVec3,
-    /// Unit, from the second body to the first.
-    pub normal: DVec3,
-    /// N s.
-    pub impulse: f64,
-    /// Approach speed, m/s.
-    pub speed: f64,
-}
-
-/// Kind of an event.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EventKind {
-    /// Two bodies hit.
-    Impact,
-    /// Two bodies lie against each other.
-    Rest,
-    /// Bad numbers were found and the body restored.
-    Fault,
-}
-
-/// A speck of dust that shows the wind.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mote {
-    /// World, m.
-    pub position: [f32; 3],
-    /// World, m/s.
-    pub velocity: [f32; 3],
-    /// 0 invisible … 1 bright.
-    pub brightness: f32,
-}
-
-/// The breath as it is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BreathView {
-    /// Source speed after all sources are joined, m/s; exactly 0 when nobody blows.
-    pub speed: f64,
-    /// What the detector says.
-    pub estimate: BlowEstimate,
-    /// Centre of the lips, world, m.
-    pub mouth: DVec3,
-    /// Unit, where the breath goes.
-    pub direction: DVec3,
-    /// Where it is aimed, world, m.
-    pub target: DVec3,
-}
-
-/// What a picture, a trace and a panel need to know of one moment.
-#[derive(Clone, Debug, Default)]
-pub struct Snapshot {
-    /// Steps done.
-    pub step: u64,
-    /// World pose of each moving body's glTF node, in the order of [`Exhibit::bodies`].
-    pub poses: Vec<Pose>,
-    /// The breath.
-    pub breath: BreathView,
-    /// Dust.
-    pub motes: Vec<Mote>,
-    /// Numbers for staff.
-    pub diagnostics: Diagnostics,
-}
-
-/// Numbers for staff and for the summary of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Diagnostics {
-    /// Largest distance or angle error of any joint now, m.
-    pub joint_error: f64,
-    /// Kinetic plus potential energy, J.
-    pub energy: f64,
-    /// Impacts so far.
-    pub impacts: u64,
-    /// Faults so far.
-    pub faults: u64,
-    /// Integration substeps of the last step.
-    pub substeps: u32,
-    /// Sum of the wind's forces, N.
-    pub wind_force: DVec3,
-}
-
-impl Snapshot {
-    /// The moment between two snapshots of the same exhibit, `alpha` in 0…1.
-    pub fn interpolate(&self, next: &Self, alpha: f64) -> Self {
-        let mut out = next.clone();
-        for (pose, before) in out.poses.iter_mut().zip(&self.poses) {
-            *pose = before.interpolate(pose, alpha);
-        }
-        for (mote, before) in out.motes.iter_mut().zip(&self.motes) {
-            for axis in 0..3 {
-                let (a, b) = (before.position[axis], mote.position[axis]);
-                // A mote that was born again elsewhere jumps; it does not fly.
-                mote.position[axis] = if (b - a).abs() < 0.1 { a + (b - a) * alpha as f32 } else { b };
-            }
-        }
-        out
-    }
-}
-
 /// An exhibit in motion.
 pub struct Simulation {
     exhibit: Arc<Exhibit>,
     settings: Settings,
     step: u64,
+    source: BreathSource,
+    aim: Aim,
+    aim_targets: Vec<AimTarget>,
+    front: Front,
+    wind: WindField,
+    dynamics: Dynamics,
+    motes: Motes,
+    wrenches: Vec<Vec6>,
+    impacts: Vec<Impact>,
     events: Vec<Event>,
     sounds: Vec<SoundCommand>,
+    speed: f64,
+    estimate: BlowEstimate,
+    report: WindReport,
+    view: (f64, View),
+    impact_count: u64,
+    fault_count: u64,
 }
 
 impl Simulation {
     /// The exhibit at rest in its start pose.
     pub fn new(exhibit: Arc<Exhibit>, settings: Settings) -> Self {
-        Self { exhibit, settings, step: 0, events: Vec::new(), sounds: Vec::new() }
+        let view = exhibit.view(DEFAULT_ASPECT);
+        Self {
+            dynamics: start_dynamics(&exhibit, &settings),
+            wind: WindField::new(&exhibit.wind_surfaces, exhibit.bodies.len(), settings.seed),
+            motes: Motes::new(view.target, settings.seed),
+            wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
+            view: (DEFAULT_ASPECT, view),
+            exhibit,
+            settings,
+            step: 0,
+            source: BreathSource::default(),
+            aim: Aim::default(),
+            aim_targets: Vec::new(),
+            front: Front::default(),
+            impacts: Vec::new(),
+            events: Vec::new(),
+            sounds: Vec::new(),
+            speed: 0.0,
+            estimate: BlowEstimate::default(),
+            report: WindReport::default(),
+            impact_count: 0,
+            fault_count: 0,
+        }
     }
 
     /// Advances by 1/240 s. The only way time moves.
-    pub fn step(&mut self, _input: &StepInput) {
+    pub fn step(&mut self, input: &StepInput) {
+        self.events.clear();
+        self.sounds.clear();
+        self.carry_out(input.commands);
+        (self.speed, self.estimate) = self.source.advance(input.microphone, input.hold, DT);
+        self.take_aim(input);
+        self.blow();
+        self.impacts.clear();
+        let restored = self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
+        self.tell(restored);
+        self.drift();
         self.step += 1;
     }
 
-    /// Events of the last step.
+    fn carry_out(&mut self, commands: &[Command]) {
+        for command in commands {
+            match *command {
+                Command::Reset => {
+                    self.dynamics = start_dynamics(&self.exhibit, &self.settings);
+                    self.front.clear();
+                    self.sounds.push(SoundCommand::Silence { sample: self.step * SAMPLES_PER_STEP });
+                }
+                Command::Blow(speed) => self.source.command(speed),
+            }
+        }
+    }
+
+    /// Points the breath.
+    fn take_aim(&mut self, input: &StepInput) {
+        let aspect = if input.aspect > 0.0 { input.aspect } else { DEFAULT_ASPECT };
+        if aspect != self.view.0 {
+            self.view = (aspect, self.exhibit.view(aspect));
+        }
+        self.aim_targets.clear();
+        self.aim_targets.extend(self.exhibit.wind_surfaces.iter().filter_map(|surface| match &surface.shape {
+            SurfaceShape::Mesh { mesh, .. } => {
+                let (center, radius) = mesh.ball();
+                Some(AimTarget { center: self.dynamics.bodies[surface.body].pose().point(center), radius })
+            }
+            SurfaceShape::Wire { .. } => None,
+        }));
+        let pointer = input.pointer.unwrap_or([0.5, 0.5]);
+        let Settings { distance, profile, .. } = self.settings;
+        self.aim.follow(&self.view.1, aspect, pointer, distance, profile, &self.aim_targets, DT);
+    }
+
+    /// Turns the breath into forces.
+    fn blow(&mut self) {
+        self.wrenches.fill([0.0; 6]);
+        self.report = WindReport::default();
+        if !self.settings.wind {
+            return;
+        }
+        self.front.advance(self.speed, DT);
+        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
+        self.report = self.wind.push(&self.dynamics.bodies, breath.as_ref(), &mut self.wrenches);
+    }
+
+    /// Turns impacts into events and sounds.
+    fn tell(&mut self, restored: usize) {
+        let listener = Listener::new(&self.view.1);
+        let began = self.step as f64 * DT;
+        let at = |t: f64| (t * f64::from(SAMPLE_RATE)).round() as u64;
+        if restored > 0 {
+            self.fault_count += 1;
+            self.events.push(Event {
+                t: began,
+                sample: at(began),
+                kind: EventKind::Fault,
+                bodies: [None, None],
+                point: DVec3::ZERO,
+                normal: DVec3::Y,
+                impulse: 0.0,
+                speed: 0.0,
+            });
+        }
+        let poses: Vec<_> = self.dynamics.bodies.iter().map(RigidBody::pose).collect();
+        for impact in &self.impacts {
+            let t = began + impact.time;
+            let body = |collider: usize| self.exhibit.colliders[collider].body;
+            let event = Event {
+                t,
+                sample: at(t),
+                kind: match impact.kind {
+                    ImpactKind::Impact => EventKind::Impact,
+                    ImpactKind::Rest => EventKind::Rest,
+                },
+                bodies: impact.colliders.map(body),
+                point: impact.point,
+                normal: impact.normal,
+                impulse: impact.impulse,
+                speed: impact.speed,
+            };
+            if event.kind == EventKind::Impact {
+                self.impact_count += 1;
+                sonify::strikes(&self.exhibit, &event, impact, &poses, &listener, &mut self.sounds);
+            }
+            self.events.push(event);
+        }
+        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
+        let air = breath.map_or(0.0, |breath| self.wind.air(&breath, self.aim.target).length());
+        let sample = (self.step + 1) * SAMPLES_PER_STEP;
+        self.sounds.push(sonify::wind(sample, air, self.report.gust, self.aim.target, &listener));
+    }
+
+    /// Lets the dust drift.
+    fn drift(&mut self) {
+        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
+        let jet = breath.as_ref().map(|b| &b.jet).filter(|jet| jet.speed > 0.0);
+        self.motes.advance(jet, |p| breath.as_ref().map_or(DVec3::ZERO, |b| self.wind.air(b, p)), DT);
+    }
+
+    /// Events of the last step, in time order.
     pub fn events(&self) -> &[Event] {
         &self.events
     }
@@ -240,10 +333,53 @@ impl Simulation {
         &self.settings
     }
 
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// The bodies' present state, in the order of the exhibit's bodies.
+    pub fn bodies(&self) -> &[RigidBody] {
+        &self.dynamics.bodies
+    }
+
+    /// The bodies' state, for tests that push a sculpture by hand.
+    pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
+        &mut self.dynamics.bodies
+    }
+
+    /// Largest distance between the two points of any joint now, m.
+    pub fn joint_error(&self) -> f64 {
+        self.dynamics.joint_error()
+    }
+
+    /// Kinetic and potential energy, J.
+    pub fn energy(&self) -> f64 {
+        self.dynamics.energy()
+    }
+
     /// The present moment.
     pub fn snapshot(&self) -> Snapshot {
-        let poses = self.exhibit.bodies.iter().map(|body| body.pose).collect();
-        Snapshot { step: self.step, poses, ..Snapshot::default() }
+        Snapshot {
+            step: self.step,
+            poses: self.dynamics.bodies.iter().map(RigidBody::pose).collect(),
+            breath: BreathView {
+                speed: self.speed,
+                estimate: self.estimate,
+                mouth: self.aim.mouth,
+                direction: self.aim.direction,
+                target: self.aim.target,
+            },
+            motes: self.motes.view().collect(),
+            diagnostics: Diagnostics {
+                joint_error: self.dynamics.joint_error(),
+                energy: self.dynamics.energy(),
+                impacts: self.impact_count,
+                faults: self.fault_count,
+                substeps: self.dynamics.substeps(),
+                wind_force: self.report.force,
+            },
+        }
     }
 
     /// The camera of the exhibit for a picture of this aspect (width / height).
@@ -253,6 +389,62 @@ impl Simulation {
 
     /// One word that says whether two runs are the same run.
     pub fn state_hash(&self) -> u64 {
-        self.step
+        let mut hash = StateHash::default();
+        hash.add(self.step as f64);
+        hash.add(self.speed);
+        for body in &self.dynamics.bodies {
+            body.hash(&mut hash);
+        }
+        hash.0
     }
+}
+
+/// The breath of this step; `None` where no air of one is anywhere, or wind is off.
+fn breath<'a>(settings: &Settings, aim: &Aim, front: &'a Front, speed: f64, step: u64) -> Option<Breath<'a>> {
+    let jet = Jet { mouth: aim.mouth, direction: aim.direction, lip_diameter: settings.lip_diameter, speed };
+    let front = match settings.profile {
+        Profile::Gallery => None,
+        Profile::True => Some(front),
+    };
+    let gain = settings.breath_gain * settings.profile.gain(speed);
+    let blows = speed > 0.0 || front.is_some_and(Front::in_flight);
+    (blows && settings.wind).then_some(Breath { jet, front, gain, time: step as f64 * DT })
+}
+
+/// The exhibit's figure at its start.
+fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
+    let bodies = exhibit
+        .bodies
+        .iter()
+        .map(|body| RigidBody {
+            velocity: body.velocity,
+            angular_velocity: body.angular_velocity,
+            ..RigidBody::at_rest(body.properties, body.pose)
+        })
+        .collect();
+    let figure = Figure {
+        bodies,
+        damping: exhibit
+            .bodies
+            .iter()
+            .map(|body| Damping { linear: body.linear_damping, angular: body.angular_damping })
+            .collect(),
+        constraints: &exhibit.constraints,
+        springs: &exhibit.springs,
+        colliders: &exhibit.colliders,
+        pairs: pairs(&exhibit.colliders, &exhibit.excluded_pairs)
+            .into_iter()
+            .map(|pair| {
+                let (restitution, friction) =
+                    exhibit.surface_pair(exhibit.colliders[pair.a].material, exhibit.colliders[pair.b].material);
+                SurfacePair { pair, restitution, friction }
+            })
+            .collect(),
+    };
+    let dynamics = dynamics::Settings {
+        gravity: exhibit.gravity,
+        friction: settings.friction,
+        stabilization_time: STABILIZATION_TIME,
+    };
+    Dynamics::new(figure, dynamics)
 }

@@ -2,6 +2,30 @@
 //!
 //! Time is a sample index at the synth's rate. Commands are small copies that fit a ring; nothing here allocates
 //! after [`Synth::new`].
+//!
+//! ```text
+//! timbre (preset files) ─→ instrument ─→ graph of operators ─┐
+//! plate (Ritz modes) ────↗  excitation (Hertz, radiation)    ├─→ voices ─→ mix ─→ limiter ─→ out
+//!                           bank (kernel of all partials) ───┘
+//! ```
+
+mod bank;
+mod eigen;
+mod excitation;
+mod graph;
+mod gusts;
+mod instrument;
+mod limiter;
+mod plate;
+mod synth;
+pub mod timbre;
+mod voice;
+
+pub use gusts::multifractal;
+pub use limiter::CEILING;
+pub use plate::{PlateMode, free_plate_modes};
+pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, Synth};
+pub use timbre::{Preset, TimbreError};
 
 /// What the synth is told. Fixed size, so that it travels through a wait-free ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +39,27 @@ pub enum SoundCommand {
         /// When.
         sample: u64,
     },
+}
+
+impl SoundCommand {
+    /// When it is to be carried out.
+    pub fn sample(&self) -> u64 {
+        match self {
+            Self::Strike(strike) => strike.sample,
+            Self::Wind(wind) => wind.sample,
+            Self::Silence { sample } => *sample,
+        }
+    }
+
+    /// The same command at another time.
+    pub fn at(mut self, time: u64) -> Self {
+        match &mut self {
+            Self::Strike(strike) => strike.sample = time,
+            Self::Wind(wind) => wind.sample = time,
+            Self::Silence { sample } => *sample = time,
+        }
+        self
+    }
 }
 
 /// One hit of one sounding body.

@@ -1,0 +1,144 @@
+//! Mobiles: branches that balance, pieces that hang on one another, and the figures of the whole.
+//!
+//! A piece is at rest when the torque of its own weight and of the loads at its joints about the point it hangs on
+//! is zero, that is when Σ mᵢ xᵢ = Σ mᵢ zᵢ = 0 in its own frame. For a straight branch of length l with loads m_L,
+//! m_R and wire mass w the loop sits at a = (m_R l + w l/2)/(m_L + m_R + w) from the left; [`branch`] starts near
+//! there and lets the true centre of the bent wire correct it. A branch is stable because its loop stands above
+//! the line of its loads.
+//!
+//! Invariant: every piece of a [`Mobile`] but the first hangs at a mark of one before it, the poses say where.
+
+use soffio::bodies::MassProperties;
+use soffio::math::{DVec2, DVec3, PI, Pose};
+
+use super::outline::ring;
+use super::piece::{Bend, Piece, load};
+
+/// Corners of an eye bent in wire.
+pub const EYE_STEPS: usize = 12;
+/// kg/m³.
+pub const STEEL: f64 = 7850.0;
+/// Standard weight, m/s²; the period needs it, the balance does not.
+const GRAVITY: f64 = 9.81;
+
+/// A balanced work: all pieces, and where they stand at rest.
+#[derive(Debug)]
+pub struct Mobile {
+    /// Pieces with the pose of their frames; what carries comes before what hangs.
+    pub pieces: Vec<(Piece, Pose)>,
+    /// What stands still.
+    pub stand: Piece,
+}
+
+/// A branch of the mobile.
+pub struct Branch {
+    /// Piece, loop, wire, and the marks of its right (+x) and left (−x) ends.
+    pub names: [&'static str; 5],
+    /// Of the wire, m.
+    pub radius: f64,
+    /// Radius of the loop and the eyes, m.
+    pub eye: f64,
+    /// Between the two loads, m.
+    pub chord: f64,
+    /// How far the ends droop, m.
+    pub droop: f64,
+    /// Right and left, kg.
+    pub loads: [f64; 2],
+}
+
+/// Bends a wire with a loop in it where it balances, and an eye at each end.
+pub fn branch(branch: &Branch) -> Piece {
+    let [name, hook, wire, right_mark, left_mark] = branch.names;
+    let [right_load, left_load] = branch.loads;
+    let bend = |right: f64| {
+        let left = branch.chord - right;
+        let bottom = branch.radius - 2.0 * branch.eye;
+        // The ends leave the loop level and droop as x², the shape a light wire takes.
+        let arm = |length: f64, side: f64| {
+            (1..=6).map(move |i| {
+                let t = f64::from(i) / 6.0;
+                DVec3::new(side * length * t, bottom - branch.droop * t * t, 0.0)
+            })
+        };
+        let eye_at = |end: DVec3| end - branch.eye * DVec3::Y;
+        let right_eye = eye_at(DVec3::new(right, bottom - branch.droop, 0.0));
+        let left_eye = eye_at(DVec3::new(-left, bottom - branch.droop, 0.0));
+
+        let mut points = ring(left_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS);
+        points.reverse();
+        points.extend(arm(left, -1.0).collect::<Vec<_>>().into_iter().rev().skip(1));
+        points.extend(ring(
+            DVec3::new(0.0, branch.radius - branch.eye, 0.0),
+            branch.eye,
+            DVec3::NEG_Y,
+            DVec3::X,
+            EYE_STEPS,
+        ));
+        points.extend(arm(right, 1.0).take(5));
+        points.extend(ring(right_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS));
+        let rest = (branch.eye - branch.radius) * DVec3::Y;
+        Piece {
+            name,
+            parts: Vec::new(),
+            bends: vec![Bend { name: wire, points, radius: branch.radius, density: STEEL }],
+            marks: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
+        }
+    };
+    let loaded = |piece: &Piece| {
+        let right = load(right_load, piece.mark(right_mark));
+        piece.mass().combine(&right).combine(&load(left_load, piece.mark(left_mark)))
+    };
+    // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
+    let start = left_load / (left_load + right_load) * branch.chord;
+    let right = (0..40).fold(start, |right, _| right - loaded(&bend(right)).center.x);
+    bend(right)
+}
+
+/// The figures of the balanced work.
+#[derive(Clone, Copy, Debug)]
+pub struct Statics {
+    /// kg.
+    pub total_mass: f64,
+    /// First moment of the weight about each piece's hook over its weight: how far its centre stands from under
+    /// the point it hangs on, m; the worst.
+    pub worst_offset: f64,
+    /// About the vertical through the point, loads at their joints, kg m².
+    pub yaw_inertia: f64,
+    /// Depth of the centre of all weights below the point, loads at their joints, m.
+    pub depth: f64,
+    /// s.
+    pub tilt_period: f64,
+}
+
+impl Mobile {
+    /// Mass properties of piece `i` with what hangs below it as loads at its marks, in its own frame.
+    pub fn loaded(&self, i: usize) -> MassProperties {
+        let (piece, pose) = &self.pieces[i];
+        self.pieces
+            .iter()
+            .enumerate()
+            .filter(|(k, (_, hung))| {
+                *k != i && piece.marks.iter().skip(1).any(|(_, m)| pose.point(*m) == hung.position)
+            })
+            .map(|(k, (_, hung))| load(self.loaded(k).mass, pose.inverse_point(hung.position)))
+            .fold(piece.mass(), |whole, load| whole.combine(&load))
+    }
+
+    /// Weighs and measures the work.
+    pub fn statics(&self) -> Statics {
+        let top = self.loaded(0);
+        let about_point = top.inertia_about(DVec3::ZERO);
+        let offset = |i: usize| {
+            let center = self.loaded(i).center;
+            DVec2::new(center.x, center.z).length()
+        };
+        let depth = -top.center.y;
+        Statics {
+            total_mass: top.mass,
+            worst_offset: (0..self.pieces.len()).map(offset).fold(0.0, f64::max),
+            yaw_inertia: about_point.y_axis.y,
+            depth,
+            tilt_period: 2.0 * PI * (about_point.z_axis.z / (top.mass * GRAVITY * depth)).sqrt(),
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Six-vectors and small dense blocks: what the tree factor is made of.
+//!
+//! A body's six coordinates are its linear (x, y, z) and angular (x, y, z) parts, world axes. A joint has at most
+//! [`MAX_ROWS`] rows; blocks are stored at full size and used up to `rows`, so nothing here allocates.
+
+use crate::math::{DMat3, DVec3};
+
+/// Linear part, then angular part.
+pub type Vec6 = [f64; 6];
+/// Six by six, row by row.
+pub type Mat6 = [[f64; 6]; 6];
+
+/// Most rows of one joint: six that can be held, and three of friction beside them.
+pub const MAX_ROWS: usize = 9;
+/// One number per row of a joint.
+pub type RowVec = [f64; MAX_ROWS];
+/// One six-vector per row of a joint.
+pub type RowBlock = [Vec6; MAX_ROWS];
+/// Rows by rows, lower triangle.
+pub type RowSquare = [[f64; MAX_ROWS]; MAX_ROWS];
+
+/// A six-vector from its linear and angular parts.
+pub fn vec6(linear: DVec3, angular: DVec3) -> Vec6 {
+    [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
+}
+
+/// Linear part.
+pub fn linear(v: &Vec6) -> DVec3 {
+    DVec3::new(v[0], v[1], v[2])
+}
+
+/// Angular part.
+pub fn angular(v: &Vec6) -> DVec3 {
+    DVec3::new(v[3], v[4], v[5])
+}
+
+/// a · b.
+pub fn dot(a: &Vec6, b: &Vec6) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+}
+
+/// y += s x.
+pub fn add_scaled(y: &mut Vec6, s: f64, x: &Vec6) {
+    for k in 0..6 {
+        y[k] += s * x[k];
+    }
+}
+
+/// Matrix times vector.
+pub fn mul(m: &Mat6, v: &Vec6) -> Vec6 {
+    [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v), dot(&m[3], v), dot(&m[4], v), dot(&m[5], v)]
+}
+
+/// diag(m E, I): the mass matrix of a body.
+pub fn mass_matrix(mass: f64, inertia_world: &DMat3) -> Mat6 {
+    let mut out = [[0.0; 6]; 6];
+    for k in 0..3 {
+        out[k][k] = mass;
+        for l in 0..3 {
+            // glam stores columns; the tensor is symmetric.
+            out[3 + k][3 + l] = inertia_world.col(l)[k];
+        }
+    }
+    out
+}
+
+/// Inverse of a symmetric positive definite 6×6 matrix by Cholesky: A = L Lᵀ, A⁻¹ = L⁻ᵀ L⁻¹.
+///
+/// Contract: `a` is positive definite (a mass matrix plus positive semi-definite joint terms always is).
+pub fn inverse(a: &Mat6) -> Mat6 {
+    let mut l = *a;
+    // L in the lower triangle.
+    for j in 0..6 {
+        let mut d = l[j][j];
+        for k in 0..j {
+            d -= l[j][k] * l[j][k];
+        }
+        debug_assert!(d > 0.0, "not positive definite at row {j}: {d}");
+        let d = d.sqrt();
+        l[j][j] = d;
+        let inv = 1.0 / d;
+        for i in j + 1..6 {
+            let mut s = l[i][j];
+            for k in 0..j {
+                s -= l[i][k] * l[j][k];
+            }
+            l[i][j] = s * inv;
+        }
+    }
+    // L⁻¹, lower triangle.
+    let mut x = [[0.0; 6]; 6];
+    for j in 0..6 {
+        x[j][j] = 1.0 / l[j][j];
+        for i in j + 1..6 {
+            let mut s = 0.0;
+            for k in j..i {
+                s -= l[i][k] * x[k][j];
+            }
+            x[i][j] = s / l[i][i];
+        }
+    }
+    // A⁻¹ = L⁻ᵀ L⁻¹.
+    let mut out = [[0.0; 6]; 6];
+    for i in 0..6 {
+        for j in 0..=i {
+            let mut s = 0.0;
+            for k in i..6 {
+                s += x[k][i] * x[k][j];
+            }
+            out[i][j] = s;
+            out[j][i] = s;
+        }
+    }
+    out
+}
+
+/// A pivot below this share of its row's own stiffness says that the row repeats earlier ones.
+const REDUNDANT: f64 = 1e-12;
+
+/// Cholesky factor of the leading `n`×`n` block of a symmetric positive semi-definite matrix, in place in the lower
+/// triangle; the diagonal holds 1/L_jj. A row that repeats earlier ones gets the inverse pivot 0, so that its
+/// multiplier comes out 0; bit j of the answer says so.
+pub fn cholesky(m: &mut RowSquare, n: usize) -> u32 {
+    let mut redundant = 0;
+    for j in 0..n {
+        let diagonal = m[j][j];
+        let mut d = diagonal;
+        for k in 0..j {
+            d -= m[j][k] * m[j][k];
+        }
+        let held = d > REDUNDANT * diagonal;
+        let inv = if held { 1.0 / d.sqrt() } else { 0.0 };
+        redundant |= u32::from(!held) << j;
+        m[j][j] = inv;
+        for i in j + 1..n {
+            let mut s = m[i][j];
+            for k in 0..j {
+                s -= m[i][k] * m[j][k];
+            }
+            m[i][j] = s * inv;
+        }
+    }
+    redundant
+}
+
+/// Solves L Lᵀ x = b in place with the factor of [`cholesky`].
+pub fn cholesky_solve(m: &RowSquare, n: usize, b: &mut RowVec) {
+    for i in 0..n {
+        let mut s = b[i];
+        for k in 0..i {
+            s -= m[i][k] * b[k];
+        }
+        b[i] = s * m[i][i];
+    }
+    for i in (0..n).rev() {
+        let mut s = b[i];
+        for k in i + 1..n {
+            s -= m[k][i] * b[k];
+        }
+        b[i] = s * m[i][i];
+    }
+}

@@ -1,0 +1,134 @@
+//! WAV files: in (PCM 8–32 bit or float, 8–192 kHz, any channel count, down-mixed), out (32-bit float).
+//!
+//! Invariant: a file appears whole or not at all (written beside its place and renamed).
+
+use std::path::{Path, PathBuf};
+
+/// Sample rates the kiosk understands, Hz.
+pub const RATES_HZ: std::ops::RangeInclusive<u32> = 8_000..=192_000;
+
+/// A mono recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// Full scale ±1; the mean of the channels.
+    pub samples: Vec<f32>,
+    /// Hz.
+    pub sample_rate: u32,
+}
+
+impl Recording {
+    /// Length, s.
+    pub fn duration(&self) -> f64 {
+        self.samples.len() as f64 / f64::from(self.sample_rate)
+    }
+}
+
+/// Why a WAV could not be read or written: which file, what is wrong, what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum WavError {
+    /// The file is not there, or may not be read.
+    #[error("{path}: cannot be opened ({source}). Check the path and its permissions.")]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// Not a WAV, or a kind of WAV that is not PCM or float.
+    #[error(
+        "{path}: not a WAV that Soffio reads ({reason}). Convert it to PCM or float, for example: sox INPUT -b 16 OUT.wav"
+    )]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What the reader met.
+        reason: String,
+    },
+    /// The samples end before the header says.
+    #[error(
+        "{path}: truncated: the header promises {promised} samples, the file ends after {found}. Copy or record it again."
+    )]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// Samples of all channels by the header.
+        promised: usize,
+        /// Samples that are there.
+        found: usize,
+    },
+    /// No sample at all.
+    #[error("{path}: holds no samples. Record it again.")]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A rate outside [`RATES_HZ`].
+    #[error("{path}: {rate} Hz is outside 8000–192000 Hz. Resample it, for example: sox INPUT -r 48000 OUT.wav")]
+    Rate {
+        /// The file.
+        path: PathBuf,
+        /// Its rate, Hz.
+        rate: u32,
+    },
+    /// The file could not be written.
+    #[error("{path}: cannot be written ({reason}). Check the folder, its permissions and the free space.")]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        reason: String,
+    },
+}
+
+/// Reads a WAV as mono.
+pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
+    let path = path.as_ref();
+    let open = |source| WavError::Open { path: path.into(), source };
+    let format = |reason: String| WavError::Format { path: path.into(), reason };
+    let file = std::fs::File::open(path).map_err(open)?;
+    if file.metadata().map_err(open)?.is_dir() {
+        return Err(format("it is a folder".into()));
+    }
+    let mut reader = hound::WavReader::new(std::io::BufReader::new(file)).map_err(|error| format(error.to_string()))?;
+    let spec = reader.spec();
+    if !RATES_HZ.contains(&spec.sample_rate) {
+        return Err(WavError::Rate { path: path.into(), rate: spec.sample_rate });
+    }
+    let promised = reader.len() as usize;
+    // Samples are taken until the first that cannot be read; the count says what that means.
+    let interleaved: Vec<f32> = match spec.sample_format {
+        hound::SampleFormat::Float => reader.samples::<f32>().map_while(Result::ok).collect(),
+        hound::SampleFormat::Int => {
+            let full_scale = (1_i64 << (spec.bits_per_sample - 1)) as f64;
+            let scaled = |sample: i32| (f64::from(sample) / full_scale) as f32;
+            reader.samples::<i32>().map_while(Result::ok).map(scaled).collect()
+        }
+    };
+    if interleaved.len() < promised {
+        return Err(WavError::Truncated { path: path.into(), promised, found: interleaved.len() });
+    }
+    let channels = usize::from(spec.channels.max(1));
+    let samples: Vec<f32> =
+        interleaved.chunks_exact(channels).map(|frame| frame.iter().sum::<f32>() / channels as f32).collect();
+    if samples.is_empty() {
+        return Err(WavError::Empty { path: path.into() });
+    }
+    Ok(Recording { samples, sample_rate: spec.sample_rate })
+}
+
+/// Writes interleaved samples (full scale ±1) as 32-bit float.
+pub fn write_float(path: impl AsRef<Path>, channels: u16, sample_rate: u32, samples: &[f32]) -> Result<(), WavError> {
+    let path = path.as_ref();
+    let fail = |reason: String| WavError::Write { path: path.into(), reason };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let spec = hound::WavSpec { channels, sample_rate, bits_per_sample: 32, sample_format: hound::SampleFormat::Float };
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|error| fail(error.to_string()))?;
+    let mut write = || -> hound::Result<()> {
+        let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.as_file_mut()), spec)?;
+        samples.iter().try_for_each(|&sample| writer.write_sample(sample))?;
+        writer.finalize()
+    };
+    write().map_err(|error| fail(error.to_string()))?;
+    file.persist(path).map_err(|error| fail(error.error.to_string()))?;
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! Where the breath goes: from the pointer to lips before the sculpture.
+//!
+//! The lips lie on the camera ray of the pointer, `distance` before the plane through the view's target that faces
+//! the eye. In the *true* profile the breath follows the ray. In the *gallery* profile it leans towards the nearest
+//! surface when the ray passes it by, as a visitor leans to blow at a thing: without it, a breath at the centre of
+//! the picture could pass between the plates and move nothing.
+
+use super::Profile;
+use crate::exhibit::View;
+use crate::math::{DVec3, exp};
+
+/// A surface to lean towards: the ball around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AimTarget {
+    /// World, m.
+    pub center: DVec3,
+    /// m.
+    pub radius: f64,
+}
+
+/// Another surface must be nearer to the ray by this share before the breath leaves the one it leans to.
+const LOYALTY: f64 = 0.7;
+/// The ray itself is followed within this share of a surface's ball.
+const INNER: f64 = 0.5;
+/// The lean follows its goal with this time constant, s: no jumps while blowing.
+const LEAN_TIME: f64 = 0.08;
+
+/// The breath's axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aim {
+    /// Centre of the lips, world, m.
+    pub mouth: DVec3,
+    /// Unit.
+    pub direction: DVec3,
+    /// Where the axis comes nearest to what it is aimed at, world, m.
+    pub target: DVec3,
+    chosen: Option<usize>,
+}
+
+impl Aim {
+    /// Follows the pointer (picture coordinates) for `dt` seconds.
+    pub fn follow(
+        &mut self,
+        view: &View,
+        aspect: f64,
+        pointer: [f64; 2],
+        distance: f64,
+        profile: Profile,
+        targets: &[AimTarget],
+        dt: f64,
+    ) {
+        let (origin, ray) = view.ray(pointer, aspect);
+        let facing = (view.eye - view.target).normalize();
+        let depth = (view.target - origin).dot(facing) / ray.dot(facing);
+        let on_plane = origin + depth * ray;
+        let mouth = on_plane - distance * ray;
+        let goal = match profile {
+            Profile::True => on_plane,
+            Profile::Gallery => self.lean(origin, ray, targets).unwrap_or(on_plane),
+        };
+        let direction = (goal - mouth).try_normalize().unwrap_or(ray);
+        let first = self.direction == DVec3::ZERO;
+        let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
+        self.mouth = mouth;
+        self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
+        self.target = mouth + self.direction * (goal - mouth).dot(self.direction);
+    }
+
+    /// The point of the chosen surface's inner ball nearest to the ray.
+    fn lean(&mut self, origin: DVec3, ray: DVec3, targets: &[AimTarget]) -> Option<DVec3> {
+        let offset = |t: &AimTarget| {
+            let from = t.center - origin;
+            from - from.dot(ray) * ray
+        };
+        let miss = |index: usize| offset(&targets[index]).length() - targets[index].radius;
+        let nearest = (0..targets.len()).min_by(|&a, &b| miss(a).total_cmp(&miss(b)))?;
+        let keep = self.chosen.filter(|&old| {
+            old < targets.len() && offset(&targets[old]).length() * LOYALTY < offset(&targets[nearest]).length()
+        });
+        let chosen = keep.unwrap_or(nearest);
+        self.chosen = Some(chosen);
+        let target = &targets[chosen];
+        let off = offset(target);
+        let inner = INNER * target.radius;
+        // Towards the ray, as far as the inner ball reaches.
+        Some(target.center - if off.length() <= inner { off } else { off * (inner / off.length()) })
+    }
+}

@@ -1,0 +1,83 @@
+//! What a picture, a trace and a panel need to know of one moment.
+
+use crate::math::{DVec3, Pose};
+use crate::wind::blow::BlowEstimate;
+
+/// A speck of dust that shows the wind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mote {
+    /// World, m.
+    pub position: [f32; 3],
+    /// World, m/s.
+    pub velocity: [f32; 3],
+    /// 0 invisible … 1 bright.
+    pub brightness: f32,
+}
+
+/// The breath as it is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BreathView {
+    /// Source speed after all sources are joined, m/s; exactly 0 when nobody blows.
+    pub speed: f64,
+    /// What the detector says.
+    pub estimate: BlowEstimate,
+    /// Centre of the lips, world, m.
+    pub mouth: DVec3,
+    /// Unit, where the breath goes.
+    pub direction: DVec3,
+    /// Where it is aimed, world, m.
+    pub target: DVec3,
+}
+
+/// Numbers for staff and for the summary of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Diagnostics {
+    /// Largest distance between the two points of any joint now, m.
+    pub joint_error: f64,
+    /// Kinetic plus potential energy, J.
+    pub energy: f64,
+    /// Impacts so far.
+    pub impacts: u64,
+    /// Faults so far.
+    pub faults: u64,
+    /// Integration substeps of the last step.
+    pub substeps: u32,
+    /// Sum of the wind's forces, N.
+    pub wind_force: DVec3,
+}
+
+/// One moment of a simulation.
+#[derive(Clone, Debug, Default)]
+pub struct Snapshot {
+    /// Steps done.
+    pub step: u64,
+    /// World pose of each moving body's glTF node, in the order of the exhibit's bodies.
+    pub poses: Vec<Pose>,
+    /// The breath.
+    pub breath: BreathView,
+    /// Dust.
+    pub motes: Vec<Mote>,
+    /// Numbers for staff.
+    pub diagnostics: Diagnostics,
+}
+
+/// A mote that moved farther than this in a step was born again elsewhere, m.
+const REBORN: f32 = 0.1;
+
+impl Snapshot {
+    /// The moment between two snapshots of the same exhibit, `alpha` in 0…1.
+    pub fn interpolate(&self, next: &Self, alpha: f64) -> Self {
+        let mut out = next.clone();
+        for (pose, before) in out.poses.iter_mut().zip(&self.poses) {
+            *pose = before.interpolate(pose, alpha);
+        }
+        for (mote, before) in out.motes.iter_mut().zip(&self.motes) {
+            for (to, from) in mote.position.iter_mut().zip(before.position) {
+                if (*to - from).abs() < REBORN {
+                    *to = from + (*to - from) * alpha as f32;
+                }
+            }
+        }
+        out
+    }
+}

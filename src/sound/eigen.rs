@@ -1,0 +1,162 @@
+//! The symmetric eigenproblem K x = λ M x of small dense matrices.
+//!
+//! Cholesky M = L Lᵀ turns it into the ordinary problem C v = λ v with C = L⁻¹ K L⁻ᵀ and x = L⁻ᵀ v, which cyclic
+//! Jacobi rotations solve (Golub and Van Loan, "Matrix Computations", 8.5): slow for large matrices, but short,
+//! unconditionally stable and accurate for small eigenvalues too. Only the four operations and square roots: the same
+//! bits everywhere.
+//!
+//! Invariant: vectors come out M-normalised, xᵀ M x = 1, in ascending order of λ.
+
+/// A dense square matrix, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Matrix {
+    n: usize,
+    entries: Vec<f64>,
+}
+
+impl Matrix {
+    /// All zero.
+    pub fn zero(n: usize) -> Self {
+        Self { n, entries: vec![0.0; n * n] }
+    }
+
+    /// Row `i`.
+    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.entries[i * self.n..(i + 1) * self.n]
+    }
+
+    fn at(&self, i: usize, j: usize) -> f64 {
+        self.entries[i * self.n + j]
+    }
+
+    fn set(&mut self, i: usize, j: usize, value: f64) {
+        self.entries[i * self.n + j] = value;
+    }
+}
+
+/// Most sweeps of Jacobi rotations; convergence is quadratic, ten are plenty for the sizes here.
+const SWEEPS: usize = 24;
+
+/// Eigenvalues and M-normalised eigenvectors of K x = λ M x; only the lower triangles are read.
+/// `None` when M is not positive definite.
+pub(super) fn generalised(stiffness: &Matrix, mass: &Matrix) -> Option<Vec<(f64, Vec<f64>)>> {
+    let n = stiffness.n;
+    let lower = cholesky(mass)?;
+    // C = L⁻¹ K L⁻ᵀ: solve L Y = K column by column, then L Z = Yᵀ; Z = C because K is symmetric.
+    let mut full = Matrix::zero(n);
+    for i in 0..n {
+        for j in 0..=i {
+            full.set(i, j, stiffness.at(i, j));
+            full.set(j, i, stiffness.at(i, j));
+        }
+    }
+    let half = forward(&lower, &full);
+    let mut c = forward(&lower, &transpose(&half));
+    let mut vectors = jacobi(&mut c);
+    let mut pairs: Vec<(f64, Vec<f64>)> = (0..n).map(|k| (c.at(k, k), backward(&lower, vectors.row_mut(k)))).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(pairs)
+}
+
+fn cholesky(m: &Matrix) -> Option<Matrix> {
+    let n = m.n;
+    let mut l = Matrix::zero(n);
+    for i in 0..n {
+        for j in 0..=i {
+            let sum = m.at(i, j) - (0..j).map(|k| l.at(i, k) * l.at(j, k)).sum::<f64>();
+            if i == j {
+                if !(sum > 0.0) {
+                    return None;
+                }
+                l.set(i, i, sum.sqrt());
+            } else {
+                l.set(i, j, sum / l.at(j, j));
+            }
+        }
+    }
+    Some(l)
+}
+
+/// L⁻¹ B.
+fn forward(l: &Matrix, b: &Matrix) -> Matrix {
+    let n = l.n;
+    let mut x = b.clone();
+    for i in 0..n {
+        for k in 0..i {
+            let factor = l.at(i, k);
+            for j in 0..n {
+                x.entries[i * n + j] -= factor * x.entries[k * n + j];
+            }
+        }
+        let pivot = l.at(i, i);
+        x.row_mut(i).iter_mut().for_each(|v| *v /= pivot);
+    }
+    x
+}
+
+/// L⁻ᵀ v.
+fn backward(l: &Matrix, v: &[f64]) -> Vec<f64> {
+    let mut x = v.to_vec();
+    for i in (0..l.n).rev() {
+        let sum: f64 = (i + 1..l.n).map(|k| l.at(k, i) * x[k]).sum();
+        x[i] = (x[i] - sum) / l.at(i, i);
+    }
+    x
+}
+
+fn transpose(m: &Matrix) -> Matrix {
+    let mut t = Matrix::zero(m.n);
+    for i in 0..m.n {
+        for j in 0..m.n {
+            t.set(j, i, m.at(i, j));
+        }
+    }
+    t
+}
+
+/// Diagonalises `c` in place; the rows of the answer are the eigenvectors.
+fn jacobi(c: &mut Matrix) -> Matrix {
+    let n = c.n;
+    let mut v = Matrix::zero(n);
+    for i in 0..n {
+        v.set(i, i, 1.0);
+    }
+    for _ in 0..SWEEPS {
+        let off: f64 = (0..n).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| c.at(i, j) * c.at(i, j)).sum();
+        let diagonal: f64 = (0..n).map(|i| c.at(i, i) * c.at(i, i)).sum();
+        if off <= 1e-30 * diagonal {
+            break;
+        }
+        for p in 0..n {
+            for q in p + 1..n {
+                rotate(c, &mut v, p, q);
+            }
+        }
+    }
+    v
+}
+
+/// One rotation in the plane (p, q) that makes c_pq zero: t = tan θ is the smaller root of t² + 2τt − 1 = 0.
+fn rotate(c: &mut Matrix, v: &mut Matrix, p: usize, q: usize) {
+    let n = c.n;
+    let apq = c.at(p, q);
+    if apq == 0.0 {
+        return;
+    }
+    let tau = (c.at(q, q) - c.at(p, p)) / (2.0 * apq);
+    let t = if tau >= 0.0 { 1.0 / (tau + (1.0 + tau * tau).sqrt()) } else { -1.0 / (-tau + (1.0 + tau * tau).sqrt()) };
+    let cos = 1.0 / (1.0 + t * t).sqrt();
+    let sin = t * cos;
+    for k in 0..n {
+        let (a, b) = (c.at(k, p), c.at(k, q));
+        c.set(k, p, cos * a - sin * b);
+        c.set(k, q, sin * a + cos * b);
+    }
+    for matrix in [c, v] {
+        for k in 0..n {
+            let (a, b) = (matrix.at(p, k), matrix.at(q, k));
+            matrix.set(p, k, cos * a - sin * b);
+            matrix.set(q, k, sin * a + cos * b);
+        }
+    }
+}

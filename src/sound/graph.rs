@@ -1,0 +1,226 @@
+//! A timbre compiled to a flat list of operators, and the state that one voice keeps for it.
+//!
+//! Operators stand in an order in which each comes after those it takes, so one pass over the list renders a block.
+//! Bound numbers are read on a fixed grid of [`CONTROL`] samples of the synth's own clock; levels glide from one grid
+//! point to the next. Everything between is a recurrence sample by sample, so that the result does not
+//! depend on how the caller cuts its blocks.
+
+use super::bank::Bank;
+use super::gusts::multifractal;
+use super::timbre::{FilterKind, Inputs, MAX_NODES, Node, NoiseKind, Number, Preset, TimbreError};
+use crate::math::{PI, exp};
+use crate::noise::{Random, hash_words};
+
+/// Samples between two readings of bound numbers.
+pub(super) const CONTROL: usize = 64;
+/// One operator's block.
+pub(super) type Block = [f32; CONTROL];
+
+/// A compiled timbre.
+pub(super) struct Graph {
+    operators: Vec<Operator>,
+}
+
+struct Operator {
+    kind: Kind,
+    /// Indices of the operators it takes, all smaller than its own.
+    inputs: Vec<usize>,
+    gain: Number,
+}
+
+enum Kind {
+    Modal,
+    White,
+    Multifractal { base: f64, octaves: u32, roughness: f64 },
+    Filter { kind: FilterKind, cutoff: Number, q: Number },
+    Env { decay: Number },
+    Sum,
+    Product,
+}
+
+/// What one operator of one voice remembers.
+#[derive(Clone)]
+pub(super) struct State {
+    /// Level now, and its change per sample.
+    gain: f64,
+    gain_step: f64,
+    random: Random,
+    /// Env and gust: value now; env: factor per sample; gust: change per sample.
+    value: f64,
+    change: f64,
+    /// Filter: the two integrators, and the coefficients.
+    integrators: [f64; 2],
+    g: f64,
+    damping: f64,
+}
+
+impl Graph {
+    /// Compiles a checked preset.
+    pub fn compile(preset: &Preset) -> Result<Self, TimbreError> {
+        let order = preset.order(&preset.name)?;
+        let index = |name: &str| order.iter().position(|known| *known == name).unwrap_or_default();
+        let operators = order
+            .iter()
+            .map(|name| {
+                let node = &preset.node[*name];
+                let kind = match *node {
+                    Node::Modal { .. } => Kind::Modal,
+                    Node::Noise { kind: NoiseKind::White, .. } => Kind::White,
+                    Node::Noise { base, octaves, roughness, .. } => Kind::Multifractal { base, octaves, roughness },
+                    Node::Filter { kind, cutoff, q, .. } => Kind::Filter { kind, cutoff, q },
+                    Node::Env { decay, .. } => Kind::Env { decay },
+                    Node::Sum { .. } => Kind::Sum,
+                    Node::Product { .. } => Kind::Product,
+                };
+                // A bank's level is in its partials already, so that what is inaudible is never started.
+                let gain = if matches!(kind, Kind::Modal) { Number::Fixed(1.0) } else { node.gain() };
+                Operator { kind, inputs: node.inputs().iter().map(|input| index(input)).collect(), gain }
+            })
+            .collect();
+        Ok(Self { operators })
+    }
+
+    /// States of a voice that begins with these inputs.
+    pub fn begin(&self, states: &mut [State; MAX_NODES], inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
+        for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
+            *state = State::new(hash_words(&[seed, i as u64]));
+            state.gain = operator.gain.at(inputs);
+            match &operator.kind {
+                Kind::Env { decay } => {
+                    state.value = 1.0;
+                    state.change = exp(-1.0 / (decay.at(inputs).max(1e-5) * sample_rate));
+                }
+                Kind::Multifractal { base, octaves, roughness } => {
+                    state.value = multifractal(time * base, *octaves, *roughness, i as u64);
+                }
+                _ => {}
+            }
+            operator.tune(state, inputs, sample_rate);
+        }
+    }
+
+    /// A grid point: reads bound numbers. `time` is the synth's, s.
+    pub fn control(&self, states: &mut [State; MAX_NODES], inputs: &Inputs, time: f64, sample_rate: f64) {
+        for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
+            state.gain_step = (operator.gain.at(inputs) - state.gain) / CONTROL as f64;
+            if let Kind::Multifractal { base, octaves, roughness } = &operator.kind {
+                let next = multifractal((time + CONTROL as f64 / sample_rate) * base, *octaves, *roughness, i as u64);
+                state.change = (next - state.value) / CONTROL as f64;
+            }
+            operator.tune(state, inputs, sample_rate);
+        }
+    }
+
+    /// Renders `n` samples; the answer is the block of the last operator.
+    pub fn render<'a>(
+        &self,
+        states: &mut [State; MAX_NODES],
+        bank: &mut Bank,
+        blocks: &'a mut [Block; MAX_NODES],
+        n: usize,
+    ) -> &'a mut [f32] {
+        for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
+            let (before, rest) = blocks.split_at_mut(i);
+            let out = &mut rest[0][..n];
+            operator.render(state, bank, before, out);
+            for sample in out {
+                *sample = (f64::from(*sample) * state.gain) as f32;
+                state.gain += state.gain_step;
+            }
+        }
+        let last = self.operators.len() - 1;
+        &mut blocks[last][..n]
+    }
+}
+
+impl Operator {
+    /// Coefficients of a filter for the inputs of this moment.
+    fn tune(&self, state: &mut State, inputs: &Inputs, sample_rate: f64) {
+        if let Kind::Filter { cutoff, q, .. } = &self.kind {
+            let hz = cutoff.at(inputs).clamp(5.0, 0.45 * sample_rate);
+            state.g = libm::tan(PI * hz / sample_rate);
+            state.damping = 1.0 / q.at(inputs).clamp(0.1, 100.0);
+            // Ringing below −400 dB is not worth the slow arithmetic of denormal numbers.
+            for integrator in &mut state.integrators {
+                if integrator.abs() < 1e-20 {
+                    *integrator = 0.0;
+                }
+            }
+        }
+    }
+
+    fn render(&self, state: &mut State, bank: &mut Bank, blocks: &[Block], out: &mut [f32]) {
+        let first = self.inputs.first().map(|&i| &blocks[i][..out.len()]);
+        match (&self.kind, first) {
+            (Kind::Modal, _) => bank.render(out),
+            (Kind::White, _) => out.iter_mut().for_each(|y| *y = state.random.signed() as f32),
+            (Kind::Multifractal { .. }, _) => {
+                for y in out {
+                    *y = state.value as f32;
+                    state.value += state.change;
+                }
+            }
+            (Kind::Filter { kind, .. }, Some(input)) => {
+                for (y, x) in out.iter_mut().zip(input) {
+                    *y = state.filter(f64::from(*x), *kind) as f32;
+                }
+            }
+            (Kind::Env { .. }, Some(input)) => {
+                for (y, x) in out.iter_mut().zip(input) {
+                    *y = (f64::from(*x) * state.value) as f32;
+                    state.value *= state.change;
+                    // Denormal numbers are slow, and nobody hears −400 dB.
+                    if state.value < 1e-20 {
+                        state.value = 0.0;
+                    }
+                }
+            }
+            (Kind::Sum, Some(input)) => {
+                out.copy_from_slice(input);
+                for &other in &self.inputs[1..] {
+                    out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y += x);
+                }
+            }
+            (Kind::Product, Some(input)) => {
+                out.copy_from_slice(input);
+                for &other in &self.inputs[1..] {
+                    out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y *= x);
+                }
+            }
+            // A checked preset gives each of these an input.
+            (Kind::Filter { .. } | Kind::Env { .. } | Kind::Sum | Kind::Product, None) => out.fill(0.0),
+        }
+    }
+}
+
+impl State {
+    /// At rest.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            gain: 0.0,
+            gain_step: 0.0,
+            random: Random::new(seed),
+            value: 0.0,
+            change: 0.0,
+            integrators: [0.0; 2],
+            g: 0.0,
+            damping: 1.0,
+        }
+    }
+
+    /// One sample of the state-variable filter by trapezoidal integration (Zavalishin, "The Art of VA Filter Design",
+    /// 2018, 4.1): stable under any change of its coefficients. g = tan(π f/fs), damping = 1/Q.
+    fn filter(&mut self, x: f64, kind: FilterKind) -> f64 {
+        let [s1, s2] = self.integrators;
+        let (g, damping) = (self.g, self.damping);
+        let high = (x - (damping + g) * s1 - s2) / (1.0 + g * (damping + g));
+        let band = g * high + s1;
+        let low = g * band + s2;
+        self.integrators = [2.0 * band - s1, 2.0 * low - s2];
+        match kind {
+            FilterKind::LowPass => low,
+            FilterKind::BandPass => damping * band,
+            FilterKind::HighPass => high,
+        }
+    }
+}

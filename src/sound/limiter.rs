@@ -1,0 +1,150 @@
+//! Look-ahead limiter: the last thing before the loudspeaker. No sample leaves it above [`CEILING`].
+//!
+//! Each frame's peak x asks for a gain g(x) that keeps x g below the ceiling, with a soft knee:
+//!
+//! ```text
+//! x ≤ k: g = 1        x > k: g = (k + (C − k) u/(1 + u)) / x,   u = (x − k)/(C − k)
+//! ```
+//!
+//! The signal is delayed by L frames. The gain is the mean over L of the minimum over L of what was asked for: every
+//! minimum that the mean at the moment of the peak takes in knows of the peak, so none is larger than g(x). Recovery
+//! slows the minimum down before it is averaged, which only makes it smaller.
+//! (Giannoulis, Massberg and Reiss, "Digital Dynamic Range Compressor Design", JAES 60, 2012, for the terms.)
+//!
+//! Gains are whole numbers (2⁻³² units), so that the running sum is exact and never drifts.
+//!
+//! Real-time: all storage is made by [`Limiter::new`].
+
+use crate::math::exp;
+
+/// Largest sample that leaves, −1 dBFS.
+pub const CEILING: f64 = 0.891_250_938_133_745_5;
+/// Where the knee begins, −7 dBFS.
+const KNEE: f64 = 0.446_683_592_150_963_1;
+/// Look-ahead, s.
+const LOOK_AHEAD: f64 = 0.0015;
+/// Time constant of recovery, s.
+const RECOVERY: f64 = 0.08;
+/// 1 as a whole-number gain.
+const UNITY: u64 = 1 << 32;
+
+pub(super) struct Limiter {
+    /// Delayed frames, a ring of L.
+    delay: Vec<[f32; 2]>,
+    /// The held minima of the last L frames, a ring; `sum` is their sum.
+    gains: Vec<u64>,
+    sum: u64,
+    at: usize,
+    /// Minimum over a sliding window (Lemire 2006): ascending gains with the frame they were asked for, a ring of L + 1.
+    wedge: Vec<(u64, u64)>,
+    front: usize,
+    length: usize,
+    frame: u64,
+    held: u64,
+    recovery: f64,
+}
+
+impl Limiter {
+    pub fn new(sample_rate: f64) -> Self {
+        let frames = ((LOOK_AHEAD * sample_rate) as usize).max(1);
+        Self {
+            delay: vec![[0.0; 2]; frames],
+            gains: vec![UNITY; frames],
+            sum: UNITY * frames as u64,
+            at: 0,
+            wedge: vec![(0, 0); frames + 1],
+            front: 0,
+            length: 0,
+            frame: 0,
+            held: UNITY,
+            recovery: 1.0 - exp(-1.0 / (RECOVERY * sample_rate)),
+        }
+    }
+
+    /// Frames by which the signal comes later.
+    pub fn latency(&self) -> usize {
+        self.delay.len()
+    }
+
+    /// Takes a frame, gives the frame of [`Self::latency`] ago.
+    pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
+        let peak = f64::from(frame[0].abs().max(frame[1].abs()));
+        let minimum = self.slide(wanted(peak));
+        self.held = if minimum <= self.held {
+            minimum
+        } else {
+            self.held + ((minimum - self.held) as f64 * self.recovery) as u64
+        };
+        let delayed = std::mem::replace(&mut self.delay[self.at], frame);
+        self.sum = self.sum - self.gains[self.at] + self.held;
+        self.gains[self.at] = self.held;
+        self.at = (self.at + 1) % self.delay.len();
+        let gain = self.sum as f64 / (UNITY * self.gains.len() as u64) as f64;
+        delayed.map(|sample| {
+            let limit = CEILING as f32;
+            // The clamp only undoes the last bit of rounding.
+            ((f64::from(sample) * gain) as f32).clamp(-limit, limit)
+        })
+    }
+
+    /// Minimum of the last L + 1 wishes, this one included: those of a frame live until it has left the delay.
+    fn slide(&mut self, wish: u64) -> u64 {
+        let size = self.wedge.len();
+        while self.length > 0 && self.wedge[(self.front + self.length - 1) % size].0 >= wish {
+            self.length -= 1;
+        }
+        if self.length > 0 && self.wedge[self.front].1 + (size as u64) <= self.frame {
+            self.front = (self.front + 1) % size;
+            self.length -= 1;
+        }
+        self.wedge[(self.front + self.length) % size] = (wish, self.frame);
+        self.length += 1;
+        self.frame += 1;
+        self.wedge[self.front].0
+    }
+}
+
+/// The gain that a peak asks for.
+fn wanted(peak: f64) -> u64 {
+    if peak <= KNEE {
+        return UNITY;
+    }
+    let u = (peak - KNEE) / (CEILING - KNEE);
+    let level = KNEE + (CEILING - KNEE) * u / (1.0 + u);
+    (level / peak * UNITY as f64) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Random;
+
+    #[test]
+    fn no_sample_passes_the_ceiling_and_soft_ones_pass_untouched() {
+        let mut limiter = Limiter::new(48_000.0);
+        let latency = limiter.latency();
+        assert_eq!(latency, 72);
+        let soft: Vec<f32> = (0..1000).map(|i| 0.4 * libm::sinf(i as f32 * 0.1)).collect();
+        for (i, x) in soft.iter().enumerate() {
+            let [y, _] = limiter.process([*x, -x]);
+            if i >= latency {
+                assert_eq!(y, soft[i - latency]);
+            }
+        }
+        let mut random = Random::new(3);
+        let (mut peak, mut unclamped) = (0.0f32, 0.0f64);
+        for i in 0..200_000 {
+            // Bursts up to +40 dB between silences, edges included.
+            let loud = if random.unit() < 0.01 { 100.0 } else { 0.7 };
+            let x = (loud * random.signed()) as f32 * f32::from(u8::from(i % 5000 < 3000));
+            let delayed = limiter.delay[limiter.at][0];
+            let [y, _] = limiter.process([x, 0.5 * x]);
+            let gain = limiter.sum as f64 / (UNITY * limiter.gains.len() as u64) as f64;
+            unclamped = unclamped.max((f64::from(delayed) * gain).abs());
+            peak = peak.max(y.abs());
+        }
+        assert!(peak <= CEILING as f32, "{peak}");
+        // Without the clamp too: the look-ahead does the work.
+        assert!(unclamped <= CEILING * (1.0 + 1e-6), "{unclamped}");
+    }
+}

@@ -1,0 +1,200 @@
+//! Vibration modes of a free thin plate: their frequencies, and their shapes, so that the place of a hit is heard.
+//!
+//! Rayleigh-Ritz (Leissa, "Vibration of Plates", NASA SP-160, 1969): among all w(x, y) = Σ c_i f_i(x, y) the modes make
+//! the ratio of bending to kinetic energy stationary. With free edges every boundary condition is natural, so
+//! the f_i may be any complete set; here products of Legendre polynomials f = P_m(x/a) P_n(y/b), m + n ≤ [`DEGREE`].
+//!
+//! ```text
+//! K_ij = D ∫∫ f_i,xx f_j,xx + f_i,yy f_j,yy + ν (f_i,xx f_j,yy + f_i,yy f_j,xx) + 2 (1 − ν) f_i,xy f_j,xy dA
+//! M_ij = μ ∫∫ f_i f_j dA          K c = ω² M c
+//! D = E h³ / (12 (1 − ν²)) N m    μ = mass / area kg/m²
+//! ```
+//!
+//! The outline is the superellipse |x/a|^p + |y/b|^p = 1 with the body's own area: p = 2 is an ellipse, p → ∞ a
+//! rectangle. It is symmetric, so the modes fall into four classes by parity, each solved alone over one quadrant.
+//! Ritz frequencies are upper bounds; the lower half of each class is accurate (a test compares with published
+//! tables), the upper half is thrown away.
+
+use super::eigen::{Matrix, generalised};
+use super::{SoundBody, SoundMaterial};
+use crate::math::{PI, cos, pow};
+
+/// Largest total degree of the Ritz polynomials.
+pub const DEGREE: usize = 18;
+
+/// Values of the polynomials P_0 … P_DEGREE at one coordinate.
+pub(super) type Legendre = [f64; DEGREE + 1];
+
+/// One mode of vibration.
+#[derive(Clone, Debug)]
+pub struct PlateMode {
+    /// Hz.
+    pub frequency: f64,
+    /// Parity of the shape in x and in y: 0 even, 1 odd.
+    pub parity: [usize; 2],
+    /// Factors of P_m(x) P_n(y) in the order of [`terms`].
+    coefficients: Vec<f64>,
+}
+
+impl PlateMode {
+    /// Mass-normalised displacement at a place, 1/√kg, from the Legendre values of its two coordinates (−1…1).
+    pub(super) fn shape(&self, x: &Legendre, y: &Legendre) -> f64 {
+        terms(self.parity).zip(&self.coefficients).map(|((m, n), c)| c * x[m] * y[n]).sum()
+    }
+}
+
+/// Degrees (m, n) of the basis of one parity class.
+fn terms(parity: [usize; 2]) -> impl Iterator<Item = (usize, usize)> {
+    let [px, py] = parity;
+    (px..=DEGREE).step_by(2).flat_map(move |m| (py..=DEGREE - m).step_by(2).map(move |n| (m, n)))
+}
+
+/// The modes of a free plate in ascending order of frequency, rigid motions left out.
+/// Empty when a number is not positive and finite.
+pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<PlateMode> {
+    let [a, b] = body.half_extents;
+    let (h, nu) = (body.thickness, material.poisson);
+    let numbers = [a, b, h, body.area, body.mass, material.youngs_modulus];
+    if !numbers.iter().all(|v| v.is_finite() && *v > 0.0) || !(nu > -1.0 && nu <= 0.5) {
+        return Vec::new();
+    }
+    let rigidity = material.youngs_modulus * h * h * h / (12.0 * (1.0 - nu * nu));
+    let quadrature = Quadrature::new(superellipse_exponent(body.area / (4.0 * a * b)));
+    // The quadrature knows the outline's area only to its own rounding; the mass is the body's.
+    let mass_per_weight = body.mass / (4.0 * quadrature.points.iter().map(|p| p.weight).sum::<f64>());
+    let stiffness_per_weight = rigidity * a * b;
+    let mut modes = Vec::new();
+    for parity in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+        let basis: Vec<(usize, usize)> = terms(parity).collect();
+        let (mut k, mut m) = (Matrix::zero(basis.len()), Matrix::zero(basis.len()));
+        for point in &quadrature.points {
+            let (x, y) = (derivatives(point.x), derivatives(point.y));
+            // Per basis function: w, w,xx, w,yy, w,xy.
+            let values: Vec<[f64; 4]> = basis
+                .iter()
+                .map(|&(i, j)| {
+                    [
+                        x[0][i] * y[0][j],
+                        x[2][i] * y[0][j] / (a * a),
+                        x[0][i] * y[2][j] / (b * b),
+                        x[1][i] * y[1][j] / (a * b),
+                    ]
+                })
+                .collect();
+            let (wm, wk) = (4.0 * point.weight * mass_per_weight, 4.0 * point.weight * stiffness_per_weight);
+            for (i, f) in values.iter().enumerate() {
+                let moment =
+                    [wk * (f[1] + nu * f[2]), wk * (f[2] + nu * f[1]), wk * 2.0 * (1.0 - nu) * f[3], wm * f[0]];
+                for ((g, k), m) in values.iter().zip(&mut k.row_mut(i)[..=i]).zip(&mut m.row_mut(i)[..=i]) {
+                    *k += moment[0] * g[1] + moment[1] * g[2] + moment[2] * g[3];
+                    *m += moment[3] * g[0];
+                }
+            }
+        }
+        // Rigid motions: 1, x and y are the lowest of their classes; xy bends.
+        let rigid = usize::from(parity != [1, 1]);
+        let keep = basis.len() / 2;
+        let solved = generalised(&k, &m).unwrap_or_default();
+        modes.extend(solved.into_iter().skip(rigid).take(keep).map(|(omega2, coefficients)| PlateMode {
+            frequency: omega2.max(0.0).sqrt() / (2.0 * PI),
+            parity,
+            coefficients,
+        }));
+    }
+    modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    modes
+}
+
+/// The exponent p whose superellipse fills `fill` of its bounding rectangle; at least 1 (a rhombus), ∞ from 0.995 up.
+///
+/// Area / 4ab = Γ(1 + 1/p)² / Γ(1 + 2/p), increasing in p: bisection in 1/p.
+fn superellipse_exponent(fill: f64) -> f64 {
+    let fill_of = |inverse: f64| {
+        let g = libm::tgamma(1.0 + inverse);
+        g * g / libm::tgamma(1.0 + 2.0 * inverse)
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    if fill >= 0.995 {
+        return f64::INFINITY;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if fill_of(middle) > fill { low = middle } else { high = middle }
+    }
+    1.0 / high
+}
+
+/// A point of the quadrant with its weight.
+struct Point {
+    x: f64,
+    y: f64,
+    weight: f64,
+}
+
+/// Integration over the first quadrant of |x|^p + |y|^p ≤ 1.
+struct Quadrature {
+    points: Vec<Point>,
+}
+
+impl Quadrature {
+    /// Gauss-Legendre in y up to the rim; in x through x = 1 − (1 − t)², which makes the rim of an ellipse smooth.
+    fn new(p: f64) -> Self {
+        let (across, along) = (gauss_legendre(2 * DEGREE + 2), gauss_legendre(DEGREE + 2));
+        let mut points = Vec::with_capacity(across.len() * along.len());
+        for &(t, wt) in &across {
+            let x = 1.0 - (1.0 - t) * (1.0 - t);
+            let rim = if p.is_finite() { pow(1.0 - pow(x, p), 1.0 / p) } else { 1.0 };
+            for &(s, ws) in &along {
+                points.push(Point { x, y: s * rim, weight: wt * 2.0 * (1.0 - t) * ws * rim });
+            }
+        }
+        Self { points }
+    }
+}
+
+/// Nodes and weights on [0, 1], exact for polynomials of degree 2n − 1 (Newton's method on P_n).
+fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
+    let value_and_slope = |x: f64| {
+        let (mut before, mut value) = (1.0, x);
+        for k in 1..n {
+            let k = k as f64;
+            (before, value) = (value, ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0));
+        }
+        (value, n as f64 * (x * value - before) / (x * x - 1.0))
+    };
+    (0..n)
+        .map(|i| {
+            let mut x = cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
+            for _ in 0..8 {
+                let (value, slope) = value_and_slope(x);
+                x -= value / slope;
+            }
+            let slope = value_and_slope(x).1;
+            (0.5 * (x + 1.0), 1.0 / ((1.0 - x * x) * slope * slope))
+        })
+        .collect()
+}
+
+/// P_0 … P_DEGREE at `x`: (k + 1) P_{k+1} = (2k + 1) x P_k − k P_{k−1}.
+pub(super) fn legendre(x: f64) -> Legendre {
+    let mut p = [1.0; DEGREE + 1];
+    p[1] = x;
+    for k in 1..DEGREE {
+        let kf = k as f64;
+        p[k + 1] = ((2.0 * kf + 1.0) * x * p[k] - kf * p[k - 1]) / (kf + 1.0);
+    }
+    p
+}
+
+/// Values, slopes and second derivatives: P'_{k+1} = P'_{k−1} + (2k + 1) P_k, and its derivative.
+fn derivatives(x: f64) -> [Legendre; 3] {
+    let p = legendre(x);
+    let (mut d, mut dd) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+    d[1] = 1.0;
+    for k in 1..DEGREE {
+        let factor = 2.0 * k as f64 + 1.0;
+        d[k + 1] = d[k - 1] + factor * p[k];
+        dd[k + 1] = dd[k - 1] + factor * d[k];
+    }
+    [p, d, dd]
+}

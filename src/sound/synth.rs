@@ -1,0 +1,336 @@
+//! The synth: commands in, stereo out.
+//!
+//! Time is the sample counter [`Synth::position`]. A block is cut at commands and at the points of the control grid,
+//! so each hit starts on its own sample, and the output does not depend on how the caller cuts its blocks.
+//!
+//! Invariant: same rate, instruments, seed and commands → the same bits, in debug and release.
+//!
+//! Real-time: after [`Synth::new`] nothing allocates, frees, locks or calls the system, and the work per sample is
+//! bounded by [`MAX_VOICES`] + [`FADING_VOICES`] voices of [`MAX_PARTIALS`](super::timbre::MAX_PARTIALS) partials.
+
+use std::collections::VecDeque;
+
+use super::graph::{Block, CONTROL};
+use super::instrument::Instrument;
+use super::limiter::Limiter;
+use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
+use super::voice::{Voice, VoiceState};
+use super::{InstrumentSpec, SoundCommand, Strike, WindSound};
+use crate::math::{PI, exp, sincos};
+use crate::noise::hash_words;
+
+/// Most hits that ring at once. One more makes the quietest fade.
+pub const MAX_VOICES: usize = 48;
+/// Places for voices that are fading because others took over.
+pub const FADING_VOICES: usize = 16;
+/// Commands that can wait.
+pub const MAX_COMMANDS: usize = 1024;
+
+/// A voice that must make room fades in this time, s: short, yet no click.
+const STEAL_FADE: f64 = 0.003;
+/// [`SoundCommand::Silence`] takes this long, s.
+const SILENCE_FADE: f64 = 0.04;
+/// Time constant with which the sound of the wind follows its commands, s.
+const WIND_GLIDE: f64 = 0.05;
+/// A wind that dies away is over below this, m/s.
+const CALM: f64 = 1e-3;
+/// Nobody's ear comes nearer than this, m.
+const NEAREST: f32 = 0.1;
+
+/// Plays the instruments of one exhibit.
+pub struct Synth {
+    sample_rate: f64,
+    seed: u64,
+    instruments: Vec<Instrument>,
+    voices: Vec<Voice>,
+    winds: Vec<Voice>,
+    wind: Wind,
+    /// In the order of their times.
+    commands: VecDeque<SoundCommand>,
+    blocks: Box<[Block; MAX_NODES]>,
+    limiter: Limiter,
+    dry: bool,
+    position: u64,
+    strikes: u64,
+    faults: u64,
+    lost: u64,
+}
+
+/// The wind as commanded, and as it sounds now.
+#[derive(Default)]
+struct Wind {
+    target: WindSound,
+    speed: f64,
+    gust: f64,
+    pan: f64,
+}
+
+impl Synth {
+    /// A silent synth at sample 0.
+    ///
+    /// Solves the plates' modes, so it takes milliseconds per instrument; everything afterwards is real-time.
+    pub fn new(sample_rate: u32, instruments: &[InstrumentSpec], seed: u64) -> Result<Self, TimbreError> {
+        let mut compiled = Vec::with_capacity(instruments.len());
+        for spec in instruments {
+            compiled.push(Instrument::compile(spec)?);
+        }
+        Ok(Self::with_instruments(sample_rate, compiled, seed))
+    }
+
+    /// A synth of one instrument with a preset that need not be a shipped one.
+    pub fn with_preset(
+        sample_rate: u32,
+        preset: &Preset,
+        spec: &InstrumentSpec,
+        seed: u64,
+    ) -> Result<Self, TimbreError> {
+        Ok(Self::with_instruments(sample_rate, vec![Instrument::from_preset(preset, spec)?], seed))
+    }
+
+    fn with_instruments(sample_rate: u32, instruments: Vec<Instrument>, seed: u64) -> Self {
+        let sample_rate = f64::from(sample_rate.max(1));
+        let mut winds = Vec::new();
+        for (i, _) in instruments.iter().enumerate().filter(|(_, instrument)| instrument.continuous) {
+            let mut voice = Voice::new();
+            voice.instrument = i;
+            winds.push(voice);
+        }
+        Self {
+            sample_rate,
+            seed,
+            instruments,
+            voices: (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect(),
+            winds,
+            wind: Wind::default(),
+            commands: VecDeque::with_capacity(MAX_COMMANDS),
+            blocks: Box::new([[0.0; CONTROL]; MAX_NODES]),
+            limiter: Limiter::new(sample_rate),
+            dry: false,
+            position: 0,
+            strikes: 0,
+            faults: 0,
+            lost: 0,
+        }
+    }
+
+    /// Hz.
+    pub fn sample_rate(&self) -> u32 {
+        self.sample_rate as u32
+    }
+
+    /// Frames rendered so far: the synth's clock.
+    pub fn position(&self) -> u64 {
+        self.position
+    }
+
+    /// Frames by which the output comes after the synth's clock: the limiter's look-ahead, 0 when dry.
+    pub fn latency(&self) -> usize {
+        if self.dry { 0 } else { self.limiter.latency() }
+    }
+
+    /// Bypasses the limiter. To be called before the first sample: it changes the latency.
+    pub fn set_dry(&mut self, dry: bool) {
+        self.dry = dry;
+    }
+
+    /// Voices that sound now, the wind's included.
+    pub fn sounding(&self) -> usize {
+        self.voices.iter().chain(&self.winds).filter(|voice| voice.state != VoiceState::Free).count()
+    }
+
+    /// Partials that ring now.
+    pub fn partials(&self) -> usize {
+        self.voices.iter().map(|voice| voice.bank.count()).sum()
+    }
+
+    /// Commands and voices with bad numbers so far; they were left out.
+    pub fn faults(&self) -> u64 {
+        self.faults
+    }
+
+    /// Commands that found no room so far.
+    pub fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    /// Hertz contact time of a hit, s; `None` when there is no such instrument.
+    pub fn contact_time(&self, instrument: u16, mass: f64, speed: f64) -> Option<f64> {
+        self.instruments.get(usize::from(instrument)).map(|i| i.contact_time(mass, speed))
+    }
+
+    /// Takes a command for its own time; one whose time is over is carried out at once.
+    pub fn command(&mut self, command: SoundCommand) {
+        if !is_finite(&command) {
+            self.faults += 1;
+        } else if self.commands.len() == MAX_COMMANDS {
+            self.lost += 1;
+        } else {
+            // Commands come nearly in order: look for the place from the end. Equal times keep their order.
+            let time = command.sample();
+            let after = self.commands.iter().rposition(|c| c.sample() <= time).map_or(0, |i| i + 1);
+            self.commands.insert(after, command);
+        }
+    }
+
+    /// Renders interleaved stereo, left first; a last odd sample is left silent.
+    pub fn render(&mut self, out: &mut [f32]) {
+        let (mut left, mut right) = ([0.0f32; CONTROL], [0.0f32; CONTROL]);
+        let (mut frames, rest) = out.as_chunks_mut::<2>();
+        rest.fill(0.0);
+        while !frames.is_empty() {
+            let n = self.next_cut(frames.len());
+            let (now, later) = frames.split_at_mut(n);
+            let (left, right) = (&mut left[..n], &mut right[..n]);
+            left.fill(0.0);
+            right.fill(0.0);
+            self.mix(left, right);
+            for ((frame, l), r) in now.iter_mut().zip(left).zip(right) {
+                *frame = if self.dry { [*l, *r] } else { self.limiter.process([*l, *r]) };
+            }
+            self.position += n as u64;
+            frames = later;
+        }
+    }
+
+    /// Carries out what is due now and tells how many frames there are until the next thing is.
+    fn next_cut(&mut self, most: usize) -> usize {
+        while self.commands.front().is_some_and(|command| command.sample() <= self.position) {
+            if let Some(command) = self.commands.pop_front() {
+                self.carry_out(command);
+            }
+        }
+        let since_grid = (self.position % CONTROL as u64) as usize;
+        if since_grid == 0 {
+            self.grid_point();
+        }
+        let to_command = self.commands.front().map_or(u64::MAX, |command| command.sample() - self.position);
+        most.min(CONTROL - since_grid).min(usize::try_from(to_command).unwrap_or(usize::MAX))
+    }
+
+    fn carry_out(&mut self, command: SoundCommand) {
+        match command {
+            SoundCommand::Strike(strike) => self.strike(&strike),
+            SoundCommand::Wind(wind) => self.wind.target = wind,
+            SoundCommand::Silence { .. } => {
+                let samples = (SILENCE_FADE * self.sample_rate) as f32;
+                self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
+                self.wind.target.speed = 0.0;
+            }
+        }
+    }
+
+    fn strike(&mut self, strike: &Strike) {
+        let index = usize::from(strike.instrument);
+        let Some(instrument) = self.instruments.get(index).filter(|instrument| !instrument.continuous) else {
+            self.faults += 1;
+            return;
+        };
+        self.strikes += 1;
+        let most = instrument.max_voices;
+        self.make_room(most, |voice| voice.instrument == index);
+        self.make_room(MAX_VOICES, |_| true);
+        let Some(voice) = self.voices.iter_mut().find(|voice| voice.state == VoiceState::Free) else {
+            // Every place fades: more than FADING_VOICES hits in 3 ms. One hit less is not heard; a click would be.
+            self.lost += 1;
+            return;
+        };
+        let instrument = &self.instruments[index];
+        let [l, r] = equal_power(f64::from(strike.pan));
+        let gain = instrument.gain as f32 / strike.distance.max(NEAREST);
+        let seed = hash_words(&[self.seed, self.strikes]);
+        voice.begin(index, [l * gain, r * gain]);
+        voice.inputs = instrument.inputs(strike);
+        let time = self.position as f64 / self.sample_rate;
+        instrument.graph.begin(&mut voice.operators, &voice.inputs, seed, time, self.sample_rate);
+        instrument.excite(&mut voice.bank, &voice.inputs, seed, self.sample_rate);
+    }
+
+    /// Lets the quietest of these voices fade until there is room for one more among `most`.
+    fn make_room(&mut self, most: usize, among: impl Fn(&Voice) -> bool) {
+        let samples = (STEAL_FADE * self.sample_rate) as f32;
+        let sounding = |voice: &Voice| voice.state == VoiceState::Sounding && among(voice);
+        if self.voices.iter().filter(|voice| sounding(voice)).count() < most {
+            return;
+        }
+        let quietest =
+            self.voices.iter_mut().filter(|voice| sounding(voice)).min_by(|a, b| a.loudness().total_cmp(&b.loudness()));
+        if let Some(voice) = quietest {
+            voice.fade_out(samples);
+        }
+    }
+
+    /// A point of the control grid.
+    fn grid_point(&mut self) {
+        let time = self.position as f64 / self.sample_rate;
+        for voice in self.voices.iter_mut().filter(|voice| voice.state != VoiceState::Free) {
+            voice.grid_point();
+            let graph = &self.instruments[voice.instrument].graph;
+            graph.control(&mut voice.operators, &voice.inputs, time, self.sample_rate);
+        }
+        let calm_before = self.wind.speed == 0.0;
+        self.wind.glide(1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate)));
+        let inputs = Inputs { wind_speed: self.wind.speed, gust: self.wind.gust, ..Inputs::default() };
+        let pan = equal_power(self.wind.pan);
+        for voice in &mut self.winds {
+            let instrument = &self.instruments[voice.instrument];
+            let gains = pan.map(|side| side * instrument.gain as f32);
+            match (voice.state, self.wind.speed == 0.0) {
+                (VoiceState::Free, true) => continue,
+                (VoiceState::Free, false) => {
+                    voice.begin(voice.instrument, gains);
+                    let calm = Inputs::default();
+                    let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
+                    instrument.graph.begin(&mut voice.operators, &calm, seed, time, self.sample_rate);
+                }
+                // The levels had one grid interval to reach their value in still air.
+                (_, true) if calm_before => {
+                    voice.state = VoiceState::Free;
+                    continue;
+                }
+                _ => {}
+            }
+            voice.gains = gains;
+            voice.inputs = inputs;
+            instrument.graph.control(&mut voice.operators, &voice.inputs, time, self.sample_rate);
+        }
+    }
+
+    fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
+        for voice in self.voices.iter_mut().chain(&mut self.winds).filter(|voice| voice.state != VoiceState::Free) {
+            let instrument = &self.instruments[voice.instrument];
+            if !voice.mix(instrument, &mut self.blocks, left, right) {
+                self.faults += 1;
+            }
+        }
+    }
+}
+
+impl Wind {
+    /// One step of a one-pole glide towards the commanded wind.
+    fn glide(&mut self, share: f64) {
+        let target = f64::from(self.target.speed).max(0.0);
+        self.speed += (target - self.speed) * share;
+        self.gust += (f64::from(self.target.gust) - self.gust) * share;
+        self.pan += (f64::from(self.target.pan) - self.pan) * share;
+        if target == 0.0 && self.speed < CALM {
+            self.speed = 0.0;
+        }
+    }
+}
+
+/// Left and right with l² + r² = 1 for a pan of −1…1.
+fn equal_power(pan: f64) -> [f32; 2] {
+    let (s, c) = sincos((pan.clamp(-1.0, 1.0) + 1.0) * PI / 4.0);
+    [c as f32, s as f32]
+}
+
+fn is_finite(command: &SoundCommand) -> bool {
+    match command {
+        SoundCommand::Strike(s) => {
+            [s.impulse, s.speed, s.mass, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
+                && s.impulse >= 0.0
+        }
+        SoundCommand::Wind(w) => w.speed.is_finite() && w.gust.is_finite() && w.pan.is_finite(),
+        SoundCommand::Silence { .. } => true,
+    }
+}

@@ -1,0 +1,121 @@
+//! One voice: one hit of one instrument ringing out, or one instrument that the wind plays.
+
+use super::bank::Bank;
+use super::graph::{Block, State};
+use super::instrument::Instrument;
+use super::timbre::{Inputs, MAX_NODES};
+
+/// Below this a voice is silent: −100 dB of full scale.
+const INAUDIBLE: f32 = 1e-5;
+/// Grid points of silence after which a voice is over.
+const QUIET_GRID_POINTS: u32 = 4;
+/// A voice beyond this is broken, not loud.
+const BROKEN: f32 = 1000.0;
+
+pub(super) struct Voice {
+    pub state: VoiceState,
+    pub instrument: usize,
+    pub inputs: Inputs,
+    pub bank: Bank,
+    pub operators: [State; MAX_NODES],
+    /// Left and right, distance included.
+    pub gains: [f32; 2],
+    /// Multiplies the voice; falls while it fades.
+    fade: f32,
+    fade_step: f32,
+    /// Largest sample since the last grid point, and between the two before.
+    peak: f32,
+    last_peak: f32,
+    quiet: u32,
+}
+
+/// Whether a voice sounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum VoiceState {
+    Free,
+    Sounding,
+    Fading,
+}
+
+impl Voice {
+    pub fn new() -> Self {
+        Self {
+            state: VoiceState::Free,
+            instrument: 0,
+            inputs: Inputs::default(),
+            bank: Bank::new(),
+            operators: std::array::from_fn(|_| State::new(0)),
+            gains: [0.0; 2],
+            fade: 1.0,
+            fade_step: 0.0,
+            peak: 0.0,
+            last_peak: 0.0,
+            quiet: 0,
+        }
+    }
+
+    /// Takes up its place; the caller fills in inputs, bank and operators.
+    pub fn begin(&mut self, instrument: usize, gains: [f32; 2]) {
+        self.state = VoiceState::Sounding;
+        (self.instrument, self.gains) = (instrument, gains);
+        (self.fade, self.fade_step) = (1.0, 0.0);
+        (self.peak, self.last_peak, self.quiet) = (0.0, 0.0, 0);
+        self.bank.clear();
+    }
+
+    /// Falls to silence in `samples` and is free then.
+    pub fn fade_out(&mut self, samples: f32) {
+        if self.state == VoiceState::Sounding {
+            self.state = VoiceState::Fading;
+            self.fade_step = -1.0 / samples;
+        }
+    }
+
+    /// How loud it is now, to choose the quietest.
+    pub fn loudness(&self) -> f32 {
+        let gain = self.gains[0].max(self.gains[1]) * self.fade;
+        gain * (self.bank.energy().sqrt() as f32).max(self.peak).max(self.last_peak)
+    }
+
+    /// A grid point: is it over?
+    pub fn grid_point(&mut self) {
+        let silent = self.bank.count() == 0 && self.peak < INAUDIBLE;
+        self.quiet = if silent { self.quiet + 1 } else { 0 };
+        if self.quiet > QUIET_GRID_POINTS {
+            self.state = VoiceState::Free;
+        }
+        self.last_peak = std::mem::take(&mut self.peak);
+    }
+
+    /// Adds `n` samples to the mix. `false`: bad numbers were found, nothing was added and the voice is free.
+    #[must_use]
+    pub fn mix(
+        &mut self,
+        instrument: &Instrument,
+        blocks: &mut [Block; MAX_NODES],
+        left: &mut [f32],
+        right: &mut [f32],
+    ) -> bool {
+        let out = instrument.graph.render(&mut self.operators, &mut self.bank, blocks, left.len());
+        let mut peak = 0.0f32;
+        for sample in out.iter() {
+            // A comparison that NaN fails.
+            if !(sample.abs() < BROKEN) {
+                self.state = VoiceState::Free;
+                return false;
+            }
+            peak = peak.max(sample.abs());
+        }
+        self.peak = self.peak.max(peak);
+        for ((sample, l), r) in out.iter().zip(left).zip(right) {
+            let faded = sample * self.fade;
+            *l += faded * self.gains[0];
+            *r += faded * self.gains[1];
+            self.fade = (self.fade + self.fade_step).max(0.0);
+        }
+        if self.fade == 0.0 {
+            self.state = VoiceState::Free;
+        }
+        true
+    }
+}

@@ -1,0 +1,182 @@
+//! What the microphone hears of the kiosk itself: predicted from what the loudspeaker played, then taken away.
+//!
+//! The path from loudspeaker to microphone is unknown: a delay of up to half a second (sound card, room), a gain per
+//! band, reverberation. It is learnt from power envelopes alone, which no phase or clock drift can upset. For band b
+//! and lag d, over a leaky memory of a few seconds, with x the played and y the heard power:
+//!
+//! ```text
+//! c(b, d) = cov(x_d, y) / var(x_d)       regression: noise that is independent of x does not bias it
+//! ρ(d)    = Σ_b cov(x_d, y) / √(Σ_b var x_d · var y), bands scaled alike     the lag is where ρ is greatest
+//! ŷ_k(t)  = margin · c(b) · max_{|δ| ≤ 24 ms} x_k(t − d − δ), falling no faster than the room rings
+//! ```
+//!
+//! Three rules keep a breath from being mistaken for the kiosk's answer to it, which follows it and looks like it:
+//! nothing is learnt while somebody blows; a loudspeaker is never credited with coupling better below 200 Hz than
+//! above; and sustained output that is *not* heard lowers the gain (c ≤ heard / least played over all lags).
+
+use super::spectrum::{BINS, FRAME_S, Power, band};
+
+/// Longest lag, frames (0.6 s).
+const LAGS: usize = 75;
+/// Band limits, bins of 15.6 Hz: 31, 203, 406, 812, 1625, 3400 Hz.
+const EDGES: [usize; BANDS + 1] = [2, 13, 26, 52, 104, 218];
+const BANDS: usize = 5;
+/// Half width of the window about the lag, frames.
+const SLACK: usize = 3;
+/// Power above the prediction that still counts as own: frames of noise scatter by this much (6 dB).
+const MARGIN: f64 = 4.0;
+/// The room keeps at least this part of the power from frame to frame (reverberation time 0.6 s).
+const RING: f64 = 0.83;
+/// Memory of the regression, s.
+const MEMORY_S: f64 = 3.0;
+/// Correlation of envelopes from which a lag is believed.
+const BELIEVED: f64 = 0.5;
+/// Output below this power (−70 dBFS) cannot be told from silence.
+const AUDIBLE: f64 = 1e-7;
+/// Highest coupling: the microphone may be this much more sensitive than full scale out suggests (12 dB).
+const LOUDEST: f64 = 16.0;
+
+/// Leaky first and second moments of one band at one lag.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    x: f64,
+    xx: f64,
+    xy: f64,
+}
+
+/// Learns the path from loudspeaker to microphone and predicts what comes back.
+#[derive(Clone, Debug)]
+pub struct OwnVoice {
+    /// Spectra that were played, a ring over the last `LAGS` frames.
+    played: Vec<[f32; BINS]>,
+    /// Their band powers.
+    played_bands: [[f64; BANDS]; LAGS],
+    next: usize,
+    moments: [[Moments; BANDS]; LAGS],
+    heard: [f64; BANDS],
+    heard_square: [f64; BANDS],
+    /// Learnt power gain per band; 1 until something is learnt.
+    coupling: [f64; BANDS],
+    lag: Option<usize>,
+    /// Power of the kiosk's own sound at the microphone, margin included.
+    pub predicted: Power,
+    /// Frames until the last output has left the window: 0 means that the kiosk has long been silent.
+    audible: usize,
+}
+
+impl OwnVoice {
+    /// Nothing learnt.
+    pub fn new() -> Self {
+        Self {
+            played: vec![[0.0; BINS]; LAGS],
+            played_bands: [[0.0; BANDS]; LAGS],
+            next: 0,
+            moments: [[Moments::default(); BANDS]; LAGS],
+            heard: [0.0; BANDS],
+            heard_square: [0.0; BANDS],
+            coupling: [1.0; BANDS],
+            lag: None,
+            predicted: [0.0; BINS],
+            audible: 0,
+        }
+    }
+
+    /// Takes one frame of both spectra; `learn` is false while somebody blows. Updates [`Self::predicted`].
+    pub fn push(&mut self, microphone: &Power, own: &Power, learn: bool) {
+        self.audible =
+            if band(own, EDGES[0], EDGES[BANDS]) > AUDIBLE { 4 * LAGS } else { self.audible.saturating_sub(1) };
+        if self.audible == 0 {
+            self.predicted = [0.0; BINS];
+            return;
+        }
+        self.next = (self.next + 1) % LAGS;
+        self.played[self.next] = std::array::from_fn(|k| own[k] as f32);
+        self.played_bands[self.next] = bands(own);
+        if learn {
+            self.learn(&bands(microphone));
+        }
+        self.predict();
+    }
+
+    /// Does the prediction cover a part of the low band that would spoil the picture of the room?
+    pub fn masks(&self, microphone: &Power) -> bool {
+        band(&self.predicted, EDGES[0], EDGES[1]) > 0.1 * band(microphone, EDGES[0], EDGES[1])
+    }
+
+    /// Index into the rings of what was played `lag` frames ago.
+    fn at(&self, lag: usize) -> usize {
+        (self.next + LAGS - lag) % LAGS
+    }
+
+    fn learn(&mut self, heard: &[f64; BANDS]) {
+        let blend = FRAME_S / MEMORY_S;
+        for b in 0..BANDS {
+            self.heard[b] += blend * (heard[b] - self.heard[b]);
+            self.heard_square[b] += blend * (heard[b] * heard[b] - self.heard_square[b]);
+        }
+        let (mut best, mut best_correlation) = (0, 0.0);
+        for lag in 0..LAGS {
+            let played = self.played_bands[self.at(lag)];
+            let (mut together, mut loudness) = (0.0, 0.0);
+            for b in 0..BANDS {
+                let (m, x) = (&mut self.moments[lag][b], played[b]);
+                m.x += blend * (x - m.x);
+                m.xx += blend * (x * x - m.xx);
+                m.xy += blend * (x * heard[b] - m.xy);
+                let variance_x = m.xx - m.x * m.x;
+                let variance_y = self.heard_square[b] - self.heard[b] * self.heard[b];
+                // Bands weigh by what they carry at both ends, so that an unused band says nothing.
+                let scale = (variance_x * variance_y).max(0.0).sqrt();
+                together += m.xy - m.x * self.heard[b];
+                loudness += scale;
+            }
+            let correlation = together / loudness.max(AUDIBLE * AUDIBLE);
+            if correlation > best_correlation {
+                (best, best_correlation) = (lag, correlation);
+            }
+        }
+        if best_correlation > BELIEVED {
+            self.lag = Some(best);
+            for b in 0..BANDS {
+                let m = self.moments[best][b];
+                let variance = m.xx - m.x * m.x;
+                if variance > AUDIBLE * AUDIBLE {
+                    let slope = ((m.xy - m.x * self.heard[b]) / variance).clamp(0.0, LOUDEST);
+                    self.coupling[b] += FRAME_S / 0.5 * (slope - self.coupling[b]);
+                }
+            }
+        }
+        for b in 0..BANDS {
+            let least = self.played_bands.iter().map(|p| p[b]).fold(f64::INFINITY, f64::min);
+            let bound = heard[b] / least.max(AUDIBLE);
+            if least > AUDIBLE && bound < self.coupling[b] {
+                self.coupling[b] += FRAME_S / 0.2 * (bound - self.coupling[b]);
+            }
+        }
+    }
+
+    fn predict(&mut self) {
+        let lags = match self.lag {
+            Some(lag) => lag.saturating_sub(SLACK)..(lag + SLACK + 1).min(LAGS),
+            None => 0..LAGS,
+        };
+        let above = self.coupling[1..].iter().fold(0.0, |m: f64, c| m.max(*c));
+        self.predicted.iter_mut().for_each(|p| *p *= RING);
+        for lag in lags {
+            let played = &self.played[self.at(lag)];
+            for b in 0..BANDS {
+                let coupling = if b == 0 { self.coupling[0].min(above) } else { self.coupling[b] };
+                // The outermost bands reach to the ends of the spectrum.
+                let low = if b == 0 { 0 } else { EDGES[b] };
+                let high = if b + 1 == BANDS { BINS } else { EDGES[b + 1] };
+                for (p, x) in self.predicted[low..high].iter_mut().zip(&played[low..high]) {
+                    *p = p.max(MARGIN * coupling * f64::from(*x));
+                }
+            }
+        }
+    }
+}
+
+fn bands(power: &Power) -> [f64; BANDS] {
+    std::array::from_fn(|b| band(power, EDGES[b], EDGES[b + 1]))
+}

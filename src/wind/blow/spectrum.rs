@@ -1,0 +1,109 @@
+//! Power spectra of the microphone and of the kiosk's own output, frame by frame.
+//!
+//! A frame is the last 48 ms at 8 kHz under a Hann window, taken every 8 ms. Two real signals share one complex
+//! transform: with z = x + i r,
+//!
+//! ```text
+//! X_k = (Z_k + Z*_{N−k}) / 2,      R_k = (Z_k − Z*_{N−k}) / (2 i)
+//! ```
+//!
+//! Powers are one-sided and scaled so that their sum is the mean square of the frame (Parseval):
+//! P_k = 2 |X_k|² / (N Σ w²), full scale ±1.
+//!
+//! The transform is planned once with the scalar kernels: vector kernels differ between processors in the last bit.
+
+use std::sync::Arc;
+
+use rustfft::{Fft, FftPlannerScalar, num_complex::Complex};
+
+use super::resample::INTERNAL_RATE;
+use crate::math::{PI, cos};
+
+/// Length of a frame, internal samples (48 ms: three periods of the lowest voice).
+const WINDOW: usize = 384;
+/// Internal samples between frames (8 ms).
+const HOP: usize = 64;
+/// Length of the transform.
+pub const TRANSFORM: usize = 512;
+/// Bins of a power spectrum; bin k lies at k · 15.625 Hz.
+pub const BINS: usize = TRANSFORM / 2;
+/// Time between frames, s.
+pub const FRAME_S: f64 = HOP as f64 / INTERNAL_RATE as f64;
+
+/// A one-sided power spectrum.
+pub type Power = [f64; BINS];
+
+/// Cuts both signals into frames and transforms them.
+#[derive(Clone)]
+pub struct Framer {
+    transform: Arc<dyn Fft<f64>>,
+    window: [f64; WINDOW],
+    /// The last `WINDOW` samples of (microphone, own output), a ring.
+    ring: [Complex<f64>; WINDOW],
+    next: usize,
+    until_frame: usize,
+    buffer: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    scale: f64,
+    /// Spectrum of the microphone in the last frame.
+    pub microphone: Power,
+    /// Spectrum of the kiosk's own output in the last frame.
+    pub own: Power,
+}
+
+impl std::fmt::Debug for Framer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Framer").field("until_frame", &self.until_frame).finish_non_exhaustive()
+    }
+}
+
+impl Framer {
+    /// Plans the transform.
+    pub fn new() -> Self {
+        let transform = FftPlannerScalar::new().plan_fft_forward(TRANSFORM);
+        let window: [f64; WINDOW] =
+            std::array::from_fn(|i| 0.5 - 0.5 * cos(2.0 * PI * (i as f64 + 0.5) / WINDOW as f64));
+        let scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
+        let energy: f64 = window.iter().map(|w| w * w).sum();
+        Self {
+            transform,
+            window,
+            ring: [Complex::default(); WINDOW],
+            next: 0,
+            until_frame: HOP,
+            buffer: vec![Complex::default(); TRANSFORM],
+            scratch,
+            scale: 2.0 / (TRANSFORM as f64 * energy),
+            microphone: [0.0; BINS],
+            own: [0.0; BINS],
+        }
+    }
+
+    /// Takes one internal sample of both signals; true where a new frame is ready.
+    pub fn push(&mut self, microphone: f64, own: f64) -> bool {
+        self.ring[self.next] = Complex::new(microphone, own);
+        self.next = (self.next + 1) % WINDOW;
+        self.until_frame -= 1;
+        if self.until_frame > 0 {
+            return false;
+        }
+        self.until_frame = HOP;
+        let (newer, older) = self.ring.split_at(self.next);
+        for ((z, x), w) in self.buffer.iter_mut().zip(older.iter().chain(newer)).zip(&self.window) {
+            *z = x * w;
+        }
+        self.buffer[WINDOW..].fill(Complex::default());
+        self.transform.process_with_scratch(&mut self.buffer, &mut self.scratch);
+        for k in 1..BINS {
+            let (z, mirror) = (self.buffer[k], self.buffer[TRANSFORM - k].conj());
+            self.microphone[k] = 0.25 * self.scale * (z + mirror).norm_sqr();
+            self.own[k] = 0.25 * self.scale * (z - mirror).norm_sqr();
+        }
+        true
+    }
+}
+
+/// Sum of the powers in the bins `low..high`.
+pub fn band(power: &Power, low: usize, high: usize) -> f64 {
+    power[low..high].iter().sum()
+}

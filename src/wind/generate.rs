@@ -1,0 +1,267 @@
+//! Synthetic breaths and noises as a microphone hears them: for tests, for training, and for recordings of the
+//! kiosk's own that attract mode plays. Deterministic: the same seed gives the same samples at a rate.
+//!
+//! A breath that strikes a capsule is heard as two noises (Wuttke, "Microphones and Wind", JAES 1992; Morgan and
+//! Raspet 1992; jet noise after Lighthill):
+//!
+//! ```text
+//! U(t)   = U₀ · e(t) · (1 + g(t))        speed at the lips: envelope e, gusts g (22 % rms, below 14 Hz)
+//! p_turb ~ near · U² · n_low             turbulence at the port: flat below f₁, −12 dB/octave above
+//! p_jet  ~ U^2.5 · n_hiss / (1 + d/25 cm)   hiss of the jet, 0.4–6 kHz
+//! f₁     = 40 Hz + 100 Hz · U₀/17        near = 1 / (1 + (d / 14 cm)²): how much of the stream arrives
+//! ```
+//!
+//! then the microphone: its high-pass corner, its noise, and soft saturation at full scale.
+
+use crate::math::{PI, cos, exp, from_decibels, ln, pow, sin, tanh};
+use crate::noise::{Random, hash_words};
+
+/// Speed of the hardest blow, m/s; `strength` is relative to it.
+pub const HARDEST_M_S: f64 = 17.0;
+
+/// One breath before a microphone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BreathShape {
+    /// Quiet before the breath, s.
+    pub lead_in: f64,
+    /// Speed at the lips at its height, m/s (gentle 3.8, normal 8.9, strong 13.3, hard 17).
+    pub strength: f64,
+    /// From nothing to the height, s.
+    pub attack: f64,
+    /// At the height (falling by a quarter, as lungs do), s.
+    pub hold: f64,
+    /// From there to nothing, s.
+    pub release: f64,
+    /// Quiet after the breath, s.
+    pub lead_out: f64,
+    /// Lips to microphone, m.
+    pub distance: f64,
+    /// High-pass corner of the microphone, Hz (20 a bare capsule, 60 a USB gooseneck, 100 a laptop).
+    pub corner_hz: f64,
+    /// Noise of room and microphone, dB of full scale (RMS).
+    pub noise_dbfs: f64,
+}
+
+impl Default for BreathShape {
+    fn default() -> Self {
+        Self {
+            lead_in: 1.0,
+            strength: 8.9,
+            attack: 0.12,
+            hold: 1.2,
+            release: 0.3,
+            lead_out: 1.0,
+            distance: 0.1,
+            corner_hz: 60.0,
+            noise_dbfs: -62.0,
+        }
+    }
+}
+
+impl BreathShape {
+    /// Length of the recording, s.
+    pub fn duration(&self) -> f64 {
+        self.lead_in + self.attack + self.hold + self.release + self.lead_out
+    }
+
+    /// When the air starts and when it has stopped, s.
+    pub fn span(&self) -> (f64, f64) {
+        (self.lead_in, self.lead_in + self.attack + self.hold + self.release)
+    }
+
+    /// e(t), 0 … 1: sin² up, a slow fall to three quarters, exponential down.
+    pub fn envelope(&self, time: f64) -> f64 {
+        let t = time - self.lead_in;
+        let (hold_end, end) = (self.attack + self.hold, self.attack + self.hold + self.release);
+        if t < 0.0 || t >= end {
+            0.0
+        } else if t < self.attack {
+            let s = sin(0.5 * PI * t / self.attack);
+            s * s
+        } else if t < hold_end {
+            1.0 - 0.25 * (t - self.attack) / self.hold
+        } else {
+            0.75 * exp(-4.0 * (t - hold_end) / self.release) * (end - t) / self.release
+        }
+    }
+}
+
+/// A recording of one breath, mono, full scale ±1.
+pub fn breath(sample_rate: u32, seed: u64, shape: &BreathShape) -> Vec<f32> {
+    let rate = f64::from(sample_rate);
+    let count = (shape.duration() * rate).round().max(0.0) as usize;
+    let force = shape.strength / HARDEST_M_S;
+    let stream = |name: u64| Random::new(hash_words(&[seed, name]));
+    let gust = normalised(low_passed(gaussian(count, &mut stream(1)), rate, 5.0, 2));
+    let turbulence = normalised(low_passed(gaussian(count, &mut stream(2)), rate, 40.0 + 100.0 * force, 2));
+    let patches = normalised(low_passed(gaussian(count, &mut stream(3)), rate, 12.0, 1));
+    let hiss = low_passed(high_passed(gaussian(count, &mut stream(4)), rate, 400.0, 2), rate, 1800.0, 1);
+    let hiss = normalised(low_passed(hiss, rate, 6000.0, 1));
+    let room = normalised(low_passed(gaussian(count, &mut stream(5)), rate, 1500.0, 1));
+
+    let distance_cm = 100.0 * shape.distance;
+    let near = 1.0 / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
+    let far = 1.0 / (1.0 + distance_cm / 25.0);
+    let air = (0..count).map(|i| {
+        let speed = (force * shape.envelope(i as f64 / rate) * (1.0 + 0.22 * gust[i])).max(0.0);
+        let turbulent = 1.6 * near * speed * speed * (0.6 + 0.4 * patches[i].abs()) * turbulence[i];
+        turbulent + 0.09 * far * pow(speed, 2.5) * hiss[i]
+    });
+    let heard = high_passed(air.collect(), rate, shape.corner_hz, 2);
+    let noise = from_decibels(shape.noise_dbfs);
+    heard.iter().zip(&room).map(|(x, n)| tanh(x + noise * n) as f32).collect()
+}
+
+/// White noise of the given level, dB of full scale (RMS).
+pub fn white_noise(sample_rate: u32, seed: u64, seconds: f64, dbfs: f64) -> Vec<f32> {
+    scaled(gaussian(length(sample_rate, seconds), &mut Random::new(seed)), dbfs)
+}
+
+/// Noise that falls by 3 dB an octave, of the given level, dB of full scale (RMS).
+pub fn pink_noise(sample_rate: u32, seed: u64, seconds: f64, dbfs: f64) -> Vec<f32> {
+    let (count, rate) = (length(sample_rate, seconds), f64::from(sample_rate));
+    // Low-passed noises a factor of four apart; each is √4 stronger per hertz than the next.
+    let mut sum = vec![0.0; count];
+    for stage in 0..6_u32 {
+        let corner = 10.0 * f64::from(1_u32 << (2 * stage));
+        let layer = gaussian(count, &mut Random::new(hash_words(&[seed, u64::from(stage)])));
+        for (s, x) in sum.iter_mut().zip(normalised(low_passed(layer, rate, corner.min(0.4 * rate), 1))) {
+            *s += x;
+        }
+    }
+    scaled(sum, dbfs)
+}
+
+/// Mains hum: a fundamental (Hz) and its odd harmonics, of the given level, dB of full scale (RMS).
+pub fn hum(sample_rate: u32, seconds: f64, fundamental_hz: f64, dbfs: f64) -> Vec<f32> {
+    let tone = |i: usize| {
+        let angle = 2.0 * PI * fundamental_hz * i as f64 / f64::from(sample_rate);
+        sin(angle) + 0.4 * sin(3.0 * angle) + 0.2 * sin(5.0 * angle)
+    };
+    scaled((0..length(sample_rate, seconds)).map(tone).collect(), dbfs)
+}
+
+/// A voice on vowels: a wandering pitch about `pitch_hz`, three formants, three syllables a second.
+pub fn voice(sample_rate: u32, seed: u64, seconds: f64, pitch_hz: f64, dbfs: f64) -> Vec<f32> {
+    let rate = f64::from(sample_rate);
+    let mut angle = 0.0;
+    let mut pulses = Vec::with_capacity(length(sample_rate, seconds));
+    for i in 0..length(sample_rate, seconds) {
+        let time = i as f64 / rate;
+        let syllable = sin(PI * 3.0 * time);
+        let pitch = pitch_hz * (1.0 + 0.12 * crate::noise::perlin1(2.0 * time, seed));
+        angle += 2.0 * PI * pitch / rate;
+        // A band-limited glottal pulse train: exp(a (cos θ − 1)) has all harmonics, falling smoothly.
+        pulses.push(syllable * syllable * (exp(12.0 * (cos(angle) - 1.0)) - 0.2));
+    }
+    let mut out = vec![0.0; pulses.len()];
+    for (formant, gain) in [(650.0, 1.0), (1200.0, 0.5), (2600.0, 0.25)] {
+        for (o, x) in out.iter_mut().zip(resonance(&pulses, rate, formant, 90.0)) {
+            *o += gain * x;
+        }
+    }
+    scaled(out, dbfs)
+}
+
+/// Knocks on the table that carries the microphone: damped 30–90 Hz, with a click, at the given times (s).
+pub fn knocks(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64) -> Vec<f32> {
+    let rate = f64::from(sample_rate);
+    let mut random = Random::new(seed);
+    let mut out = vec![0.0; length(sample_rate, seconds)];
+    for &start in times {
+        let (pitch, decay) = (random.range(30.0, 90.0), random.range(0.03, 0.12));
+        for (i, o) in out.iter_mut().enumerate().skip((start * rate) as usize) {
+            let t = i as f64 / rate - start;
+            *o += peak * (sin(2.0 * PI * pitch * t) * exp(-t / decay) + 0.3 * random.signed() * exp(-t / 0.004));
+        }
+    }
+    out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
+}
+
+/// Puffs of p and b: 25–70 ms of low noise at the given times (s).
+pub fn plosives(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64) -> Vec<f32> {
+    let rate = f64::from(sample_rate);
+    let mut random = Random::new(seed);
+    let mut out = vec![0.0; length(sample_rate, seconds)];
+    for &start in times {
+        let count = (random.range(0.025, 0.07) * rate) as usize;
+        let puff = low_passed(gaussian(4 * count, &mut random), rate, 90.0, 2);
+        let puff = &puff[3 * count..];
+        let top = puff.iter().fold(1e-12, |m: f64, x| m.max(x.abs()));
+        for (i, (o, x)) in out.iter_mut().skip((start * rate) as usize).zip(puff).enumerate() {
+            let hann = 0.5 - 0.5 * cos(2.0 * PI * i as f64 / count as f64);
+            *o += peak * hann * x / top;
+        }
+    }
+    out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
+}
+
+/// Adds `other` to `samples`, sample by sample, as far as both reach.
+pub fn mix(samples: &mut [f32], other: &[f32]) {
+    samples.iter_mut().zip(other).for_each(|(a, b)| *a += b);
+}
+
+fn length(sample_rate: u32, seconds: f64) -> usize {
+    (f64::from(sample_rate) * seconds).round().max(0.0) as usize
+}
+
+/// Normal deviates of unit variance (Box and Muller 1958).
+fn gaussian(count: usize, random: &mut Random) -> Vec<f64> {
+    (0..count).map(|_| (-2.0 * ln(1.0 - random.unit())).sqrt() * cos(2.0 * PI * random.unit())).collect()
+}
+
+/// `order` one-pole low passes in a row, −6 dB an octave each above `corner_hz`.
+fn low_passed(mut samples: Vec<f64>, rate: f64, corner_hz: f64, order: usize) -> Vec<f64> {
+    let keep = exp(-2.0 * PI * corner_hz / rate);
+    for _ in 0..order {
+        let mut state = 0.0;
+        for x in &mut samples {
+            state = *x + keep * (state - *x);
+            *x = state;
+        }
+    }
+    samples
+}
+
+/// `order` one-pole high passes in a row.
+fn high_passed(mut samples: Vec<f64>, rate: f64, corner_hz: f64, order: usize) -> Vec<f64> {
+    let keep = exp(-2.0 * PI * corner_hz / rate);
+    for _ in 0..order {
+        let mut low = 0.0;
+        for x in &mut samples {
+            low = *x + keep * (low - *x);
+            *x -= low;
+        }
+    }
+    samples
+}
+
+/// A two-pole resonance at `centre_hz` of the given bandwidth, unit gain at its peak (nearly).
+fn resonance(samples: &[f64], rate: f64, centre_hz: f64, bandwidth_hz: f64) -> Vec<f64> {
+    let radius = exp(-PI * bandwidth_hz / rate);
+    let (a, b) = (2.0 * radius * cos(2.0 * PI * centre_hz / rate), radius * radius);
+    let gain = (1.0 - radius) * (1.0 - a + b).abs().sqrt().max(1e-3);
+    let (mut y1, mut y2) = (0.0, 0.0);
+    samples
+        .iter()
+        .map(|x| {
+            let y = gain * x + a * y1 - b * y2;
+            (y2, y1) = (y1, y);
+            y
+        })
+        .collect()
+}
+
+/// Scaled to unit RMS.
+fn normalised(mut samples: Vec<f64>) -> Vec<f64> {
+    let square: f64 = samples.iter().map(|x| x * x).sum();
+    let scale = 1.0 / (square / samples.len().max(1) as f64).sqrt().max(1e-12);
+    samples.iter_mut().for_each(|x| *x *= scale);
+    samples
+}
+
+/// Scaled to a level in dB of full scale (RMS), cut at full scale.
+fn scaled(samples: Vec<f64>, dbfs: f64) -> Vec<f32> {
+    let gain = from_decibels(dbfs);
+    normalised(samples).into_iter().map(|x| (gain * x).clamp(-1.0, 1.0) as f32).collect()
+}
