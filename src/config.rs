@@ -1,2 +1,242 @@
-//! The site's configuration: `kiosk-config/kiosk.toml`. Every key has a unit, a range and a default; the shipped
-//! file is the default (a test compares).
+//! The site's configuration: what differs between two museums, never between two exhibits.
+//!
+//! One annotated file, `kiosk-config/kiosk.toml`; the command line stands over it and the built-in defaults under it.
+//! Every key has a unit, a range and a default. The shipped file *is* the default (a test compares), and the
+//! defaults are the only list of keys there is: a key they do not have is unknown ([`diagnose`]).
+//!
+//! Invariant: a [`Config`] that came from [`Config::load`] or [`Config::parse`] is inside every range of [`LIMITS`].
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::simulation::{Profile, Settings};
+
+pub mod chord;
+mod diagnose;
+
+pub use chord::Chord;
+pub use diagnose::{ConfigError, Problem};
+
+/// Where the file lies, below the working directory or one of its parents.
+pub const FILE: &str = "kiosk-config/kiosk.toml";
+
+/// The site's configuration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Config {
+    /// The picture.
+    pub screen: Screen,
+    /// What is shown.
+    pub exhibit: ExhibitChoice,
+    /// From breath to wind.
+    pub breath: Breath,
+    /// Microphone and loudspeaker.
+    pub audio: AudioSettings,
+    /// What happens when nobody is there.
+    pub attract: AttractSettings,
+    /// Staff only.
+    pub staff: Staff,
+    /// Words.
+    pub languages: Languages,
+}
+
+/// The picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Screen {
+    /// Fill the screen, without borders.
+    pub fullscreen: bool,
+    /// Width of one pixel on the glass, mm: buttons are made 15 mm large by it.
+    pub mm_per_px: f64,
+    /// Most pictures a second on a software renderer, so that motion and sound keep their share of the processor.
+    pub software_fps: f64,
+}
+
+impl Default for Screen {
+    fn default() -> Self {
+        Self { fullscreen: true, mm_per_px: 0.25, software_fps: 15.0 }
+    }
+}
+
+/// What is shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExhibitChoice {
+    /// Id of the exhibit.
+    pub id: String,
+    /// Folder that holds the exhibits' folders.
+    pub folder: PathBuf,
+    /// Load an exhibit anew when a file in its folder changes.
+    pub hot_reload: bool,
+}
+
+impl Default for ExhibitChoice {
+    fn default() -> Self {
+        Self { id: "steel-fish".into(), folder: "exhibits".into(), hot_reload: true }
+    }
+}
+
+/// From breath to wind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Breath {
+    /// How a breath becomes wind: `gallery` or `true`.
+    #[serde(with = "ProfileName")]
+    #[schemars(with = "ProfileName")]
+    pub profile: Profile,
+    /// Multiplies the force of the breath on top of the profile's own gain.
+    pub gain: f64,
+    /// Distance of the lips before the sculpture, m.
+    pub distance_m: f64,
+    /// Diameter of the blowing lips, m.
+    pub lip_diameter_m: f64,
+}
+
+impl Default for Breath {
+    fn default() -> Self {
+        let settings = Settings::default();
+        Self {
+            profile: settings.profile,
+            gain: settings.breath_gain,
+            distance_m: settings.distance,
+            lip_diameter_m: settings.lip_diameter,
+        }
+    }
+}
+
+/// The two profiles as the file spells them.
+#[derive(Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(remote = "Profile", rename_all = "lowercase")]
+enum ProfileName {
+    Gallery,
+    True,
+}
+
+/// Microphone and loudspeaker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct AudioSettings {
+    /// Any part of the microphone's name; empty is the system's own choice.
+    pub microphone: String,
+    /// Which of its channels listens, from 1; 0 mixes all of them.
+    pub microphone_channel: u16,
+    /// Any part of the loudspeaker's name; empty is the system's own choice.
+    pub loudspeaker: String,
+    /// Loudness of the kiosk, dB of full scale.
+    pub volume_db: f64,
+    /// Length of one block of the loudspeaker, ms: short answers at once, long never stutters.
+    pub block_ms: f64,
+}
+
+impl Default for AudioSettings {
+    fn default() -> Self {
+        Self {
+            microphone: String::new(),
+            microphone_channel: 0,
+            loudspeaker: String::new(),
+            volume_db: -6.0,
+            block_ms: 10.0,
+        }
+    }
+}
+
+/// What happens when nobody is there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct AttractSettings {
+    /// Play the exhibit's attract script when nobody is there.
+    pub enabled: bool,
+    /// Time without any input, breath included, after which nobody is there, s.
+    pub idle_s: f64,
+}
+
+impl Default for AttractSettings {
+    fn default() -> Self {
+        Self { enabled: true, idle_s: 60.0 }
+    }
+}
+
+/// Staff only.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Staff {
+    /// Keys that open and close the staff panel.
+    pub chord: Chord,
+}
+
+impl Default for Staff {
+    fn default() -> Self {
+        Self { chord: Chord::new(true, true, false, "S") }
+    }
+}
+
+/// Words.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Languages {
+    /// Language shown first; empty is the exhibit's own.
+    pub first: String,
+    /// Languages offered, in this order; empty offers all that the exhibit has.
+    pub offered: Vec<String>,
+}
+
+/// Range of one number of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// Dotted key.
+    pub key: &'static str,
+    /// Least value.
+    pub low: f64,
+    /// Greatest value.
+    pub high: f64,
+    /// Unit, as it is written in the file.
+    pub unit: &'static str,
+}
+
+/// Ranges of all numbers of the file.
+pub const LIMITS: &[Limit] = &[
+    Limit { key: "screen.mm_per_px", low: 0.05, high: 2.0, unit: "mm" },
+    Limit { key: "screen.software_fps", low: 2.0, high: 60.0, unit: "1/s" },
+    Limit { key: "breath.gain", low: 0.1, high: 10.0, unit: "1" },
+    Limit { key: "breath.distance_m", low: 0.1, high: 2.0, unit: "m" },
+    Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
+    Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
+    Limit { key: "audio.volume_db", low: -60.0, high: 0.0, unit: "dB" },
+    Limit { key: "audio.block_ms", low: 2.0, high: 100.0, unit: "ms" },
+    Limit { key: "attract.idle_s", low: 1.0, high: 3600.0, unit: "s" },
+];
+
+impl Config {
+    /// The configuration of this site: the file at `path`, or [`FILE`] in the working directory or above it, or the
+    /// built-in default. Says which file it was.
+    pub fn load(path: Option<&Path>) -> Result<(Self, Option<PathBuf>), ConfigError> {
+        let found = path.map(Path::to_path_buf).or_else(find);
+        let Some(file) = found else { return Ok((Self::default(), None)) };
+        let text = std::fs::read_to_string(&file).map_err(|error| ConfigError::unreadable(&file, &error))?;
+        Ok((Self::parse(&text, &file)?, Some(file)))
+    }
+
+    /// Reads a configuration from the text of `file` (the name appears in messages). All problems are said at once.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, ConfigError> {
+        diagnose::parse(text, file)
+    }
+
+    /// What the simulation needs of it.
+    pub fn simulation_settings(&self, seed: u64) -> Settings {
+        Settings {
+            profile: self.breath.profile,
+            breath_gain: self.breath.gain,
+            distance: self.breath.distance_m,
+            lip_diameter: self.breath.lip_diameter_m,
+            seed,
+            ..Settings::default()
+        }
+    }
+}
+
+/// The first [`FILE`] from the working directory upwards.
+fn find() -> Option<PathBuf> {
+    let here = std::env::current_dir().ok()?;
+    here.ancestors().map(|folder| folder.join(FILE)).find(|file| file.is_file())
+}

@@ -1,12 +1,148 @@
 //! `soffio kiosk`.
 
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::{Failure, Outcome};
+use crate::config::Config;
+use crate::exhibit::{self, Exhibit};
+use crate::kiosk::live::{Options, Report};
+use crate::kiosk::window::{self, Ended, Missing};
+use crate::offline::feed::WavFeed;
+use crate::offline::{demo, wav};
+use crate::simulation::STEPS_PER_SECOND;
+
+/// Set by Ctrl-C and by a supervisor's wish to end.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Seed of a run that names none: every day in the gallery begins alike.
+const DEFAULT_SEED: u64 = 1;
 
 /// Runs the live kiosk.
+///
+/// Example: soffio kiosk --windowed --breath breaths/gentle.wav --for 20
 #[derive(clap::Args, Debug, Default)]
-pub struct Args {}
+pub struct Args {
+    /// The site's configuration [default: kiosk-config/kiosk.toml here or above, else built in]
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// A window on a desk instead of the whole screen; Esc closes it
+    #[arg(long)]
+    windowed: bool,
+    /// Id of an exhibit, or its folder [default: as configured]
+    #[arg(long, value_name = "EXHIBIT")]
+    exhibit: Option<String>,
+    /// A recording instead of the microphone
+    #[arg(long, value_name = "WAV")]
+    breath: Option<PathBuf>,
+    /// End after so much time
+    #[arg(long = "for", value_name = "SECONDS", value_parser = seconds)]
+    duration: Option<f64>,
+    /// Never play the attract script
+    #[arg(long)]
+    no_attract: bool,
+    /// Seed of all that is random [default: 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// How the motion is solved [default: dynamics]
+    #[arg(long, value_name = "KIND", value_parser = ["dynamics", "procedural", "auto"])]
+    solver: Option<String>,
+    /// Writes the poses of all moving bodies, 60 rows a second
+    #[arg(long, value_name = "CSV")]
+    trace: Option<PathBuf>,
+}
 
 /// Runs the command.
-pub fn run(_args: Args) -> Outcome {
-    Err(Failure { code: 2, message: "soffio kiosk: under construction".into() })
+pub fn run(args: Args) -> Outcome {
+    log_to_stderr();
+    if let Some(solver) = args.solver.filter(|solver| solver != "dynamics") {
+        let message = format!("--solver {solver}: exhibits move by dynamics only; leave the option out");
+        return Err(Failure { code: 2, message });
+    }
+    let (mut config, file) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
+    match file {
+        Some(file) => tracing::info!("configuration: {}", file.display()),
+        None => tracing::info!("configuration: built in"),
+    }
+    config.screen.fullscreen &= !args.windowed;
+    config.attract.enabled &= !args.no_attract;
+
+    let exhibit = Arc::new(load_exhibit(args.exhibit.as_deref(), &config)?);
+    let recording = args.breath.as_deref().map(read_breath).transpose()?;
+    let options = Options {
+        exhibit: exhibit.clone(),
+        settings: config.simulation_settings(args.seed.unwrap_or(DEFAULT_SEED)),
+        audio: config.audio.clone(),
+        recording,
+        idle_s: config.attract.enabled.then_some(config.attract.idle_s),
+        steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
+        trace: args.trace,
+    };
+    ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed))
+        .map_err(|error| Failure::device(format!("Ctrl-C cannot be caught: {error}")))?;
+
+    match window::run(config, options, &INTERRUPTED) {
+        Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
+        Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
+        Ok(Ended::Failed(message)) => Err(Failure::device(message)),
+        Err(missing) => headless(&missing, &exhibit),
+    }
+}
+
+/// What a run with a planned end has to say on stdout, for whoever planned it.
+fn summarize(report: &Report, planned: bool) -> Outcome {
+    if planned {
+        println!("{}", serde_json::json!(report));
+    }
+    Ok(())
+}
+
+/// The same exhibit without a window: a picture, a sound and a trace.
+fn headless(missing: &Missing, exhibit: &Arc<Exhibit>) -> Outcome {
+    match missing {
+        Missing::Display(why) => eprintln!(
+            "soffio: no display to open a window on ({why}). Start it where DISPLAY or WAYLAND_DISPLAY is set."
+        ),
+        Missing::Graphics(why) => eprintln!(
+            "soffio: no graphics adapter for the window ({why}). Install a Vulkan driver; mesa-vulkan-drivers has one \
+             for every machine."
+        ),
+    }
+    eprintln!("soffio: the exhibit runs without a window instead, on a recorded breath.");
+    demo::run(exhibit.clone())
+}
+
+/// The exhibit of the command line, or the configured one.
+fn load_exhibit(wanted: Option<&str>, config: &Config) -> Result<Exhibit, Failure> {
+    let folder = match wanted {
+        Some(wanted) => exhibit::resolve(wanted).map_err(Failure::input)?,
+        None => config.exhibit.folder.join(&config.exhibit.id),
+    };
+    exhibit::load(&folder).map_err(Failure::input)
+}
+
+/// A recording as a microphone.
+fn read_breath(file: &Path) -> Result<WavFeed, Failure> {
+    let recording = wav::read(file).map_err(Failure::input)?;
+    Ok(WavFeed::new(recording.samples, recording.sample_rate))
+}
+
+/// A positive time, s.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("say a time in seconds above 0, for example 20".into()),
+    }
+}
+
+/// Logs go to stderr; `RUST_LOG` says how much.
+fn log_to_stderr() {
+    let filter = tracing_subscriber::EnvFilter::try_from_default_env()
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info"));
+    // A second call in one process keeps the first log.
+    let terminal = std::io::stderr().is_terminal();
+    let _ =
+        tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).with_ansi(terminal).try_init();
 }

@@ -1,1 +1,18 @@
 //! The live kiosk: window, visitor, attract mode, staff.
+//!
+//! Two threads. The simulation thread ([`live`]) owns everything that moves and keeps the time; the window
+//! ([`window`]) draws the latest two moments and passes on what the visitor does. What a step does is in [`stage`],
+//! which knows no clock and no device, so that tests and recordings run exactly what visitors see.
+
+pub mod attract;
+pub mod fonts;
+pub mod input;
+pub mod live;
+pub mod overlay;
+pub mod pace;
+pub mod reload;
+pub mod screen;
+pub mod staff;
+pub mod stage;
+pub mod window;
+pub mod words;

@@ -1,7 +1,8 @@
 //! The test suite: one binary, one module per room.
 
 mod articulation;
-mod dynamics;
 mod blow;
+mod dynamics;
 mod forge;
+mod kiosk;
 mod sound;

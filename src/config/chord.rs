@@ -1,0 +1,92 @@
+//! A key chord such as `Ctrl+Alt+S`: keys that are never pressed together by chance.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// Keys pressed together. Invariant: at least two modifiers, so that no visitor finds it by leaning on a keyboard.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(try_from = "String", into = "String")]
+#[schemars(with = "String")]
+pub struct Chord {
+    /// Control held.
+    pub ctrl: bool,
+    /// Alt held.
+    pub alt: bool,
+    /// Shift held.
+    pub shift: bool,
+    /// The key itself: one letter or digit in upper case, or `F1` … `F12`.
+    pub key: String,
+}
+
+impl Chord {
+    /// A chord of modifiers and a key.
+    pub fn new(ctrl: bool, alt: bool, shift: bool, key: &str) -> Self {
+        Self { ctrl, alt, shift, key: key.to_uppercase() }
+    }
+
+    /// Is this the chord, with exactly these modifiers?
+    pub fn matches(&self, ctrl: bool, alt: bool, shift: bool, key: &str) -> bool {
+        (self.ctrl, self.alt, self.shift) == (ctrl, alt, shift) && self.key.eq_ignore_ascii_case(key)
+    }
+}
+
+impl FromStr for Chord {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut chord = Self::new(false, false, false, "");
+        for part in text.split('+').map(|part| part.trim().to_uppercase()) {
+            match part.as_str() {
+                "CTRL" => chord.ctrl = true,
+                "ALT" => chord.alt = true,
+                "SHIFT" => chord.shift = true,
+                key if chord.key.is_empty() && is_key(key) => chord.key = key.into(),
+                other => {
+                    return Err(format!(
+                        "\"{other}\" in \"{text}\" is no key: say one letter, one digit or F1 to F12, after Ctrl, Alt or Shift"
+                    ));
+                }
+            }
+        }
+        let modifiers = [chord.ctrl, chord.alt, chord.shift].iter().filter(|&&held| held).count();
+        match (chord.key.is_empty(), modifiers) {
+            (true, _) => Err(format!("\"{text}\" names no key: write for example \"Ctrl+Alt+S\"")),
+            (_, 0 | 1) => Err(format!("\"{text}\" is easily pressed by a visitor: hold two of Ctrl, Alt and Shift")),
+            _ => Ok(chord),
+        }
+    }
+}
+
+/// One letter, one digit, or a function key.
+fn is_key(key: &str) -> bool {
+    let one = key.len() == 1 && key.chars().all(|c| c.is_ascii_alphanumeric());
+    let function = key.strip_prefix('F').and_then(|n| n.parse::<u32>().ok()).is_some_and(|n| (1..=12).contains(&n));
+    one || function
+}
+
+impl fmt::Display for Chord {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        for (held, name) in [(self.ctrl, "Ctrl+"), (self.alt, "Alt+"), (self.shift, "Shift+")] {
+            if held {
+                f.write_str(name)?;
+            }
+        }
+        f.write_str(&self.key)
+    }
+}
+
+impl TryFrom<String> for Chord {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Chord> for String {
+    fn from(chord: Chord) -> Self {
+        chord.to_string()
+    }
+}

@@ -1,0 +1,147 @@
+//! What is wrong with a configuration file: every problem at once, with line, column and remedy.
+//!
+//! Three looks at the same text, each finding what the one before cannot: the grammar and then unknown keys and
+//! numbers out of range on the syntax tree (which knows where everything stands), then types through serde.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml_edit::{Document, Item, TableLike};
+
+use super::{Config, LIMITS};
+
+/// A configuration that cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub struct ConfigError {
+    /// The file.
+    pub file: PathBuf,
+    /// All that is wrong with it, in the order of the file.
+    pub problems: Vec<Problem>,
+}
+
+/// One thing that is wrong with a configuration.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// From 1; 0 where the problem has no place.
+    pub line: usize,
+    /// In characters, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to do; may be empty.
+    pub help: String,
+}
+
+impl ConfigError {
+    /// The file is missing or unreadable.
+    pub(super) fn unreadable(file: &Path, error: &std::io::Error) -> Self {
+        let help = format!("give another file with --config, or start from the shipped {}", super::FILE);
+        let problem = Problem { line: 0, column: 0, message: format!("cannot be read: {error}"), help };
+        Self { file: file.into(), problems: vec![problem] }
+    }
+}
+
+impl fmt::Display for ConfigError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        for (i, problem) in self.problems.iter().enumerate() {
+            let Problem { line, column, message, help } = problem;
+            let newline = if i == 0 { "" } else { "\n" };
+            write!(f, "{newline}{}", self.file.display())?;
+            if *line > 0 {
+                write!(f, ":{line}:{column}")?;
+            }
+            write!(f, ": {message}")?;
+            if !help.is_empty() {
+                write!(f, "\n  help: {help}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads the configuration in `text`.
+pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
+    let fail = |problems| Err(ConfigError { file: file.into(), problems });
+    let document = match Document::parse(text) {
+        Ok(document) => document,
+        Err(error) => return fail(vec![located(text, error.span(), error.message().into(), String::new())]),
+    };
+    let mut look = Look { text, problems: Vec::new() };
+    look.table(document.as_table(), &defaults(), "");
+    if !look.problems.is_empty() {
+        return fail(look.problems);
+    }
+    toml::from_str(text).or_else(|error| {
+        let message = error.message().lines().next().unwrap_or_default().to_owned();
+        fail(vec![located(text, error.span(), message, String::new())])
+    })
+}
+
+/// The default configuration as a table: the list of all keys.
+fn defaults() -> toml::Table {
+    toml::Table::try_from(Config::default()).unwrap_or_default()
+}
+
+/// A walk over the syntax tree beside the table of defaults.
+struct Look<'a> {
+    text: &'a str,
+    problems: Vec<Problem>,
+}
+
+impl Look<'_> {
+    /// Compares one table with the defaults' table of the same name (`prefix`, empty or ending in a dot).
+    fn table(&mut self, table: &dyn TableLike, known: &toml::Table, prefix: &str) {
+        for (name, item) in table.iter() {
+            let key = format!("{prefix}{name}");
+            let at = table.key(name).and_then(toml_edit::Key::span);
+            match (known.get(name), item.as_table_like()) {
+                (None, _) => {
+                    let help = match nearest(name, known.keys()) {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None => format!("known here: {}", known.keys().cloned().collect::<Vec<_>>().join(", ")),
+                    };
+                    self.problems.push(located(self.text, at, format!("unknown key `{key}`"), help));
+                }
+                (Some(toml::Value::Table(known)), Some(table)) => self.table(table, known, &format!("{key}.")),
+                (Some(toml::Value::Table(_)), None) => {
+                    let help = format!("write [{key}] on a line of its own, and the keys under it");
+                    self.problems.push(located(self.text, at, format!("`{key}` is a table"), help));
+                }
+                _ => self.range(&key, item),
+            }
+        }
+    }
+
+    /// Is a number inside its range?
+    fn range(&mut self, key: &str, item: &Item) {
+        let Some(limit) = LIMITS.iter().find(|limit| limit.key == key) else { return };
+        let Some(value) = item.as_float().or_else(|| item.as_integer().map(|i| i as f64)) else { return };
+        if !(limit.low..=limit.high).contains(&value) {
+            let unit = if limit.unit == "1" { String::new() } else { format!(" {}", limit.unit) };
+            let message = format!("`{key}` is {value}{unit}, outside {} to {}{unit}", limit.low, limit.high);
+            self.problems.push(located(self.text, item.span(), message, String::new()));
+        }
+    }
+}
+
+/// The known key most like `name`, if one is like it at all.
+fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a String>) -> Option<&'a str> {
+    /// Jaro–Winkler similarity from which two words look like one mistyped.
+    const ALIKE: f64 = 0.75;
+    known
+        .map(|key| (strsim::jaro_winkler(name, key), key.as_str()))
+        .filter(|(alike, _)| *alike >= ALIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, key)| key)
+}
+
+/// A problem at a byte range of the text.
+fn located(text: &str, span: Option<Range<usize>>, message: String, help: String) -> Problem {
+    let Some(before) = span.and_then(|span| text.get(..span.start)) else {
+        return Problem { line: 0, column: 0, message, help };
+    };
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = before.matches('\n').count() + 1;
+    Problem { line, column: before[line_start..].chars().count() + 1, message, help }
+}

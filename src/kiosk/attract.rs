@@ -1,0 +1,115 @@
+//! Attract mode: is somebody here, and what to show when not.
+//!
+//! "Somebody" is any input, a breath included; noise in the room is not a visitor, because only what the blow
+//! detector takes for a breath counts. When nobody was there for the idle time, the exhibit's own script plays,
+//! round after round, until the very step at which somebody is.
+//!
+//! The script's recorded breaths are heard by a detector of their own and reach the wind as a speed. So the
+//! simulation's detector never stops listening to the room: it keeps its knowledge of the noise, and the first
+//! visitor's breath ends the show and moves the sculpture in the same moment.
+
+use crate::exhibit::{self, AttractAction};
+use crate::offline::feed::WavFeed;
+use crate::simulation::{Command, STEPS_PER_SECOND};
+use crate::wind::blow::BlowDetector;
+
+/// What attract mode wants at one step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cue {
+    /// Is the script playing?
+    pub active: bool,
+    /// Before the step, in this order.
+    pub commands: Vec<Command>,
+    /// Where the script's breath is aimed; `None` is the centre.
+    pub aim: Option<[f64; 2]>,
+}
+
+/// Watches for visitors, and plays the script when there are none.
+#[derive(Clone, Debug)]
+pub struct Attract {
+    script: exhibit::Attract,
+    idle_limit: u64,
+    idle: u64,
+    round: Option<Round>,
+}
+
+/// One round of the script.
+#[derive(Clone, Debug, Default)]
+struct Round {
+    step: u64,
+    next: usize,
+    text: Option<String>,
+    breath: Option<(WavFeed, BlowDetector)>,
+    aim: Option<[f64; 2]>,
+}
+
+impl Attract {
+    /// Attract mode with the exhibit's `script` after `idle_s` seconds without a visitor.
+    pub fn new(script: exhibit::Attract, idle_s: f64) -> Self {
+        Self { script, idle_limit: steps(idle_s).max(1), idle: 0, round: None }
+    }
+
+    /// Advances by one simulation step; `visitor` says that somebody did something since the last.
+    pub fn step(&mut self, visitor: bool) -> Cue {
+        if visitor {
+            self.idle = 0;
+            let commands = if self.round.take().is_some() { vec![Command::Blow(None)] } else { Vec::new() };
+            return Cue { commands, ..Cue::default() };
+        }
+        self.idle += 1;
+        if self.idle < self.idle_limit {
+            return Cue::default();
+        }
+        self.play()
+    }
+
+    /// Is the script playing?
+    pub fn is_active(&self) -> bool {
+        self.round.is_some()
+    }
+
+    /// Key of the text to show now.
+    pub fn text(&self) -> Option<&str> {
+        self.round.as_ref().and_then(|round| round.text.as_deref())
+    }
+
+    /// One step of the script.
+    fn play(&mut self) -> Cue {
+        let mut commands = Vec::new();
+        // A last breath may be longer than the round: the next round waits for it.
+        let over = |round: &Round| round.step >= steps(self.script.duration) && round.breath.is_none();
+        if self.round.as_ref().is_none_or(over) {
+            self.round = Some(Round::default());
+        }
+        let round = self.round.get_or_insert_default();
+        while let Some(step) = self.script.steps.get(round.next).filter(|step| steps(step.at) <= round.step) {
+            match &step.action {
+                AttractAction::Show(key) => round.text = Some(key.clone()),
+                AttractAction::Reset => commands.push(Command::Reset),
+                AttractAction::Blow { samples, sample_rate, aim } => {
+                    let feed = WavFeed::new(samples.clone(), *sample_rate);
+                    round.breath = Some((feed, BlowDetector::new(*sample_rate)));
+                    round.aim = *aim;
+                }
+            }
+            round.next += 1;
+        }
+        if let Some((feed, detector)) = &mut round.breath {
+            let over = feed.is_over();
+            detector.push(feed.step_samples(), &[]);
+            commands.push(Command::Blow(Some(if over { 0.0 } else { detector.estimate().speed })));
+            if over {
+                round.breath = None;
+            }
+        } else if round.step == 0 {
+            commands.push(Command::Blow(Some(0.0)));
+        }
+        round.step += 1;
+        Cue { active: true, commands, aim: round.aim }
+    }
+}
+
+/// Steps of a time, s.
+fn steps(seconds: f64) -> u64 {
+    (seconds * STEPS_PER_SECOND as f64).round() as u64
+}

@@ -1,0 +1,185 @@
+//! What a visitor does with pointer, touch and keys, as what the simulation and the overlay are told.
+//!
+//! One action, many ways to do it: aim with pointer or finger; blow by holding button, finger or space bar. The
+//! place where a pointer happens to lie when the window opens is nobody's aim: it counts once it has moved.
+//!
+//! Invariant: whatever holds a blow lets go of it at the latest when the window loses the focus.
+
+use crate::config::Chord;
+
+/// How far a pointer must move before it aims, in picture heights or widths.
+const FIRST_MOVE: f64 = 0.01;
+
+/// What the window reports. Positions are picture coordinates, (0,0) top left, (1,1) bottom right.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Signal {
+    /// The pointer is there.
+    Pointer([f64; 2]),
+    /// The pointer's first button went down or up.
+    Button(bool),
+    /// A finger on the glass.
+    Touch {
+        /// Which finger.
+        finger: u64,
+        /// Where it is.
+        at: [f64; 2],
+        /// What it does.
+        phase: Phase,
+    },
+    /// A key went down or up.
+    Key(Key),
+    /// The window lost the focus: no release will be heard any more.
+    Deserted,
+}
+
+/// What a finger does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// It has just come.
+    Down,
+    /// It slides.
+    Move,
+    /// It has just left.
+    Up,
+}
+
+/// A key and what is held with it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Key {
+    /// Place of the key on a US keyboard: `A`, `7`, `F1`, `Space`, `Escape`.
+    pub name: String,
+    /// Down or up.
+    pub pressed: bool,
+    /// Down again and again because it is held.
+    pub repeat: bool,
+    /// Control held.
+    pub ctrl: bool,
+    /// Alt held.
+    pub alt: bool,
+    /// Shift held.
+    pub shift: bool,
+}
+
+/// What a signal asks of the kiosk besides aim and blow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// The next language.
+    NextLanguage,
+    /// The language at this place among those offered.
+    Language(usize),
+    /// Open or close the staff panel.
+    ToggleStaff,
+    /// Close a window on somebody's desk. Nothing a visitor can do in the gallery asks for it.
+    Close,
+}
+
+/// The visitor as pointer, fingers and keys show him.
+#[derive(Clone, Debug, Default)]
+pub struct Visitor {
+    aim: Option<[f64; 2]>,
+    /// Where the pointer is, aiming or not.
+    lies: Option<[f64; 2]>,
+    /// Where it lay when it did not aim yet.
+    resting: Option<[f64; 2]>,
+    button: bool,
+    finger: Option<u64>,
+    space: bool,
+    activity: u64,
+}
+
+impl Visitor {
+    /// Takes in a signal. `windowed` says that this is somebody's desk and not the gallery.
+    pub fn signal(&mut self, signal: &Signal, staff_chord: &Chord, windowed: bool) -> Option<Request> {
+        match signal {
+            Signal::Pointer(at) => self.pointer(*at),
+            Signal::Button(down) => {
+                self.button = *down;
+                self.activity += 1;
+            }
+            Signal::Touch { finger, at, phase } => self.touch(*finger, *at, *phase),
+            Signal::Key(key) => {
+                self.activity += 1;
+                return self.key(key, staff_chord, windowed);
+            }
+            Signal::Deserted => (self.button, self.finger, self.space) = (false, None, false),
+        }
+        None
+    }
+
+    /// Where the breath is aimed; `None` is the centre.
+    pub fn aim(&self) -> Option<[f64; 2]> {
+        self.aim
+    }
+
+    /// Is a blow held?
+    pub fn holds(&self) -> bool {
+        self.button || self.finger.is_some() || self.space
+    }
+
+    /// Inputs so far: whoever sees it grow knows that somebody is there.
+    pub fn activity(&self) -> u64 {
+        self.activity
+    }
+
+    /// Where a signal begins to press on the picture; `None` where it does not.
+    pub fn press_position(&self, signal: &Signal) -> Option<[f64; 2]> {
+        match signal {
+            Signal::Button(true) => self.lies,
+            Signal::Touch { at, phase: Phase::Down, .. } => Some(*at),
+            _ => None,
+        }
+    }
+
+    /// Counts an input that is neither aim nor breath.
+    pub fn note(&mut self) {
+        self.activity += 1;
+    }
+
+    /// Nobody is there any more: the next visitor starts from the centre.
+    pub fn leave(&mut self) {
+        *self = Self { lies: self.lies, resting: self.lies, activity: self.activity, ..Self::default() };
+    }
+
+    fn pointer(&mut self, at: [f64; 2]) {
+        self.lies = Some(at);
+        let rest = *self.resting.get_or_insert(at);
+        let moved = (at[0] - rest[0]).abs().max((at[1] - rest[1]).abs());
+        if self.aim.is_some() || moved > FIRST_MOVE {
+            self.aim = Some(clamp(at));
+            self.activity += 1;
+        }
+    }
+
+    /// The first finger aims and blows; others do nothing.
+    fn touch(&mut self, finger: u64, at: [f64; 2], phase: Phase) {
+        self.activity += 1;
+        match (self.finger, phase) {
+            (None, Phase::Down) => (self.finger, self.aim) = (Some(finger), Some(clamp(at))),
+            (Some(first), Phase::Move) if first == finger => self.aim = Some(clamp(at)),
+            (Some(first), Phase::Up) if first == finger => self.finger = None,
+            _ => {}
+        }
+    }
+
+    fn key(&mut self, key: &Key, staff_chord: &Chord, windowed: bool) -> Option<Request> {
+        let plain = !(key.ctrl || key.alt);
+        // A key that comes up lets go of the blow whatever is held with it by now.
+        if key.name == "Space" && (plain || !key.pressed) {
+            self.space = key.pressed;
+        }
+        if !key.pressed || key.repeat {
+            return None;
+        }
+        match key.name.as_str() {
+            name if staff_chord.matches(key.ctrl, key.alt, key.shift, name) => Some(Request::ToggleStaff),
+            "L" if plain => Some(Request::NextLanguage),
+            "Escape" if windowed => Some(Request::Close),
+            _ => None,
+        }
+    }
+}
+
+/// Inside the picture.
+fn clamp(at: [f64; 2]) -> [f64; 2] {
+    at.map(|x| x.clamp(0.0, 1.0))
+}

@@ -1,0 +1,319 @@
+//! The simulation thread: the wall clock, the microphone and the loudspeaker around a [`Stage`].
+//!
+//! The thread wakes at step boundaries, consumes everything that the microphone has delivered since (spread evenly
+//! over the steps due, so that the way from breath to wind never grows), steps, and publishes. The window never
+//! waits for a step and the simulation never for a picture: both sides share two small values under a mutex held
+//! for a copy. Only the clock, the devices and the trace file are here; what a step does is in [`Stage`].
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Instant;
+
+use crate::audio_io::{self, AudioIo};
+use crate::config::AudioSettings;
+use crate::exhibit::Exhibit;
+use crate::offline::feed::WavFeed;
+use crate::offline::trace::TraceWriter;
+use crate::simulation::{Microphone, STEPS_PER_SECOND, Settings, Snapshot};
+use crate::sound::{SoundCommand, Synth};
+
+use super::pace::Pacer;
+use super::stage::{Controls, Stage};
+
+/// Rows a second of a trace.
+const TRACE_FPS: u32 = 60;
+
+/// What a run is made of.
+pub struct Options {
+    /// What is shown first.
+    pub exhibit: Arc<Exhibit>,
+    /// Constant over the run.
+    pub settings: Settings,
+    /// Devices.
+    pub audio: AudioSettings,
+    /// A recording in the microphone's place.
+    pub recording: Option<WavFeed>,
+    /// Idle time before attract mode, s; `None` without attract mode.
+    pub idle_s: Option<f64>,
+    /// End after so many steps.
+    pub steps: Option<u64>,
+    /// Where the trace goes.
+    pub trace: Option<PathBuf>,
+}
+
+/// What the window sees of the simulation.
+#[derive(Clone)]
+pub struct Frame {
+    /// What is shown. Another `Arc` means: another exhibit.
+    pub exhibit: Arc<Exhibit>,
+    /// The step before [`Self::current`].
+    pub previous: Snapshot,
+    /// The last step.
+    pub current: Snapshot,
+    /// When the last step was due.
+    pub due: Instant,
+    /// Is attract mode playing?
+    pub attracts: bool,
+    /// Text key that attract mode shows.
+    pub attract_text: Option<String>,
+    /// Is there a microphone, or a recording in its place?
+    pub hears: bool,
+    /// For staff.
+    pub load: Load,
+}
+
+/// How the thread is doing.
+#[derive(Clone, Debug, Default)]
+pub struct Load {
+    /// Mean time of a step lately, s.
+    pub step_s: f64,
+    /// Steps of time that were dropped so far.
+    pub dropped: u64,
+    /// What the devices say.
+    pub audio: audio_io::Status,
+}
+
+impl Frame {
+    /// The moment to draw at `now`: one step behind the simulation, so that there is always one to interpolate to.
+    pub fn moment(&self, now: Instant) -> Snapshot {
+        let since = now.saturating_duration_since(self.due).as_secs_f64();
+        self.previous.interpolate(&self.current, (since * STEPS_PER_SECOND as f64).clamp(0.0, 1.0))
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, Default, serde::Serialize)]
+pub struct Report {
+    /// Steps done.
+    pub steps: u64,
+    /// Steps of time that were dropped because the machine was too slow.
+    pub dropped: u64,
+    /// Impacts of the last exhibit.
+    pub impacts: u64,
+    /// Says whether two runs are the same run.
+    #[serde(serialize_with = "hex")]
+    pub state_hash: u64,
+}
+
+/// A running simulation.
+pub struct Live {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<Result<Report, String>>>,
+}
+
+struct Shared {
+    controls: Mutex<Controls>,
+    frame: Mutex<Arc<Frame>>,
+    stop: AtomicBool,
+}
+
+impl Live {
+    /// Starts the thread, for a picture of this shape (width over height).
+    pub fn start(options: Options, aspect: f64) -> Result<Self, String> {
+        let stage = Stage::new(options.exhibit.clone(), options.settings, options.recording.clone(), options.idle_s);
+        let trace = match &options.trace {
+            Some(path) => Some(TraceWriter::create(path, &options.exhibit, TRACE_FPS).map_err(|e| e.to_string())?),
+            None => None,
+        };
+        let frame = Frame {
+            exhibit: options.exhibit.clone(),
+            previous: stage.snapshot().clone(),
+            current: stage.snapshot().clone(),
+            due: Instant::now(),
+            attracts: false,
+            attract_text: None,
+            hears: options.recording.is_some(),
+            load: Load::default(),
+        };
+        let shared = Arc::new(Shared {
+            controls: Mutex::new(Controls { aspect, ..Controls::default() }),
+            frame: Mutex::new(Arc::new(frame)),
+            stop: AtomicBool::new(false),
+        });
+        let theirs = shared.clone();
+        let thread = std::thread::Builder::new()
+            .name("simulation".into())
+            .spawn(move || Thread::new(stage, trace, options, theirs).run())
+            .map_err(|error| format!("the simulation thread does not start: {error}"))?;
+        Ok(Self { shared, thread: Some(thread) })
+    }
+
+    /// What the visitor does. Hold it briefly.
+    pub fn controls(&self) -> MutexGuard<'_, Controls> {
+        lock(&self.shared.controls)
+    }
+
+    /// The latest moments.
+    pub fn frame(&self) -> Arc<Frame> {
+        lock(&self.shared.frame).clone()
+    }
+
+    /// Has the run ended by itself?
+    pub fn is_over(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    /// Ends the run and waits for its files.
+    pub fn finish(mut self) -> Result<Report, String> {
+        self.join().unwrap_or_else(|| Ok(Report::default()))
+    }
+
+    fn join(&mut self) -> Option<Result<Report, String>> {
+        self.shared.stop.store(true, Ordering::Relaxed);
+        let ended = self.thread.take()?.join();
+        Some(ended.unwrap_or_else(|_| Err("the simulation thread died; see the log above".into())))
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        self.join();
+    }
+}
+
+/// A poisoned lock holds a whole value all the same: every writer replaces it at once.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What lives on the simulation thread.
+struct Thread {
+    stage: Stage,
+    trace: Option<TraceWriter>,
+    audio: AudioIo,
+    shared: Arc<Shared>,
+    limit: u64,
+    recorded: bool,
+    previous: Snapshot,
+    heard: Vec<f32>,
+    played: Vec<f32>,
+    sounds: Vec<SoundCommand>,
+    load: Load,
+}
+
+impl Thread {
+    fn new(stage: Stage, trace: Option<TraceWriter>, options: Options, shared: Arc<Shared>) -> Self {
+        let instruments = options.exhibit.instruments.clone();
+        let seed = options.settings.seed;
+        let audio = AudioIo::start(&options.audio, move |rate| Synth::new(&instruments, rate, seed));
+        Self {
+            previous: stage.snapshot().clone(),
+            stage,
+            trace,
+            audio,
+            shared,
+            limit: options.steps.unwrap_or(u64::MAX),
+            recorded: options.recording.is_some(),
+            heard: Vec::new(),
+            played: Vec::new(),
+            sounds: Vec::new(),
+            load: Load::default(),
+        }
+    }
+
+    fn run(mut self) -> Result<Report, String> {
+        self.write_trace()?;
+        let began = Instant::now();
+        let mut pacer = Pacer::default();
+        while self.stage.steps() < self.limit && !self.shared.stop.load(Ordering::Relaxed) {
+            let due = pacer.due(began.elapsed()).min(self.limit - self.stage.steps());
+            if due > 0 {
+                let hears = self.advance(due)?;
+                self.load.dropped = pacer.dropped();
+                self.publish(began + pacer.present(), hears);
+            }
+            std::thread::sleep(pacer.next().saturating_sub(began.elapsed()));
+        }
+        if let Some(trace) = self.trace.take() {
+            trace.finish().map_err(|error| error.to_string())?;
+        }
+        Ok(Report {
+            steps: self.stage.steps(),
+            dropped: pacer.dropped(),
+            impacts: self.stage.snapshot().diagnostics.impacts,
+            state_hash: self.stage.state_hash(),
+        })
+    }
+
+    /// Does `due` steps with all that the microphone has heard by now. Says whether anything listens.
+    fn advance(&mut self, due: u64) -> Result<bool, String> {
+        let mut controls = {
+            let mut shared = lock(&self.shared.controls);
+            let taken = shared.clone();
+            shared.commands.clear();
+            shared.exhibit = None;
+            taken
+        };
+        if let Some(exhibit) = controls.exhibit.take() {
+            self.swap(exhibit);
+        }
+        self.heard.clear();
+        self.played.clear();
+        let rate = self.audio.read_microphone(&mut self.heard, &mut self.played);
+        self.sounds.clear();
+        let before = Instant::now();
+        for i in 0..due {
+            self.previous.clone_from(self.stage.snapshot());
+            let microphone = rate.map(|sample_rate| Microphone {
+                samples: share(&self.heard, i, due),
+                sample_rate,
+                reference: share(&self.played, i, due),
+            });
+            self.stage.step(&controls, microphone);
+            controls.commands.clear();
+            self.sounds.extend_from_slice(self.stage.sounds());
+            self.write_trace()?;
+        }
+        let each = before.elapsed().as_secs_f64() / due as f64;
+        self.load.step_s += 0.02 * (each - self.load.step_s);
+        self.audio.send(self.stage.sample(), &self.sounds);
+        Ok(rate.is_some() || self.recorded)
+    }
+
+    /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
+    fn swap(&mut self, exhibit: Arc<Exhibit>) {
+        self.audio.set_instruments(&exhibit.instruments);
+        self.stage.swap(exhibit);
+        if let Some(trace) = self.trace.take() {
+            match trace.finish() {
+                Ok(_) => tracing::warn!("the trace ends here: the exhibit was loaded anew"),
+                Err(error) => tracing::error!("{error}"),
+            }
+        }
+    }
+
+    fn write_trace(&mut self) -> Result<(), String> {
+        match &mut self.trace {
+            Some(trace) => trace.push(self.stage.snapshot()).map_err(|error| error.to_string()),
+            None => Ok(()),
+        }
+    }
+
+    fn publish(&mut self, due: Instant, hears: bool) {
+        self.load.audio = self.audio.status();
+        let frame = Arc::new(Frame {
+            exhibit: self.stage.exhibit().clone(),
+            previous: self.previous.clone(),
+            current: self.stage.snapshot().clone(),
+            due,
+            attracts: self.stage.attracts(),
+            attract_text: self.stage.attract_text().map(str::to_owned),
+            hears,
+            load: self.load.clone(),
+        });
+        *lock(&self.shared.frame) = frame;
+    }
+}
+
+/// The `i`-th of `n` equal shares of `all`, in order and without a gap.
+fn share(all: &[f32], i: u64, n: u64) -> &[f32] {
+    let bound = |k: u64| (all.len() as u64 * k / n) as usize;
+    &all[bound(i)..bound(i + 1)]
+}
+
+/// A hash as text: JSON numbers lose bits beyond 2⁵³.
+fn hex<S: serde::Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&format!("{hash:016x}"))
+}

@@ -1,0 +1,137 @@
+//! The staff panel: every number that says whether the kiosk is well, and three buttons.
+//!
+//! It opens by a key chord only (`staff.chord`) and is plain on purpose. Messages that visitors never see, such as
+//! what is wrong with a file that a curator just saved, are kept here.
+
+use std::collections::VecDeque;
+
+use egui::{Align2, Color32, Grid, RichText, ScrollArea, Ui};
+
+use super::live::Frame;
+
+/// Messages that are kept.
+const KEPT: usize = 30;
+/// How long a message stays in the corner, s.
+const TOAST_S: f64 = 10.0;
+
+/// What staff ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// Put everything back to where it started.
+    Reset,
+    /// Load the exhibit from its folder again.
+    Reload,
+    /// End the kiosk.
+    Close,
+}
+
+/// What the panel shows besides the simulation's own numbers.
+pub struct Vitals<'a> {
+    /// Name and kind of the graphics adapter.
+    pub adapter: &'a str,
+    /// Mean time from picture to picture, s.
+    pub frame_s: f64,
+    /// Pixels.
+    pub size: [u32; 2],
+    /// Seconds since the kiosk began.
+    pub time: f64,
+}
+
+/// The panel and its messages.
+#[derive(Debug, Default)]
+pub struct Staff {
+    /// Is the panel open?
+    pub open: bool,
+    messages: VecDeque<(f64, String)>,
+}
+
+impl Staff {
+    /// Keeps a message for staff.
+    pub fn say(&mut self, time: f64, message: impl Into<String>) {
+        self.messages.push_back((time, message.into()));
+        while self.messages.len() > KEPT {
+            self.messages.pop_front();
+        }
+    }
+
+    /// Shows the panel when it is open, and a new message where staff may see it (`on_desk`: not in the gallery).
+    pub fn show(&mut self, ui: &mut Ui, frame: &Frame, vitals: &Vitals, on_desk: bool) -> Option<Wish> {
+        let mut wish = None;
+        if self.open {
+            egui::Window::new("Soffio").anchor(Align2::RIGHT_TOP, [-16.0, 16.0]).resizable(false).show(
+                ui.ctx(),
+                |ui| {
+                    numbers(ui, frame, vitals);
+                    ui.separator();
+                    ui.horizontal(|ui| {
+                        for (name, asked) in
+                            [("Reset", Wish::Reset), ("Reload exhibit", Wish::Reload), ("Close kiosk", Wish::Close)]
+                        {
+                            if ui.button(name).clicked() {
+                                wish = Some(asked);
+                            }
+                        }
+                    });
+                    ui.separator();
+                    self.log(ui);
+                },
+            );
+        } else if on_desk
+            && let Some((at, message)) = self.messages.back()
+            && vitals.time - at < TOAST_S
+        {
+            egui::Area::new(egui::Id::unique("toast")).anchor(Align2::LEFT_TOP, [16.0, 16.0]).show(ui.ctx(), |ui| {
+                egui::Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_max_width(560.0);
+                    ui.monospace(message);
+                });
+            });
+        }
+        wish
+    }
+
+    fn log(&self, ui: &mut Ui) {
+        ScrollArea::vertical().max_height(160.0).max_width(420.0).stick_to_bottom(true).show(ui, |ui| {
+            if self.messages.is_empty() {
+                ui.weak("no messages");
+            }
+            for (time, message) in &self.messages {
+                ui.monospace(format!("{time:8.1} s  {message}"));
+            }
+        });
+    }
+}
+
+/// The numbers, one a row.
+fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
+    let breath = &frame.current.breath;
+    let heard = &breath.estimate;
+    let state = &frame.current.diagnostics;
+    let audio = &frame.load.audio;
+    Grid::new("numbers").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| {
+        let mut row = |name: &str, value: String, bad: bool| {
+            ui.label(name);
+            let text = RichText::new(value).monospace();
+            ui.label(if bad { text.color(Color32::from_rgb(225, 70, 50)) } else { text });
+            ui.end_row();
+        };
+        row("exhibit", frame.exhibit.id.clone(), false);
+        row("microphone", audio.microphone.clone(), !frame.hears);
+        row("level", format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs), heard.clipping);
+        row("detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
+        row("breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
+        row("wind force", format!("{:.4} N", state.wind_force.length()), false);
+        row("attract mode", if frame.attracts { "playing".into() } else { "waiting".into() }, false);
+        row("joint error", format!("{:.2e} m", state.joint_error), state.joint_error > 1e-3);
+        row("energy", format!("{:.4} J", state.energy), false);
+        row("substeps", state.substeps.to_string(), false);
+        row("impacts", state.impacts.to_string(), false);
+        row("faults", state.faults.to_string(), state.faults > 0);
+        row("step", format!("{:.3} ms of 4.167", 1e3 * frame.load.step_s), frame.load.step_s > 1.0 / 240.0);
+        row("steps dropped", frame.load.dropped.to_string(), false);
+        row("picture", format!("{:.1} ms, {}x{}", 1e3 * vitals.frame_s, vitals.size[0], vitals.size[1]), false);
+        row("graphics", vitals.adapter.to_owned(), false);
+        row("loudspeaker", audio.loudspeaker.clone(), false);
+        row("late blocks", audio.xruns.to_string(), audio.xruns > 0);
+    });
+}

@@ -1,0 +1,132 @@
+//! What the kiosk does in one simulation step, without a clock, a window or a device: who blows, visitor, recording
+//! or attract script, and what becomes of the exhibit.
+//!
+//! Invariant: with a recording, no visitor and no attract mode the run is bit-identical to `soffio play` with the
+//! same recording, exhibit, settings and picture shape; both feed the steps through [`WavFeed`].
+
+use std::sync::Arc;
+
+use crate::exhibit::Exhibit;
+use crate::offline::feed::WavFeed;
+use crate::simulation::{Command, Microphone, SAMPLES_PER_STEP, Settings, Simulation, Snapshot, StepInput};
+use crate::sound::SoundCommand;
+
+use super::attract::Attract;
+
+/// What the visitor does, as the window tells it.
+#[derive(Clone, Debug, Default)]
+pub struct Controls {
+    /// Where the breath is aimed, picture coordinates; `None` is the centre.
+    pub aim: Option<[f64; 2]>,
+    /// Is a blow held?
+    pub hold: bool,
+    /// Width over height of the picture.
+    pub aspect: f64,
+    /// Inputs so far.
+    pub activity: u64,
+    /// Commands not yet carried out.
+    pub commands: Vec<Command>,
+    /// A reloaded exhibit that waits for the next step boundary.
+    pub exhibit: Option<Arc<Exhibit>>,
+}
+
+/// The exhibit on show.
+pub struct Stage {
+    simulation: Simulation,
+    steps_of_exhibit: u64,
+    steps: u64,
+    recording: Option<WavFeed>,
+    attract: Option<Attract>,
+    idle_s: f64,
+    activity: u64,
+    snapshot: Snapshot,
+}
+
+impl Stage {
+    /// The exhibit at rest. `recording` stands in for the microphone; `idle_s` is the time without a visitor until
+    /// attract mode, `None` switches it off.
+    pub fn new(exhibit: Arc<Exhibit>, settings: Settings, recording: Option<WavFeed>, idle_s: Option<f64>) -> Self {
+        let attract = idle_s.map(|idle| Attract::new(exhibit.attract.clone(), idle));
+        let simulation = Simulation::new(exhibit, settings);
+        let snapshot = simulation.snapshot();
+        Self {
+            simulation,
+            steps_of_exhibit: 0,
+            steps: 0,
+            recording,
+            attract,
+            idle_s: idle_s.unwrap_or_default(),
+            activity: 0,
+            snapshot,
+        }
+    }
+
+    /// Advances by one step. `microphone` is what was heard since the last; a recording goes before it.
+    pub fn step(&mut self, controls: &Controls, microphone: Option<Microphone>) {
+        // The detector's word of the step before: a breath is an input like any other.
+        let breathing = self.snapshot.breath.estimate.speed > 0.0;
+        let visitor = breathing || controls.hold || controls.activity != self.activity;
+        self.activity = controls.activity;
+        let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
+        cue.commands.extend_from_slice(&controls.commands);
+
+        self.simulation.step(&StepInput {
+            microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
+            hold: controls.hold,
+            pointer: if cue.active { cue.aim } else { controls.aim },
+            aspect: controls.aspect,
+            commands: &cue.commands,
+        });
+        self.steps += 1;
+        self.steps_of_exhibit += 1;
+        self.snapshot = self.simulation.snapshot();
+    }
+
+    /// Shows another exhibit (or the same one, reloaded) from its start.
+    pub fn swap(&mut self, exhibit: Arc<Exhibit>) {
+        self.attract = self.attract.take().map(|_| Attract::new(exhibit.attract.clone(), self.idle_s));
+        self.simulation = Simulation::new(exhibit, *self.simulation.settings());
+        self.steps_of_exhibit = 0;
+        self.snapshot = self.simulation.snapshot();
+    }
+
+    /// Steps since the kiosk began, over all exhibits.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The present moment.
+    pub fn snapshot(&self) -> &Snapshot {
+        &self.snapshot
+    }
+
+    /// The exhibit on show.
+    pub fn exhibit(&self) -> &Arc<Exhibit> {
+        self.simulation.exhibit()
+    }
+
+    /// Sounds of the last step.
+    pub fn sounds(&self) -> &[SoundCommand] {
+        self.simulation.sounds()
+    }
+
+    /// Now, on the sample clock of [`Self::sounds`].
+    pub fn sample(&self) -> u64 {
+        self.steps_of_exhibit * SAMPLES_PER_STEP
+    }
+
+    /// Text key that attract mode shows; `None` while visitors are here.
+    pub fn attract_text(&self) -> Option<&str> {
+        self.attract.as_ref().and_then(Attract::text)
+    }
+
+    /// Is attract mode playing?
+    pub fn attracts(&self) -> bool {
+        self.attract.as_ref().is_some_and(Attract::is_active)
+    }
+
+    /// One word that says whether two runs are the same run.
+    pub fn state_hash(&self) -> u64 {
+        self.simulation.state_hash()
+    }
+}

@@ -1,0 +1,441 @@
+//! The window: events in, pictures out.
+//!
+//! In the gallery it fills the screen, hides the cursor and cannot be closed by anything that a visitor can press;
+//! only the staff panel leads out, or a signal from the terminal. On somebody's desk (`--windowed`) it closes like
+//! any window.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use winit::application::ApplicationHandler;
+use winit::dpi::{PhysicalPosition, PhysicalSize};
+use winit::event::{ElementState, KeyEvent, MouseButton, TouchPhase, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::keyboard::{ModifiersState, PhysicalKey};
+use winit::window::{Fullscreen, Window, WindowId};
+
+use crate::config::Config;
+use crate::exhibit::{Label, Labels};
+use crate::simulation::Command;
+
+use super::input::{Key, Phase, Request, Signal, Visitor};
+use super::live::{self, Frame, Live, Report};
+use super::overlay::{Overlay, Scene};
+use super::reload::Reload;
+use super::screen::{Drawn, Screen};
+use super::staff::{Staff, Vitals, Wish};
+use super::words::language_name;
+
+/// Size of the window on a desk, pixels.
+const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
+/// Longest sleep of the event loop: a signal, or the end of a run, is seen at the latest after this.
+const NAP: Duration = Duration::from_millis(50);
+/// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
+const LOST_DEVICES: u32 = 3;
+/// Share of the newest picture in the mean time of a picture.
+const FRAME_SMOOTHING: f64 = 0.1;
+
+/// Why there is no live kiosk.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// No display to open a window on.
+    Display(String),
+    /// No graphics adapter that can draw into the window.
+    Graphics(String),
+}
+
+/// How a live kiosk ended.
+#[derive(Clone, Debug)]
+pub enum Ended {
+    /// By itself, by staff, or by closing a window on a desk.
+    Done(Report),
+    /// By a signal from outside.
+    Interrupted,
+    /// Something broke.
+    Failed(String),
+}
+
+/// Shows the exhibit until somebody ends it. `interrupted` is set by a signal from outside.
+pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> Result<Ended, Missing> {
+    let events = EventLoop::new().map_err(|error| Missing::Display(error.to_string()))?;
+    let display = Box::new(events.owned_display_handle());
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::VULKAN,
+        ..wgpu::InstanceDescriptor::new_with_display_handle_from_env(display)
+    });
+    let mut app = App {
+        instance,
+        interrupted,
+        reload: Reload::new(&options.exhibit.folder, config.exhibit.hot_reload),
+        languages: Vec::new(),
+        language: String::new(),
+        waiting: Some(options),
+        show: None,
+        visitor: Visitor::default(),
+        modifiers: ModifiersState::default(),
+        overlay: Overlay::default(),
+        buttons: Vec::new(),
+        staff: Staff::default(),
+        attracts: false,
+        clock: Clock::new(),
+        lost: 0,
+        missing: None,
+        failure: None,
+        config,
+    };
+    let looped = events.run_app(&mut app).map_err(|error| error.to_string());
+    if let Some(missing) = app.missing {
+        return Err(missing);
+    }
+    let report = app.show.map_or_else(|| Ok(Report::default()), |show| show.live.finish());
+    Ok(match (app.failure, looped.and(report)) {
+        (Some(failure), _) | (None, Err(failure)) => Ended::Failed(failure),
+        _ if interrupted.load(Ordering::Relaxed) => Ended::Interrupted,
+        (None, Ok(report)) => Ended::Done(report),
+    })
+}
+
+/// What exists once there is a window.
+struct Show {
+    screen: Screen,
+    live: Live,
+}
+
+/// When pictures are drawn.
+struct Clock {
+    began: Instant,
+    last: Instant,
+    next: Instant,
+    /// Mean time from picture to picture, s.
+    frame_s: f64,
+}
+
+impl Clock {
+    fn new() -> Self {
+        let now = Instant::now();
+        Self { began: now, last: now, next: now, frame_s: 0.0 }
+    }
+
+    /// A picture begins; the next not before `least` seconds.
+    fn tick(&mut self, now: Instant, least: f64) {
+        self.frame_s += FRAME_SMOOTHING * (now.duration_since(self.last).as_secs_f64() - self.frame_s);
+        self.last = now;
+        self.next = now + Duration::from_secs_f64(least);
+    }
+
+    fn seconds(&self, now: Instant) -> f64 {
+        now.duration_since(self.began).as_secs_f64()
+    }
+}
+
+struct App<'a> {
+    config: Config,
+    instance: wgpu::Instance,
+    interrupted: &'a AtomicBool,
+    /// The run, until there is a window to show it in.
+    waiting: Option<live::Options>,
+    show: Option<Show>,
+    reload: Reload,
+    visitor: Visitor,
+    modifiers: ModifiersState,
+    overlay: Overlay,
+    /// Where a press is not a breath, in points.
+    buttons: Vec<(egui::Rect, Request)>,
+    staff: Staff,
+    /// Languages a visitor can choose from, and the one chosen (empty: none yet).
+    languages: Vec<String>,
+    language: String,
+    attracts: bool,
+    clock: Clock,
+    lost: u32,
+    missing: Option<Missing>,
+    failure: Option<String>,
+}
+
+impl ApplicationHandler for App<'_> {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        let Some(options) = self.waiting.take() else { return };
+        let screen = open(events, self.on_desk())
+            .map_err(Missing::Display)
+            .and_then(|w| Screen::new(self.instance.clone(), w, &options.exhibit).map_err(Missing::Graphics));
+        match screen {
+            // The motion begins when there is a window to see it in, in the shape of its picture.
+            Ok(screen) => match Live::start(options, screen.aspect()) {
+                Ok(live) => {
+                    tracing::info!("{:?} pixels on {}", screen.size(), screen.adapter().0);
+                    self.show = Some(Show { screen, live });
+                }
+                Err(error) => self.fail(events, error),
+            },
+            Err(missing) => {
+                self.missing = Some(missing);
+                events.exit();
+            }
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let desk = self.on_desk();
+        let Some(show) = &mut self.show else { return };
+        let panel = &mut show.screen.panel;
+        let _ = panel.on_window_event(&show.screen.window, &event);
+        match event {
+            WindowEvent::RedrawRequested => return self.draw(events),
+            WindowEvent::Resized(size) => {
+                show.screen.resize(size);
+                show.live.controls().aspect = show.screen.aspect();
+                return;
+            }
+            WindowEvent::CloseRequested if desk => return events.exit(),
+            WindowEvent::ModifiersChanged(modifiers) => {
+                self.modifiers = modifiers.state();
+                return;
+            }
+            _ => {}
+        }
+        let over_panel = self.staff.open && panel.egui_ctx().egui_wants_pointer_input();
+        let Some(signal) = translate(&event, show.screen.window.inner_size(), self.modifiers) else { return };
+        let points = panel.egui_ctx().content_rect();
+        let request = match self.visitor.press_position(&signal) {
+            Some(_) if over_panel => return,
+            Some([x, y]) => self.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32))),
+            None => None,
+        };
+        let request = match request {
+            // A press on a button is an input, but no breath.
+            Some(request) => {
+                self.visitor.note();
+                Some(request)
+            }
+            None => self.visitor.signal(&signal, &self.config.staff.chord, desk),
+        };
+        if let Some(request) = request {
+            self.grant(events, request);
+        }
+        self.tell();
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let over = self.show.as_ref().is_some_and(|show| show.live.is_over());
+        if over || self.interrupted.load(Ordering::Relaxed) {
+            return events.exit();
+        }
+        match self.reload.result() {
+            Some(Ok(exhibit)) => {
+                self.say(format!("{} is loaded anew", exhibit.id));
+                if let Some(show) = &self.show {
+                    show.live.controls().exhibit = Some(exhibit);
+                }
+            }
+            Some(Err(report)) => self.say(format!("{report}\nThe last good exhibit stays on show.")),
+            None => {}
+        }
+        let now = Instant::now();
+        if let Some(show) = &self.show
+            && now >= self.clock.next
+        {
+            show.screen.window.request_redraw();
+        }
+        // On a graphics processor the next picture is due at once and the display's rhythm makes it wait.
+        events.set_control_flow(ControlFlow::WaitUntil(self.clock.next.min(now + NAP)));
+    }
+}
+
+impl App<'_> {
+    /// Somebody's desk and not the gallery?
+    fn on_desk(&self) -> bool {
+        !self.config.screen.fullscreen
+    }
+
+    fn draw(&mut self, events: &ActiveEventLoop) {
+        let desk = self.on_desk();
+        let Some(show) = &mut self.show else { return };
+        let now = Instant::now();
+        let (adapter, software) = show.screen.adapter();
+        self.clock.tick(now, if software { 1.0 / self.config.screen.software_fps } else { 0.0 });
+        let frame = show.live.frame();
+        let moment = frame.moment(now);
+        let view = frame.exhibit.view(show.screen.aspect());
+        let size = show.screen.size();
+        let vitals = Vitals { adapter: &adapter, frame_s: self.clock.frame_s, size, time: self.clock.seconds(now) };
+        let mut wish = None;
+        let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
+            self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
+            if !self.languages.contains(&self.language) {
+                self.language = first(&self.languages, &frame.exhibit.labels, &self.config);
+            }
+            let scene = Scene {
+                exhibit: &frame.exhibit,
+                moment: &moment,
+                view,
+                attract_text: frame.attract_text.as_deref(),
+                hears: frame.hears,
+                languages: &self.languages,
+                language: &self.language,
+                time: vitals.time,
+                points_per_mm: 1.0 / (self.config.screen.mm_per_px as f32 * ui.ctx().pixels_per_point()),
+            };
+            let painter = ui.ctx().layer_painter(egui::LayerId::background());
+            self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &scene);
+            wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
+        });
+        self.follow_attract(&frame);
+        match wish {
+            Some(Wish::Close) => events.exit(),
+            Some(Wish::Reload) => self.reload.ask(),
+            Some(Wish::Reset) => self.command(Command::Reset),
+            None => {}
+        }
+        if drawn == Drawn::DeviceLost {
+            self.mend(events, &frame);
+        }
+    }
+
+    /// A new graphics device in the old window.
+    fn mend(&mut self, events: &ActiveEventLoop, frame: &Frame) {
+        let Some(Show { screen, live }) = self.show.take() else { return };
+        let window = screen.window.clone();
+        // The old surface must be gone before the window can have a new one.
+        drop(screen);
+        self.lost += 1;
+        if self.lost > LOST_DEVICES {
+            return self.fail(events, format!("the graphics device was lost {} times", self.lost));
+        }
+        match Screen::new(self.instance.clone(), window, &frame.exhibit) {
+            Ok(screen) => self.show = Some(Show { screen, live }),
+            Err(error) => self.fail(events, error),
+        }
+    }
+
+    /// When the last visitor has left, the next one finds aim and language as they were first.
+    fn follow_attract(&mut self, frame: &Frame) {
+        if frame.attracts && !self.attracts {
+            self.visitor.leave();
+            self.language.clear();
+            self.tell();
+        }
+        self.attracts = frame.attracts;
+    }
+
+    /// What a press at a point of the picture asks for, where it is not a breath.
+    fn button_at(&self, at: egui::Pos2) -> Option<Request> {
+        self.buttons.iter().find(|(rect, _)| rect.contains(at)).map(|&(_, request)| request)
+    }
+
+    fn grant(&mut self, events: &ActiveEventLoop, request: Request) {
+        match request {
+            Request::Close => events.exit(),
+            Request::Language(index) => self.language = self.languages.get(index).cloned().unwrap_or_default(),
+            Request::NextLanguage => {
+                let shown = self.languages.iter().position(|code| *code == self.language);
+                let next = shown.map_or(0, |shown| (shown + 1) % self.languages.len());
+                self.language = self.languages.get(next).cloned().unwrap_or_default();
+            }
+            Request::ToggleStaff => {
+                self.staff.open = !self.staff.open;
+                if let Some(show) = &self.show {
+                    show.screen.window.set_cursor_visible(self.staff.open);
+                }
+            }
+        }
+    }
+
+    /// Tells the simulation what the visitor does.
+    fn tell(&self) {
+        let Some(show) = &self.show else { return };
+        let mut controls = show.live.controls();
+        controls.aim = self.visitor.aim();
+        controls.hold = self.visitor.holds();
+        controls.activity = self.visitor.activity();
+    }
+
+    fn command(&self, command: Command) {
+        if let Some(show) = &self.show {
+            show.live.controls().commands.push(command);
+        }
+    }
+
+    /// For staff, on the panel and in the log.
+    fn say(&mut self, message: String) {
+        tracing::info!("{message}");
+        self.staff.say(self.clock.seconds(Instant::now()), message);
+    }
+
+    fn fail(&mut self, events: &ActiveEventLoop, error: String) {
+        self.failure = Some(error);
+        events.exit();
+    }
+}
+
+/// Opens the window: all of the screen, or part of a desk.
+fn open(events: &ActiveEventLoop, on_desk: bool) -> Result<Arc<Window>, String> {
+    let plain = Window::default_attributes().with_title("Soffio").with_inner_size(DESK_SIZE);
+    let attributes = match on_desk {
+        true => plain,
+        false => plain.with_decorations(false).with_fullscreen(Some(Fullscreen::Borderless(None))),
+    };
+    let window = events.create_window(attributes).map_err(|error| error.to_string())?;
+    window.set_cursor_visible(false);
+    Ok(Arc::new(window))
+}
+
+/// The languages a visitor can choose from, in the order they are offered: those of the exhibit that the site wants
+/// and the fonts can write.
+fn offered(context: &egui::Context, labels: &Labels, config: &Config) -> Vec<String> {
+    let can_write = |(code, label): &&(String, Label)| {
+        let text = format!("{}{}", language_name(code), label.title);
+        context.fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), &text))
+    };
+    let has: Vec<&String> = labels.languages.iter().filter(can_write).map(|(code, _)| code).collect();
+    let wanted: Vec<String> = config.languages.offered.iter().filter(|code| has.contains(code)).cloned().collect();
+    if wanted.is_empty() { has.into_iter().cloned().collect() } else { wanted }
+}
+
+/// The language that a visitor finds: the site's, else the exhibit's, else whatever there is.
+fn first(offered: &[String], labels: &Labels, config: &Config) -> String {
+    let wanted = [&config.languages.first, &labels.default_language];
+    wanted.into_iter().find(|code| offered.contains(code)).or(offered.first()).cloned().unwrap_or_default()
+}
+
+/// A window's event as the visitor's signal; `None` where it is none.
+fn translate(event: &WindowEvent, size: PhysicalSize<u32>, modifiers: ModifiersState) -> Option<Signal> {
+    Some(match event {
+        WindowEvent::Focused(false) => Signal::Deserted,
+        WindowEvent::CursorMoved { position, .. } => Signal::Pointer(in_picture(*position, size)),
+        WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
+            Signal::Button(*state == ElementState::Pressed)
+        }
+        WindowEvent::Touch(touch) => Signal::Touch {
+            finger: touch.id,
+            at: in_picture(touch.location, size),
+            phase: match touch.phase {
+                TouchPhase::Started => Phase::Down,
+                TouchPhase::Moved => Phase::Move,
+                TouchPhase::Ended | TouchPhase::Cancelled => Phase::Up,
+            },
+        },
+        WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => Signal::Key(key(event, modifiers)?),
+        _ => return None,
+    })
+}
+
+/// A key by its place on the keyboard, so that a chord is the same on every layout.
+fn key(event: &KeyEvent, modifiers: ModifiersState) -> Option<Key> {
+    let PhysicalKey::Code(code) = event.physical_key else { return None };
+    let name = format!("{code:?}");
+    let short = name.strip_prefix("Key").or_else(|| name.strip_prefix("Digit"));
+    Some(Key {
+        name: short.unwrap_or(&name).to_owned(),
+        pressed: event.state == ElementState::Pressed,
+        repeat: event.repeat,
+        ctrl: modifiers.control_key(),
+        alt: modifiers.alt_key(),
+        shift: modifiers.shift_key(),
+    })
+}
+
+/// Pixels to picture coordinates.
+fn in_picture(at: PhysicalPosition<f64>, size: PhysicalSize<u32>) -> [f64; 2] {
+    [at.x / f64::from(size.width.max(1)), at.y / f64::from(size.height.max(1))]
+}

@@ -1,0 +1,396 @@
+//! The kiosk without its window: configuration, pace, visitor, attract mode, reloading, words.
+
+use std::path::Path;
+
+use soffio::config::{Chord, Config, FILE, LIMITS};
+use soffio::offline::feed::WavFeed;
+
+/// The file that is shipped.
+fn shipped() -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(FILE);
+    std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// What is wrong with a configuration text, as `line:column message`.
+fn problems(text: &str) -> Vec<String> {
+    match Config::parse(text, Path::new("kiosk.toml")) {
+        Ok(_) => Vec::new(),
+        Err(error) => {
+            error.problems.iter().map(|p| format!("{}:{} {} {}", p.line, p.column, p.message, p.help)).collect()
+        }
+    }
+}
+
+#[test]
+fn the_shipped_configuration_is_the_default() {
+    assert_eq!(Config::parse(&shipped(), Path::new(FILE)), Ok(Config::default()));
+    assert_eq!(Config::parse("", Path::new(FILE)), Ok(Config::default()), "an empty file is the default");
+}
+
+#[test]
+fn the_shipped_configuration_states_every_key_and_every_range() {
+    let text = shipped();
+    let stated: toml::Table = toml::from_str(&text).expect("it parses");
+    assert_eq!(stated, toml::Table::try_from(Config::default()).expect("it serialises"), "every key is there");
+    for limit in LIMITS {
+        let key = limit.key.rsplit('.').next().expect("a key");
+        let line = text.lines().find(|line| line.starts_with(&format!("{key} ="))).expect(key);
+        let range = format!("{} to {}", limit.low, limit.high);
+        assert!(line.contains(&range), "{key} does not say \"{range}\": {line}");
+        let unit = if limit.unit == "1" { "" } else { limit.unit };
+        assert!(line.contains(unit), "{key} does not say {unit}: {line}");
+    }
+}
+
+#[test]
+fn every_number_of_the_configuration_has_a_range_that_holds_its_default() {
+    fn numbers(table: &toml::Table, prefix: &str, found: &mut Vec<(String, f64)>) {
+        for (name, value) in table {
+            let key = format!("{prefix}{name}");
+            match value {
+                toml::Value::Table(table) => numbers(table, &format!("{key}."), found),
+                toml::Value::Integer(value) => found.push((key, *value as f64)),
+                toml::Value::Float(value) => found.push((key, *value)),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    numbers(&toml::Table::try_from(Config::default()).expect("it serialises"), "", &mut found);
+    assert_eq!(found.len(), LIMITS.len(), "{found:?}");
+    for (key, value) in found {
+        let limit = LIMITS.iter().find(|limit| limit.key == key).unwrap_or_else(|| panic!("{key} has no range"));
+        assert!((limit.low..=limit.high).contains(&value), "{key} = {value}");
+    }
+}
+
+#[test]
+fn everything_wrong_with_a_configuration_is_said_at_once_and_located() {
+    let found = problems("[breath]\ngian = 2\ndistance_m = 30.0\n\n[screens]\n");
+    assert_eq!(
+        found,
+        [
+            "2:1 unknown key `breath.gian` did you mean `gain`?",
+            "3:14 `breath.distance_m` is 30 m, outside 0.1 to 2 m ",
+            "5:2 unknown key `screens` did you mean `screen`?",
+        ]
+    );
+}
+
+#[test]
+fn wrong_types_words_and_grammar_are_located() {
+    for (text, place) in [
+        ("[audio]\nvolume_db = \"loud\"\n", "2:13"),
+        ("[breath]\nprofile = \"gale\"\n", "2:11"),
+        ("[staff]\nchord = \"Ctrl+S\"\n", "2:9"),
+        ("breath = 3\n", "1:1"),
+        ("[audio\n", "1:7"),
+        ("[attract]\nidle_s = nan\n", "2:10"),
+    ] {
+        let found = problems(text);
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        assert!(found[0].starts_with(&format!("{place} ")), "{text}: {found:?}");
+    }
+}
+
+#[test]
+fn a_file_stands_over_the_defaults_key_by_key() {
+    let config = Config::parse("[breath]\nprofile = \"true\"\ngain = 2\n", Path::new(FILE)).expect("it is valid");
+    let settings = config.simulation_settings(7);
+    assert_eq!(settings.profile, soffio::simulation::Profile::True);
+    assert_eq!((settings.breath_gain, settings.seed), (2.0, 7));
+    assert_eq!(settings.distance, Config::default().breath.distance_m, "what is not said stays");
+}
+
+#[test]
+fn a_missing_configuration_says_which_and_what_to_do() {
+    let error = Config::load(Some(Path::new("no/such.toml"))).expect_err("there is no such file").to_string();
+    assert!(error.contains("no/such.toml") && error.contains("--config"), "{error}");
+}
+
+#[test]
+fn a_chord_needs_two_modifiers_and_one_key() {
+    let chord: Chord = "alt + CTRL+s".parse().expect("a chord");
+    assert_eq!(chord.to_string(), "Ctrl+Alt+S");
+    assert!(chord.matches(true, true, false, "S"));
+    assert!(!chord.matches(true, true, true, "S") && !chord.matches(true, false, false, "S"));
+    for bad in ["S", "Ctrl+S", "Ctrl+Alt", "Ctrl+Alt+S+T", "Ctrl+Alt+F13", "Ctrl+Alt+é", ""] {
+        assert!(bad.parse::<Chord>().is_err(), "{bad:?} is no chord");
+    }
+}
+
+#[test]
+fn a_recording_is_heard_whole_in_order_and_without_a_gap_at_any_rate() {
+    for rate in [8_000, 11_025, 22_050, 44_100, 48_000, 192_000] {
+        let samples: Vec<f32> = (0..rate).map(|i| i as f32).collect();
+        let mut feed = WavFeed::new(samples.clone(), rate);
+        let mut heard = Vec::new();
+        for step in 0..240_u64 {
+            assert!(!feed.is_over(), "{rate} Hz, step {step}");
+            let part = feed.step_samples();
+            assert_eq!(part.len() as u64, (step + 1) * u64::from(rate) / 240 - step * u64::from(rate) / 240);
+            heard.extend_from_slice(part);
+        }
+        assert_eq!(heard, samples, "{rate} Hz");
+        assert!(feed.is_over() && feed.step_samples().is_empty());
+    }
+}
+
+#[cfg(feature = "kiosk")]
+mod live {
+    use std::path::Path;
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use soffio::config::Chord;
+    use soffio::exhibit::{Attract as Script, AttractAction, AttractStep};
+    use soffio::kiosk::attract::Attract;
+    use soffio::kiosk::input::{Key, Phase, Request, Signal, Visitor};
+    use soffio::kiosk::pace::{MOST_BEHIND, Pacer};
+    use soffio::kiosk::reload::Reload;
+    use soffio::kiosk::words::{WORDS, language_name, words};
+    use soffio::simulation::Command;
+
+    #[test]
+    fn an_hour_of_uneven_waking_is_exactly_240_steps_a_second() {
+        let mut pacer = Pacer::default();
+        let mut random = soffio::noise::Random::new(11);
+        let (mut now, mut steps) = (Duration::ZERO, 0);
+        while now < Duration::from_secs(3600) {
+            now = (now + Duration::from_nanos(random.range(1e3, 2e7) as u64)).min(Duration::from_secs(3600));
+            steps += pacer.due(now);
+            assert!(pacer.present() <= now && now < pacer.next(), "the present is the last step due");
+        }
+        assert_eq!((steps, pacer.dropped()), (3600 * 240, 0));
+    }
+
+    #[test]
+    fn a_short_delay_is_made_up_and_a_long_one_is_dropped() {
+        let mut pacer = Pacer::default();
+        assert_eq!(pacer.due(Duration::from_millis(250)), MOST_BEHIND, "a quarter of a second is made up");
+        assert_eq!(pacer.due(Duration::from_millis(1250)), 1, "a second is not: the motion goes on where it was");
+        assert_eq!(pacer.dropped(), 239);
+        assert_eq!(pacer.due(Duration::from_millis(1250)), 0);
+        assert_eq!(pacer.due(Duration::from_millis(1300)), 12, "and keeps its pace");
+    }
+
+    fn chord() -> Chord {
+        "Ctrl+Alt+S".parse().expect("a chord")
+    }
+
+    fn key(name: &str, pressed: bool) -> Signal {
+        Signal::Key(Key { name: name.into(), pressed, ..Key::default() })
+    }
+
+    fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
+        visitor.signal(&signal, &chord(), false)
+    }
+
+    #[test]
+    fn a_pointer_aims_once_it_has_moved() {
+        let mut visitor = Visitor::default();
+        tell(&mut visitor, Signal::Pointer([0.5, 0.5]));
+        tell(&mut visitor, Signal::Pointer([0.505, 0.5]));
+        assert_eq!((visitor.aim(), visitor.activity()), (None, 0), "a pointer that lies there is nobody");
+        tell(&mut visitor, Signal::Pointer([0.6, 0.4]));
+        assert_eq!((visitor.aim(), visitor.activity()), (Some([0.6, 0.4]), 1));
+        tell(&mut visitor, Signal::Pointer([1.4, -0.1]));
+        assert_eq!(visitor.aim(), Some([1.0, 0.0]), "it aims inside the picture");
+        visitor.leave();
+        tell(&mut visitor, Signal::Pointer([1.4, -0.1]));
+        assert_eq!(visitor.aim(), None, "the next visitor starts from the centre");
+    }
+
+    #[test]
+    fn button_finger_and_space_bar_blow_while_they_are_held() {
+        let finger = |phase| Signal::Touch { finger: 3, at: [0.2, 0.7], phase };
+        for (down, up) in [
+            (Signal::Button(true), Signal::Button(false)),
+            (finger(Phase::Down), finger(Phase::Up)),
+            (key("Space", true), key("Space", false)),
+        ] {
+            let mut visitor = Visitor::default();
+            tell(&mut visitor, down.clone());
+            assert!(visitor.holds(), "{down:?}");
+            tell(&mut visitor, up);
+            assert!(!visitor.holds(), "{down:?}");
+            tell(&mut visitor, down);
+            tell(&mut visitor, Signal::Deserted);
+            assert!(!visitor.holds(), "a window that loses the focus hears no release");
+        }
+    }
+
+    #[test]
+    fn the_first_finger_aims_and_a_second_changes_nothing() {
+        let mut visitor = Visitor::default();
+        let touch = |finger, x, phase| Signal::Touch { finger, at: [x, 0.5], phase };
+        tell(&mut visitor, touch(1, 0.9, Phase::Move));
+        assert!(!visitor.holds(), "a finger that pressed a button and slides off it does not blow");
+        tell(&mut visitor, touch(1, 0.2, Phase::Down));
+        tell(&mut visitor, touch(2, 0.8, Phase::Down));
+        tell(&mut visitor, touch(2, 0.9, Phase::Up));
+        assert!(visitor.holds());
+        assert_eq!(visitor.aim(), Some([0.2, 0.5]));
+        tell(&mut visitor, touch(1, 0.3, Phase::Move));
+        tell(&mut visitor, touch(1, 0.3, Phase::Up));
+        assert!(!visitor.holds());
+        assert_eq!(visitor.aim(), Some([0.3, 0.5]), "the aim stays where the finger left it");
+    }
+
+    #[test]
+    fn no_key_of_a_visitor_closes_the_kiosk() {
+        let mut visitor = Visitor::default();
+        let names = ["Escape", "F4", "Q", "W", "Tab", "Delete", "C", "F11", "Enter", "S"];
+        for name in names {
+            for held in 0..7 {
+                let (ctrl, alt, shift) = (held & 1 > 0, held & 2 > 0, held & 4 > 0);
+                let key = Key { name: name.into(), pressed: true, repeat: false, ctrl, alt, shift };
+                let asked = visitor.signal(&Signal::Key(key), &chord(), false);
+                let staff = name == "S" && ctrl && alt && !shift;
+                assert_eq!(asked, staff.then_some(Request::ToggleStaff), "{name} {held:03b}");
+            }
+        }
+        assert_eq!(visitor.signal(&key("Escape", true), &chord(), true), Some(Request::Close), "on a desk it may");
+    }
+
+    #[test]
+    fn the_language_key_asks_once_and_all_keys_count_as_input() {
+        let mut visitor = Visitor::default();
+        assert_eq!(tell(&mut visitor, key("L", true)), Some(Request::NextLanguage));
+        let repeat = Signal::Key(Key { name: "L".into(), pressed: true, repeat: true, ..Key::default() });
+        assert_eq!(tell(&mut visitor, repeat), None);
+        assert_eq!(tell(&mut visitor, key("B", true)), None);
+        assert_eq!(visitor.activity(), 3);
+    }
+
+    /// A script of one second: a text, then half a second of a breath that nobody could take for one.
+    fn script() -> Script {
+        let samples: Arc<[f32]> = vec![0.0; 24_000].into();
+        let blow = AttractAction::Blow { samples, sample_rate: 48_000, aim: Some([0.25, 0.75]) };
+        Script {
+            steps: vec![
+                AttractStep { at: 0.0, action: AttractAction::Show("invite".into()) },
+                AttractStep { at: 0.25, action: blow },
+                AttractStep { at: 0.9, action: AttractAction::Reset },
+            ],
+            duration: 1.0,
+        }
+    }
+
+    #[test]
+    fn attract_mode_begins_after_the_idle_time_and_ends_at_the_first_input() {
+        let mut attract = Attract::new(script(), 2.0);
+        for step in 1..480 {
+            assert!(!attract.step(false).active, "step {step}");
+        }
+        assert!(attract.step(false).active, "two seconds are 480 steps");
+        assert_eq!(attract.text(), Some("invite"));
+        let cue = attract.step(true);
+        assert!(!cue.active && !attract.is_active());
+        assert_eq!(cue.commands, [Command::Blow(None)], "the breath is the visitor's again");
+        assert_eq!(attract.text(), None);
+        assert!(attract.step(true).commands.is_empty());
+        for step in 1..480 {
+            assert!(!attract.step(false).active, "the idle time starts anew, step {step}");
+        }
+        assert!(attract.step(false).active);
+    }
+
+    #[test]
+    fn the_attract_script_runs_in_time_and_repeats() {
+        let mut attract = Attract::new(script(), 1.0 / 240.0);
+        for round in 0..2 {
+            for step in 0..240 {
+                let cue = attract.step(false);
+                let place = format!("round {round}, step {step}");
+                assert!(cue.active, "{place}");
+                assert_eq!(cue.aim, (step >= 60).then_some([0.25, 0.75]), "{place}");
+                assert_eq!(cue.commands.contains(&Command::Reset), step == 216, "{place}");
+                // 24 000 samples at 48 kHz are 120 steps; the step after them ends the breath.
+                let blows = cue.commands.iter().any(|command| matches!(command, Command::Blow(Some(_))));
+                assert_eq!(blows, step == 0 || (60..=180).contains(&step), "{place}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_script_still_waits_for_visitors() {
+        let mut attract = Attract::new(Script::default(), 0.0);
+        assert!(attract.step(false).active && attract.step(false).active);
+        assert!(!attract.step(true).active);
+    }
+
+    #[test]
+    fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
+        /// Far longer than the debounce time and a load: only a watcher that misses the change takes so long.
+        const LONG: Duration = Duration::from_secs(20);
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish");
+        let folder = tempfile::tempdir().expect("a folder");
+        let copy = folder.path().join("steel-fish");
+        copy_folder(&shipped, &copy);
+        let reload = Reload::new(&copy, true);
+        let sidecar = copy.join("exhibit.toml");
+        let text = std::fs::read_to_string(&sidecar).expect("a sidecar");
+
+        std::fs::write(&sidecar, &text).expect("writable");
+        let loaded = reload.wait(LONG).expect("the change is noticed").expect("the exhibit is valid");
+        assert_eq!(loaded.id, "steel-fish");
+
+        std::fs::write(&sidecar, format!("{text}\n[no-such-table]\n")).expect("writable");
+        let report = reload.wait(LONG).expect("the change is noticed").expect_err("the exhibit is not valid");
+        assert!(report.contains("no-such-table"), "{report}");
+    }
+
+    fn copy_folder(from: &Path, to: &Path) {
+        std::fs::create_dir_all(to).expect("a folder");
+        for entry in std::fs::read_dir(from).unwrap_or_else(|error| panic!("{}: {error}", from.display())) {
+            let path = entry.expect("readable").path();
+            let target = to.join(path.file_name().expect("a name"));
+            if path.is_dir() {
+                copy_folder(&path, &target);
+            } else {
+                std::fs::copy(&path, &target).expect("a copy");
+            }
+        }
+    }
+
+    #[test]
+    fn languages_are_named_in_themselves_and_the_unknown_ones_by_their_code() {
+        assert_eq!(language_name("ko"), "한국어");
+        assert_eq!(language_name("ko-KR"), "한국어");
+        assert_eq!(language_name("xx"), "xx");
+        assert_eq!(words("xx").code, "en");
+        for words in WORDS {
+            assert!(![words.name, words.invite, words.hold, words.privacy].contains(&""), "{}", words.code);
+        }
+    }
+}
+
+mod room {
+    use soffio::commands::doctor::{Health, judge_room};
+
+    const RATE: u32 = 48_000;
+
+    /// A second of white noise, full scale 1, through a gain over time (0…1 s).
+    fn noise(gain: impl Fn(f64) -> f64) -> Vec<f32> {
+        let mut random = soffio::noise::Random::new(5);
+        (0..RATE).map(|i| (random.signed() * gain(f64::from(i) / f64::from(RATE))).clamp(-1.0, 1.0) as f32).collect()
+    }
+
+    #[test]
+    fn a_quiet_room_is_well_and_every_fault_has_its_remedy() {
+        for (what, samples, health, word) in [
+            ("quiet", noise(|_| 0.002), Health::Ok, ""),
+            ("muted", vec![0.0; RATE as usize], Health::Bad, "muted"),
+            ("clipping", noise(|_| 3.0), Health::Warn, "clips"),
+            ("loud", noise(|_| 0.3), Health::Warn, "loud"),
+            ("gain control", noise(|t| 0.0005 * (1.0 + 9.0 * t)), Health::Warn, "gain control"),
+            ("stuttering", noise(|_| 0.002)[..10_000].to_vec(), Health::Bad, "hardly"),
+            ("nothing", Vec::new(), Health::Bad, "hardly"),
+        ] {
+            let finding = judge_room(&samples, RATE);
+            assert_eq!(finding.health, health, "{what}: {finding:?}");
+            assert!(finding.remedy.contains(word), "{what}: {finding:?}");
+        }
+    }
+}
