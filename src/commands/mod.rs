@@ -53,7 +53,7 @@ fn open(id_or_folder: &str) -> Result<Arc<Exhibit>, Failure> {
 
 /// Constants of a run as the site's configuration has them.
 fn settings() -> Result<Settings, Failure> {
-    let config = Config::load(None).map_err(Failure::input)?;
+    let (config, _) = Config::load(None).map_err(Failure::input)?;
     Ok(config.simulation_settings(1))
 }
 
