@@ -1,2 +1,3 @@
 //! The test suite: one binary, one module per room.
+mod realtime;
 mod sound;
