@@ -6,4 +6,5 @@ mod blow;
 mod dynamics;
 mod forge;
 mod kiosk;
+mod realtime;
 mod sound;
