@@ -1,1 +1,8 @@
 //! The test suite: one binary, one module per room.
+
+#[cfg(feature = "kiosk")]
+mod pictures;
+#[cfg(feature = "kiosk")]
+mod scratch;
+#[cfg(feature = "kiosk")]
+mod shaders;
