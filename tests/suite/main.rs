@@ -6,5 +6,12 @@ mod blow;
 mod dynamics;
 mod forge;
 mod kiosk;
+#[cfg(feature = "kiosk")]
+mod pictures;
+#[cfg(feature = "kiosk")]
 mod realtime;
+#[cfg(feature = "kiosk")]
+mod scratch;
+#[cfg(feature = "kiosk")]
+mod shaders;
 mod sound;
