@@ -8,7 +8,6 @@ mod forge;
 mod kiosk;
 #[cfg(feature = "kiosk")]
 mod pictures;
-#[cfg(feature = "kiosk")]
 mod realtime;
 #[cfg(feature = "kiosk")]
 mod scratch;
