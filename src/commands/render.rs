@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::{Failure, Outcome};
 use crate::exhibit::{self, Exhibit};
 use crate::render::scenario::Scenario;
-use crate::render::{Frame, ImageRenderer, RenderError, of_model};
+use crate::render::{Frame, ImageRenderer, RenderError};
 use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// Picture size without `--size` or a scenario's.
@@ -84,7 +84,7 @@ fn subject(args: &Args, scenario: &Scenario) -> Result<Exhibit, Failure> {
     };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     if extension == "glb" || extension == "gltf" {
-        return exhibit::model::load_glb(&path).map(of_model).map_err(Failure::input);
+        return exhibit::plain(&path).map_err(Failure::input);
     }
     let folder = exhibit::resolve(&name).map_err(Failure::input)?;
     exhibit::load(&folder).map_err(Failure::input)

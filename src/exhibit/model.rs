@@ -2,6 +2,12 @@
 
 use crate::math::{DMat4, DVec3};
 
+mod accessor;
+mod import;
+mod look;
+
+pub use import::{Imported, import, load};
+
 /// A glTF model.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
@@ -171,9 +177,4 @@ pub enum LightKind {
     Point,
     /// A cone, inner and outer half-angle, rad.
     Spot(f64, f64),
-}
-
-/// Reads a glTF or GLB file.
-pub fn load_glb(path: &std::path::Path) -> Result<Model, super::Report> {
-    Err(super::Report(format!("{}: this build has no loader", path.display())))
 }

@@ -225,15 +225,3 @@ mod tests {
         assert_eq!(straight.project(DVec3::Z, 2.0), None, "behind the eye");
     }
 }
-
-impl View {
-    /// The ray through a point of the picture: origin (m) and unit direction.
-    pub fn ray(&self, at: [f64; 2], aspect: f64) -> (DVec3, DVec3) {
-        let forward = (self.target - self.eye).normalize();
-        let right = forward.cross(self.up).normalize();
-        let up = right.cross(forward);
-        let tan = crate::math::sin(0.5 * self.fovy) / crate::math::cos(0.5 * self.fovy);
-        let (x, y) = ((2.0 * at[0] - 1.0) * tan * aspect, (1.0 - 2.0 * at[1]) * tan);
-        (self.eye, (forward + x * right + y * up).normalize())
-    }
-}

@@ -1,7 +1,9 @@
 //! Shapes: triangle meshes and their mass, convex cores and their distance, rays against moving triangles.
 
 pub mod convex;
+pub mod mass;
 pub mod mesh;
 pub mod rays;
 
-pub use mesh::TriangleMesh;
+pub use mass::Moments;
+pub use mesh::{Extents, TriangleMesh};

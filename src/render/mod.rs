@@ -48,7 +48,7 @@ mod wires;
 
 pub use forward::Renderer;
 pub use gpu::Gpu;
-pub use picture::{ImageRenderer, of_model};
+pub use picture::ImageRenderer;
 
 /// What the renderer can fail on.
 #[derive(Debug, thiserror::Error)]

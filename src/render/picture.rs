@@ -107,29 +107,3 @@ impl Target {
         image::RgbaImage::from_raw(width, height, pixels).ok_or_else(|| failed(&"too few bytes came back"))
     }
 }
-
-/// A model alone as an exhibit in which nothing moves, seen through its first camera.
-pub fn of_model(model: Model) -> Exhibit {
-    let camera_node = model.nodes.iter().position(|node| node.camera.is_some());
-    Exhibit {
-        id: String::new(),
-        folder: std::path::PathBuf::new(),
-        model,
-        gravity: crate::math::DVec3::new(0.0, -9.81, 0.0),
-        camera_node,
-        materials: Vec::new(),
-        material_pairs: Vec::new(),
-        bodies: Vec::new(),
-        constraints: Vec::new(),
-        springs: Vec::new(),
-        wires: Vec::new(),
-        colliders: Vec::new(),
-        excluded_pairs: Vec::new(),
-        wind_surfaces: Vec::new(),
-        instruments: Vec::new(),
-        sounds: Vec::new(),
-        attract: Default::default(),
-        labels: Default::default(),
-        credit: Default::default(),
-    }
-}
