@@ -137,10 +137,10 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Logs go to stderr; `RUST_LOG` says how much.
+/// Logs go to stderr; `RUST_LOG` says how much. The sound server's client calls its own orderly end an error.
 fn log_to_stderr() {
     let filter = tracing_subscriber::EnvFilter::try_from_default_env()
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info"));
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info,pulseaudio=off"));
     // A second call in one process keeps the first log.
     let terminal = std::io::stderr().is_terminal();
     let _ =

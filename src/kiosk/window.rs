@@ -33,6 +33,8 @@ const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
 const NAP: Duration = Duration::from_millis(50);
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;
+/// Time that devices may take to open before staff hear that one is missing, s.
+const DEVICES_OPEN_S: f64 = 4.0;
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;
 
@@ -78,6 +80,7 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         buttons: Vec::new(),
         staff: Staff::default(),
         attracts: false,
+        hears: true,
         clock: Clock::new(),
         lost: 0,
         missing: None,
@@ -147,6 +150,7 @@ struct App<'a> {
     languages: Vec<String>,
     language: String,
     attracts: bool,
+    hears: bool,
     clock: Clock,
     lost: u32,
     missing: Option<Missing>,
@@ -281,6 +285,7 @@ impl App<'_> {
             wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
         });
         self.follow_attract(&frame);
+        self.follow_hearing(&frame);
         match wish {
             Some(Wish::Close) => events.exit(),
             Some(Wish::Reload) => self.reload.ask(),
@@ -316,6 +321,18 @@ impl App<'_> {
             self.tell();
         }
         self.attracts = frame.attracts;
+    }
+
+    /// Staff hear of a microphone that comes or goes.
+    fn follow_hearing(&mut self, frame: &Frame) {
+        if frame.hears == self.hears || self.clock.seconds(Instant::now()) < DEVICES_OPEN_S {
+            return;
+        }
+        self.hears = frame.hears;
+        self.say(match frame.hears {
+            true => "the microphone listens".into(),
+            false => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
+        });
     }
 
     /// What a press at a point of the picture asks for, where it is not a breath.
