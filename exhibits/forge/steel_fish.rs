@@ -58,8 +58,8 @@ const TIP_ARM: f64 = 317.0 * MM;
 /// hangs before the long end of the red plate, a finger's breadth from it.
 const B2_YAW: f64 = -0.10;
 const RED_YAW: f64 = -0.10;
-const B4_YAW: f64 = -0.36;
-const ORANGE_YAW: f64 = 0.25;
+const B4_YAW: f64 = -0.52;
+const ORANGE_YAW: f64 = -0.45;
 const WHITE_YAW: f64 = -0.05;
 
 /// Finishes of the meshes; paint is dielectric. How the wires look stands in the sidecar.
@@ -103,14 +103,14 @@ pub fn glb() -> (Mobile, Vec<u8>) {
 }
 
 fn draw(finishes: &Finishes) -> Mobile {
-    let orange = disc("OrangeDisc", "OrangeHook", "OrangeStem", 35.4 * MM, 60.0 * MM, finishes.orange);
+    let orange = disc("OrangeDisc", "OrangeHook", "OrangeStem", 35.4 * MM, 67.0 * MM, finishes.orange);
     let white = disc("WhiteDisc", "WhiteHook", "WhiteStem", 25.8 * MM, 76.0 * MM, finishes.white);
     let b4 = branch(&Branch {
         names: ["B4", "B4Loop", "B4Wire", "B4White", "B4Orange"],
         radius: 0.5 * MM,
         eye: 1.7 * MM,
-        chord: 72.0 * MM,
-        droop: 4.0 * MM,
+        chord: 45.0 * MM,
+        droop: 6.0 * MM,
         loads: [white.mass().mass, orange.mass().mass],
     });
     let below_b4 = orange.mass().mass + white.mass().mass;
@@ -119,8 +119,8 @@ fn draw(finishes: &Finishes) -> Mobile {
         names: ["B2", "B2Loop", "B2Wire", "B2Red", "B2Branch"],
         radius: 0.6 * MM,
         eye: 2.0 * MM,
-        chord: 102.0 * MM,
-        droop: 5.0 * MM,
+        chord: 89.0 * MM,
+        droop: 8.0 * MM,
         loads: [red.mass().mass, b4.mass().mass + below_b4],
     });
     let tip_load = b2.mass().mass + red.mass().mass + b4.mass().mass + below_b4;

@@ -107,7 +107,7 @@ pub fn summarise(file: String, steps: &[(f64, BlowEstimate)]) -> Summary {
         blow: count > 0,
         onset_s: blowing().next().map(|(t, _)| *t),
         peak: blowing().map(|(_, e)| e.speed).fold(0.0, f64::max),
-        mean: blowing().map(|(_, e)| e.speed).sum::<f64>() / count.max(1) as f64,
+        mean: blowing().fold(0.0, |sum, (_, e)| sum + e.speed) / count.max(1) as f64,
         seconds_blowing: count as f64 / STEPS_HZ as f64,
         triggers: steps.windows(2).filter(began).count() + usize::from(from_start),
     }

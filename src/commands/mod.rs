@@ -1,8 +1,14 @@
 //! The command line: one file per command, arguments and all (design.md section 3).
 
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Parser, Subcommand};
+
+use crate::config::Config;
+use crate::exhibit::{self, Exhibit};
+use crate::simulation::Settings;
 
 pub mod bench;
 pub mod breath;
@@ -36,6 +42,26 @@ impl Failure {
     /// A device or driver is missing.
     pub fn device(message: impl std::fmt::Display) -> Self {
         Self { code: 3, message: message.to_string() }
+    }
+}
+
+/// Loads an exhibit by its id or folder; all its problems are told at once.
+fn open(id_or_folder: &str) -> Result<Arc<Exhibit>, Failure> {
+    let folder = exhibit::resolve(id_or_folder).map_err(Failure::input)?;
+    exhibit::load(&folder).map(Arc::new).map_err(Failure::input)
+}
+
+/// Constants of a run as the site's configuration has them.
+fn settings() -> Result<Settings, Failure> {
+    let (config, _) = Config::load(None).map_err(Failure::input)?;
+    Ok(config.simulation_settings(1))
+}
+
+/// Raises `stop` at Ctrl-C, so that a run ends without half-written files.
+fn stop_on_ctrl_c(stop: &Arc<AtomicBool>) {
+    let stop = stop.clone();
+    if let Err(error) = ctrlc::set_handler(move || stop.store(true, Ordering::Relaxed)) {
+        tracing::warn!("Ctrl-C will not stop this cleanly: {error}");
     }
 }
 

@@ -1,12 +1,188 @@
 //! `soffio play`.
 
-use super::{Failure, Outcome};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
-/// Runs an exhibit offline, faster than real time.
-#[derive(clap::Args, Debug, Default)]
-pub struct Args {}
+use clap::ValueEnum;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{Failure, Outcome};
+use crate::exhibit::Exhibit;
+use crate::offline::feed::WavFeed;
+use crate::offline::play::{self, OnFrame, Play, PlayError};
+use crate::offline::trace::DEFAULT_FPS;
+use crate::offline::wav;
+use crate::simulation::{Profile, STEPS_PER_SECOND, Script, Settings};
+
+/// Seconds of a run without a recording, and after the end of one.
+const TAIL: f64 = 5.0;
+
+/// Runs an exhibit offline, faster than real time, deterministic.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "Example:\n  soffio play steel-fish --breath blow.wav --audio out.wav --trace out.csv")]
+pub struct Args {
+    /// Id under `exhibits/`, or a folder.
+    exhibit: String,
+    /// Recorded breath, heard as the microphone.
+    #[arg(long, value_name = "WAV")]
+    breath: Option<PathBuf>,
+    /// Where the breath is aimed, picture coordinates: 0,0 top left, 1,1 bottom right.
+    #[arg(long, value_name = "X,Y", value_parser = parse_aim, conflicts_with = "script")]
+    aim: Option<[f64; 2]>,
+    /// What a visitor does over time, JSON lines.
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+    /// How a breath becomes wind.
+    #[arg(long, value_enum, default_value_t = ProfileArg::Gallery)]
+    profile: ProfileArg,
+    /// No wind of any kind.
+    #[arg(long)]
+    no_wind: bool,
+    /// Length; default is the recording's or script's length and 5 s.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    seconds: Option<f64>,
+    /// How motion is solved.
+    #[arg(long, value_enum, default_value_t = SolverArg::Auto)]
+    solver: SolverArg,
+    /// Seed of all that is random.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Sound of the run, stereo 48 kHz float.
+    #[arg(long, value_name = "OUT.wav")]
+    audio: Option<PathBuf>,
+    /// Sound without room and limiter.
+    #[arg(long)]
+    dry: bool,
+    /// Poses of the moving bodies.
+    #[arg(long, value_name = "OUT.csv")]
+    trace: Option<PathBuf>,
+    /// Events.
+    #[arg(long, value_name = "OUT.jsonl")]
+    events: Option<PathBuf>,
+    /// Pictures, one PNG a frame.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "DIR")]
+    frames: Option<PathBuf>,
+    /// Size of the picture.
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
+    size: (u32, u32),
+    /// Frames per second of trace and pictures.
+    #[arg(long, default_value_t = DEFAULT_FPS, value_parser = clap::value_parser!(u32).range(1..=240))]
+    fps: u32,
+}
+
+/// Breath profile on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ProfileArg {
+    /// No travelling front, gain for a child's gentle breath.
+    Gallery,
+    /// Gain 1, the front travels.
+    True,
+}
+
+/// Solver on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SolverArg {
+    /// Constrained dynamics.
+    Dynamics,
+    /// The exhibit's own choice.
+    Auto,
+}
+
+/// Reads `x,y`.
+pub fn parse_aim(text: &str) -> Result<[f64; 2], String> {
+    let wrong = || format!("\"{text}\" is no aim; write two numbers from 0 to 1, as in 0.4,0.5");
+    let (x, y) = text.split_once(',').ok_or_else(wrong)?;
+    let read = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    Ok([read(x).ok_or_else(wrong)?, read(y).ok_or_else(wrong)?])
+}
+
+/// Reads a positive number of seconds.
+pub fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0 && *s <= 1e6);
+    seconds.ok_or_else(|| format!("\"{text}\" is no length; write seconds, as in 12.5"))
+}
+
+/// Reads `WxH`.
+pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let wrong = || format!("\"{text}\" is no size; write pixels, as in 1280x720, at most 16384 a side");
+    let (w, h) = text.split_once('x').ok_or_else(wrong)?;
+    let read = |part: &str| part.parse::<u32>().ok().filter(|v| (1..=16384).contains(v));
+    Ok((read(w).ok_or_else(wrong)?, read(h).ok_or_else(wrong)?))
+}
 
 /// Runs the command.
-pub fn run(_args: Args) -> Outcome {
-    Err(Failure { code: 2, message: "soffio play: under construction".into() })
+pub fn run(args: Args) -> Outcome {
+    let exhibit = super::open(&args.exhibit)?;
+    let recording = args.breath.as_ref().map(wav::read).transpose().map_err(Failure::input)?;
+    let script = args.script.as_ref().map(read_script).transpose()?;
+    let heard = recording.as_ref().map_or(0.0, wav::Recording::duration);
+    let told = script.as_ref().map_or(0.0, Script::duration);
+    let seconds = args.seconds.unwrap_or(heard.max(told) + TAIL);
+    let settings = Settings {
+        profile: match args.profile {
+            ProfileArg::Gallery => Profile::Gallery,
+            ProfileArg::True => Profile::True,
+        },
+        seed: args.seed,
+        wind: !args.no_wind,
+        ..super::settings()?
+    };
+    // One solver so far: the exhibit's own choice is constrained dynamics.
+    let (SolverArg::Dynamics | SolverArg::Auto) = args.solver;
+    let play = Play {
+        settings,
+        breath: recording.map(|r| WavFeed::new(r.samples, r.sample_rate)),
+        aim: args.aim,
+        script,
+        seconds,
+        aspect: f64::from(args.size.0) / f64::from(args.size.1),
+        audio: args.audio.clone(),
+        dry: args.dry,
+        trace: args.trace.clone(),
+        events: args.events.clone(),
+        fps: args.fps,
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    super::stop_on_ctrl_c(&stop);
+    let progress = progress_bar((seconds * STEPS_PER_SECOND as f64).round() as u64);
+    let mut frames = frame_writer(&args, &exhibit)?;
+    let on_frame = frames.as_mut().map(|f| &mut **f as &mut OnFrame);
+    let summary = play::run(&exhibit, play, &stop, |step| progress.set_position(step), on_frame);
+    progress.finish_and_clear();
+    match summary {
+        Ok(summary) => {
+            println!("{}", serde_json::to_string(&summary).map_err(Failure::input)?);
+            Ok(())
+        }
+        Err(PlayError::Interrupted) => Err(Failure { code: 130, message: "interrupted; nothing was written".into() }),
+        Err(error) => Err(Failure::input(error)),
+    }
+}
+
+/// A bar on a terminal, nothing in a pipe.
+fn progress_bar(steps: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{wide_bar} {percent}% {eta}").unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(steps).with_style(style)
+}
+
+fn read_script(path: &PathBuf) -> Result<Script, Failure> {
+    let name = path.display();
+    let text = std::fs::read_to_string(path)
+        .map_err(|e| Failure::input(format!("cannot read the script {name}: {e}; check the path")))?;
+    Script::parse(&text).map_err(|e| Failure::input(format!("{name}, {e}")))
+}
+
+type FrameWriter = Box<OnFrame<'static>>;
+
+#[cfg(not(feature = "kiosk"))]
+fn frame_writer(_: &Args, _: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
+    Ok(None)
+}
+
+#[cfg(feature = "kiosk")]
+fn frame_writer(args: &Args, _exhibit: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
+    let Some(_folder) = &args.frames else { return Ok(None) };
+    Ok(None)
 }

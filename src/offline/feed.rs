@@ -35,6 +35,11 @@ impl WavFeed {
         Microphone { samples: self.step_samples(), sample_rate, reference: &[] }
     }
 
+    /// Length, s.
+    pub fn duration(&self) -> f64 {
+        self.samples.len() as f64 / f64::from(self.sample_rate)
+    }
+
     /// Is everything heard?
     pub fn is_over(&self) -> bool {
         self.bound(self.step) == self.samples.len()

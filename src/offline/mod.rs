@@ -1,4 +1,9 @@
 //! The same pipeline without a window: WAV in; WAV, pictures, traces and events out.
 
+pub mod demo;
+pub mod events;
 pub mod feed;
+pub mod play;
+pub mod soundtrack;
+pub mod trace;
 pub mod wav;

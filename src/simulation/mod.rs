@@ -7,6 +7,7 @@
 mod aim;
 mod event;
 mod motes;
+mod script;
 mod snapshot;
 mod sonify;
 mod source;
@@ -29,6 +30,7 @@ use crate::wind::jet::{Front, Jet};
 use aim::{Aim, AimTarget};
 pub use event::{Event, EventKind};
 use motes::Motes;
+pub use script::{Script, ScriptError};
 pub use snapshot::{BreathView, Diagnostics, Mote, Snapshot};
 use sonify::Listener;
 use source::BreathSource;

@@ -178,6 +178,23 @@ pub fn knocks(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f6
     out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
 }
 
+/// Steps and falling things: bursts of low noise that die within 40–150 ms, at the given times (s).
+pub fn thuds(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64) -> Vec<f32> {
+    let rate = f64::from(sample_rate);
+    let mut random = Random::new(seed);
+    let mut out = vec![0.0; length(sample_rate, seconds)];
+    for &start in times {
+        let (corner, decay) = (random.range(60.0, 400.0), random.range(0.04, 0.15));
+        let count = (8.0 * decay * rate) as usize;
+        let body = normalised(low_passed(gaussian(count, &mut random), rate, corner, 2));
+        for (i, (o, x)) in out.iter_mut().skip((start * rate) as usize).zip(body).enumerate() {
+            let t = i as f64 / rate;
+            *o += peak * 0.4 * x * (1.0 - exp(-t / 0.002)) * exp(-t / decay);
+        }
+    }
+    out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
+}
+
 /// Puffs of p and b: 25–70 ms of low noise at the given times (s).
 pub fn plosives(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64) -> Vec<f32> {
     let rate = f64::from(sample_rate);

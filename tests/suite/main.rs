@@ -1,5 +1,6 @@
 //! The test suite: one binary, one module per room.
 
+mod architecture;
 mod articulation;
 mod blow;
 mod dynamics;

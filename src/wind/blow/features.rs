@@ -26,7 +26,7 @@ pub const NAMES: [&str; COUNT] = [
     "flatness of the low band, 10 dB",
     "flatness of 406–1625 Hz, 10 dB",
     "fall from the peak of the last 0.2 s, 10 dB",
-    "change of the low band from frame to frame, 10 dB",
+    "roughness of the low band's level (second difference), 10 dB",
     "rise of 406–1625 Hz over the room, 10 dB",
     "flatness of the low band over 80 ms, 10 dB",
 ];
@@ -55,8 +55,10 @@ const PITCH_LAGS: (usize, usize) = (20, 100);
 const SMOOTHING_S: f64 = 0.012;
 /// Frames that are remembered, 0.2 s.
 const MEMORY: usize = 24;
-/// Frames of the shortest breath, 80 ms.
-const SHORTEST: usize = 10;
+/// Frames over which roughness is taken, 64 ms.
+const ROUGH_FRAMES: usize = 8;
+/// A bend of the level counts up to this, dB.
+const BEND_DB: f64 = 2.0;
 /// A room is never taken to be quieter than this, power (−75 dBFS): below it lies a converter's own noise.
 const QUIETEST: f64 = 3.2e-8;
 /// Keeps logarithms finite; far below [`QUIETEST`].
@@ -160,7 +162,9 @@ impl Listener {
         let low = band(e, LOW.0, LOW.1);
         let middle = band(e, MIDDLE.0, MIDDLE.1);
         let peak = self.levels.iter().fold(f64::NEG_INFINITY, |m: f64, l| m.max(*l));
-        let change = (0..SHORTEST).map(|i| (self.levels[ago(i)] - self.levels[ago(i + 1)]).abs()).sum::<f64>();
+        let bend = |i: usize| self.levels[ago(i)] - 2.0 * self.levels[ago(i + 1)] + self.levels[ago(i + 2)];
+        // One great bend is an onset, many small ones are a rough sound.
+        let roughness = (0..ROUGH_FRAMES).map(|i| bend(i).abs().min(BEND_DB)).sum::<f64>() / ROUGH_FRAMES as f64;
         let rise_middle = decibels(band(&self.smooth, MIDDLE.0, MIDDLE.1) + quiet)
             - decibels(band(&self.room, MIDDLE.0, MIDDLE.1) + quiet);
         let features = [
@@ -175,7 +179,7 @@ impl Listener {
             flatness(&e[LOW.0..LOW.1]).clamp(-20.0, 0.0),
             flatness(&e[MIDDLE.0..MIDDLE.1]).clamp(-20.0, 0.0),
             (peak - level).clamp(0.0, 20.0),
-            (change / SHORTEST as f64).clamp(0.0, 10.0),
+            roughness,
             rise_middle.clamp(-5.0, 30.0),
             flatness(&self.slow_low).clamp(-20.0, 0.0),
         ]

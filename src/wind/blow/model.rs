@@ -54,21 +54,21 @@ const fn line(knees: [f64; 2], slopes: [f64; 3]) -> Line {
 /// The trained model.
 #[rustfmt::skip]
 pub const TRAINED: Model = Model {
-    bias: 2.946,
+    bias: 4.860,
     lines: [
-        line([1.349, 3.000], [-1.966, -4.798, 0.000]), // rise of the low band over the room, 10 dB
-        line([0.570, 2.500], [4.272, 1.890, 0.000]), // the same less twice the room's unrest, 10 dB
-        line([-0.247, -0.083], [0.381, -0.467, -1.030]), // share of the low band in the excess, 10 dB
-        line([-0.714, -0.056], [0.522, -0.420, 0.206]), // 31–94 Hz over 94–203 Hz, 10 dB
-        line([-0.877, -0.361], [0.977, -0.179, -1.356]), // 203–406 Hz over the low band, 10 dB
-        line([-1.372, -0.688], [-0.450, -0.547, -2.091]), // 406–1625 Hz over the low band, 10 dB
-        line([-1.121, -0.675], [0.885, 1.073, -2.995]), // 1625–3400 Hz over 406–1625 Hz, 10 dB
-        line([0.165, 0.258], [-1.239, -0.254, 0.287]), // periodicity of the excess, 80–400 Hz
-        line([-0.679, -0.157], [-0.031, 0.671, -0.160]), // flatness of the low band, 10 dB
-        line([-2.000, -0.440], [0.090, 0.090, -2.517]), // flatness of 406–1625 Hz, 10 dB
-        line([0.112, 0.530], [1.903, 1.397, -4.696]), // fall from the peak of the last 0.2 s, 10 dB
-        line([0.076, 0.121], [0.718, -1.615, -3.365]), // change of the low band from frame to frame, 10 dB
-        line([0.773, 2.176], [0.613, -0.744, 0.617]), // rise of 406–1625 Hz over the room, 10 dB
-        line([-0.245, -0.094], [6.740, 4.483, 0.114]), // flatness of the low band over 80 ms, 10 dB
+        line([1.255, 3.000], [-0.503, -4.973, 0.000]), // rise of the low band over the room, 10 dB
+        line([0.491, 2.471], [3.479, 2.034, 0.208]), // the same less twice the room's unrest, 10 dB
+        line([-0.243, -0.081], [0.059, -0.410, -0.596]), // share of the low band in the excess, 10 dB
+        line([-0.636, -0.005], [0.689, -0.973, 0.395]), // 31–94 Hz over 94–203 Hz, 10 dB
+        line([-0.910, -0.389], [1.202, -0.737, -1.206]), // 203–406 Hz over the low band, 10 dB
+        line([-1.375, -0.632], [0.365, -1.506, 0.207]), // 406–1625 Hz over the low band, 10 dB
+        line([-1.176, -0.676], [1.600, 0.169, -2.647]), // 1625–3400 Hz over 406–1625 Hz, 10 dB
+        line([0.167, 0.276], [-0.127, 0.697, 0.445]), // periodicity of the excess, 80–400 Hz
+        line([-0.900, -0.158], [0.274, -0.048, -1.755]), // flatness of the low band, 10 dB
+        line([-2.000, -0.505], [0.191, 0.191, -0.388]), // flatness of 406–1625 Hz, 10 dB
+        line([0.126, 0.589], [1.188, 0.530, -3.996]), // fall from the peak of the last 0.2 s, 10 dB
+        line([0.052, 0.083], [0.485, -0.497, -1.256]), // roughness of the low band's level (second difference), 10 dB
+        line([0.605, 1.874], [0.166, -1.635, 1.205]), // rise of 406–1625 Hz over the room, 10 dB
+        line([-0.290, -0.093], [3.823, 4.047, -1.568]), // flatness of the low band over 80 ms, 10 dB
     ],
 };

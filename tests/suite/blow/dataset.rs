@@ -14,7 +14,6 @@ pub struct Clip {
     pub expected: String,
     /// When the air starts and has stopped, s; only for blows.
     pub span: Option<(f64, f64)>,
-    pub kind: String,
     /// Place on an intensity ladder.
     pub level: Option<f64>,
     pub snr_db: Option<f64>,
@@ -66,7 +65,6 @@ pub fn load() -> Option<Vec<Clip>> {
             label: cell[1].into(),
             expected: cell[2].into(),
             span: if cell[2] == "blow" { number(3).zip(number(4)) } else { None },
-            kind: cell[8].into(),
             level: number(11),
             snr_db: number(12),
             group: cell[13].into(),

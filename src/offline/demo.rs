@@ -1,0 +1,70 @@
+//! The kiosk without a display: the exhibit answers its own recorded breath, and leaves a picture, a sound file and a
+//! trace.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::feed::WavFeed;
+use super::play::{self, Play, Summary};
+use super::trace::DEFAULT_FPS;
+use crate::exhibit::{AttractAction, Exhibit};
+use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation};
+
+/// The run goes on after the breath, s.
+const TAIL: f64 = 4.0;
+/// The picture is taken this long after the breath began, s: when the sculpture has visibly turned.
+const PICTURE_AT: f64 = 2.0;
+
+/// What a headless run left.
+pub struct Demo {
+    /// The run as numbers.
+    pub summary: Summary,
+    /// Files it left.
+    pub files: Vec<PathBuf>,
+    /// Why there is no picture, if there is none.
+    pub no_picture: Option<String>,
+}
+
+/// Plays the exhibit's first recorded breath into `folder` (made if missing).
+pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &AtomicBool) -> Result<Demo, String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("cannot make the folder {}: {e}", folder.display()))?;
+    let file = |extension: &str| folder.join(format!("{}.{extension}", exhibit.id));
+    let breath = exhibit.attract.steps.iter().find_map(|step| match &step.action {
+        AttractAction::Blow { samples, sample_rate, .. } => Some(WavFeed::new(samples.clone(), *sample_rate)),
+        _ => None,
+    });
+    let play = Play {
+        settings,
+        seconds: breath.as_ref().map_or(0.0, WavFeed::duration) + TAIL,
+        breath,
+        audio: Some(file("wav")),
+        trace: Some(file("csv")),
+        fps: DEFAULT_FPS,
+        ..Play::default()
+    };
+    let mut files = vec![file("wav"), file("csv")];
+    let mut no_picture = None;
+    let mut on_frame = |frame: u64, simulation: &Simulation| {
+        if frame == (PICTURE_AT * f64::from(DEFAULT_FPS)) as u64 {
+            match picture(exhibit, simulation, &file("png")) {
+                Ok(()) => files.push(file("png")),
+                Err(why) => no_picture = Some(why),
+            }
+        }
+        Ok(())
+    };
+    let summary = play::run(exhibit, play, stop, |_| (), Some(&mut on_frame)).map_err(|e| e.to_string())?;
+    debug_assert!(summary.steps >= (PICTURE_AT * STEPS_PER_SECOND as f64) as u64);
+    Ok(Demo { summary, files, no_picture })
+}
+
+#[cfg(not(feature = "kiosk"))]
+fn picture(_: &Arc<Exhibit>, _: &Simulation, _: &Path) -> Result<(), String> {
+    Err("this build has no renderer".into())
+}
+
+#[cfg(feature = "kiosk")]
+fn picture(_exhibit: &Arc<Exhibit>, _simulation: &Simulation, _path: &Path) -> Result<(), String> {
+    Err("later".into())
+}

@@ -1,0 +1,173 @@
+//! A run without a window: the live pipeline, driven by a loop as fast as the machine allows.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
+use serde::Serialize;
+
+use super::events::EventWriter;
+use super::feed::WavFeed;
+use super::soundtrack::Soundtrack;
+use super::trace::TraceWriter;
+use crate::exhibit::Exhibit;
+use crate::simulation::{STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+
+/// What to run and what to keep of it.
+#[derive(Default)]
+pub struct Play {
+    /// Constants of the run.
+    pub settings: Settings,
+    /// A recorded breath as the microphone.
+    pub breath: Option<WavFeed>,
+    /// Pointer in picture coordinates.
+    pub aim: Option<[f64; 2]>,
+    /// What a visitor does over time.
+    pub script: Option<Script>,
+    /// Length, s.
+    pub seconds: f64,
+    /// Width over height of the picture that the pointer lies in.
+    pub aspect: f64,
+    /// Sound, stereo 48 kHz float.
+    pub audio: Option<PathBuf>,
+    /// Without room and limiter.
+    pub dry: bool,
+    /// Poses, CSV.
+    pub trace: Option<PathBuf>,
+    /// Events, JSON lines.
+    pub events: Option<PathBuf>,
+    /// Frames per second of trace and pictures.
+    pub fps: u32,
+}
+
+/// A run as numbers (the last line of `soffio play`).
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Steps done.
+    pub steps: u64,
+    /// Time the run took, s.
+    pub wall_s: f64,
+    /// Processor time of all threads, s.
+    pub cpu_s: f64,
+    /// Simulated over wall time.
+    pub real_time_factor: f64,
+    /// Largest joint error of any step, m.
+    pub max_joint_error_m: f64,
+    /// Energy at the end, J.
+    pub energy_j: f64,
+    /// Hits.
+    pub impacts: u64,
+    /// Changes between solvers.
+    pub solver_switches: u64,
+    /// Sample peak, dB of full scale; null for silence.
+    pub peak_dbfs: Option<f64>,
+    /// Integrated loudness; null for silence.
+    pub lufs: Option<f64>,
+    /// Breath profile.
+    pub profile: &'static str,
+    /// Seed.
+    pub seed: u64,
+    /// Faults found and mended.
+    pub faults: u64,
+    /// One word that says whether two runs are the same run, hexadecimal.
+    pub state_hash: String,
+}
+
+/// Why a run did not end well.
+#[derive(Debug, thiserror::Error)]
+pub enum PlayError {
+    /// A file could not be written, or a timbre is bad.
+    #[error("{0}")]
+    Output(String),
+    /// Interrupted; nothing half-written is left.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl From<std::io::Error> for PlayError {
+    fn from(error: std::io::Error) -> Self {
+        Self::Output(error.to_string())
+    }
+}
+
+/// Called with every frame that is due: its number and the simulation at (or just after) its time.
+pub type OnFrame<'a> = dyn FnMut(u64, &Simulation) -> Result<(), String> + 'a;
+
+/// Runs an exhibit. `on_step` hears the number of each step done (progress); `on_frame` sees each frame.
+pub fn run(
+    exhibit: &Arc<Exhibit>,
+    play: Play,
+    stop: &AtomicBool,
+    mut on_step: impl FnMut(u64),
+    mut on_frame: Option<&mut OnFrame>,
+) -> Result<Summary, PlayError> {
+    let Play { settings, mut breath, aim, mut script, seconds, aspect, audio, dry, trace, events, fps } = play;
+    let (wall, cpu) = (Instant::now(), ProcessTime::now());
+    let mut simulation = Simulation::new(exhibit.clone(), settings);
+    let mut soundtrack =
+        Soundtrack::new(exhibit, settings.seed, dry, audio.as_deref()).map_err(PlayError::Output)?;
+    let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;
+    let mut events = events.map(|path| EventWriter::create(&path, exhibit)).transpose()?;
+    let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
+    let mut commands = Vec::new();
+    let mut worst: f64 = 0.0;
+    let mut frame = 0;
+    for step in 0..=steps {
+        if let Some(trace) = &mut trace {
+            trace.push_simulation(&simulation)?;
+        }
+        while frame * STEPS_PER_SECOND <= step * u64::from(fps.max(1)) {
+            if let Some(on_frame) = &mut on_frame {
+                on_frame(frame, &simulation).map_err(PlayError::Output)?;
+            }
+            frame += 1;
+        }
+        if step == steps {
+            break;
+        }
+        commands.clear();
+        if let Some(script) = &mut script {
+            script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
+        }
+        simulation.step(&StepInput {
+            microphone: breath.as_mut().map(WavFeed::microphone),
+            pointer: script.as_ref().and_then(Script::aim).or(aim),
+            aspect,
+            commands: &commands,
+            ..StepInput::default()
+        });
+        soundtrack.step(simulation.sounds()).map_err(PlayError::Output)?;
+        if let Some(events) = &mut events {
+            events.push(simulation.events())?;
+        }
+        worst = worst.max(simulation.joint_error());
+        on_step(step + 1);
+        if stop.load(Ordering::Relaxed) {
+            return Err(PlayError::Interrupted);
+        }
+    }
+    let levels = soundtrack.finish().map_err(PlayError::Output)?;
+    trace.map_or(Ok(()), TraceWriter::finish)?;
+    events.map_or(Ok(()), EventWriter::finish)?;
+    let wall_s = wall.elapsed().as_secs_f64();
+    let diagnostics = simulation.snapshot().diagnostics;
+    let finite = |x: f64| x.is_finite().then_some(x);
+    Ok(Summary {
+        steps,
+        wall_s,
+        cpu_s: cpu.elapsed().as_secs_f64(),
+        real_time_factor: seconds / wall_s,
+        max_joint_error_m: worst,
+        energy_j: diagnostics.energy,
+        impacts: diagnostics.impacts,
+        solver_switches: 0,
+        peak_dbfs: finite(levels.peak_dbfs),
+        lufs: finite(levels.lufs),
+        profile: settings.profile.name(),
+        seed: settings.seed,
+        faults: diagnostics.faults,
+        state_hash: format!("{:016x}", simulation.state_hash()),
+    })
+}

@@ -1,0 +1,109 @@
+//! The sound of a run: the kiosk's own synth, called by a loop instead of a callback; levels and loudness on the way.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use ebur128::{EbuR128, Mode};
+use hound::{SampleFormat, WavSpec, WavWriter};
+use tempfile::NamedTempFile;
+
+use crate::exhibit::Exhibit;
+use crate::math::decibels;
+use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
+use crate::sound::{SoundCommand, Synth};
+
+/// Stereo.
+const CHANNELS: u16 = 2;
+
+/// The sound of a run, measured, and written where asked.
+pub struct Soundtrack {
+    synth: Synth,
+    block: Vec<f32>,
+    peak: f32,
+    loudness: Option<EbuR128>,
+    file: Option<WholeWav>,
+}
+
+/// Levels of a whole run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Levels {
+    /// Sample peak, dB of full scale; −∞ for silence.
+    pub peak_dbfs: f64,
+    /// Integrated loudness, LUFS (EBU R 128); −∞ for silence.
+    pub lufs: f64,
+}
+
+impl Soundtrack {
+    /// The exhibit's instruments; `dry` bypasses room and limiter. Errors name the timbre or the file.
+    pub fn new(exhibit: &Exhibit, seed: u64, dry: bool, path: Option<&Path>) -> Result<Self, String> {
+        let mut synth = Synth::new(SAMPLE_RATE, &exhibit.instruments, seed).map_err(|e| e.to_string())?;
+        synth.set_dry(dry);
+        let file = path.map(WholeWav::create).transpose()?;
+        Ok(Self {
+            synth,
+            block: vec![0.0; SAMPLES_PER_STEP as usize * usize::from(CHANNELS)],
+            peak: 0.0,
+            loudness: EbuR128::new(u32::from(CHANNELS), SAMPLE_RATE, Mode::I).ok(),
+            file,
+        })
+    }
+
+    /// Renders one step's 200 samples with the sounds that fall into it.
+    pub fn step(&mut self, sounds: &[SoundCommand]) -> Result<(), String> {
+        for &sound in sounds {
+            self.synth.command(sound);
+        }
+        self.synth.render(&mut self.block);
+        self.peak = self.block.iter().fold(self.peak, |peak, s| peak.max(s.abs()));
+        if let Some(loudness) = &mut self.loudness {
+            loudness.add_frames_f32(&self.block).map_err(|e| e.to_string())?;
+        }
+        self.file.as_mut().map_or(Ok(()), |file| file.write(&self.block))
+    }
+
+    /// Puts the file in its place and says how loud it was.
+    pub fn finish(self) -> Result<Levels, String> {
+        self.file.map_or(Ok(()), WholeWav::finish)?;
+        let lufs = self.loudness.and_then(|l| l.loudness_global().ok()).unwrap_or(f64::NEG_INFINITY);
+        Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs })
+    }
+}
+
+/// A WAV that appears at its place only when it is whole: written through a second handle, then moved.
+struct WholeWav {
+    writer: WavWriter<BufWriter<File>>,
+    file: NamedTempFile,
+    path: PathBuf,
+}
+
+impl WholeWav {
+    fn create(path: &Path) -> Result<Self, String> {
+        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", path.display());
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = NamedTempFile::new_in(folder).map_err(|e| says(&e))?;
+        let handle = file.reopen().map_err(|e| says(&e))?;
+        let spec = WavSpec {
+            channels: CHANNELS,
+            sample_rate: SAMPLE_RATE,
+            bits_per_sample: 32,
+            sample_format: SampleFormat::Float,
+        };
+        let writer = WavWriter::new(BufWriter::new(handle), spec).map_err(|e| says(&e))?;
+        Ok(Self { writer, file, path: path.to_path_buf() })
+    }
+
+    fn write(&mut self, block: &[f32]) -> Result<(), String> {
+        let mut samples = block.iter();
+        samples
+            .try_for_each(|&sample| self.writer.write_sample(sample))
+            .map_err(|e| format!("cannot write {}: {e}", self.path.display()))
+    }
+
+    fn finish(self) -> Result<(), String> {
+        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", self.path.display());
+        self.writer.finalize().map_err(|e| says(&e))?;
+        self.file.persist(&self.path).map_err(|e| says(&e.error))?;
+        Ok(())
+    }
+}

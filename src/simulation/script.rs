@@ -1,0 +1,206 @@
+//! Scripts: what a visitor does over time, as JSON lines in time order.
+//!
+//! ```text
+//! {"t": 0.5, "aim": [0.4, 0.5]}
+//! {"t": 1.0, "blow": 8.0}                                              m/s at the lips, until the next blow
+//! {"t": 4.0, "blow": {"strength": 0.6, "attack": 0.1, "hold": 0.8, "release": 0.3}}
+//! {"t": 9.0, "reset": true}
+//! ```
+//!
+//! A script knows no file and no clock: it is asked once per step for what is due.
+
+use serde::Deserialize;
+
+use super::Command;
+
+/// Source speed of strength 1, m/s: a hard blow (exhibits.md 4.2).
+const FULL_SPEED: f64 = 17.0;
+
+/// What is wrong with a script, and where.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("line {line}: {problem}")]
+pub struct ScriptError {
+    /// Counted from 1.
+    pub line: usize,
+    /// What, and what to do.
+    pub problem: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    t: f64,
+    aim: Option<[f64; 2]>,
+    blow: Option<Blow>,
+    reset: Option<bool>,
+    solver: Option<String>,
+    language: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Blow {
+    Speed(f64),
+    Envelope(Envelope),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Envelope {
+    strength: f64,
+    #[serde(default = "tenth")]
+    attack: f64,
+    #[serde(default = "one")]
+    hold: f64,
+    #[serde(default = "tenth")]
+    release: f64,
+}
+
+fn tenth() -> f64 {
+    0.1
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Envelope {
+    /// Source speed `t` seconds after its beginning, m/s; `None` when it is over.
+    fn speed(&self, t: f64) -> Option<f64> {
+        let rise = if self.attack > 0.0 { (t / self.attack).min(1.0) } else { 1.0 };
+        let falling = t - self.attack - self.hold;
+        let fall = if falling <= 0.0 {
+            1.0
+        } else if falling < self.release {
+            1.0 - falling / self.release
+        } else {
+            return None;
+        };
+        Some(FULL_SPEED * self.strength * rise * fall)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Action {
+    Aim([f64; 2]),
+    Speed(f64),
+    Envelope(Envelope),
+    Reset,
+}
+
+/// A visitor's doings over time.
+#[derive(Clone, Debug, Default)]
+pub struct Script {
+    actions: Vec<(f64, Action)>,
+    next: usize,
+    aim: Option<[f64; 2]>,
+    envelope: Option<(f64, Envelope)>,
+}
+
+impl Script {
+    /// Reads a script.
+    pub fn parse(text: &str) -> Result<Self, ScriptError> {
+        let mut actions: Vec<(f64, Action)> = Vec::new();
+        for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
+            let fail = |problem: String| ScriptError { line: index + 1, problem };
+            let line: Line = serde_json::from_str(text).map_err(|e| fail(e.to_string()))?;
+            if !(line.t >= 0.0 && line.t.is_finite()) {
+                return Err(fail(format!("t = {} is no time; give seconds from 0", line.t)));
+            }
+            if actions.last().is_some_and(|&(t, _)| t > line.t) {
+                return Err(fail(format!("t = {} comes before the line above; keep the lines in time order", line.t)));
+            }
+            if let Some(solver) = line.solver.filter(|s| s != "dynamics" && s != "auto") {
+                return Err(fail(format!("solver \"{solver}\" is not one of: dynamics, auto")));
+            }
+            // The language changes words only, and an offline run shows none.
+            let _ = line.language;
+            actions.extend(line.aim.map(|at| (line.t, Action::Aim(at))));
+            if let Some(blow) = line.blow {
+                let strength = match &blow {
+                    Blow::Speed(speed) => *speed,
+                    Blow::Envelope(envelope) => envelope.strength,
+                };
+                if !(0.0..=100.0).contains(&strength) {
+                    return Err(fail(format!("a blow of {strength} is out of range; speeds are m/s, strengths 0…1")));
+                }
+                let action = match blow {
+                    Blow::Speed(speed) => Action::Speed(speed),
+                    Blow::Envelope(envelope) => Action::Envelope(envelope),
+                };
+                actions.push((line.t, action));
+            }
+            if line.reset == Some(true) {
+                actions.push((line.t, Action::Reset));
+            }
+        }
+        Ok(Self { actions, ..Self::default() })
+    }
+
+    /// When the last action begins, s.
+    pub fn duration(&self) -> f64 {
+        self.actions.last().map_or(0.0, |&(t, _)| t)
+    }
+
+    /// Where the visitor points now, picture coordinates.
+    pub fn aim(&self) -> Option<[f64; 2]> {
+        self.aim
+    }
+
+    /// Puts the commands due at `t` seconds into `out`.
+    pub fn due(&mut self, t: f64, out: &mut Vec<Command>) {
+        while let Some(&(at, action)) = self.actions.get(self.next).filter(|(at, _)| *at <= t) {
+            self.next += 1;
+            match action {
+                Action::Aim(aim) => self.aim = Some(aim),
+                Action::Reset => out.push(Command::Reset),
+                Action::Speed(speed) => {
+                    self.envelope = None;
+                    out.push(Command::Blow(Some(speed).filter(|s| *s > 0.0)));
+                }
+                Action::Envelope(envelope) => self.envelope = Some((at, envelope)),
+            }
+        }
+        if let Some((began, envelope)) = self.envelope {
+            let speed = envelope.speed(t - began);
+            if speed.is_none() {
+                self.envelope = None;
+            }
+            out.push(Command::Blow(speed));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_envelope_rises_holds_and_falls() {
+        let text = r#"{"t": 1.0, "blow": {"strength": 0.5, "attack": 0.2, "hold": 1.0, "release": 0.4}}"#;
+        let mut script = Script::parse(text).expect("a good script");
+        let mut at = |t: f64| {
+            let mut out = Vec::new();
+            script.due(t, &mut out);
+            out.last().copied()
+        };
+        assert_eq!(at(0.9), None);
+        let close = |command: Option<Command>, speed: f64| {
+            matches!(command, Some(Command::Blow(Some(found))) if (found - speed).abs() < 1e-12)
+        };
+        assert!(close(at(1.1), 0.25 * FULL_SPEED));
+        assert!(close(at(2.0), 0.5 * FULL_SPEED));
+        assert!(close(at(2.4), 0.25 * FULL_SPEED));
+        assert_eq!(at(2.7), Some(Command::Blow(None)));
+        assert_eq!(at(2.8), None);
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_line() {
+        let late = "{\"t\": 2, \"aim\": [0, 0]}\n{\"t\": 1, \"reset\": true}";
+        assert_eq!(Script::parse(late).expect_err("out of order").line, 2);
+        for bad in ["{\"t\": 1, \"blwo\": 3}", "{\"t\": -1}", "{\"t\": 0, \"blow\": 1e9}", "not json"] {
+            assert_eq!(Script::parse(bad).expect_err("a mistake").line, 1, "{bad}");
+        }
+    }
+}

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Runs the parts of ./check in order and stops at the first that fails. Packages are ./check's business.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+
+format()   { cargo fmt --all -- --check; }
+headless() { cargo test --locked --quiet --no-default-features; }
+lints()    { cargo clippy --locked --quiet --all-targets -- -D warnings; }
+full()     { cargo test --locked --quiet; }
+exhibits() { cargo run --locked --quiet -- check exhibits/* kiosk-config/kiosk.toml; }
+docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
+live()     { cargo build --locked --quiet && tests/live/run.sh target/debug/soffio; }
+
+# Longer runs than a change needs: each leaves its mark in out/long and is not run again until the sources change.
+long() {
+    local stamp part
+    stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
+    mkdir -p out/long
+    cargo build --release --locked --quiet
+    for part in soak-blow soak-still soak-live; do
+        if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
+            echo "== $part: done before"
+            continue
+        fi
+        echo "== $part"
+        case $part in
+            soak-blow)  target/release/soffio play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
+            soak-still) target/release/soffio play steel-fish --seconds 7200 ;;
+            soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh target/release/soffio ;;
+        esac
+        echo "$stamp" >"out/long/$part"
+    done
+}
+
+parts=("$@")
+[ ${#parts[@]} -gt 0 ] || parts=(format headless lints full exhibits docs live)
+[ "${parts[0]}" = --long ] && parts=(long)
+for part in "${parts[@]}"; do
+    echo "== $part"
+    began=$SECONDS
+    "$part"
+    echo "== $part: good, $((SECONDS - began)) s"
+done

@@ -1,0 +1,63 @@
+# Shared by ./kiosk and ./check: finds which system packages are missing, says why they are wanted, installs them.
+# Sourced, not run.
+
+missing=()
+
+say() { printf 'soffio: %s\n' "$*" >&2; }
+
+need_rust() {
+    command -v cargo >/dev/null 2>&1 || PATH="$HOME/.cargo/bin:$PATH"
+    if ! command -v cargo >/dev/null 2>&1; then
+        say "Rust is missing. Install it with rustup (https://rustup.rs), then run this again."
+        exit 3
+    fi
+    if [ "$(printf '%s\n' 1.95 "$(cargo --version | cut -d' ' -f2)" | sort -V | head -1)" != 1.95 ]; then
+        say "this needs Rust 1.95 or newer, found $(cargo --version). Run: rustup update stable"
+        exit 3
+    fi
+}
+
+# Is a command, header, shared library, Vulkan driver or font there?
+present() {
+    case "$1" in
+        *.h) [ -e "/usr/include/$1" ] ;;
+        *.so.*) { ldconfig -p 2>/dev/null || /sbin/ldconfig -p; } 2>/dev/null | grep -qF "$1" ;;
+        lvp_icd) ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1 ;;
+        Nanum*) ls /usr/share/fonts/truetype/nanum/ /usr/share/fonts/opentype/noto/*CJK* >/dev/null 2>&1 ;;
+        *) command -v "$1" >/dev/null 2>&1 ;;
+    esac
+}
+
+# need "why" package:witness …
+need() {
+    local why=$1 pair
+    shift
+    for pair in "$@"; do
+        if ! present "${pair#*:}"; then
+            local package=${pair%%:*}
+            [ "$package" = cc ] && package=build-essential
+            missing+=("$package")
+            say "missing $package, wanted $why"
+        fi
+    done
+}
+
+install_missing() {
+    [ ${#missing[@]} -eq 0 ] && return 0
+    local as_root=()
+    [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+    if ! command -v apt-get >/dev/null 2>&1 || { [ ${#as_root[@]} -gt 0 ] && ! command -v sudo >/dev/null 2>&1; }; then
+        say "please install with your package manager: ${missing[*]}"
+        return 0
+    fi
+    say "installing: ${missing[*]}"
+    local log
+    log=$(mktemp)
+    if ! { "${as_root[@]}" apt-get update -qq && DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get \
+            -o DPkg::Lock::Timeout=400 install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+        tail -5 "$log" >&2
+        say "that did not work; the full log is $log. Install by hand: ${missing[*]}"
+        return 0
+    fi
+    rm -f "$log"
+}
