@@ -1,12 +1,116 @@
 //! `soffio render`.
 
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
 use super::{Failure, Outcome};
+use crate::exhibit::{self, Exhibit};
+use crate::render::scenario::Scenario;
+use crate::render::{Frame, ImageRenderer, RenderError, of_model};
+use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
+
+/// Picture size without `--size` or a scenario's.
+const DEFAULT_SIZE: (u32, u32) = (1280, 720);
+/// Longest `--time`, s: a day of the work's life.
+const LONGEST: f64 = 86_400.0;
 
 /// Renders one picture, headless.
 #[derive(clap::Args, Debug, Default)]
-pub struct Args {}
+#[command(after_help = "Example: soffio render steel-fish --time 2 --size 1920x1080 -o fish.png")]
+pub struct Args {
+    /// Exhibit id, exhibit folder, or a .glb/.gltf model; the scenario's model where left out.
+    what: Option<String>,
+    /// Scenario file: camera, light and tone curve.
+    #[arg(long, value_name = "SCENE.json")]
+    scene: Option<PathBuf>,
+    /// Pixels.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<(u32, u32)>,
+    /// Lets the exhibit move for so many seconds first.
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    time: f64,
+    /// PNG to write.
+    #[arg(short, long, value_name = "OUT.png")]
+    output: PathBuf,
+}
+
+/// Reads `WxH`.
+pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let size = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    match size {
+        Some((width, height)) if width > 0 && height > 0 => Ok((width, height)),
+        _ => Err(format!("`{text}` is not a size; write width x height in pixels, as 1280x720")),
+    }
+}
 
 /// Runs the command.
-pub fn run(_args: Args) -> Outcome {
-    Err(Failure { code: 2, message: "soffio render: under construction".into() })
+pub fn run(args: Args) -> Outcome {
+    if !(0.0..=LONGEST).contains(&args.time) {
+        return Err(Failure { code: 2, message: format!("--time {} must lie in 0 … {LONGEST} s", args.time) });
+    }
+    let scenario = match &args.scene {
+        Some(path) => Scenario::load(path).map_err(Failure::input)?,
+        None => Scenario::default(),
+    };
+    let exhibit = Arc::new(subject(&args, &scenario)?);
+    let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+    let steps = (args.time * STEPS_PER_SECOND as f64).round() as u64;
+    for _ in 0..steps {
+        simulation.step(&StepInput::default());
+    }
+    let snapshot = simulation.snapshot();
+    let size =
+        args.size.unwrap_or((scenario.width.unwrap_or(DEFAULT_SIZE.0), scenario.height.unwrap_or(DEFAULT_SIZE.1)));
+    let look = scenario.look().map_err(Failure::input)?;
+    let mut renderer = ImageRenderer::new(&exhibit, |options| options.look = look).map_err(failure)?;
+    let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
+    let exposure = scenario.exposure.unwrap_or(1.0);
+    let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure };
+    let picture = renderer.draw(&frame).map_err(failure)?;
+    write_png(&picture, &args.output)
+        .map_err(|error| Failure::input(format!("{} cannot be written: {error}", args.output.display())))
+}
+
+/// The exhibit to draw: by id or folder, or a model alone.
+fn subject(args: &Args, scenario: &Scenario) -> Result<Exhibit, Failure> {
+    let (name, path) = match (&args.what, &scenario.model) {
+        (Some(what), _) => (what.clone(), PathBuf::from(what)),
+        (None, Some(model)) => (model.display().to_string(), model.clone()),
+        (None, None) => {
+            let message = "name an exhibit or a model, or give a --scene that names one; see --help";
+            return Err(Failure { code: 2, message: message.into() });
+        }
+    };
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    if extension == "glb" || extension == "gltf" {
+        return exhibit::model::load_glb(&path).map(of_model).map_err(Failure::input);
+    }
+    let folder = exhibit::resolve(&name).map_err(Failure::input)?;
+    exhibit::load(&folder).map_err(Failure::input)
+}
+
+/// A missing driver is not the visitor's input.
+fn failure(error: RenderError) -> Failure {
+    match error {
+        RenderError::TooManyBodies { .. } | RenderError::Size { .. } => Failure::input(error),
+        _ => Failure::device(error),
+    }
+}
+
+/// Writes a PNG that is there whole or not at all.
+pub fn write_png(picture: &image::RgbaImage, path: &Path) -> std::io::Result<()> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    let mut bytes = Vec::new();
+    picture.write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(std::io::Error::other)?;
+    file.write_all(&bytes)?;
+    #[cfg(unix)]
+    {
+        // A temporary file is private; a picture has the rights of any new file.
+        use std::os::unix::fs::PermissionsExt;
+        file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
+    }
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
 }

@@ -1,6 +1,17 @@
-//! Where the visitor looks from.
+//! Where the visitor looks from, and what lies behind a point of the picture.
+//!
+//! Picture coordinates run from (0, 0) top left to (1, 1) bottom right, whatever the size in pixels. With the unit
+//! axes f (forward), r (right), u (up), half-height t = tan(fovy/2) and aspect a, the point (x, y) is seen along
+//!
+//! ```text
+//! d = f + (2x − 1) a t r + (1 − 2y) t u
+//! ```
+//!
+//! [`View::project`] is the inverse. Invariant: whatever a camera shows in its own aspect is also in any narrower
+//! picture, since the vertical angle is widened until the horizontal one is the same.
 
-use crate::math::DVec3;
+use super::Exhibit;
+use crate::math::{DMat4, DVec3, PI, atan2, sin, sincos};
 
 /// A perspective camera in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,11 +26,203 @@ pub struct View {
     pub fovy: f64,
 }
 
-impl super::Exhibit {
+/// Vertical field of view where the exhibit has no camera: a short telephoto lens, as catalogues use, rad.
+const FRAMING_FOVY: f64 = 0.5;
+/// Room around the work where the exhibit has no camera, of its radius.
+const FRAMING_MARGIN: f64 = 1.12;
+/// Widest vertical field of view a narrow picture may lead to, rad.
+const WIDEST_FOVY: f64 = 2.6;
+
+impl View {
+    /// Unit right, up and forward axes of the camera.
+    pub fn axes(&self) -> (DVec3, DVec3, DVec3) {
+        let forward = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
+        let right = forward.cross(self.up).try_normalize().unwrap_or_else(|| crate::math::tangents(forward).0);
+        (right, right.cross(forward), forward)
+    }
+
+    /// Origin and unit direction of the sight line through `at` in picture coordinates; `aspect` is width / height.
+    pub fn ray(&self, at: [f64; 2], aspect: f64) -> (DVec3, DVec3) {
+        let (right, up, forward) = self.axes();
+        let t = half_height(self.fovy);
+        let across = (2.0 * at[0] - 1.0) * t * aspect;
+        let along = (1.0 - 2.0 * at[1]) * t;
+        (self.eye, (forward + right * across + up * along).normalize())
+    }
+
+    /// Picture coordinates of a world point; `None` where it is not in front of the eye.
+    pub fn project(&self, point: DVec3, aspect: f64) -> Option<[f64; 2]> {
+        let (right, up, forward) = self.axes();
+        let offset = point - self.eye;
+        let depth = offset.dot(forward);
+        if depth <= 0.0 {
+            return None;
+        }
+        let t = half_height(self.fovy) * depth;
+        Some([0.5 + 0.5 * offset.dot(right) / (t * aspect), 0.5 - 0.5 * offset.dot(up) / t])
+    }
+}
+
+/// tan(fovy / 2).
+fn half_height(fovy: f64) -> f64 {
+    let (s, c) = sincos(0.5 * fovy);
+    s / c
+}
+
+/// An axis-aligned box in the world, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Smallest coordinates.
+    pub min: DVec3,
+    /// Largest coordinates.
+    pub max: DVec3,
+}
+
+impl Bounds {
+    /// The box that holds nothing.
+    pub const EMPTY: Self = Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
+
+    /// Grows to hold a point.
+    pub fn add(&mut self, point: DVec3) {
+        self.min = self.min.min(point);
+        self.max = self.max.max(point);
+    }
+
+    /// Does it hold anything?
+    pub fn is_empty(&self) -> bool {
+        self.min.x > self.max.x
+    }
+
+    /// Centre, m.
+    pub fn center(&self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// Half the diagonal, m.
+    pub fn radius(&self) -> f64 {
+        0.5 * (self.max - self.min).length()
+    }
+}
+
+impl Exhibit {
     /// The camera for a picture of this aspect (width / height): the sidecar's camera node, widened where the
     /// picture is narrower than the camera was made for, or a frame around the bounds.
-    pub fn view(&self, _aspect: f64) -> View {
-        View { eye: DVec3::new(0.0, 0.3, 1.2), target: DVec3::new(0.0, 0.3, 0.0), up: DVec3::Y, fovy: 0.6 }
+    pub fn view(&self, aspect: f64) -> View {
+        let aspect = if aspect > 0.0 { aspect } else { 16.0 / 9.0 };
+        let camera = self.camera_node.and_then(|index| {
+            let node = self.model.nodes.get(index)?;
+            Some((node.world, *self.model.cameras.get(node.camera?)?))
+        });
+        match camera {
+            Some((world, camera)) => self.through(world, camera, aspect),
+            None => self.framed(aspect),
+        }
+    }
+
+    /// The view through a camera node.
+    fn through(&self, world: DMat4, camera: super::model::Camera, aspect: f64) -> View {
+        let eye = world.w_axis.truncate();
+        let forward = -world.z_axis.truncate().try_normalize().unwrap_or(DVec3::Z);
+        let up = world.y_axis.truncate().try_normalize().unwrap_or(DVec3::Y);
+        let moving = self.bounds(true);
+        let bounds = if moving.is_empty() { self.bounds(false) } else { moving };
+        let depth = if bounds.is_empty() { 1.0 } else { (bounds.center() - eye).dot(forward) };
+        // A camera that looks away from the work still looks somewhere.
+        let depth = if depth > 1e-3 { depth } else { 1.0 };
+        let fovy = match camera.aspect {
+            Some(own) if aspect < own => (2.0 * atan2(half_height(camera.fovy) * own, aspect)).min(WIDEST_FOVY),
+            _ => camera.fovy,
+        };
+        View { eye, target: eye + forward * depth, up, fovy }
+    }
+
+    /// A view from the front that holds the bounds in any aspect.
+    fn framed(&self, aspect: f64) -> View {
+        let bounds = self.bounds(false);
+        let (center, radius) =
+            if bounds.is_empty() { (DVec3::ZERO, 0.5) } else { (bounds.center(), bounds.radius().max(1e-3)) };
+        // The sphere around the bounds touches the narrower pair of picture edges.
+        let half = atan2(half_height(FRAMING_FOVY) * aspect.min(1.0), 1.0).min(0.5 * PI);
+        let distance = FRAMING_MARGIN * radius / sin(half);
+        View { eye: center + DVec3::Z * distance, target: center, up: DVec3::Y, fovy: FRAMING_FOVY }
+    }
+
+    /// Box around the meshes and wires at rest; `moving` leaves out what stands still.
+    pub fn bounds(&self, moving: bool) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        let carriers = self.carriers();
+        for (node, carrier) in self.model.nodes.iter().zip(&carriers) {
+            if moving && carrier.is_none() {
+                continue;
+            }
+            let Some(mesh) = node.mesh.and_then(|m| self.model.meshes.get(m)) else { continue };
+            for position in mesh.primitives.iter().flat_map(|p| &p.positions) {
+                bounds.add(node.world.transform_point3(glam::Vec3::from_array(*position).as_dvec3()));
+            }
+        }
+        for wire in &self.wires {
+            let pose = wire.body.and_then(|b| self.bodies.get(b)).map(|b| b.pose);
+            if moving && pose.is_none() {
+                continue;
+            }
+            for &point in &wire.points {
+                bounds.add(pose.map_or(point, |pose| pose.point(point)));
+            }
+        }
+        bounds
+    }
+
+    /// For each node of the model the body that carries it: its own, or its nearest ancestor's.
+    pub fn carriers(&self) -> Vec<Option<usize>> {
+        let mut own = vec![None; self.model.nodes.len()];
+        for (index, body) in self.bodies.iter().enumerate() {
+            if let Some(slot) = own.get_mut(body.node) {
+                *slot = Some(index);
+            }
+        }
+        let mut carriers = vec![None; own.len()];
+        let mut open: Vec<(usize, Option<usize>)> = self.model.roots.iter().map(|&root| (root, None)).collect();
+        while let Some((node, inherited)) = open.pop() {
+            let carrier = own[node].or(inherited);
+            carriers[node] = carrier;
+            open.extend(self.model.nodes[node].children.iter().map(|&child| (child, carrier)));
+        }
+        carriers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a dozen double-precision operations on numbers near 1.
+    const ROUNDING: f64 = 1e-12;
+
+    fn view() -> View {
+        View {
+            eye: DVec3::new(0.3, 0.5, 2.0),
+            target: DVec3::new(-0.1, 0.2, -0.4),
+            up: DVec3::new(0.1, 1.0, 0.0).normalize(),
+            fovy: 0.7,
+        }
+    }
+
+    #[test]
+    fn a_point_on_the_ray_projects_back_to_where_the_ray_went_through() {
+        for (at, aspect) in [([0.5, 0.5], 1.5), ([0.0, 0.0], 1.0), ([0.9, 0.2], 16.0 / 9.0), ([0.1, 1.0], 0.5)] {
+            let (origin, direction) = view().ray(at, aspect);
+            let back = view().project(origin + direction * 3.7, aspect).expect("in front");
+            assert!((back[0] - at[0]).abs() < ROUNDING && (back[1] - at[1]).abs() < ROUNDING, "{at:?} {back:?}");
+        }
+    }
+
+    #[test]
+    fn the_top_left_corner_is_up_and_left_at_half_the_angles() {
+        let straight = View { eye: DVec3::ZERO, target: DVec3::NEG_Z, up: DVec3::Y, fovy: PI / 2.0 };
+        let (_, d) = straight.ray([0.0, 0.0], 2.0);
+        // tan 45° = 1 up, twice that to the left.
+        assert!((d - DVec3::new(-2.0, 1.0, -1.0).normalize()).length() < ROUNDING, "{d}");
+        assert_eq!(straight.project(DVec3::Z, 2.0), None, "behind the eye");
     }
 }
 

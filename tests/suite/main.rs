@@ -6,4 +6,8 @@ mod blow;
 mod dynamics;
 mod forge;
 mod kiosk;
+#[cfg(feature = "kiosk")]
+mod pictures;
+#[cfg(feature = "kiosk")]
+mod shaders;
 mod sound;

@@ -1,0 +1,169 @@
+// What every pass shares: the frame's numbers, the moving frames, and how a linear radiance becomes a display value.
+//
+// Frames: `world` is metres, +Y up. Vertices are stored in the frame of the body that carries them (`body`), static
+// ones in the world; `world_from_body` holds the rigid motion of each, entry 0 the identity.
+
+struct Lamp {
+    position: vec3f,
+    radius: f32,      // of the luminous disc, m
+    color: vec3f,     // radiant intensity on the axis, W/sr per channel
+    cos_outer: f32,
+    axis: vec3f,      // unit, where it shines
+    cos_inner: f32,
+}
+
+struct Punctual {
+    position: vec3f,
+    kind: f32,        // 0 directional, 1 point, 2 spot
+    color: vec3f,
+    range: f32,       // m, 0 without end
+    axis: vec3f,
+    spare: f32,
+    cone: vec4f,      // cos inner, cos outer
+}
+
+// A receiving plane: `origin` is a corner, texture coordinates run along `u` and `v` (unit) over `size` metres.
+struct Plane {
+    origin: vec3f,
+    width: f32,
+    u: vec3f,
+    height: f32,
+    v: vec3f,
+    spare: f32,
+    normal: vec3f,
+    spare2: f32,
+}
+
+struct Globals {
+    clip_from_world: mat4x4f,
+    shadow_from_world: mat4x4f,
+    eye: vec3f,
+    exposure: f32,
+    right: vec3f,
+    pixel_angle: f32,       // size of a pixel at distance 1
+    up: vec3f,
+    tonemap: u32,           // 0 Neutral, 1 ACES, 2 AgX, 3 clamp
+    room_center: vec3f,
+    dither: f32,            // height of the dither, LSB
+    room_half: vec3f,
+    mote_radius: f32,       // m
+    room_x: vec3f,
+    env_intensity: f32,
+    room_z: vec3f,
+    env_lods: f32,
+    wall_albedo: vec3f,
+    lamp_count: u32,
+    floor_albedo: vec3f,
+    punctual_count: u32,
+    area_center: vec3f,
+    shadow_radius: f32,     // of the light that casts the shadow map, m
+    area_x: vec3f,          // half width along the rectangle, m
+    shadow_texel: f32,      // size of a shadow-map texel at distance 1
+    area_y: vec3f,
+    shadow_samples: f32,
+    area_radiance: vec3f,
+    shadow_near: f32,
+    background: vec3f,
+    spare: f32,
+    irradiance: array<vec4f, 9>,
+    lamps: array<Lamp, 2>,
+    planes: array<Plane, 2>,
+    punctual: array<Punctual, 8>,
+}
+
+@group(0) @binding(0) var<uniform> globals: Globals;
+@group(0) @binding(1) var<uniform> world_from_body: array<mat3x4f, 1024>;
+
+const PI: f32 = 3.14159265;
+
+fn to_world(position: vec3f, body: u32) -> vec3f {
+    return vec4f(position, 1.0) * world_from_body[body];
+}
+
+fn turn_to_world(direction: vec3f, body: u32) -> vec3f {
+    return vec4f(direction, 0.0) * world_from_body[body];
+}
+
+// Point i of n of Vogel's sunflower: equal areas of the unit disc.
+fn vogel(i: f32, n: f32) -> vec2f {
+    let angle = i * 2.39996323;
+    return sqrt((i + 0.5) / n) * vec2f(cos(angle), sin(angle));
+}
+
+// Two unit vectors that complete n to a frame (Duff et al., JCGT 2017).
+fn frame_of(n: vec3f) -> mat3x3f {
+    let s = select(-1.0, 1.0, n.z >= 0.0);
+    let a = -1.0 / (s + n.z);
+    let b = n.x * n.y * a;
+    return mat3x3f(vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3f(b, s + n.y * n.y * a, -n.y), n);
+}
+
+// Khronos PBR Neutral (specification of 2024): the identity below 0.76, so that paint keeps its hue.
+fn neutral(c: vec3f) -> vec3f {
+    let start = 0.8 - 0.04;
+    let x = min(c.r, min(c.g, c.b));
+    let offset = select(0.04, x - 6.25 * x * x, x < 0.08);
+    let color = c - offset;
+    let peak = max(color.r, max(color.g, color.b));
+    if peak < start {
+        return color;
+    }
+    let d = 1.0 - start;
+    let new_peak = 1.0 - d * d / (peak + d - start);
+    let g = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
+    return mix(color * (new_peak / peak), vec3f(new_peak), g);
+}
+
+// ACES reference and output transform, fitted by Hill.
+fn aces(c: vec3f) -> vec3f {
+    let v = mat3x3f(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777) * c;
+    let f = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    let m = mat3x3f(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
+    return clamp(m * f, vec3f(0.0), vec3f(1.0));
+}
+
+// AgX (Sobotka), the base look, with Wrensch's sixth-order fit of its contrast curve.
+fn agx(c: vec3f) -> vec3f {
+    let inset = mat3x3f(0.842479, 0.042328, 0.042376, 0.078434, 0.878469, 0.078434, 0.079224, 0.079166, 0.879143);
+    let lowest = -12.47393;
+    let highest = 4.026069;
+    let v = log2(max(inset * c, vec3f(1e-10)));
+    let x = clamp((v - lowest) / (highest - lowest), vec3f(0.0), vec3f(1.0));
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let y = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
+    let outset = mat3x3f(1.196879, -0.052897, -0.052972, -0.098021, 1.151903, -0.098043, -0.099030, -0.098961, 1.151074);
+    return pow(max(outset * y, vec3f(0.0)), vec3f(2.2));
+}
+
+// Uniform in −½ … ½ from the pixel alone: the same in every frame, so it does not shimmer (PCG, Jarzynski 2020).
+fn pixel_noise(pixel: vec2f) -> f32 {
+    var h = u32(pixel.x) * 1664525u + u32(pixel.y) * 1013904223u + 12345u;
+    h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
+    h = (h >> 22u) ^ h;
+    return f32(h >> 8u) / 16777216.0 - 0.5;
+}
+
+// Linear radiance to a linear display value; the target encodes it as sRGB.
+fn display(radiance: vec3f, pixel: vec2f) -> vec3f {
+    let c = max(radiance * globals.exposure, vec3f(0.0));
+    var out: vec3f;
+    switch globals.tonemap {
+        case 1u: { out = aces(c); }
+        case 2u: { out = agx(c); }
+        case 3u: { out = min(c, vec3f(1.0)); }
+        default: { out = neutral(c); }
+    }
+    // One step of an 8-bit sRGB code is about 2.1 √c / 255 in linear light, 1 / (12.92 · 255) near black.
+    let step = max(2.1 * sqrt(max(out, vec3f(0.0))), vec3f(1.0 / 12.92)) / 255.0;
+    return clamp(out + globals.dither * pixel_noise(pixel) * step, vec3f(0.0), vec3f(1.0));
+}
+
+// Irradiance at `p` from lamp `i` per unit cosine, without its shadow.
+fn lamp_beam(i: u32, p: vec3f) -> vec3f {
+    let lamp = globals.lamps[i];
+    let away = p - lamp.position;
+    let d2 = dot(away, away);
+    let c = dot(away, lamp.axis) * inverseSqrt(d2);
+    return lamp.color * smoothstep(lamp.cos_outer, lamp.cos_inner, c) / d2;
+}

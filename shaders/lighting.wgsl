@@ -1,0 +1,220 @@
+// Light on a surface: metallic–roughness BRDF under image, lamps, rectangle and punctual lights.
+//
+// GGX distribution and height-correlated Smith visibility (Heitz 2014), Schlick Fresnel, Lambert below it. What
+// single scattering loses is given back by the factor 1 + F0 (1/E − 1) (Turquin 2019), E from the same table as the
+// split sum (Karis 2013). A sphere of light is met at its point nearest the mirror ray (Karis), an area rectangle too.
+
+@group(1) @binding(0) var environment: texture_cube<f32>;
+@group(1) @binding(1) var dfg: texture_2d<f32>;
+@group(1) @binding(2) var smooth_sampler: sampler;
+@group(1) @binding(3) var shadow_map: texture_depth_2d;
+@group(1) @binding(4) var shadow_sampler: sampler_comparison;
+@group(1) @binding(5) var wall_shadow: texture_2d<f32>;
+@group(1) @binding(6) var floor_shadow: texture_2d<f32>;
+@group(1) @binding(7) var lightmap: texture_2d_array<f32>;
+
+struct Surface {
+    position: vec3f,
+    normal: vec3f,     // shading
+    facing: vec3f,     // geometric, towards the eye
+    view: vec3f,       // unit, to the eye
+    albedo: vec3f,
+    metallic: f32,
+    roughness: f32,    // perceptual
+    occlusion: f32,
+}
+
+struct Reflector {
+    diffuse: vec3f,
+    f0: vec3f,
+    energy: vec3f,
+    ab: vec2f,
+    nv: f32,
+}
+
+fn reflector(s: Surface) -> Reflector {
+    var r: Reflector;
+    r.nv = clamp(dot(s.normal, s.view), 1e-3, 1.0);
+    r.f0 = mix(vec3f(0.04), s.albedo, s.metallic);
+    r.diffuse = s.albedo * (1.0 - s.metallic);
+    r.ab = textureSampleLevel(dfg, smooth_sampler, vec2f(r.nv, s.roughness), 0.0).xy;
+    r.energy = 1.0 + r.f0 * (1.0 / max(r.ab.x + r.ab.y, 1e-3) - 1.0);
+    return r;
+}
+
+// Specular BRDF times the cosine to the light; `widened` is the GGX alpha spread by the size of the light.
+fn specular(s: Surface, r: Reflector, l: vec3f, alpha: f32, widened: f32) -> vec3f {
+    let nl = clamp(dot(s.normal, l), 0.0, 1.0);
+    let h = normalize(s.view + l + s.normal * 1e-5);
+    let nh = clamp(dot(s.normal, h), 0.0, 1.0);
+    let a2 = alpha * alpha;
+    let t = (nh * a2 - nh) * nh + 1.0;
+    // The widened lobe keeps the energy of the narrow one (Karis 2013, eq. 14).
+    let norm = alpha / widened;
+    let w2 = widened * widened;
+    let tw = (nh * w2 - nh) * nh + 1.0;
+    let d = w2 / (PI * tw * tw) * norm * norm;
+    let v = 0.5 / max(nl * sqrt(r.nv * r.nv * (1.0 - a2) + a2) + r.nv * sqrt(nl * nl * (1.0 - a2) + a2), 1e-5);
+    let f = r.f0 + (1.0 - r.f0) * pow(1.0 - clamp(dot(s.view, h), 0.0, 1.0), 5.0);
+    return d * v * nl * f * r.energy;
+}
+
+fn sh_irradiance(n: vec3f) -> vec3f {
+    let c = globals.irradiance;
+    let e = c[0].rgb + c[1].rgb * n.y + c[2].rgb * n.z + c[3].rgb * n.x
+        + c[4].rgb * (n.x * n.y) + c[5].rgb * (n.y * n.z) + c[6].rgb * (3.0 * n.z * n.z - 1.0)
+        + c[7].rgb * (n.x * n.z) + c[8].rgb * (n.x * n.x - n.y * n.y);
+    return max(e, vec3f(0.0));
+}
+
+fn image_light(s: Surface, r: Reflector) -> vec3f {
+    let mirror = reflect(-s.view, s.normal);
+    let lod = s.roughness * globals.env_lods;
+    let prefiltered = textureSampleLevel(environment, smooth_sampler, mirror, lod).rgb;
+    let single = r.f0 * r.ab.x + r.ab.y;
+    let specular_albedo = single * r.energy;
+    let diffuse = r.diffuse * (1.0 - specular_albedo) * sh_irradiance(s.normal) / PI;
+    // Specular occlusion from the diffuse one (Lagarde and de Rousiers 2014).
+    let so = clamp(pow(r.nv + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
+    return globals.env_intensity * (diffuse * s.occlusion + prefiltered * specular_albedo * so);
+}
+
+// Fraction of the shadow-casting light that reaches p: blocker search, then a filter as wide as the penumbra
+// (Fernando 2005), both with fixed taps so that nothing shimmers.
+fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
+    let distance = length(towards);
+    let slope = sqrt(clamp(1.0 - pow(dot(facing, towards) / distance, 2.0), 0.0, 1.0));
+    // One and a half texels along the normal keep a lit surface from shading itself.
+    let texel = globals.shadow_texel * distance;
+    let side = select(-1.0, 1.0, dot(facing, towards) > 0.0);
+    let q = globals.shadow_from_world * vec4f(p + facing * side * texel * (1.0 + 2.0 * slope), 1.0);
+    if q.w <= 0.0 {
+        return 1.0;
+    }
+    let at = q.xyz / q.w * vec3f(0.5, -0.5, 1.0) + vec3f(0.5, 0.5, 0.0);
+    if any(at.xy < vec2f(0.0)) || any(at.xy > vec2f(1.0)) {
+        return 1.0;
+    }
+    let size = vec2f(textureDimensions(shadow_map));
+    // Size of the light as seen in texture coordinates from a receiver at depth w, per unit of (w − b) / b.
+    let spread = globals.shadow_radius / (globals.shadow_texel * size.x * q.w);
+    let search = max(spread * 0.5, 1.5 / size.x);
+    var blockers = 0.0;
+    var depth = 0.0;
+    for (var i = 0; i < 10; i++) {
+        let texel_at = vec2i((at.xy + search * vogel(f32(i), 10.0)) * size);
+        let z = textureLoad(shadow_map, clamp(texel_at, vec2i(0), vec2i(size) - 1), 0);
+        if z > at.z + 1e-6 {
+            blockers += 1.0;
+            depth += globals.shadow_near / z;
+        }
+    }
+    if blockers == 0.0 {
+        return 1.0;
+    }
+    let blocker = depth / blockers;
+    let width = clamp(spread * (q.w - blocker) / blocker, 1.2 / size.x, search);
+    var lit = 0.0;
+    for (var i = 0; i < 16; i++) {
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + width * vogel(f32(i), 16.0), at.z);
+    }
+    return lit / 16.0;
+}
+
+// Unit irradiance vector of a rectangle: Lambert's sum over its edges (Lambert 1760; Arvo 1995).
+fn rectangle_vector(p: vec3f) -> vec3f {
+    let x = globals.area_x;
+    let y = globals.area_y;
+    let c = globals.area_center - p;
+    var corners = array<vec3f, 4>(normalize(c - x - y), normalize(c + x - y), normalize(c + x + y), normalize(c - x + y));
+    var sum = vec3f(0.0);
+    for (var i = 0; i < 4; i++) {
+        let a = corners[i];
+        let b = corners[(i + 1) & 3];
+        let n = cross(a, b);
+        let s = length(n);
+        sum += n / max(s, 1e-6) * atan2(s, dot(a, b));
+    }
+    return 0.5 * sum;
+}
+
+fn area_light(s: Surface, r: Reflector, alpha: f32) -> vec3f {
+    let facing = normalize(cross(globals.area_x, globals.area_y));
+    if dot(s.position - globals.area_center, facing) <= 0.0 {
+        return vec3f(0.0);
+    }
+    let f = rectangle_vector(s.position);
+    let size = max(length(f), 1e-6);
+    let towards = -f / size * sign(dot(f, s.position - globals.area_center));
+    // A rectangle partly below the horizon, as a sphere of the same form factor (Hill and Heitz 2016).
+    let c = dot(s.normal, towards);
+    let diffuse = size * max((c + size / PI) / (1.0 + size / PI), 0.0);
+    // Point of the rectangle nearest the mirror ray.
+    let mirror = reflect(-s.view, s.normal);
+    let to_center = globals.area_center - s.position;
+    let along = dot(to_center, facing) / min(dot(mirror, facing), -1e-3);
+    let hit = mirror * max(along, 0.0) - to_center;
+    let lx = dot(globals.area_x, globals.area_x);
+    let ly = dot(globals.area_y, globals.area_y);
+    let near = to_center + globals.area_x * clamp(dot(hit, globals.area_x) / lx, -1.0, 1.0)
+        + globals.area_y * clamp(dot(hit, globals.area_y) / ly, -1.0, 1.0);
+    let widened = clamp(alpha + globals.shadow_radius / (2.0 * length(near)), 0.0, 1.0);
+    let l = normalize(near);
+    let gloss = specular(s, r, l, alpha, widened) * size;
+    return globals.area_radiance * (r.diffuse / PI * diffuse + gloss) * shadow(s.position, s.facing, to_center);
+}
+
+fn punctual_light(s: Surface, r: Reflector, alpha: f32, i: u32) -> vec3f {
+    let light = globals.punctual[i];
+    var l = -light.axis;
+    var strength = 1.0;
+    if light.kind > 0.5 {
+        let away = light.position - s.position;
+        let d2 = max(dot(away, away), 1e-8);
+        l = away * inverseSqrt(d2);
+        strength = 1.0 / d2;
+        if light.range > 0.0 {
+            // KHR_lights_punctual's window, so that the light ends at its range.
+            strength *= clamp(1.0 - d2 * d2 / pow(light.range, 4.0), 0.0, 1.0);
+        }
+        if light.kind > 1.5 {
+            let a = clamp((dot(-l, light.axis) - light.cone.y) / max(light.cone.x - light.cone.y, 1e-4), 0.0, 1.0);
+            strength *= a * a;
+        }
+    }
+    let nl = max(dot(s.normal, l), 0.0);
+    return light.color * strength * (r.diffuse / PI * nl + specular(s, r, l, alpha, alpha));
+}
+
+fn lamp_light(s: Surface, r: Reflector, alpha: f32, i: u32) -> vec3f {
+    let lamp = globals.lamps[i];
+    let towards = lamp.position - s.position;
+    // Nearest point of the luminous sphere to the mirror ray.
+    let mirror = reflect(-s.view, s.normal);
+    let off = dot(towards, mirror) * mirror - towards;
+    let near = towards + off * clamp(lamp.radius * inverseSqrt(max(dot(off, off), 1e-8)), 0.0, 1.0);
+    let distance = length(towards);
+    let widened = clamp(alpha + lamp.radius / (2.0 * distance), 0.0, 1.0);
+    let nl = max(dot(s.normal, towards) / distance, 0.0);
+    return lamp_beam(i, s.position) * (r.diffuse / PI * nl + specular(s, r, normalize(near), alpha, widened));
+}
+
+fn shade(s: Surface) -> vec3f {
+    let r = reflector(s);
+    let alpha = max(s.roughness * s.roughness, 0.002);
+    var sum = image_light(s, r);
+    for (var i = 0u; i < globals.lamp_count; i++) {
+        var light = lamp_light(s, r, alpha, i);
+        if i == 0u {
+            light *= shadow(s.position, s.facing, globals.lamps[0].position - s.position);
+        }
+        sum += light;
+    }
+    if globals.area_radiance.r + globals.area_radiance.g + globals.area_radiance.b > 0.0 {
+        sum += area_light(s, r, alpha);
+    }
+    for (var i = 0u; i < globals.punctual_count; i++) {
+        sum += punctual_light(s, r, alpha, i);
+    }
+    return sum;
+}

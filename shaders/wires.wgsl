@@ -1,0 +1,98 @@
+// Wires as capsules in closed form: a quad that faces the eye, and per pixel the exact distance of the sight line
+// from the axis.
+//
+// Below a pixel the radius is held at half a pixel and the opacity lowered in proportion (phone-wire antialiasing,
+// Persson 2012), so a wire of any width is an unbroken line of the right mean darkness. Segments of one wire are cut
+// by the planes that bisect their joints: no pixel of a bend is blended twice.
+
+struct Varying {
+    @builtin(position) clip: vec4f,
+    @location(0) position: vec3f,
+    @location(1) @interpolate(flat) a: vec4f,        // end, radius
+    @location(2) @interpolate(flat) b: vec4f,        // end, metallic
+    @location(3) @interpolate(flat) color: vec4f,    // linear, roughness
+    @location(4) @interpolate(flat) cut_a: vec4f,    // plane through a, 1 where the wire ends there
+    @location(5) @interpolate(flat) cut_b: vec4f,
+}
+
+@vertex
+fn vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) a: vec4f,
+    @location(1) b: vec4f,
+    @location(2) color: vec4f,
+    @location(3) cut_a: vec4f,
+    @location(4) cut_b: vec4f,
+) -> Varying {
+    var corners = array<vec2f, 6>(vec2f(0.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, 1.0));
+    let c = corners[index];
+    let end = select(a.xyz, b.xyz, c.x > 0.5);
+    let axis = b.xyz - a.xyz;
+    let unit = axis * inverseSqrt(max(dot(axis, axis), 1e-20));
+    let sight = end - globals.eye;
+    let sideways = cross(unit, sight);
+    let side = sideways * inverseSqrt(max(dot(sideways, sideways), 1e-20));
+    // The quad holds the wire and one pixel more on each side, and reaches over a joint as far as a bend may need.
+    let reach = a.w + 1.5 * globals.pixel_angle * length(sight);
+    let p = end + side * c.y * reach + unit * (2.0 * c.x - 1.0) * reach;
+    var out: Varying;
+    out.position = p;
+    out.a = a;
+    out.b = b;
+    out.color = color;
+    out.cut_a = cut_a;
+    out.cut_b = cut_b;
+    out.clip = globals.clip_from_world * vec4f(p, 1.0);
+    return out;
+}
+
+@fragment
+fn fragment(v: Varying) -> @location(0) vec4f {
+    let axis = v.b.xyz - v.a.xyz;
+    let unit = axis * inverseSqrt(max(dot(axis, axis), 1e-20));
+    let sight = normalize(v.position - globals.eye);
+    // Common perpendicular of sight line and axis, and where on the axis it stands.
+    let across = cross(unit, sight);
+    let sine2 = max(dot(across, across), 1e-8);
+    let side = across * inverseSqrt(sine2);
+    let from_a = globals.eye - v.a.xyz;
+    let offset = dot(from_a, side);
+    let cosine = dot(unit, sight);
+    let depth = (cosine * dot(from_a, unit) - dot(from_a, sight)) / sine2;
+    let on_axis = v.a.xyz + unit * ((dot(from_a, unit) - cosine * dot(from_a, sight)) / sine2);
+    let pixel = globals.pixel_angle * max(depth, 1e-4);
+    let r = v.a.w / pixel;
+    let wide = max(r, 0.5);
+    var alpha = clamp(wide + 0.5 - abs(offset) / pixel, 0.0, 1.0) * r / wide;
+    let inside_a = dot(on_axis - v.a.xyz, v.cut_a.xyz) / pixel;
+    let inside_b = dot(v.b.xyz - on_axis, v.cut_b.xyz) / pixel;
+    alpha *= select(step(0.0, inside_a), clamp(inside_a + 0.5, 0.0, 1.0), v.cut_a.w > 0.5);
+    alpha *= select(step(1e-6, inside_b), clamp(inside_b + 0.5, 0.0, 1.0), v.cut_b.w > 0.5);
+    if alpha <= 0.0 {
+        discard;
+    }
+    let towards = normalize(cross(across, unit));
+    let front = select(-towards, towards, dot(towards, sight) < 0.0);
+    var s: Surface;
+    s.position = on_axis + front * v.a.w;
+    s.view = -sight;
+    s.facing = front;
+    s.albedo = v.color.rgb;
+    s.metallic = v.b.w;
+    s.roughness = max(v.color.w, 0.15);
+    s.occlusion = 1.0;
+    // Across the round: one normal where the pixel is small against the wire, the mean of three where it is not.
+    var radiance = vec3f(0.0);
+    if r > 1.5 {
+        let m = clamp(offset / v.a.w, -0.98, 0.98);
+        s.normal = normalize(side * m + front * sqrt(1.0 - m * m));
+        radiance = shade(s);
+    } else {
+        for (var i = -1; i <= 1; i++) {
+            let m = 0.66 * f32(i);
+            s.normal = side * m + front * sqrt(1.0 - m * m);
+            radiance += shade(s) / 3.0;
+        }
+    }
+    return vec4f(display(radiance, v.clip.xy), alpha);
+}

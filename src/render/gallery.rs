@@ -1,0 +1,371 @@
+//! The built-in gallery: a white room with ceiling softboxes, a window, and two lamps on the work.
+//!
+//! The room is a box in a frame of its own: `x` to the visitor's right along the wall, `y` up, `z` from the wall to
+//! the visitor. Its light has three parts:
+//!
+//! - fields (softboxes, window): diffuse emitters. A face gets from a polygon of radiance L the irradiance
+//!   `E = L/2 Σ γᵢ (eᵢ · n)`, γᵢ the angle an edge subtends and eᵢ the normal of its plane through the receiver
+//!   (Lambert 1760; Arvo 1995);
+//! - lamps: small bright discs with a cone, which cast the shadows;
+//! - what the walls send back: in a closed diffuse room the mean indirect irradiance is `ρ Φ / ((1 − ρ) A)`, the law
+//!   of the integrating sphere.
+//!
+//! The same functions bake the room's light map and are the radiance that the work reflects, so a mirror shows the
+//! room it hangs in. Radiances are relative: exposure 1 shows the wall at about three quarters of white.
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use crate::exhibit::Exhibit;
+
+/// Faces of the room, in the order of the light map's layers and of `room.wgsl`.
+pub const FACES: [Face; 6] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right, Face::Back];
+/// Texels along each side of a light map layer; its light has no edge finer than that.
+pub const LIGHTMAP_SIZE: u32 = 32;
+/// Reflectance of the walls.
+pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.825, 0.81);
+/// Reflectance of the floor, pale limed oak.
+pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.56, 0.53, 0.49);
+/// Radiance of the ceiling softboxes.
+const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
+/// Radiance of the window: cooler.
+const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
+/// Irradiance of the lamps at the wall behind the work; the second is the weaker.
+const LAMP_IRRADIANCE: [f32; 2] = [1.25, 0.55];
+
+/// One inner face of the room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Face {
+    /// Behind the work.
+    Wall,
+    /// Below it.
+    Floor,
+    /// Above it.
+    Ceiling,
+    /// To the visitor's left.
+    Left,
+    /// To the visitor's right.
+    Right,
+    /// Behind the visitor.
+    Back,
+}
+
+/// A luminous rectangle on a face.
+#[derive(Clone, Copy, Debug)]
+struct Field {
+    face: Face,
+    /// Centre and half size in the face's own coordinates, −1 … 1.
+    center: Vec2,
+    half: Vec2,
+    radiance: Vec3,
+}
+
+/// A disc lamp on the work.
+#[derive(Clone, Copy, Debug)]
+pub struct Lamp {
+    /// World, m.
+    pub position: Vec3,
+    /// Unit, where it shines.
+    pub axis: Vec3,
+    /// Radius of the luminous disc, m.
+    pub radius: f32,
+    /// Intensity on the axis: irradiance × distance².
+    pub intensity: Vec3,
+    /// Cosines of the half-angles where it begins to fade and where it ends.
+    pub cone: (f32, f32),
+}
+
+/// The room around a work.
+#[derive(Clone, Debug)]
+pub struct Room {
+    /// Centre of the box, world, m.
+    pub center: Vec3,
+    /// Half sizes along the room's axes, m.
+    pub half: Vec3,
+    /// Unit axes of the room in the world; `y` is the world's.
+    pub x: Vec3,
+    /// From the wall to the visitor.
+    pub z: Vec3,
+    /// Centre of the work, world, m.
+    pub work: Vec3,
+    /// Radius of the work, m.
+    pub radius: f32,
+    /// The two lamps; the first is the key.
+    pub lamps: [Lamp; 2],
+    fields: Vec<Field>,
+    indirect: Vec3,
+}
+
+impl Room {
+    /// A room to the measure of the exhibit: the wall a little behind the work as the visitor sees it, the floor
+    /// under what stands on it.
+    pub fn around(exhibit: &Exhibit) -> Self {
+        let bounds = exhibit.bounds(false);
+        let (min, max) = if bounds.is_empty() {
+            (Vec3::splat(-0.5), Vec3::splat(0.5))
+        } else {
+            (bounds.min.as_vec3(), bounds.max.as_vec3())
+        };
+        let (work, radius) = (0.5 * (min + max), (0.5 * (max - min).length()).max(0.02));
+        // The wall stands square to the world's axes, opposite the visitor.
+        let view = exhibit.view(16.0 / 9.0);
+        let to_eye = (view.eye - view.target).as_vec3();
+        let z = if to_eye.x.abs() > to_eye.z.abs() { Vec3::X * to_eye.x.signum() } else { Vec3::Z * sign(to_eye.z) };
+        let x = Vec3::Y.cross(z);
+        let scale = radius / 0.5;
+        let extent = (max - min) * 0.5;
+        let depth = extent.dot(z.abs());
+        // Moving parts may swing out of their bounds at rest; the work's reach towards the wall is its radius across.
+        let reach = depth.max(0.55 * extent.dot(x.abs()).max(depth));
+        let behind = reach + 0.3 * scale.clamp(0.4, 1.6);
+        let below = work.y - min.y + if stands(exhibit, min.y) { 0.0 } else { 0.25 * scale };
+        let distance = (view.eye.as_vec3() - work).length();
+        let half = Vec3::new(3.2, 1.7, 3.0) * scale.max(0.3);
+        let half =
+            half.max(Vec3::new(0.9, 0.6, 0.0) * distance).max(Vec3::Z * (0.5 * (behind + distance) + 0.5 * scale));
+        let center = work + Vec3::Y * (half.y - below) + z * (half.z - behind);
+        let mut room = Self {
+            center,
+            half,
+            x,
+            z,
+            work,
+            radius,
+            lamps: [Lamp { position: work, axis: -z, radius: 0.1, intensity: Vec3::ZERO, cone: (1.0, 0.0) }; 2],
+            fields: fields(),
+            indirect: Vec3::ZERO,
+        };
+        room.lamps = room.place_lamps(behind);
+        room.indirect = room.mean_indirect();
+        room
+    }
+
+    /// Key from the upper left, fill from the upper right, both on the work and wide enough for the wall around it.
+    fn place_lamps(&self, behind: f32) -> [Lamp; 2] {
+        let r = self.radius;
+        let place = |offset: Vec3, disc: f32, color: Vec3, irradiance: f32| {
+            let position = self.work + (self.x * offset.x + Vec3::Y * offset.y + self.z * offset.z) * r;
+            let aim = self.work - self.z * behind * 0.5;
+            let axis = (aim - position).normalize();
+            let foot = self.work - self.z * behind;
+            let to_foot = position - foot;
+            let cosine = to_foot.normalize().dot(self.z);
+            Lamp {
+                position,
+                axis,
+                radius: disc * r,
+                intensity: color * (irradiance * to_foot.length_squared() / cosine),
+                cone: (0.97, 0.62),
+            }
+        };
+        [
+            place(Vec3::new(-1.9, 3.1, 4.2), 0.16, Vec3::new(1.0, 0.965, 0.90), LAMP_IRRADIANCE[0]),
+            place(Vec3::new(2.6, 2.6, 3.6), 0.20, Vec3::new(0.96, 0.98, 1.0), LAMP_IRRADIANCE[1]),
+        ]
+    }
+
+    /// Indirect irradiance of the closed room (integrating sphere): ρ Φ / ((1 − ρ) A).
+    fn mean_indirect(&self) -> Vec3 {
+        let mut flux = Vec3::ZERO;
+        let mut area = 0.0;
+        for face in FACES {
+            let [u, v, _] = self.face_axes(face);
+            area += 4.0 * u.length() * v.length();
+        }
+        for field in &self.fields {
+            let [u, v, _] = self.face_axes(field.face);
+            flux += PI * field.radiance * 4.0 * u.length() * field.half.x * v.length() * field.half.y;
+        }
+        // A lamp's flux: the solid angle of its cone to half strength.
+        for lamp in &self.lamps {
+            flux += lamp.intensity * 2.0 * PI * (1.0 - 0.5 * (lamp.cone.0 + lamp.cone.1));
+        }
+        let albedo = (WALL_ALBEDO * 5.0 + FLOOR_ALBEDO) / 6.0;
+        albedo * flux / ((Vec3::ONE - albedo) * area)
+    }
+
+    /// Half-size vectors (m, room frame) along a face's two coordinates and its centre.
+    fn face_axes(&self, face: Face) -> [Vec3; 3] {
+        let h = self.half;
+        let (x, y, z) = (Vec3::X * h.x, Vec3::Y * h.y, Vec3::Z * h.z);
+        match face {
+            Face::Wall => [x, y, -z],
+            Face::Floor => [x, z, -y],
+            Face::Ceiling => [x, z, y],
+            Face::Left => [y, z, -x],
+            Face::Right => [y, z, x],
+            Face::Back => [x, y, z],
+        }
+    }
+
+    /// World position of a vector of the room frame.
+    pub fn to_world(&self, local: Vec3) -> Vec3 {
+        self.center + self.x * local.x + Vec3::Y * local.y + self.z * local.z
+    }
+
+    /// Irradiance at a point with its normal (both in the room frame) without the lamps.
+    fn field_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let mut sum = self.indirect;
+        for field in &self.fields {
+            let [u, v, c] = self.face_axes(field.face);
+            let c = c + u * field.center.x + v * field.center.y;
+            let (u, v) = (u * field.half.x, v * field.half.y);
+            let corners = [c - u - v, c + u - v, c + u + v, c - u + v];
+            sum += field.radiance * polygon_factor(&corners, point, normal) * PI;
+        }
+        sum
+    }
+
+    /// Irradiance of the lamps at a world point, without shadows.
+    fn lamp_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for lamp in &self.lamps {
+            let away = point - lamp.position;
+            let d2 = away.length_squared().max(1e-6);
+            let direction = away / d2.sqrt();
+            let t = ((direction.dot(lamp.axis) - lamp.cone.1) / (lamp.cone.0 - lamp.cone.1)).clamp(0.0, 1.0);
+            sum += lamp.intensity * (t * t * (3.0 - 2.0 * t) * (-direction).dot(normal).max(0.0) / d2);
+        }
+        sum
+    }
+
+    /// Light map of all faces, RGB irradiance without lamps and in A the radiance of a field, face by face.
+    pub fn lightmap(&self) -> Vec<[f32; 4]> {
+        let n = LIGHTMAP_SIZE;
+        let mut texels = Vec::with_capacity((6 * n * n) as usize);
+        for face in FACES {
+            let [u, v, c] = self.face_axes(face);
+            let normal = -c.normalize();
+            for row in 0..n {
+                for column in 0..n {
+                    let at = Vec2::new(column as f32 + 0.5, row as f32 + 0.5) * (2.0 / n as f32) - 1.0;
+                    let e = self.field_irradiance(c + u * at.x + v * at.y, normal);
+                    texels.push([e.x, e.y, e.z, self.glow(face, at).dot(Vec3::splat(1.0 / 3.0))]);
+                }
+            }
+        }
+        texels
+    }
+
+    /// Radiance of the fields at a point of a face, with edges a little soft.
+    fn glow(&self, face: Face, at: Vec2) -> Vec3 {
+        self.fields.iter().filter(|f| f.face == face).fold(Vec3::ZERO, |sum, field| {
+            let inside = (field.half - (at - field.center).abs()) / 0.03;
+            sum + field.radiance * inside.min_element().clamp(0.0, 1.0)
+        })
+    }
+
+    /// Radiance that reaches the centre of the work from a world direction (unit).
+    pub fn radiance(&self, direction: Vec3) -> Vec3 {
+        let d = Vec3::new(direction.dot(self.x), direction.y, direction.dot(self.z));
+        let w = self.work - self.center;
+        let origin = Vec3::new(w.dot(self.x), w.y, w.dot(self.z));
+        // The face the ray leaves the box through: the nearest of the three planes it runs towards.
+        let to = (self.half * Vec3::new(sign(d.x), sign(d.y), sign(d.z)) - origin)
+            / d.map(|c| if c.abs() < 1e-9 { 1e-9 } else { c });
+        let t = to.min_element();
+        let hit = origin + d * t;
+        let face = if t == to.x {
+            if d.x > 0.0 { Face::Right } else { Face::Left }
+        } else if t == to.y {
+            if d.y > 0.0 { Face::Ceiling } else { Face::Floor }
+        } else if d.z > 0.0 {
+            Face::Back
+        } else {
+            Face::Wall
+        };
+        let [u, v, c] = self.face_axes(face);
+        let at = Vec2::new((hit - c).dot(u) / u.length_squared(), (hit - c).dot(v) / v.length_squared());
+        let normal = -c.normalize();
+        let world_normal = self.x * normal.x + Vec3::Y * normal.y + self.z * normal.z;
+        let albedo = if face == Face::Floor { FLOOR_ALBEDO } else { WALL_ALBEDO };
+        let irradiance = self.field_irradiance(hit, normal) + self.lamp_irradiance(self.to_world(hit), world_normal);
+        albedo / PI * irradiance + self.glow(face, at)
+    }
+}
+
+/// Two long softboxes in the ceiling, one wide over the visitor, and a window on the left.
+fn fields() -> Vec<Field> {
+    let ceiling = |x: f32, z: f32, hx: f32, hz: f32| Field {
+        face: Face::Ceiling,
+        center: Vec2::new(x, z),
+        half: Vec2::new(hx, hz),
+        radiance: SOFTBOX,
+    };
+    vec![
+        ceiling(-0.42, -0.1, 0.09, 0.6),
+        ceiling(0.42, -0.1, 0.09, 0.6),
+        ceiling(0.0, 0.45, 0.22, 0.16),
+        Field { face: Face::Left, center: Vec2::new(0.15, 0.35), half: Vec2::new(0.55, 0.38), radiance: WINDOW },
+    ]
+}
+
+/// Does something static reach down to the lowest point, so that it stands there?
+fn stands(exhibit: &Exhibit, lowest: f32) -> bool {
+    let carriers = exhibit.carriers();
+    exhibit.model.nodes.iter().zip(&carriers).filter(|(_, carrier)| carrier.is_none()).any(|(node, _)| {
+        let Some(mesh) = node.mesh.and_then(|m| exhibit.model.meshes.get(m)) else { return false };
+        let world = node.world.as_mat4();
+        let points = mesh.primitives.iter().flat_map(|p| &p.positions);
+        points.into_iter().any(|p| world.transform_point3(Vec3::from_array(*p)).y <= lowest + 1e-3)
+    })
+}
+
+/// Sign that is never 0.
+fn sign(x: f32) -> f32 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// Form factor of a planar polygon seen from `point` with `normal`: (1/2π) Σ γᵢ (eᵢ · n), cut at the horizon. The
+/// direction of its outline does not matter.
+pub fn polygon_factor(corners: &[Vec3], point: Vec3, normal: Vec3) -> f32 {
+    // Sutherland–Hodgman against the receiver's horizon; a quad grows to at most five corners.
+    let mut clipped = [Vec3::ZERO; 8];
+    let mut count = 0;
+    for (i, &corner) in corners.iter().enumerate() {
+        let (a, b) = (corner - point, corners[(i + 1) % corners.len()] - point);
+        let (ha, hb) = (a.dot(normal), b.dot(normal));
+        if ha >= 0.0 {
+            clipped[count] = a;
+            count += 1;
+        }
+        if (ha > 0.0 && hb < 0.0) || (ha < 0.0 && hb > 0.0) {
+            clipped[count] = a + (b - a) * (ha / (ha - hb));
+            count += 1;
+        }
+    }
+    let mut sum = 0.0;
+    for i in 0..count {
+        let (a, b) = (clipped[i], clipped[(i + 1) % count]);
+        let edge = a.cross(b);
+        let sine = edge.length();
+        if sine > 1e-12 {
+            sum += sine.atan2(a.dot(b)) * edge.dot(normal) / sine;
+        }
+    }
+    (sum / (2.0 * PI)).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_overhead_has_the_form_factor_of_the_handbook() {
+        // Howell's catalogue B-4, element parallel to a rectangle with one corner over it, a = b = c = 1:
+        // F = (1/2π) · 2 · (1/√2) atan(1/√2) = 0.1385; four of them make the square centred overhead.
+        const HANDBOOK: f32 = 0.138_532;
+        // Single precision and the handbook's digits.
+        const TOLERANCE: f32 = 2e-6;
+        let square = [
+            Vec3::new(-1.0, -1.0, 1.0),
+            Vec3::new(1.0, -1.0, 1.0),
+            Vec3::new(1.0, 1.0, 1.0),
+            Vec3::new(-1.0, 1.0, 1.0),
+        ];
+        let f = polygon_factor(&square, Vec3::ZERO, Vec3::Z);
+        assert!((f - 4.0 * HANDBOOK).abs() < 4.0 * TOLERANCE, "{f}");
+        assert_eq!(polygon_factor(&square, Vec3::ZERO, -Vec3::Z), 0.0, "below the horizon");
+    }
+}

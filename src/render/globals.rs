@@ -1,0 +1,215 @@
+//! The frame's uniforms, laid out as `common.wgsl` reads them.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3, Vec4};
+
+use super::gallery::{FLOOR_ALBEDO, Room, WALL_ALBEDO};
+use super::scene::{MAX_PUNCTUAL, Punctual};
+use super::shadows::{MapCamera, ReceivingPlane};
+use super::{Frame, Look, Tonemap};
+use crate::exhibit::View;
+
+/// A disc lamp.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct LampUniform {
+    position: Vec3,
+    radius: f32,
+    color: Vec3,
+    cos_outer: f32,
+    axis: Vec3,
+    cos_inner: f32,
+}
+
+/// A receiving plane.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct PlaneUniform {
+    origin: Vec3,
+    width: f32,
+    u: Vec3,
+    height: f32,
+    v: Vec3,
+    spare: f32,
+    normal: Vec3,
+    spare2: f32,
+}
+
+/// A punctual light.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct PunctualUniform {
+    pub position: Vec3,
+    pub kind: f32,
+    pub color: Vec3,
+    pub range: f32,
+    pub axis: Vec3,
+    pub spare: f32,
+    pub cone: Vec4,
+}
+
+/// `Globals` of `common.wgsl`, field by field.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct Globals {
+    clip_from_world: Mat4,
+    shadow_from_world: Mat4,
+    pub eye: Vec3,
+    exposure: f32,
+    right: Vec3,
+    pixel_angle: f32,
+    up: Vec3,
+    tonemap: u32,
+    room_center: Vec3,
+    dither: f32,
+    room_half: Vec3,
+    mote_radius: f32,
+    room_x: Vec3,
+    env_intensity: f32,
+    room_z: Vec3,
+    env_lods: f32,
+    wall_albedo: Vec3,
+    lamp_count: u32,
+    floor_albedo: Vec3,
+    pub punctual_count: u32,
+    area_center: Vec3,
+    shadow_radius: f32,
+    area_x: Vec3,
+    shadow_texel: f32,
+    area_y: Vec3,
+    shadow_samples: f32,
+    area_radiance: Vec3,
+    shadow_near: f32,
+    background: Vec3,
+    spare: f32,
+    irradiance: [Vec4; 9],
+    lamps: [LampUniform; 2],
+    planes: [PlaneUniform; 2],
+    pub punctual: [PunctualUniform; MAX_PUNCTUAL],
+}
+
+impl Globals {
+    /// What does not change from frame to frame.
+    pub fn new(
+        look: &Look,
+        room: &Room,
+        irradiance: &[Vec3; 9],
+        map: &MapCamera,
+        planes: &[ReceivingPlane; 2],
+        shadow_samples: u32,
+    ) -> Self {
+        let mut g = Self::zeroed();
+        g.tonemap = match look.tonemap {
+            Tonemap::Neutral => 0,
+            Tonemap::Aces => 1,
+            Tonemap::Agx => 2,
+            Tonemap::Clamp => 3,
+        };
+        // Without a curve the picture is a measurement: no dither either.
+        g.dither = if look.tonemap == Tonemap::Clamp { 0.0 } else { 1.0 };
+        (g.room_center, g.room_half, g.room_x, g.room_z) = (room.center, room.half, room.x, room.z);
+        g.mote_radius = 0.004 * room.radius.clamp(0.2, 1.0);
+        g.env_intensity = look.env_intensity;
+        g.env_lods = (super::environment::CUBE_MIPS - 1) as f32;
+        (g.wall_albedo, g.floor_albedo) = (WALL_ALBEDO, FLOOR_ALBEDO);
+        g.lamp_count = if look.background.is_some() { 0 } else { room.lamps.len() as u32 };
+        g.background = look.background.unwrap_or_default();
+        if let Some(area) = look.area_light {
+            (g.area_center, g.area_radiance) = (area.center, area.radiance);
+            (g.area_x, g.area_y) = area.half;
+        }
+        g.shadow_from_world = map.clip_from_world;
+        (g.shadow_radius, g.shadow_texel, g.shadow_near) = (map.light_radius, map.texel, map.near);
+        g.shadow_samples = shadow_samples as f32;
+        for (to, from) in g.irradiance.iter_mut().zip(irradiance) {
+            *to = from.extend(0.0);
+        }
+        for (to, lamp) in g.lamps.iter_mut().zip(&room.lamps) {
+            let (cos_inner, cos_outer) = lamp.cone;
+            *to = LampUniform {
+                position: lamp.position,
+                radius: lamp.radius,
+                color: lamp.intensity,
+                cos_outer,
+                axis: lamp.axis,
+                cos_inner,
+            };
+        }
+        for (to, plane) in g.planes.iter_mut().zip(planes) {
+            *to = PlaneUniform {
+                origin: plane.origin,
+                width: plane.size.x,
+                u: plane.u,
+                height: plane.size.y,
+                v: plane.v,
+                spare: 0.0,
+                normal: plane.normal,
+                spare2: 0.0,
+            };
+        }
+        g
+    }
+
+    /// Sets what a frame brings.
+    pub fn set_frame(&mut self, frame: &Frame, radius: f32) {
+        let (width, height) = (frame.size.0.max(1) as f64, frame.size.1.max(1) as f64);
+        let (right, up, _) = frame.view.axes();
+        // The work is metres away from the eye; a near plane at a thousandth of its size loses nothing (reversed depth).
+        self.clip_from_world = clip_from_world(&frame.view, width / height, 0.02 * f64::from(radius)).as_mat4();
+        (self.eye, self.right, self.up) = (frame.view.eye.as_vec3(), right.as_vec3(), up.as_vec3());
+        self.pixel_angle = (2.0 * (0.5 * frame.view.fovy).tan() / height) as f32;
+        self.exposure = frame.exposure;
+    }
+
+    /// Sets the punctual lights at their present places.
+    pub fn set_lights(&mut self, lights: &[Punctual], place: impl Fn(usize) -> Mat4) {
+        self.punctual_count = lights.len() as u32;
+        for (to, light) in self.punctual.iter_mut().zip(lights) {
+            *to = light.uniform(place(light.frame));
+        }
+    }
+}
+
+/// Reversed, infinite perspective: depth 1 at `near`, 0 at infinity, so that a 32-bit float has digits where they are
+/// needed.
+pub(super) fn clip_from_world(view: &View, aspect: f64, near: f64) -> glam::DMat4 {
+    let (right, up, forward) = view.axes();
+    let f = 1.0 / (0.5 * view.fovy).tan();
+    let rows = [
+        right.extend(-right.dot(view.eye)) * (f / aspect),
+        up.extend(-up.dot(view.eye)) * f,
+        glam::DVec4::W * near,
+        forward.extend(-forward.dot(view.eye)),
+    ];
+    glam::DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_matrix_agrees_with_the_view_and_depth_runs_backwards() {
+        // Rounding of a few double-precision operations.
+        const ROUNDING: f64 = 1e-12;
+        let view = View {
+            eye: glam::DVec3::new(1.0, 2.0, 3.0),
+            target: glam::DVec3::new(0.0, 1.0, -1.0),
+            up: glam::DVec3::Y,
+            fovy: 0.6,
+        };
+        let m = clip_from_world(&view, 1.5, 0.01);
+        for p in [glam::DVec3::ZERO, glam::DVec3::new(0.3, 0.9, -2.0)] {
+            let c = m * p.extend(1.0);
+            let at = view.project(p, 1.5).expect("in front");
+            assert!(
+                (0.5 + 0.5 * c.x / c.w - at[0]).abs() < ROUNDING && (0.5 - 0.5 * c.y / c.w - at[1]).abs() < ROUNDING
+            );
+        }
+        let depth = |distance: f64| {
+            let c = m * (view.eye + view.axes().2 * distance).extend(1.0);
+            c.z / c.w
+        };
+        assert!((depth(0.01) - 1.0).abs() < ROUNDING && depth(1.0) > depth(2.0) && depth(1e6) > 0.0);
+    }
+}

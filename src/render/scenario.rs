@@ -1,0 +1,185 @@
+//! Scenario files of `soffio render`: camera, light and tone curve of one picture, as JSON.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+use serde::Deserialize;
+
+use super::environment::Environment;
+use super::{AreaLight, Look, Tonemap};
+use crate::exhibit::View;
+
+/// A scenario file. What is left out has the default of a picture without a scenario.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// glTF or GLB, relative to the file; used when the command names none.
+    pub model: Option<PathBuf>,
+    /// World, m.
+    pub eye: Option<[f64; 3]>,
+    /// Point looked at, m.
+    pub target: Option<[f64; 3]>,
+    /// Vertical field of view, degrees.
+    pub fovy_deg: Option<f64>,
+    /// Pixels.
+    pub width: Option<u32>,
+    /// Pixels.
+    pub height: Option<u32>,
+    /// Equirectangular Radiance image, relative to the file.
+    pub env: Option<PathBuf>,
+    /// Multiplies its radiance.
+    pub env_intensity: Option<f32>,
+    /// Linear RGB behind the model.
+    pub background_linear: Option<[f32; 3]>,
+    /// A luminous rectangle.
+    pub area_light: Option<Rectangle>,
+    /// Curve to the display.
+    pub tonemap: Option<Tonemap>,
+    /// Linear multiplier.
+    pub exposure: Option<f32>,
+}
+
+/// A one-sided luminous rectangle.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rectangle {
+    /// World, m.
+    pub center: [f32; 3],
+    /// Point it faces, m.
+    pub target: [f32; 3],
+    /// m.
+    pub width: f32,
+    /// m.
+    pub height: f32,
+    /// W per channel.
+    pub power_w: f32,
+}
+
+/// What is wrong with a scenario.
+#[derive(Debug, thiserror::Error)]
+pub enum ScenarioError {
+    /// A file could not be read.
+    #[error("{path}: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// Not the JSON of a scenario.
+    #[error(
+        "{path}: {source}\n  The keys are model, eye, target, fovy_deg, width, height, env, env_intensity, background_linear, area_light, tonemap, exposure"
+    )]
+    Shape {
+        /// The file.
+        path: PathBuf,
+        /// Where and why.
+        source: serde_json::Error,
+    },
+    /// A number that makes no picture.
+    #[error("{path}: `{key}` {problem}")]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// The key.
+        key: &'static str,
+        /// What is wrong and what is allowed.
+        problem: &'static str,
+    },
+    /// The lighting image could not be decoded.
+    #[error("{path}: {source}\n  `env` must be an equirectangular Radiance .hdr image")]
+    Environment {
+        /// The image.
+        path: PathBuf,
+        /// Why.
+        source: image::ImageError,
+    },
+}
+
+impl Scenario {
+    /// Reads and checks a scenario; its paths come back relative to where the program runs.
+    pub fn load(path: &Path) -> Result<Self, ScenarioError> {
+        let text = std::fs::read_to_string(path).map_err(|source| ScenarioError::Read { path: path.into(), source })?;
+        let mut scenario: Self =
+            serde_json::from_str(&text).map_err(|source| ScenarioError::Shape { path: path.into(), source })?;
+        if let Some((key, problem)) = scenario.problem() {
+            return Err(ScenarioError::Value { path: path.into(), key, problem });
+        }
+        let folder = path.parent().unwrap_or(Path::new("."));
+        for file in [&mut scenario.model, &mut scenario.env].into_iter().flatten() {
+            *file = folder.join(&*file);
+        }
+        Ok(scenario)
+    }
+
+    /// The first number that makes no picture.
+    fn problem(&self) -> Option<(&'static str, &'static str)> {
+        let positive = |x: f32| x.is_finite() && x > 0.0;
+        if self.fovy_deg.is_some_and(|f| !(f > 0.0 && f < 180.0)) {
+            return Some(("fovy_deg", "must lie between 0 and 180"));
+        }
+        if self.width == Some(0) || self.height == Some(0) {
+            return Some(("width and height", "must be at least 1"));
+        }
+        if let (Some(eye), Some(target)) = (self.eye, self.target)
+            && eye == target
+        {
+            return Some(("target", "must differ from `eye`, or there is no direction to look in"));
+        }
+        if self.exposure.is_some_and(|e| !positive(e)) {
+            return Some(("exposure", "must be above 0"));
+        }
+        if self.env_intensity.is_some_and(|e| !(e.is_finite() && e >= 0.0)) {
+            return Some(("env_intensity", "must not be negative"));
+        }
+        let rectangle = self.area_light?;
+        if !(positive(rectangle.width) && positive(rectangle.height)) || rectangle.center == rectangle.target {
+            return Some(("area_light", "must have a width and height above 0 and a target apart from its center"));
+        }
+        None
+    }
+
+    /// Light and backdrop. Whoever brings light or a backdrop of his own gets no gallery around it.
+    pub fn look(&self) -> Result<Look, ScenarioError> {
+        let environment = self.env.as_deref().map(environment).transpose()?;
+        let own = self.env.is_some() || self.background_linear.is_some() || self.area_light.is_some();
+        Ok(Look {
+            tonemap: self.tonemap.unwrap_or_default(),
+            environment: environment.map(Arc::new),
+            env_intensity: self.env_intensity.unwrap_or(1.0),
+            background: own.then(|| Vec3::from_array(self.background_linear.unwrap_or_default())),
+            area_light: self.area_light.map(|rectangle| rectangle.light()),
+        })
+    }
+
+    /// The scenario's camera in place of `view`, as far as it says.
+    pub fn view(&self, view: View) -> View {
+        View {
+            eye: self.eye.map_or(view.eye, DVec3::from_array),
+            target: self.target.map_or(view.target, DVec3::from_array),
+            up: if self.eye.is_some() || self.target.is_some() { DVec3::Y } else { view.up },
+            fovy: self.fovy_deg.map_or(view.fovy, f64::to_radians),
+        }
+    }
+}
+
+impl Rectangle {
+    /// Upright as far as its direction allows, radiance L = P / (π w h).
+    fn light(&self) -> AreaLight {
+        let center = Vec3::from_array(self.center);
+        let forward = (Vec3::from_array(self.target) - center).normalize();
+        let up = if forward.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
+        let x = up.cross(forward).normalize();
+        let y = forward.cross(x);
+        let radiance = self.power_w / (std::f32::consts::PI * self.width * self.height);
+        AreaLight { center, half: (x * 0.5 * self.width, y * 0.5 * self.height), radiance: Vec3::splat(radiance) }
+    }
+}
+
+fn environment(path: &Path) -> Result<Environment, ScenarioError> {
+    let bytes = std::fs::read(path).map_err(|source| ScenarioError::Read { path: path.into(), source })?;
+    let image = image::load_from_memory_with_format(&bytes, image::ImageFormat::Hdr)
+        .map_err(|source| ScenarioError::Environment { path: path.into(), source })?;
+    Ok(Environment::from_equirectangular(&image.into_rgb32f()))
+}
