@@ -8,9 +8,8 @@ use crate::exhibit;
 use crate::math::decibels;
 
 /// Says what to mend on this machine: screen, graphics, microphone, loudspeaker, fonts, files.
-///
-/// Example: soffio doctor --json
 #[derive(clap::Args, Debug, Default)]
+#[command(after_help = "Example:\n  soffio doctor --json")]
 pub struct Args {
     /// The site's configuration [default: kiosk-config/kiosk.toml here or above, else built in]
     #[arg(long, value_name = "FILE")]
