@@ -5,6 +5,9 @@
 //! unconditionally stable and accurate for small eigenvalues too. Only the four operations and square roots: the same
 //! bits everywhere.
 //!
+//! A function of the basis that is nearly a sum of those before it (its pivot vanishes) is left out: it adds nothing but
+//! rounding.
+//!
 //! Invariant: vectors come out M-normalised, xᵀ M x = 1, in ascending order of λ.
 
 /// A dense square matrix, row by row.
@@ -37,44 +40,60 @@ impl Matrix {
 /// Most sweeps of Jacobi rotations; convergence is quadratic, ten are plenty for the sizes here.
 const SWEEPS: usize = 24;
 
-/// Eigenvalues and M-normalised eigenvectors of K x = λ M x; only the lower triangles are read.
-/// `None` when M is not positive definite.
-pub(super) fn generalised(stiffness: &Matrix, mass: &Matrix) -> Option<Vec<(f64, Vec<f64>)>> {
-    let n = stiffness.n;
-    let lower = cholesky(mass)?;
+/// A pivot below this share of its diagonal element is rounding; half the digits of a double stay good.
+const DEPENDENT: f64 = 1e-9;
+
+/// Eigenvalues and M-normalised eigenvectors of K x = λ M x; only the lower triangles are read. As many as there are
+/// independent functions; each vector has the length of the whole basis.
+pub(super) fn generalised(stiffness: &Matrix, mass: &Matrix) -> Vec<(f64, Vec<f64>)> {
+    let (kept, lower) = cholesky(mass);
+    let n = kept.len();
     // C = L⁻¹ K L⁻ᵀ: solve L Y = K column by column, then L Z = Yᵀ; Z = C because K is symmetric.
     let mut full = Matrix::zero(n);
-    for i in 0..n {
-        for j in 0..=i {
-            full.set(i, j, stiffness.at(i, j));
-            full.set(j, i, stiffness.at(i, j));
+    for (i, &from) in kept.iter().enumerate() {
+        for (j, &to) in kept.iter().enumerate().take(i + 1) {
+            full.set(i, j, stiffness.at(from, to));
+            full.set(j, i, stiffness.at(from, to));
         }
     }
     let half = forward(&lower, &full);
     let mut c = forward(&lower, &transpose(&half));
     let mut vectors = jacobi(&mut c);
-    let mut pairs: Vec<(f64, Vec<f64>)> = (0..n).map(|k| (c.at(k, k), backward(&lower, vectors.row_mut(k)))).collect();
+    let mut pairs: Vec<(f64, Vec<f64>)> = (0..n)
+        .map(|k| {
+            let mut whole = vec![0.0; mass.n];
+            for (&i, x) in kept.iter().zip(backward(&lower, vectors.row_mut(k))) {
+                whole[i] = x;
+            }
+            (c.at(k, k), whole)
+        })
+        .collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Some(pairs)
+    pairs
 }
 
-fn cholesky(m: &Matrix) -> Option<Matrix> {
-    let n = m.n;
-    let mut l = Matrix::zero(n);
-    for i in 0..n {
-        for j in 0..=i {
-            let sum = m.at(i, j) - (0..j).map(|k| l.at(i, k) * l.at(j, k)).sum::<f64>();
-            if i == j {
-                if !(sum > 0.0) {
-                    return None;
-                }
-                l.set(i, i, sum.sqrt());
-            } else {
-                l.set(i, j, sum / l.at(j, j));
-            }
+/// The independent rows of `m`, in order, and the Cholesky factor of the matrix they make.
+fn cholesky(m: &Matrix) -> (Vec<usize>, Matrix) {
+    let mut kept: Vec<usize> = Vec::with_capacity(m.n);
+    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(m.n);
+    for i in 0..m.n {
+        let mut row: Vec<f64> = Vec::with_capacity(kept.len() + 1);
+        for (&j, other) in kept.iter().zip(&rows) {
+            let sum = m.at(i, j) - row.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+            row.push(sum / other[row.len()]);
+        }
+        let pivot = m.at(i, i) - row.iter().map(|a| a * a).sum::<f64>();
+        if pivot > DEPENDENT * m.at(i, i) {
+            row.push(pivot.sqrt());
+            kept.push(i);
+            rows.push(row);
         }
     }
-    Some(l)
+    let mut lower = Matrix::zero(kept.len());
+    for (i, row) in rows.iter().enumerate() {
+        lower.row_mut(i)[..row.len()].copy_from_slice(row);
+    }
+    (kept, lower)
 }
 
 /// L⁻¹ B.

@@ -43,10 +43,10 @@ impl PlateMode {
     }
 }
 
-/// Degrees (m, n) of the basis of one parity class.
+/// Degrees (m, n) of the basis of one parity class, simple ones first.
 fn terms(parity: [usize; 2]) -> impl Iterator<Item = (usize, usize)> {
     let [px, py] = parity;
-    (px..=DEGREE).step_by(2).flat_map(move |m| (py..=DEGREE - m).step_by(2).map(move |n| (m, n)))
+    (px + py..=DEGREE).step_by(2).flat_map(move |d| (px..=d - py).step_by(2).map(move |m| (m, d - m)))
 }
 
 /// The modes of a free plate in ascending order of frequency, rigid motions left out.
@@ -93,8 +93,8 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
         }
         // Rigid motions: 1, x and y are the lowest of their classes; xy bends.
         let rigid = usize::from(parity != [1, 1]);
-        let keep = basis.len() / 2;
-        let solved = generalised(&k, &m).unwrap_or_default();
+        let solved = generalised(&k, &m);
+        let keep = solved.len() / 2;
         modes.extend(solved.into_iter().skip(rigid).take(keep).map(|(omega2, coefficients)| PlateMode {
             frequency: omega2.max(0.0).sqrt() / (2.0 * PI),
             parity,

@@ -8,6 +8,9 @@ mod forge;
 mod kiosk;
 #[cfg(feature = "kiosk")]
 mod pictures;
+mod realtime;
+#[cfg(feature = "kiosk")]
+mod scratch;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;

@@ -510,7 +510,7 @@ proptest! {
         let area = 4.0 * a * b * fill;
         let body = SoundBody { half_extents: [a, b], thickness: h, area, mass: area * h * 7850.0 };
         let modes = free_plate_modes(&body, &steel());
-        prop_assert!(modes.len() >= 60);
+        prop_assert!(modes.len() >= 40);
         prop_assert!(modes[0].frequency > 0.0);
         prop_assert!(modes.windows(2).all(|m| m[0].frequency <= m[1].frequency));
         let mut synth = synth(&[InstrumentSpec { body, ..spec("plate") }]);

@@ -1,0 +1,219 @@
+//! The loudspeaker: a real-time thread that owns the synth.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+
+use cpal::{FromSample, SizedSample};
+use rtrb::{Consumer, Producer, RingBuffer};
+
+use super::clock::ClockMap;
+use crate::sound::{SoundCommand, Synth};
+
+/// Frames rendered at once, however long the device's blocks are.
+const CHUNK: usize = 256;
+/// Room in the ring of commands.
+const COMMANDS: usize = 2048;
+/// Room in the ring of the reference, s.
+const REFERENCE: u32 = 1;
+/// A synth that was replaced fades and is dropped after this time, s.
+const FAREWELL: f64 = 0.1;
+
+/// A command for the loudspeaker's own clock and for one generation of instruments.
+#[derive(Clone, Copy, Debug)]
+struct Timed {
+    command: SoundCommand,
+    generation: u64,
+}
+
+/// A synth with the generation of commands that it understands.
+pub struct Engine {
+    /// Plays.
+    pub synth: Box<Synth>,
+    /// Commands of other generations are not for it.
+    pub generation: u64,
+}
+
+/// What the real-time thread lets others see.
+#[derive(Debug, Default)]
+pub struct Shared {
+    /// Frames played.
+    pub played: AtomicU64,
+    /// Length of the last block, frames.
+    pub block: AtomicU32,
+}
+
+/// The real-time end: everything that the loudspeaker's callback touches.
+pub struct Player {
+    engine: Option<Engine>,
+    /// Frame at which the engine's own clock was 0.
+    origin: u64,
+    /// A replaced engine and the frames it still has to fade.
+    leaving: Option<(Engine, usize)>,
+    commands: Consumer<Timed>,
+    engines: Consumer<Engine>,
+    retired: Producer<Engine>,
+    reference: Producer<f32>,
+    shared: Arc<Shared>,
+    channels: usize,
+    gain: f32,
+    farewell: usize,
+    frame: u64,
+}
+
+/// The kiosk's end.
+pub struct Voice {
+    commands: Producer<Timed>,
+    reference: Consumer<f32>,
+    shared: Arc<Shared>,
+    clock: ClockMap,
+    sample_rate: u32,
+}
+
+/// The supervisor's end: engines go in, retired ones come out.
+pub struct Workshop {
+    engines: Producer<Engine>,
+    retired: Consumer<Engine>,
+}
+
+/// The three ends of one loudspeaker. `gain` is linear.
+pub fn open(sample_rate: u32, channels: usize, gain: f32) -> (Player, Voice, Workshop) {
+    let (to_player, commands) = RingBuffer::new(COMMANDS);
+    let (reference, from_player) = RingBuffer::new((REFERENCE * sample_rate) as usize);
+    let (new_engines, engines) = RingBuffer::new(4);
+    let (retired, old_engines) = RingBuffer::new(8);
+    let shared = Arc::new(Shared::default());
+    let player = Player {
+        engine: None,
+        origin: 0,
+        leaving: None,
+        commands,
+        engines,
+        retired,
+        reference,
+        shared: shared.clone(),
+        channels: channels.max(1),
+        gain: gain.clamp(0.0, 1.0),
+        farewell: (FAREWELL * f64::from(sample_rate)) as usize,
+        frame: 0,
+    };
+    let clock = ClockMap::new(sample_rate);
+    let voice = Voice { commands: to_player, reference: from_player, shared, clock, sample_rate };
+    (player, voice, Workshop { engines: new_engines, retired: old_engines })
+}
+
+impl Player {
+    /// The callback's whole body. Real-time: bounded, no allocation, no lock, no system call.
+    pub fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
+        let frames = data.len() / self.channels;
+        self.change_engine();
+        while let Ok(Timed { command, generation }) = self.commands.pop() {
+            if let Some(engine) = self.engine.as_mut().filter(|engine| engine.generation == generation) {
+                engine.synth.command(command.at(command.sample().saturating_sub(self.origin)));
+            }
+        }
+        let mut stereo = [0.0f32; 2 * CHUNK];
+        for out in data.chunks_mut(CHUNK * self.channels) {
+            let stereo = &mut stereo[..2 * (out.len() / self.channels)];
+            self.render(stereo);
+            for (frame, lr) in out.chunks_mut(self.channels).zip(stereo.as_chunks::<2>().0) {
+                put(frame, *lr);
+                // A full ring means that nobody listens.
+                let _ = self.reference.push(0.5 * (lr[0] + lr[1]));
+            }
+        }
+        self.frame += frames as u64;
+        self.shared.played.store(self.frame, Ordering::Release);
+        self.shared.block.store(frames as u32, Ordering::Relaxed);
+    }
+
+    /// Frees nothing: what is over goes back through a ring. Without room there, everything stays as it is.
+    fn change_engine(&mut self) {
+        if let Some((engine, 0)) = self.leaving.take_if(|(_, frames)| *frames == 0)
+            && let Err(rtrb::PushError::Full(engine)) = self.retired.push(engine)
+        {
+            self.leaving = Some((engine, 0));
+        }
+        if self.leaving.is_none()
+            && let Ok(engine) = self.engines.pop()
+        {
+            self.leaving = self.engine.replace(engine).map(|mut old| {
+                let sample = old.synth.position();
+                old.synth.command(SoundCommand::Silence { sample });
+                (old, self.farewell)
+            });
+            self.origin = self.frame;
+        }
+    }
+
+    fn render(&mut self, stereo: &mut [f32]) {
+        match &mut self.engine {
+            Some(engine) => engine.synth.render(stereo),
+            None => stereo.fill(0.0),
+        }
+        if let Some((engine, left)) = &mut self.leaving {
+            let mut old = [0.0f32; 2 * CHUNK];
+            let old = &mut old[..stereo.len()];
+            engine.synth.render(old);
+            // Together they may pass full scale; each alone cannot.
+            stereo.iter_mut().zip(old).for_each(|(s, o)| *s = (*s + *o).clamp(-1.0, 1.0));
+            *left = left.saturating_sub(stereo.len() / 2);
+        }
+        stereo.iter_mut().for_each(|sample| *sample *= self.gain);
+    }
+}
+
+/// Stereo to the device's channels: one hears both, the third and later are silent.
+fn put<T: SizedSample + FromSample<f32>>(frame: &mut [T], [left, right]: [f32; 2]) {
+    match frame {
+        [] => {}
+        [mono] => *mono = T::from_sample(0.5 * (left + right)),
+        [l, r, others @ ..] => {
+            (*l, *r) = (T::from_sample(left), T::from_sample(right));
+            others.fill(T::EQUILIBRIUM);
+        }
+    }
+}
+
+impl Voice {
+    /// Hz.
+    pub fn sample_rate(&self) -> u32 {
+        self.sample_rate
+    }
+
+    /// What was played, mono.
+    pub fn reference(&mut self) -> &mut Consumer<f32> {
+        &mut self.reference
+    }
+
+    /// What the real-time thread shows.
+    pub fn shared(&self) -> &Shared {
+        &self.shared
+    }
+
+    /// Sends commands with sample times of the simulation, whose present is `now`.
+    pub fn send(&mut self, now: u64, commands: &[SoundCommand], generation: u64) {
+        let (played, block) = (self.shared.played.load(Ordering::Acquire), self.shared.block.load(Ordering::Relaxed));
+        self.clock.look(now, played, block);
+        for command in commands {
+            let command = command.at(self.clock.frame(command.sample()));
+            // A full ring means that the device stands still; what it missed is not wanted later.
+            let _ = self.commands.push(Timed { command, generation });
+        }
+    }
+}
+
+impl Workshop {
+    /// Gives the player another engine; drops the ones it has given back.
+    pub fn exchange(&mut self, engine: Option<Engine>) {
+        self.clear();
+        if let Some(engine) = engine {
+            // Full only if four were sent within one fade; the next wins soon enough.
+            let _ = self.engines.push(engine);
+        }
+    }
+
+    /// Drops the engines that the player has given back.
+    pub fn clear(&mut self) {
+        while self.retired.pop().is_ok() {}
+    }
+}

@@ -1,0 +1,345 @@
+//! Opens the devices, watches them, opens them again.
+//!
+//! Streams live and die on this thread alone. A device is given up when its error callback says so, or when it has not
+//! asked for a block for [`STALLED`]: some drivers die without a word. Then it is tried again after 1, 2, 4, 8, 10, 10, … s.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use cpal::traits::{DeviceTrait, StreamTrait};
+use cpal::{BufferSize, Device, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
+
+use super::devices::{Chosen, Direction, choose};
+use super::input::{self, Ears, Recorder};
+use super::output::{self, Engine, Player, Voice, Workshop};
+use super::{AudioSettings, AudioStatus, DeviceState, SynthFactory};
+use crate::math::from_decibels;
+
+/// Between two looks at the devices.
+const LOOK: Duration = Duration::from_millis(100);
+/// A device that asks for no block for this long is lost.
+const STALLED: Duration = Duration::from_secs(3);
+/// The first pause before a device is tried again, and the longest.
+const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(10));
+
+/// What the kiosk asks of the supervisor.
+pub(super) enum Request {
+    /// Other instruments.
+    Instruments { synth: SynthFactory, generation: u64 },
+    /// The end.
+    Stop,
+}
+
+/// The kiosk's end of a device that was opened; `None` when it was lost.
+pub(super) enum Link {
+    Microphone(Option<Ears>),
+    Loudspeaker(Option<Voice>),
+}
+
+/// What the callbacks of one stream report.
+#[derive(Default)]
+struct Health {
+    /// Blocks so far.
+    blocks: AtomicU64,
+    /// Gaps so far.
+    xruns: AtomicU64,
+    /// Why the stream is over.
+    lost: OnceLock<String>,
+}
+
+impl Health {
+    fn report(&self, error: &cpal::Error) {
+        match error.kind() {
+            ErrorKind::Xrun => {
+                self.xruns.fetch_add(1, Ordering::Relaxed);
+            }
+            // The stream goes on: on another device, or at ordinary priority.
+            ErrorKind::DeviceChanged | ErrorKind::RealtimeDenied => {}
+            _ => {
+                // Only the first reason counts. The stream is over, so this thread may allocate.
+                let _ = self.lost.set(error.to_string());
+            }
+        }
+    }
+}
+
+/// One device over all its lives.
+struct Line {
+    stream: Option<Stream>,
+    health: Arc<Health>,
+    seen: (u64, Instant),
+    retry_at: Instant,
+    pause: Duration,
+    /// Gaps of earlier lives.
+    xruns: u64,
+}
+
+impl Line {
+    fn new() -> Self {
+        let now = Instant::now();
+        Self { stream: None, health: Arc::default(), seen: (0, now), retry_at: now, pause: BACK_OFF.0, xruns: 0 }
+    }
+
+    fn xruns(&self) -> u64 {
+        self.xruns + self.health.xruns.load(Ordering::Relaxed)
+    }
+
+    /// Why the stream is over, if it is.
+    fn lost(&mut self) -> Option<String> {
+        self.stream.as_ref()?;
+        if let Some(reason) = self.health.lost.get() {
+            return Some(reason.clone());
+        }
+        let blocks = self.health.blocks.load(Ordering::Relaxed);
+        if blocks != self.seen.0 {
+            self.seen = (blocks, Instant::now());
+            // It works: the next trouble is a new one.
+            self.pause = BACK_OFF.0;
+        } else if self.seen.1.elapsed() > STALLED {
+            return Some(format!("the device stood still for {} s", STALLED.as_secs()));
+        }
+        None
+    }
+
+    fn give_up(&mut self) {
+        self.xruns = self.xruns();
+        self.stream = None;
+        self.health = Arc::default();
+        self.retry_at = Instant::now() + self.pause;
+        self.pause = (self.pause * 2).min(BACK_OFF.1);
+    }
+
+    fn due(&self) -> bool {
+        self.stream.is_none() && Instant::now() >= self.retry_at
+    }
+
+    fn opened(&mut self, stream: Stream) {
+        self.stream = Some(stream);
+        self.seen = (0, Instant::now());
+    }
+}
+
+pub(super) struct Supervisor {
+    settings: AudioSettings,
+    synth: SynthFactory,
+    generation: u64,
+    inbox: Receiver<Request>,
+    links: Sender<Link>,
+    status: Arc<Mutex<AudioStatus>>,
+    microphone: Line,
+    loudspeaker: Line,
+    workshop: Option<(Workshop, u32)>,
+}
+
+impl Supervisor {
+    pub fn new(
+        settings: AudioSettings,
+        synth: SynthFactory,
+        inbox: Receiver<Request>,
+        links: Sender<Link>,
+        status: Arc<Mutex<AudioStatus>>,
+    ) -> Self {
+        Self {
+            settings,
+            synth,
+            generation: 0,
+            inbox,
+            links,
+            status,
+            microphone: Line::new(),
+            loudspeaker: Line::new(),
+            workshop: None,
+        }
+    }
+
+    /// Until the kiosk stops.
+    pub fn run(mut self) {
+        loop {
+            self.tend_loudspeaker();
+            self.tend_microphone();
+            let xruns = self.microphone.xruns() + self.loudspeaker.xruns();
+            self.tell(|status| status.xruns = xruns);
+            match self.inbox.recv_timeout(LOOK) {
+                Ok(Request::Instruments { synth, generation }) => {
+                    (self.synth, self.generation) = (synth, generation);
+                    self.install_synth();
+                }
+                Ok(Request::Stop) | Err(RecvTimeoutError::Disconnected) => break,
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Some((workshop, _)) = &mut self.workshop {
+                        workshop.clear();
+                    }
+                }
+            }
+        }
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut AudioStatus)) {
+        change(&mut self.status.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// Passes an end to the kiosk; when the kiosk is gone, `Stop` is on its way.
+    fn link(&self, link: Link) {
+        let _ = self.links.send(link);
+    }
+
+    fn install_synth(&mut self) {
+        if let Some((workshop, rate)) = &mut self.workshop {
+            let synth = Box::new((self.synth)(*rate));
+            workshop.exchange(Some(Engine { synth, generation: self.generation }));
+        }
+    }
+
+    fn tend_loudspeaker(&mut self) {
+        if let Some(reason) = self.loudspeaker.lost() {
+            tracing::warn!("loudspeaker lost: {reason}");
+            self.loudspeaker.give_up();
+            self.workshop = None;
+            self.link(Link::Loudspeaker(None));
+            self.tell(|status| status.output = DeviceState::Missing(reason));
+        }
+        if !self.loudspeaker.due() {
+            return;
+        }
+        let result = choose(Direction::Output, &self.settings.loudspeaker, self.settings.block_ms).and_then(|chosen| {
+            let Chosen { device, name, config, format } = chosen;
+            let gain = from_decibels(self.settings.volume_db.min(0.0)) as f32;
+            let open = |config: StreamConfig| {
+                let (player, voice, workshop) = output::open(config.sample_rate, config.channels.into(), gain);
+                let stream = play(&device, config, format, player, self.loudspeaker.health.clone())?;
+                Ok((stream, voice, workshop))
+            };
+            let (stream, voice, workshop) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, voice, workshop, name, config.sample_rate))
+        });
+        match result {
+            Ok((stream, voice, workshop, name, sample_rate)) => {
+                tracing::info!("loudspeaker: {name}, {sample_rate} Hz");
+                self.loudspeaker.opened(stream);
+                self.workshop = Some((workshop, sample_rate));
+                self.install_synth();
+                self.link(Link::Loudspeaker(Some(voice)));
+                self.tell(|status| status.output = DeviceState::Ok { name, sample_rate });
+            }
+            Err(reason) => {
+                self.loudspeaker.give_up();
+                self.tell(|status| status.output = DeviceState::Missing(reason));
+            }
+        }
+    }
+
+    fn tend_microphone(&mut self) {
+        if let Some(reason) = self.microphone.lost() {
+            tracing::warn!("microphone lost: {reason}");
+            self.microphone.give_up();
+            self.link(Link::Microphone(None));
+            self.tell(|status| status.input = DeviceState::Missing(reason));
+        }
+        if !self.microphone.due() {
+            return;
+        }
+        let result = choose(Direction::Input, &self.settings.microphone, self.settings.block_ms).and_then(|chosen| {
+            let Chosen { device, name, config, format } = chosen;
+            let open = |config: StreamConfig| {
+                let (channels, channel) = (config.channels.into(), self.settings.microphone_channel);
+                let (recorder, ears) = input::open(config.sample_rate, channels, channel);
+                Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, ears))
+            };
+            let (stream, ears) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, ears, name, config.sample_rate))
+        });
+        match result {
+            Ok((stream, ears, name, sample_rate)) => {
+                tracing::info!("microphone: {name}, {sample_rate} Hz");
+                self.microphone.opened(stream);
+                self.link(Link::Microphone(Some(ears)));
+                self.tell(|status| status.input = DeviceState::Ok { name, sample_rate });
+            }
+            Err(reason) => {
+                self.microphone.give_up();
+                self.tell(|status| status.input = DeviceState::Missing(reason));
+            }
+        }
+    }
+}
+
+/// With the block that is wanted, or else with the device's own: some drivers promise more than they keep.
+fn with_any_block<T>(
+    config: StreamConfig,
+    mut open: impl FnMut(StreamConfig) -> Result<T, cpal::Error>,
+) -> Result<T, cpal::Error> {
+    open(config).or_else(|_| open(StreamConfig { buffer_size: BufferSize::Default, ..config }))
+}
+
+fn play(
+    device: &Device,
+    config: StreamConfig,
+    format: SampleFormat,
+    player: Player,
+    health: Arc<Health>,
+) -> Result<Stream, cpal::Error> {
+    fn build<T: SizedSample + FromSample<f32>>(
+        device: &Device,
+        config: StreamConfig,
+        mut player: Player,
+        health: Arc<Health>,
+    ) -> Result<Stream, cpal::Error> {
+        let errors = health.clone();
+        let callback = move |data: &mut [T], _: &cpal::OutputCallbackInfo| {
+            player.play(data);
+            health.blocks.fetch_add(1, Ordering::Relaxed);
+        };
+        let stream = device.build_output_stream(config, callback, move |error| errors.report(&error), None)?;
+        stream.play()?;
+        Ok(stream)
+    }
+    match format {
+        SampleFormat::F32 => build::<f32>(device, config, player, health),
+        SampleFormat::F64 => build::<f64>(device, config, player, health),
+        SampleFormat::I32 => build::<i32>(device, config, player, health),
+        SampleFormat::I24 => build::<cpal::I24>(device, config, player, health),
+        SampleFormat::I16 => build::<i16>(device, config, player, health),
+        SampleFormat::U16 => build::<u16>(device, config, player, health),
+        SampleFormat::U8 => build::<u8>(device, config, player, health),
+        _ => Err(ErrorKind::UnsupportedConfig.into()),
+    }
+}
+
+fn record(
+    device: &Device,
+    config: StreamConfig,
+    format: SampleFormat,
+    recorder: Recorder,
+    health: Arc<Health>,
+) -> Result<Stream, cpal::Error> {
+    fn build<T: SizedSample>(
+        device: &Device,
+        config: StreamConfig,
+        mut recorder: Recorder,
+        health: Arc<Health>,
+    ) -> Result<Stream, cpal::Error>
+    where
+        f32: FromSample<T>,
+    {
+        let errors = health.clone();
+        let callback = move |data: &[T], _: &cpal::InputCallbackInfo| {
+            recorder.record(data);
+            health.blocks.fetch_add(1, Ordering::Relaxed);
+        };
+        let stream = device.build_input_stream(config, callback, move |error| errors.report(&error), None)?;
+        stream.play()?;
+        Ok(stream)
+    }
+    match format {
+        SampleFormat::F32 => build::<f32>(device, config, recorder, health),
+        SampleFormat::F64 => build::<f64>(device, config, recorder, health),
+        SampleFormat::I32 => build::<i32>(device, config, recorder, health),
+        SampleFormat::I24 => build::<cpal::I24>(device, config, recorder, health),
+        SampleFormat::I16 => build::<i16>(device, config, recorder, health),
+        SampleFormat::U16 => build::<u16>(device, config, recorder, health),
+        SampleFormat::U8 => build::<u8>(device, config, recorder, health),
+        _ => Err(ErrorKind::UnsupportedConfig.into()),
+    }
+}

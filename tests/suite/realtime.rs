@@ -1,0 +1,162 @@
+//! The audio callback never allocates or frees, and what it plays lands on time.
+//!
+//! The allocator below only acts inside `assert_no_alloc(|| …)`, and only in debug builds.
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc};
+use soffio::sound::{InstrumentSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound};
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
+
+fn synth(rate: u32) -> Synth {
+    let body = SoundBody { half_extents: [0.05; 2], thickness: 8e-4, area: 0.0079, mass: 0.05 };
+    let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
+    let spec = |timbre: &str| InstrumentSpec { timbre: timbre.into(), body, material, gain: 1.0, max_voices: 60 };
+    Synth::new(rate, &[spec("plate"), spec("bell"), spec("wind-room")], 1).expect("shipped timbres compile")
+}
+
+fn strike(sample: u64, instrument: u16) -> SoundCommand {
+    SoundCommand::Strike(Strike {
+        sample,
+        instrument,
+        impulse: 1e-3,
+        speed: 0.3,
+        mass: 0.003,
+        position: [0.7, 0.2],
+        pan: 0.0,
+        distance: 0.7,
+    })
+}
+
+#[test]
+fn the_synth_never_allocates() {
+    let mut synth = synth(48_000);
+    let mut out = vec![0.0f32; 2 * 480];
+    let mut loudest = 0.0f32;
+    assert_no_alloc(|| {
+        // More hits than voices, more commands than room, bad numbers, wind, silence.
+        for block in 0..200u64 {
+            for i in 0..8u64 {
+                synth.command(strike(block * 480 + i * 61, (i % 2) as u16));
+            }
+            synth.command(SoundCommand::Wind(WindSound { sample: block * 480, speed: 3.0, gust: 0.3, pan: 0.1 }));
+            if block % 50 == 49 {
+                synth.command(SoundCommand::Silence { sample: block * 480 + 7 });
+                (0..2000).for_each(|i| synth.command(strike(block * 480 + i, 0)));
+                synth.command(SoundCommand::Wind(WindSound { speed: f32::NAN, ..WindSound::default() }));
+            }
+            synth.render(&mut out);
+            loudest = out.iter().fold(loudest, |m, s| m.max(s.abs()));
+        }
+    });
+    assert!(loudest > 0.1);
+    assert!(synth.faults() == 4 && synth.lost() > 0);
+}
+
+#[cfg(feature = "kiosk")]
+mod callback {
+    use super::*;
+    use soffio::audio_io::output::{Engine, open};
+    use soffio::audio_io::{ClockMap, input};
+
+    fn engine(rate: u32, generation: u64) -> Engine {
+        Engine { synth: Box::new(synth(rate)), generation }
+    }
+
+    #[test]
+    fn the_loudspeakers_callback_never_allocates_even_when_the_exhibit_changes() {
+        let (mut player, mut voice, mut workshop) = open(48_000, 2, 0.5);
+        workshop.exchange(Some(engine(48_000, 0)));
+        let mut block = vec![0.0f32; 2 * 480];
+        let mut generation = 0;
+        let mut loudest = 0.0f32;
+        for step in 0..400u64 {
+            voice.send(step * 480, &[strike(step * 480, (step % 2) as u16)], generation);
+            if step % 37 == 36 {
+                generation += 1;
+                workshop.exchange(Some(engine(48_000, generation)));
+            }
+            assert_no_alloc(|| player.play(&mut block));
+            loudest = block.iter().fold(loudest, |m, s| m.max(s.abs()));
+        }
+        assert!(loudest > 0.05 && loudest <= 1.0);
+        // The reference is the mean of what went out.
+        let mut heard = Vec::new();
+        while let Ok(sample) = voice.reference().pop() {
+            heard.push(sample);
+        }
+        assert_eq!(heard.len(), 48_000, "the ring keeps its first second when nobody listens");
+    }
+
+    #[test]
+    fn every_layout_of_channels_and_every_block_is_played() {
+        for channels in [1, 2, 6] {
+            let (mut player, mut voice, mut workshop) = open(48_000, channels, 1.0);
+            workshop.exchange(Some(engine(48_000, 0)));
+            let mut block = vec![0i16; channels * 777];
+            assert_no_alloc(|| player.play(&mut block));
+            voice.send(0, &[strike(0, 1)], 0);
+            let mut loudest = vec![0; channels];
+            for _ in 0..10 {
+                assert_no_alloc(|| player.play(&mut block));
+                for frame in block.chunks(channels) {
+                    loudest.iter_mut().zip(frame).for_each(|(m, s): (&mut i16, _)| *m = (*m).max(s.saturating_abs()));
+                }
+            }
+            assert!(loudest.iter().take(2).all(|m| *m > 300), "{channels} channels: {loudest:?}");
+            assert!(loudest.iter().skip(2).all(|m| *m == 0), "{channels} channels: {loudest:?}");
+        }
+    }
+
+    #[test]
+    fn commands_for_other_instruments_are_not_played() {
+        let (mut player, mut voice, mut workshop) = open(48_000, 2, 1.0);
+        workshop.exchange(Some(engine(48_000, 3)));
+        let mut block = vec![0.0f32; 960];
+        player.play(&mut block);
+        voice.send(0, &[strike(0, 0)], 2);
+        for _ in 0..10 {
+            player.play(&mut block);
+            assert!(block.iter().all(|s| *s == 0.0));
+        }
+    }
+
+    #[test]
+    fn the_microphones_callback_never_allocates_and_picks_its_channel() {
+        let samples: Vec<i16> = (0..2000).map(|i| if i % 2 == 0 { 8192 } else { -16384 }).collect();
+        // Full scale is 32768, so these are exact.
+        for (channel, expected) in [(1, 0.25), (2, -0.5), (0, -0.125), (9, -0.125)] {
+            let (mut recorder, mut ears) = input::open(48_000, 2, channel);
+            assert_no_alloc(|| recorder.record(&samples));
+            let mut heard = Vec::new();
+            assert_eq!(ears.read(&mut heard), 1000);
+            assert!(heard.iter().all(|s| *s == expected), "channel {channel}");
+        }
+    }
+
+    #[test]
+    fn hits_keep_their_distance_while_the_clocks_drift() {
+        // A loudspeaker 200 ppm fast with blocks of 480 against steps of 200 samples; hits every 0.1 s.
+        // Jitter allowed: the block's sawtooth through a filter of 480 looks, plus rounding.
+        const JITTER: f64 = 3.0;
+        let mut clock = ClockMap::new(48_000);
+        let (mut late, mut last) = (0, None);
+        for step in 1..48_000u64 {
+            let now = step * 200;
+            let position = (now as f64 * 1.0002) as u64 / 480 * 480;
+            clock.look(now, position, 480);
+            if step % 24 == 0 {
+                let frame = clock.frame(now - 100);
+                late += u64::from(frame < position);
+                if let Some(last) = last.replace(frame) {
+                    let apart = (frame - last) as f64;
+                    assert!((apart - 4800.0 * 1.0002).abs() < JITTER, "step {step}: {apart}");
+                }
+            }
+        }
+        assert_eq!(late, 0);
+        // After a standstill of a second the map starts anew.
+        clock.look(10_000_000, 10_050_000, 480);
+        assert_eq!(clock.frame(10_000_000), 10_050_680);
+    }
+}
