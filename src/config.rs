@@ -117,15 +117,15 @@ enum ProfileName {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AudioSettings {
-    /// Any part of the microphone's name; empty is the system's own choice.
+    /// Id (`soffio devices`) or any part of the microphone's name; empty is the system's own choice.
     pub microphone: String,
     /// Which of its channels listens, from 1; 0 mixes all of them.
     pub microphone_channel: u16,
-    /// Any part of the loudspeaker's name; empty is the system's own choice.
+    /// Id or any part of the loudspeaker's name; empty is the system's own choice.
     pub loudspeaker: String,
     /// Loudness of the kiosk, dB of full scale.
     pub volume_db: f64,
-    /// Length of one block of the loudspeaker, ms: short answers at once, long never stutters.
+    /// Length of one block of either device, ms: short answers at once, long never stutters.
     pub block_ms: f64,
 }
 

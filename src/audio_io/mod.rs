@@ -20,7 +20,6 @@ pub mod devices;
 pub mod input;
 pub mod output;
 mod reference;
-mod settings;
 mod supervisor;
 
 use std::sync::atomic::Ordering;
@@ -28,9 +27,9 @@ use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
+pub use crate::config::AudioSettings;
 pub use clock::ClockMap;
 pub use reference::ReferenceTap;
-pub use settings::AudioSettings;
 use supervisor::{Link, Request, Supervisor};
 
 use crate::sound::{SoundCommand, Synth};

@@ -8,9 +8,8 @@ use crate::exhibit;
 use crate::math::decibels;
 
 /// Says what to mend on this machine: screen, graphics, microphone, loudspeaker, fonts, files.
-///
-/// Example: soffio doctor --json
 #[derive(clap::Args, Debug, Default)]
+#[command(after_help = "Example:\n  soffio doctor --json")]
 pub struct Args {
     /// The site's configuration [default: kiosk-config/kiosk.toml here or above, else built in]
     #[arg(long, value_name = "FILE")]
@@ -180,7 +179,7 @@ mod machine {
     use std::time::{Duration, Instant};
 
     use super::{Finding, Health, judge_room};
-    use crate::audio_io::AudioIo;
+    use crate::audio_io::{AudioIo, DeviceState};
     use crate::config::Config;
     use crate::kiosk::fonts;
     use crate::render::Gpu;
@@ -236,7 +235,7 @@ mod machine {
     }
 
     fn sound(config: &Config) -> Vec<Finding> {
-        let mut audio = AudioIo::start(&config.audio, |rate| Synth::new(&[], rate, 0));
+        let mut audio = AudioIo::start(&config.audio, Synth::silent);
         let (mut heard, mut played) = (Vec::new(), Vec::new());
         let mut rate = None;
         let began = Instant::now();
@@ -250,20 +249,19 @@ mod machine {
             }
         }
         let status = audio.status();
-        let device = |what: &str, name: &str, remedy: &str| {
-            let finding = match name {
-                "" => Finding::new(what, Health::Bad, "none", remedy),
-                name => Finding::new(what, Health::Ok, name, ""),
+        let device = |what: &str, state: &DeviceState, without: &str| {
+            let finding = match state {
+                DeviceState::Ok { .. } => Finding::new(what, Health::Ok, state.to_string(), ""),
+                _ => {
+                    let remedy = format!("connect one, or name it in [audio]; until then {without}");
+                    Finding::new(what, Health::Bad, state.to_string(), remedy)
+                }
             };
             finding.of_device()
         };
         let mut findings = vec![
-            device(
-                "loudspeaker",
-                &status.loudspeaker,
-                "connect one, or say which in [audio]; until then all is silent",
-            ),
-            device("microphone", &status.microphone, "connect one, or say which in [audio]; until then press and hold"),
+            device("loudspeaker", &status.output, "all is silent"),
+            device("microphone", &status.input, "visitors press and hold to blow"),
         ];
         if let Some(rate) = rate {
             findings.push(judge_room(&heard, rate).of_device());

@@ -7,23 +7,22 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::{Failure, Outcome};
 use crate::config::Config;
-use crate::exhibit::{self, Exhibit};
+use crate::exhibit::Exhibit;
 use crate::kiosk::live::{Options, Report};
 use crate::kiosk::window::{self, Ended, Missing};
 use crate::offline::feed::WavFeed;
 use crate::offline::{demo, wav};
-use crate::simulation::STEPS_PER_SECOND;
+use crate::simulation::{STEPS_PER_SECOND, Settings};
 
-/// Set by Ctrl-C and by a supervisor's wish to end.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Where a run without a window leaves its files.
+const OUT: &str = "out";
 
 /// Seed of a run that names none: every day in the gallery begins alike.
 const DEFAULT_SEED: u64 = 1;
 
 /// Runs the live kiosk.
-///
-/// Example: soffio kiosk --windowed --breath breaths/gentle.wav --for 20
 #[derive(clap::Args, Debug, Default)]
+#[command(after_help = "Example:\n  soffio kiosk --windowed --breath breath.wav --for 20")]
 pub struct Args {
     /// The site's configuration [default: kiosk-config/kiosk.toml here or above, else built in]
     #[arg(long, value_name = "FILE")]
@@ -38,7 +37,7 @@ pub struct Args {
     #[arg(long, value_name = "WAV")]
     breath: Option<PathBuf>,
     /// End after so much time
-    #[arg(long = "for", value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long = "for", value_name = "SECONDS", value_parser = super::play::parse_seconds)]
     duration: Option<f64>,
     /// Never play the attract script
     #[arg(long)]
@@ -57,8 +56,8 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     log_to_stderr();
-    if let Some(solver) = args.solver.filter(|solver| solver != "dynamics") {
-        let message = format!("--solver {solver}: exhibits move by dynamics only; leave the option out");
+    if let Some(solver) = args.solver.filter(|solver| solver == "procedural") {
+        let message = format!("--solver {solver}: this build moves exhibits by dynamics only; leave the option out");
         return Err(Failure { code: 2, message });
     }
     let (mut config, file) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
@@ -69,25 +68,27 @@ pub fn run(args: Args) -> Outcome {
     config.screen.fullscreen &= !args.windowed;
     config.attract.enabled &= !args.no_attract;
 
-    let exhibit = Arc::new(load_exhibit(args.exhibit.as_deref(), &config)?);
-    let recording = args.breath.as_deref().map(read_breath).transpose()?;
+    let configured = || config.exhibit.folder.join(&config.exhibit.id).to_string_lossy().into_owned();
+    let exhibit = super::open(&args.exhibit.unwrap_or_else(configured))?;
+    let recording = args.breath.map(wav::read).transpose().map_err(Failure::input)?;
+    let settings = config.simulation_settings(args.seed.unwrap_or(DEFAULT_SEED));
     let options = Options {
         exhibit: exhibit.clone(),
-        settings: config.simulation_settings(args.seed.unwrap_or(DEFAULT_SEED)),
+        settings,
         audio: config.audio.clone(),
-        recording,
+        recording: recording.map(|recording| WavFeed::new(recording.samples, recording.sample_rate)),
         idle_s: config.attract.enabled.then_some(config.attract.idle_s),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
         trace: args.trace,
     };
-    ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed))
-        .map_err(|error| Failure::device(format!("Ctrl-C cannot be caught: {error}")))?;
+    let stop = Arc::new(AtomicBool::new(false));
+    super::stop_on_ctrl_c(&stop);
 
-    match window::run(config, options, &INTERRUPTED) {
+    match window::run(config, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
         Ok(Ended::Failed(message)) => Err(Failure::device(message)),
-        Err(missing) => headless(&missing, &exhibit),
+        Err(missing) => headless(&missing, &exhibit, settings, &stop),
     }
 }
 
@@ -100,7 +101,7 @@ fn summarize(report: &Report, planned: bool) -> Outcome {
 }
 
 /// The same exhibit without a window: a picture, a sound and a trace.
-fn headless(missing: &Missing, exhibit: &Arc<Exhibit>) -> Outcome {
+fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop: &AtomicBool) -> Outcome {
     match missing {
         Missing::Display(why) => eprintln!(
             "soffio: no display to open a window on ({why}). Start it where DISPLAY or WAYLAND_DISPLAY is set."
@@ -110,37 +111,26 @@ fn headless(missing: &Missing, exhibit: &Arc<Exhibit>) -> Outcome {
              for every machine."
         ),
     }
-    eprintln!("soffio: the exhibit runs without a window instead, on a recorded breath.");
-    demo::run(exhibit.clone())
-}
-
-/// The exhibit of the command line, or the configured one.
-fn load_exhibit(wanted: Option<&str>, config: &Config) -> Result<Exhibit, Failure> {
-    let folder = match wanted {
-        Some(wanted) => exhibit::resolve(wanted).map_err(Failure::input)?,
-        None => config.exhibit.folder.join(&config.exhibit.id),
+    eprintln!("soffio: {} runs without a window instead, on a recorded breath.", exhibit.id);
+    let demo = match demo::run(exhibit, settings, Path::new(OUT), stop) {
+        Ok(demo) => demo,
+        Err(_) if stop.load(Ordering::Relaxed) => return Err(Failure { code: 130, message: String::new() }),
+        Err(error) => return Err(Failure::input(error)),
     };
-    exhibit::load(&folder).map_err(Failure::input)
-}
-
-/// A recording as a microphone.
-fn read_breath(file: &Path) -> Result<WavFeed, Failure> {
-    let recording = wav::read(file).map_err(Failure::input)?;
-    Ok(WavFeed::new(recording.samples, recording.sample_rate))
-}
-
-/// A positive time, s.
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
-        _ => Err("say a time in seconds above 0, for example 20".into()),
+    if let Some(why) = &demo.no_picture {
+        eprintln!("soffio: no picture: {why}");
     }
+    for file in &demo.files {
+        eprintln!("soffio: wrote {}", file.display());
+    }
+    println!("{}", serde_json::json!(demo.summary));
+    Ok(())
 }
 
-/// Logs go to stderr; `RUST_LOG` says how much.
+/// Logs go to stderr; `RUST_LOG` says how much. The sound server's client calls its own orderly end an error.
 fn log_to_stderr() {
     let filter = tracing_subscriber::EnvFilter::try_from_default_env()
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info"));
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info,pulseaudio=off"));
     // A second call in one process keeps the first log.
     let terminal = std::io::stderr().is_terminal();
     let _ =

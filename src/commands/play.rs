@@ -163,7 +163,8 @@ pub fn run(args: Args) -> Outcome {
 
 /// A bar on a terminal, nothing in a pipe.
 fn progress_bar(steps: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{wide_bar} {percent}% {eta}").unwrap_or_else(|_| ProgressStyle::default_bar());
+    let style =
+        ProgressStyle::with_template("{wide_bar} {percent}% {eta}").unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(steps).with_style(style)
 }
 

@@ -11,19 +11,16 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use crate::audio_io::{self, AudioIo};
+use crate::audio_io::{AudioIo, AudioStatus};
 use crate::config::AudioSettings;
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
-use crate::offline::trace::TraceWriter;
+use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{Microphone, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{SoundCommand, Synth};
 
 use super::pace::Pacer;
 use super::stage::{Controls, Stage};
-
-/// Rows a second of a trace.
-const TRACE_FPS: u32 = 60;
 
 /// What a run is made of.
 pub struct Options {
@@ -72,7 +69,7 @@ pub struct Load {
     /// Steps of time that were dropped so far.
     pub dropped: u64,
     /// What the devices say.
-    pub audio: audio_io::Status,
+    pub audio: AudioStatus,
 }
 
 impl Frame {
@@ -114,7 +111,7 @@ impl Live {
     pub fn start(options: Options, aspect: f64) -> Result<Self, String> {
         let stage = Stage::new(options.exhibit.clone(), options.settings, options.recording.clone(), options.idle_s);
         let trace = match &options.trace {
-            Some(path) => Some(TraceWriter::create(path, &options.exhibit, TRACE_FPS).map_err(|e| e.to_string())?),
+            Some(path) => Some(TraceWriter::create(path, &options.exhibit, DEFAULT_FPS).map_err(trace_error)?),
             None => None,
         };
         let frame = Frame {
@@ -185,6 +182,7 @@ struct Thread {
     audio: AudioIo,
     shared: Arc<Shared>,
     limit: u64,
+    seed: u64,
     recorded: bool,
     previous: Snapshot,
     heard: Vec<f32>,
@@ -195,9 +193,7 @@ struct Thread {
 
 impl Thread {
     fn new(stage: Stage, trace: Option<TraceWriter>, options: Options, shared: Arc<Shared>) -> Self {
-        let instruments = options.exhibit.instruments.clone();
-        let seed = options.settings.seed;
-        let audio = AudioIo::start(&options.audio, move |rate| Synth::new(&instruments, rate, seed));
+        let audio = AudioIo::start(&options.audio, synth(&options.exhibit, options.settings.seed));
         Self {
             previous: stage.snapshot().clone(),
             stage,
@@ -205,6 +201,7 @@ impl Thread {
             audio,
             shared,
             limit: options.steps.unwrap_or(u64::MAX),
+            seed: options.settings.seed,
             recorded: options.recording.is_some(),
             heard: Vec::new(),
             played: Vec::new(),
@@ -227,7 +224,7 @@ impl Thread {
             std::thread::sleep(pacer.next().saturating_sub(began.elapsed()));
         }
         if let Some(trace) = self.trace.take() {
-            trace.finish().map_err(|error| error.to_string())?;
+            trace.finish().map_err(trace_error)?;
         }
         Ok(Report {
             steps: self.stage.steps(),
@@ -274,7 +271,7 @@ impl Thread {
 
     /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
-        self.audio.set_instruments(&exhibit.instruments);
+        self.audio.set_instruments(synth(&exhibit, self.seed));
         self.stage.swap(exhibit);
         if let Some(trace) = self.trace.take() {
             match trace.finish() {
@@ -286,7 +283,7 @@ impl Thread {
 
     fn write_trace(&mut self) -> Result<(), String> {
         match &mut self.trace {
-            Some(trace) => trace.push(self.stage.snapshot()).map_err(|error| error.to_string()),
+            Some(trace) => trace.push(self.stage.snapshot()).map_err(trace_error),
             None => Ok(()),
         }
     }
@@ -307,6 +304,17 @@ impl Thread {
     }
 }
 
+/// Builds the voice of an exhibit for a loudspeaker's rate.
+fn synth(exhibit: &Exhibit, seed: u64) -> impl Fn(u32) -> Synth + Send + 'static {
+    let instruments = exhibit.instruments.clone();
+    move |rate| {
+        Synth::new(rate, &instruments, seed).unwrap_or_else(|error| {
+            tracing::error!("the exhibit stays silent: {error}");
+            Synth::silent(rate)
+        })
+    }
+}
+
 /// The `i`-th of `n` equal shares of `all`, in order and without a gap.
 fn share(all: &[f32], i: u64, n: u64) -> &[f32] {
     let bound = |k: u64| (all.len() as u64 * k / n) as usize;
@@ -316,4 +324,8 @@ fn share(all: &[f32], i: u64, n: u64) -> &[f32] {
 /// A hash as text: JSON numbers lose bits beyond 2⁵³.
 fn hex<S: serde::Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&format!("{hash:016x}"))
+}
+
+fn trace_error(error: std::io::Error) -> String {
+    format!("the trace cannot be written: {error}")
 }

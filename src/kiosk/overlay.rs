@@ -25,6 +25,9 @@ const FADE: f64 = 0.5;
 /// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
 const BUTTON_MM: f32 = 15.0;
 
+/// Longest line of type, of the page's width.
+const LINE_SHARE: f32 = 0.55;
+
 const INK: Color32 = Color32::from_rgb(38, 36, 34);
 const SOFT_INK: Color32 = Color32::from_rgb(84, 80, 76);
 const VERMILION: Color32 = Color32::from_rgb(190, 44, 22);
@@ -77,7 +80,8 @@ impl Overlay {
         let page = Page { painter, picture: picture.shrink(2.0 * em), em };
 
         page.ring(picture, &scene.view, &scene.moment.breath);
-        page.wall_label(label, words(code).privacy, scene.hears);
+        let privacy = scene.hears.then_some(words(code).privacy);
+        page.wall_label(label, scene.exhibit.credit.notice.trim(), privacy);
         page.invitation(&invitation(label, code, scene), self.invitation as f32);
         page.languages(scene)
     }
@@ -118,19 +122,18 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// Title, maker and what becomes of the sound, bottom left like a label beside a work.
-    fn wall_label(&self, label: &Label, privacy: &str, hears: bool) {
+    /// Title, maker, rights and what becomes of the sound, bottom left like a label beside a work.
+    fn wall_label(&self, label: &Label, notice: &str, privacy: Option<&str>) {
         let mut at = self.picture.left_bottom();
         let mut line = |text: &str, size: f32, color: Color32, space: f32| {
             if !text.is_empty() {
                 at.y -= self.text(at, Align2::LEFT_BOTTOM, text, size, color).height() + space * self.em;
             }
         };
-        if hears {
-            line(privacy, 0.62, SOFT_INK, 0.45);
-        }
+        line(notice, 0.55, SOFT_INK, 0.1);
+        line(privacy.unwrap_or_default(), 0.55, SOFT_INK, 0.6);
         line(&label.maker, 0.85, SOFT_INK, 0.1);
-        line(&label.title, 1.5, INK, 0.0);
+        line(&label.title, 1.4, INK, 0.0);
     }
 
     /// One line, low in the middle, above the label's height.
@@ -209,15 +212,17 @@ impl Page<'_> {
         self.painter.line(points, Stroke::new((width * self.em).max(1.0), color));
     }
 
-    /// One line of type, `size` em high.
+    /// Type `size` em high, in lines no longer than half the page.
     fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32) -> Rect {
         let font = FontId::proportional(size * self.em);
-        let opacity = f32::from(color.a()) / 255.0;
+        let galley = self.painter.layout(text.into(), font, color, LINE_SHARE * self.picture.width());
+        let rect = anchor.anchor_size(at, galley.size());
+        let halo = HALO.gamma_multiply(0.5 * f32::from(color.a()) / 255.0);
         let blur = 0.05 * self.em;
         for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
-            let halo = HALO.gamma_multiply(0.5 * opacity);
-            self.painter.text(at + blur * vec2(dx, dy), anchor, text, font.clone(), halo);
+            self.painter.galley_with_override_text_color(rect.min + blur * vec2(dx, dy), galley.clone(), halo);
         }
-        self.painter.text(at, anchor, text, font, color)
+        self.painter.galley(rect.min, galley, color);
+        rect
     }
 }

@@ -12,7 +12,7 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use crate::exhibit::{Exhibit, View};
-use crate::render::{Gpu, Renderer};
+use crate::render::{Frame, Gpu, Options, Renderer};
 use crate::simulation::Snapshot;
 
 use super::fonts;
@@ -24,7 +24,6 @@ pub struct Screen {
     /// The panel library's own state of the window.
     pub panel: egui_winit::State,
     gpu: Gpu,
-    instance: wgpu::Instance,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     scene: Renderer,
@@ -48,7 +47,7 @@ impl Screen {
     /// Takes over a window. The error says what is missing.
     pub fn new(instance: wgpu::Instance, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Self, String> {
         let surface = instance.create_surface(window.clone()).map_err(|error| error.to_string())?;
-        let gpu = Gpu::for_surface(&instance, &surface).map_err(|error| error.to_string())?;
+        let gpu = Gpu::for_surface(instance, &surface).map_err(|error| error.to_string())?;
         let PhysicalSize { width, height } = window.inner_size();
         let mut config = surface
             .get_default_config(&gpu.adapter, width.max(1), height.max(1))
@@ -65,7 +64,7 @@ impl Screen {
             tracing::error!("graphics device lost ({reason:?}): {message}");
             theirs.store(true, Ordering::Relaxed);
         });
-        let scene = Renderer::new(&gpu, exhibit, config.format.add_srgb_suffix());
+        let scene = scene(&gpu, exhibit, &config)?;
         let type_setter = egui_wgpu::Renderer::new(&gpu.device, config.format, RendererOptions::default());
         let context = egui::Context::default();
         context.set_fonts(fonts::definitions());
@@ -75,7 +74,7 @@ impl Screen {
         let panel =
             egui_winit::State::new(context, egui::ViewportId::ROOT, &window, scale, window.theme(), Some(largest));
         let shown = exhibit.clone();
-        Ok(Self { window, panel, gpu, instance, surface, config, scene, shown, type_setter, broken })
+        Ok(Self { window, panel, gpu, surface, config, scene, shown, type_setter, broken })
     }
 
     /// Pixels.
@@ -90,8 +89,7 @@ impl Screen {
 
     /// Name of the adapter, and whether it is a program on the processor.
     pub fn adapter(&self) -> (String, bool) {
-        let info = self.gpu.adapter.get_info();
-        (format!("{} ({:?})", info.name, info.device_type), info.device_type == wgpu::DeviceType::Cpu)
+        (self.gpu.name(), self.gpu.is_software())
     }
 
     /// Follows the window's size.
@@ -113,6 +111,7 @@ impl Screen {
         if self.broken.load(Ordering::Relaxed) {
             return Drawn::DeviceLost;
         }
+        self.show(exhibit);
         let input = self.panel.take_egui_input(&self.window);
         let context = self.panel.egui_ctx().clone();
         // Its wishes for cursor, clipboard and links are not granted: a kiosk has none of them.
@@ -125,7 +124,7 @@ impl Screen {
         }
         let drawn = match self.acquire() {
             Some(frame) => {
-                self.draw_into(&frame, exhibit, view, moment, &mut laid_out);
+                self.draw_into(&frame, view, moment, &mut laid_out);
                 self.window.pre_present_notify();
                 self.gpu.queue.present(frame);
                 Drawn::Shown
@@ -138,10 +137,21 @@ impl Screen {
         drawn
     }
 
+    /// Takes over another exhibit. One that cannot be drawn leaves the last picture's scene on show.
+    fn show(&mut self, exhibit: &Arc<Exhibit>) {
+        if Arc::ptr_eq(&self.shown, exhibit) {
+            return;
+        }
+        self.shown = exhibit.clone();
+        match scene(&self.gpu, exhibit, &self.config) {
+            Ok(scene) => self.scene = scene,
+            Err(error) => tracing::error!("{} cannot be drawn: {error}", exhibit.id),
+        }
+    }
+
     fn draw_into(
         &mut self,
         frame: &wgpu::SurfaceTexture,
-        exhibit: &Arc<Exhibit>,
         view: &View,
         moment: &Snapshot,
         laid_out: &mut egui::FullOutput,
@@ -152,11 +162,9 @@ impl Screen {
         };
         let light = frame.texture.create_view(&as_srgb);
         let plain = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        if !Arc::ptr_eq(&self.shown, exhibit) {
-            self.scene = Renderer::new(&self.gpu, exhibit, self.config.format.add_srgb_suffix());
-            self.shown = exhibit.clone();
-        }
-        self.scene.draw(&self.gpu, &light, self.size(), view, moment);
+        let size = (self.config.width, self.config.height);
+        let picture = Frame { poses: &moment.poses, motes: &moment.motes, view: *view, size, exposure: 1.0 };
+        self.scene.draw(&self.gpu, &light, &picture);
 
         let pixels_per_point = laid_out.pixels_per_point;
         let shapes = std::mem::take(&mut laid_out.shapes);
@@ -185,7 +193,7 @@ impl Screen {
         match self.surface.get_current_texture() {
             Current::Success(frame) | Current::Suboptimal(frame) => return Some(frame),
             Current::Outdated => self.resize(self.window.inner_size()),
-            Current::Lost => match self.instance.create_surface(self.window.clone()) {
+            Current::Lost => match self.gpu.instance.create_surface(self.window.clone()) {
                 Ok(surface) => {
                     self.surface = surface;
                     self.resize(self.window.inner_size());
@@ -196,4 +204,10 @@ impl Screen {
         }
         None
     }
+}
+
+/// What draws an exhibit into the sRGB view of a surface.
+fn scene(gpu: &Gpu, exhibit: &Exhibit, config: &wgpu::SurfaceConfiguration) -> Result<Renderer, String> {
+    let options = Options::for_gpu(gpu, config.format.add_srgb_suffix());
+    Renderer::new(gpu, exhibit, options).map_err(|error| error.to_string())
 }

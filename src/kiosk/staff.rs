@@ -116,7 +116,7 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
             ui.end_row();
         };
         row("exhibit", frame.exhibit.id.clone(), false);
-        row("microphone", audio.microphone.clone(), !frame.hears);
+        row("microphone", audio.input.to_string(), !frame.hears);
         row("level", format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs), heard.clipping);
         row("detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
         row("breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
@@ -131,7 +131,7 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         row("steps dropped", frame.load.dropped.to_string(), false);
         row("picture", format!("{:.1} ms, {}x{}", 1e3 * vitals.frame_s, vitals.size[0], vitals.size[1]), false);
         row("graphics", vitals.adapter.to_owned(), false);
-        row("loudspeaker", audio.loudspeaker.clone(), false);
+        row("loudspeaker", audio.output.to_string(), false);
         row("late blocks", audio.xruns.to_string(), audio.xruns > 0);
     });
 }

@@ -33,7 +33,6 @@ pub struct Controls {
 /// The exhibit on show.
 pub struct Stage {
     simulation: Simulation,
-    steps_of_exhibit: u64,
     steps: u64,
     recording: Option<WavFeed>,
     attract: Option<Attract>,
@@ -49,16 +48,7 @@ impl Stage {
         let attract = idle_s.map(|idle| Attract::new(exhibit.attract.clone(), idle));
         let simulation = Simulation::new(exhibit, settings);
         let snapshot = simulation.snapshot();
-        Self {
-            simulation,
-            steps_of_exhibit: 0,
-            steps: 0,
-            recording,
-            attract,
-            idle_s: idle_s.unwrap_or_default(),
-            activity: 0,
-            snapshot,
-        }
+        Self { simulation, steps: 0, recording, attract, idle_s: idle_s.unwrap_or_default(), activity: 0, snapshot }
     }
 
     /// Advances by one step. `microphone` is what was heard since the last; a recording goes before it.
@@ -78,7 +68,6 @@ impl Stage {
             commands: &cue.commands,
         });
         self.steps += 1;
-        self.steps_of_exhibit += 1;
         self.snapshot = self.simulation.snapshot();
     }
 
@@ -86,7 +75,6 @@ impl Stage {
     pub fn swap(&mut self, exhibit: Arc<Exhibit>) {
         self.attract = self.attract.take().map(|_| Attract::new(exhibit.attract.clone(), self.idle_s));
         self.simulation = Simulation::new(exhibit, *self.simulation.settings());
-        self.steps_of_exhibit = 0;
         self.snapshot = self.simulation.snapshot();
     }
 
@@ -112,7 +100,7 @@ impl Stage {
 
     /// Now, on the sample clock of [`Self::sounds`].
     pub fn sample(&self) -> u64 {
-        self.steps_of_exhibit * SAMPLES_PER_STEP
+        self.simulation.steps() * SAMPLES_PER_STEP
     }
 
     /// Text key that attract mode shows; `None` while visitors are here.

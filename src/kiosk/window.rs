@@ -9,17 +9,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use winit::application::ApplicationHandler;
-use winit::dpi::{PhysicalPosition, PhysicalSize};
-use winit::event::{ElementState, KeyEvent, MouseButton, TouchPhase, WindowEvent};
+use winit::dpi::PhysicalSize;
+use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
-use winit::keyboard::{ModifiersState, PhysicalKey};
+use winit::keyboard::ModifiersState;
 use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::config::Config;
 use crate::exhibit::{Label, Labels};
 use crate::simulation::Command;
 
-use super::input::{Key, Phase, Request, Signal, Visitor};
+use super::events::translate;
+use super::input::{Request, Visitor};
 use super::live::{self, Frame, Live, Report};
 use super::overlay::{Overlay, Scene};
 use super::reload::Reload;
@@ -33,6 +34,8 @@ const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
 const NAP: Duration = Duration::from_millis(50);
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;
+/// Time that devices may take to open before staff hear that one is missing, s.
+const DEVICES_OPEN_S: f64 = 4.0;
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;
 
@@ -78,6 +81,7 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         buttons: Vec::new(),
         staff: Staff::default(),
         attracts: false,
+        hears: true,
         clock: Clock::new(),
         lost: 0,
         missing: None,
@@ -147,6 +151,7 @@ struct App<'a> {
     languages: Vec<String>,
     language: String,
     attracts: bool,
+    hears: bool,
     clock: Clock,
     lost: u32,
     missing: Option<Missing>,
@@ -281,6 +286,7 @@ impl App<'_> {
             wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
         });
         self.follow_attract(&frame);
+        self.follow_hearing(&frame);
         match wish {
             Some(Wish::Close) => events.exit(),
             Some(Wish::Reload) => self.reload.ask(),
@@ -316,6 +322,18 @@ impl App<'_> {
             self.tell();
         }
         self.attracts = frame.attracts;
+    }
+
+    /// Staff hear of a microphone that comes or goes.
+    fn follow_hearing(&mut self, frame: &Frame) {
+        if frame.hears == self.hears || self.clock.seconds(Instant::now()) < DEVICES_OPEN_S {
+            return;
+        }
+        self.hears = frame.hears;
+        self.say(match frame.hears {
+            true => "the microphone listens".into(),
+            false => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
+        });
     }
 
     /// What a press at a point of the picture asks for, where it is not a breath.
@@ -396,46 +414,4 @@ fn offered(context: &egui::Context, labels: &Labels, config: &Config) -> Vec<Str
 fn first(offered: &[String], labels: &Labels, config: &Config) -> String {
     let wanted = [&config.languages.first, &labels.default_language];
     wanted.into_iter().find(|code| offered.contains(code)).or(offered.first()).cloned().unwrap_or_default()
-}
-
-/// A window's event as the visitor's signal; `None` where it is none.
-fn translate(event: &WindowEvent, size: PhysicalSize<u32>, modifiers: ModifiersState) -> Option<Signal> {
-    Some(match event {
-        WindowEvent::Focused(false) => Signal::Deserted,
-        WindowEvent::CursorMoved { position, .. } => Signal::Pointer(in_picture(*position, size)),
-        WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
-            Signal::Button(*state == ElementState::Pressed)
-        }
-        WindowEvent::Touch(touch) => Signal::Touch {
-            finger: touch.id,
-            at: in_picture(touch.location, size),
-            phase: match touch.phase {
-                TouchPhase::Started => Phase::Down,
-                TouchPhase::Moved => Phase::Move,
-                TouchPhase::Ended | TouchPhase::Cancelled => Phase::Up,
-            },
-        },
-        WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => Signal::Key(key(event, modifiers)?),
-        _ => return None,
-    })
-}
-
-/// A key by its place on the keyboard, so that a chord is the same on every layout.
-fn key(event: &KeyEvent, modifiers: ModifiersState) -> Option<Key> {
-    let PhysicalKey::Code(code) = event.physical_key else { return None };
-    let name = format!("{code:?}");
-    let short = name.strip_prefix("Key").or_else(|| name.strip_prefix("Digit"));
-    Some(Key {
-        name: short.unwrap_or(&name).to_owned(),
-        pressed: event.state == ElementState::Pressed,
-        repeat: event.repeat,
-        ctrl: modifiers.control_key(),
-        alt: modifiers.alt_key(),
-        shift: modifiers.shift_key(),
-    })
-}
-
-/// Pixels to picture coordinates.
-fn in_picture(at: PhysicalPosition<f64>, size: PhysicalSize<u32>) -> [f64; 2] {
-    [at.x / f64::from(size.width.max(1)), at.y / f64::from(size.height.max(1))]
 }

@@ -87,6 +87,11 @@ impl Synth {
         Ok(Self::with_instruments(sample_rate, vec![Instrument::from_preset(preset, spec)?], seed))
     }
 
+    /// A synth without a voice, for an exhibit whose instruments cannot be built.
+    pub fn silent(sample_rate: u32) -> Self {
+        Self::with_instruments(sample_rate, Vec::new(), 0)
+    }
+
     fn with_instruments(sample_rate: u32, instruments: Vec<Instrument>, seed: u64) -> Self {
         let sample_rate = f64::from(sample_rate.max(1));
         let mut winds = Vec::new();

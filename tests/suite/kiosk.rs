@@ -366,6 +366,104 @@ mod live {
     }
 }
 
+/// The stage with the shipped exhibit: what a step does, without clock, window and devices.
+#[cfg(feature = "kiosk")]
+mod stage {
+    use std::path::Path;
+    use std::sync::Arc;
+
+    use soffio::exhibit::{self, Exhibit};
+    use soffio::kiosk::stage::{Controls, Stage};
+    use soffio::offline::feed::WavFeed;
+    use soffio::offline::wav;
+    use soffio::simulation::{Microphone, Settings, Simulation, StepInput};
+
+    const RATE: u32 = 48_000;
+
+    fn steel_fish() -> Arc<Exhibit> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish");
+        Arc::new(exhibit::load(&folder).expect("the shipped exhibit is valid"))
+    }
+
+    fn breath() -> WavFeed {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish/breaths/normal.wav");
+        let recording = wav::read(file).expect("the shipped breath is readable");
+        WavFeed::new(recording.samples, recording.sample_rate)
+    }
+
+    /// One step of a quiet room.
+    fn quiet(random: &mut soffio::noise::Random) -> Vec<f32> {
+        (0..RATE / 240).map(|_| (1e-3 * random.signed()) as f32).collect()
+    }
+
+    #[test]
+    fn a_recording_on_the_stage_is_the_run_that_the_simulation_makes_of_it() {
+        let exhibit = steel_fish();
+        let mut stage = Stage::new(exhibit.clone(), Settings::default(), Some(breath()), None);
+        let mut simulation = Simulation::new(exhibit, Settings::default());
+        let (mut feed, mut random) = (breath(), soffio::noise::Random::new(3));
+        let controls = Controls { aspect: 1280.0 / 720.0, ..Controls::default() };
+        for step in 0..3 * 240 {
+            // What a microphone hears meanwhile must not matter.
+            let room = quiet(&mut random);
+            let microphone = Microphone { samples: &room, sample_rate: RATE, reference: &[] };
+            stage.step(&controls, Some(microphone));
+            simulation.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
+            assert_eq!(stage.state_hash(), simulation.state_hash(), "step {step}");
+        }
+        assert!(simulation.snapshot().diagnostics.wind_force.length() > 0.0 || simulation.energy() != 0.0);
+    }
+
+    #[test]
+    fn attract_mode_moves_the_sculpture_and_a_breath_at_the_microphone_ends_it() {
+        let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(2.0));
+        let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+        let mut random = soffio::noise::Random::new(4);
+        let mut fastest: f64 = 0.0;
+        // The shipped script blows from its fourth second on.
+        for _ in 0..(2 + 8) * 240 {
+            let room = quiet(&mut random);
+            stage.step(&controls, Some(Microphone { samples: &room, sample_rate: RATE, reference: &[] }));
+            fastest = fastest.max(stage.snapshot().breath.speed);
+        }
+        assert!(stage.attracts() && stage.attract_text() == Some("invite"));
+        assert!(fastest > 1.0, "the script's breath reaches the wind: {fastest} m/s");
+
+        let mut visitor = breath();
+        let ended = (0..3 * 240).find(|_| {
+            stage.step(&controls, Some(visitor.microphone()));
+            !stage.attracts()
+        });
+        let step = ended.expect("somebody blows");
+        assert!(stage.snapshot().breath.speed > 0.0, "the breath that ends the show is already wind, step {step}");
+    }
+
+    #[test]
+    fn a_held_button_blows_where_it_points_and_ends_attract_mode_at_once() {
+        let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(0.1));
+        let mut controls = Controls { aspect: 1.0, ..Controls::default() };
+        (0..60).for_each(|_| stage.step(&controls, None));
+        assert!(stage.attracts());
+        controls.hold = true;
+        controls.aim = Some([0.2, 0.5]);
+        stage.step(&controls, None);
+        assert!(!stage.attracts());
+        (0..60).for_each(|_| stage.step(&controls, None));
+        assert!(stage.snapshot().breath.speed > 1.0);
+    }
+
+    #[test]
+    fn a_reloaded_exhibit_starts_anew_and_the_run_counts_on() {
+        let mut stage = Stage::new(steel_fish(), Settings::default(), Some(breath()), None);
+        let controls = Controls::default();
+        (0..480).for_each(|_| stage.step(&controls, None));
+        stage.swap(steel_fish());
+        assert_eq!((stage.steps(), stage.sample(), stage.snapshot().step), (480, 0, 0));
+        stage.step(&controls, None);
+        assert_eq!((stage.steps(), stage.sample()), (481, 200));
+    }
+}
+
 mod room {
     use soffio::commands::doctor::{Health, judge_room};
 
