@@ -1,12 +1,106 @@
-//! `soffio explain`.
+//! `soffio explain`: every resolved value of an exhibit and where it comes from.
+
+use std::fmt::Write;
 
 use super::{Failure, Outcome};
+use crate::articulation::{Constraint, ConstraintKind};
+use crate::exhibit::diagnostic::{near, quoted};
+use crate::exhibit::{self, Exhibit, Origin};
 
 /// Prints each value of an exhibit with its origin.
+///
+/// Example: soffio explain steel-fish Boom
 #[derive(clap::Args, Debug, Default)]
-pub struct Args {}
+pub struct Args {
+    /// Exhibit id or folder.
+    exhibit: String,
+    /// Only this body, and what hangs on it.
+    body: Option<String>,
+}
 
 /// Runs the command.
-pub fn run(_args: Args) -> Outcome {
-    Err(Failure { code: 2, message: "soffio explain: under construction".into() })
+pub fn run(args: Args) -> Outcome {
+    let folder = exhibit::resolve(&args.exhibit).map_err(Failure::input)?;
+    let exhibit = exhibit::load(&folder).map_err(Failure::input)?;
+    let text = match &args.body {
+        None => explain(&exhibit),
+        Some(name) => {
+            let names = exhibit.bodies.iter().map(|body| body.name.as_str());
+            let Some(body) = exhibit.bodies.iter().position(|body| body.name == *name) else {
+                let likely = near(name, names.clone());
+                let known: Vec<&str> = if likely.is_empty() { names.collect() } else { likely };
+                return Err(Failure::input(format!(
+                    "no body \"{name}\" in {}; there are {}",
+                    exhibit.id,
+                    quoted(&known)
+                )));
+            };
+            explain_body(&exhibit, body)
+        }
+    };
+    print!("{text}");
+    Ok(())
+}
+
+/// The whole exhibit as text.
+pub fn explain(exhibit: &Exhibit) -> String {
+    let mut out = format!("{} ({})\n", exhibit.id, exhibit.folder.display());
+    table(&mut out, exhibit.origins.iter());
+    for wire in &exhibit.wires {
+        wire_line(&mut out, exhibit, wire);
+    }
+    out
+}
+
+/// One body: its own values, then the joints, wires, colliders, surfaces and sounds that name it.
+fn explain_body(exhibit: &Exhibit, body: usize) -> String {
+    let name = &exhibit.bodies[body].name;
+    let mut of = vec![format!("body {name}")];
+    of.extend(exhibit.constraints.iter().filter(|c| touches(c, body)).map(|c| format!("constraint {}", c.name)));
+    let springs = exhibit.springs.iter().filter(|s| s.a.body == Some(body) || s.b.body == Some(body));
+    of.extend(springs.map(|s| format!("spring {}", s.name)));
+    of.extend(exhibit.colliders.iter().filter(|c| c.body == Some(body)).map(|c| format!("collider {}", c.node)));
+    of.extend(exhibit.wind_surfaces.iter().filter(|s| s.body == body).map(|s| format!("wind surface {}", s.node)));
+    of.extend(exhibit.sounds.iter().filter(|s| s.body == body).map(|s| format!("sound \"{}\"", s.name)));
+    let mut out = String::new();
+    let excluded = |origin: &Origin| origin.of == "collision" && origin.value.split(" – ").any(|part| part == name);
+    table(&mut out, exhibit.origins.iter().filter(|o| of.contains(&o.of) || excluded(o)));
+    for wire in exhibit.wires.iter().filter(|wire| wire.body == Some(body)) {
+        wire_line(&mut out, exhibit, wire);
+    }
+    out
+}
+
+fn touches(constraint: &Constraint, body: usize) -> bool {
+    let (a, b) = match &constraint.kind {
+        ConstraintKind::PointToPoint { a, b } => (a.body, b.body),
+        ConstraintKind::Orientation { a, b } => (a.body, b.body),
+    };
+    a == Some(body) || b == Some(body)
+}
+
+fn table<'a>(out: &mut String, origins: impl Iterator<Item = &'a Origin>) {
+    let mut heading = "";
+    for origin in origins {
+        if origin.of != heading {
+            heading = &origin.of;
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "\n{heading}");
+        }
+        let source = if origin.source.is_empty() { String::new() } else { format!("   [{}]", origin.source) };
+        let _ = writeln!(out, "  {:<28} {}{source}", origin.key, origin.value);
+    }
+}
+
+fn wire_line(out: &mut String, exhibit: &Exhibit, wire: &exhibit::Wire) {
+    let length: f64 = wire.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+    let carrier = wire.body.map_or("the world", |body| exhibit.bodies[body].name.as_str());
+    let material = &exhibit.materials[wire.material].name;
+    let (points, diameter) = (wire.points.len(), 2e3 * wire.radius);
+    let _ = writeln!(
+        out,
+        "\nwire {}\n  {carrier}: {points} points, {:.1} mm long, ⌀ {diameter:.2} mm, {material}",
+        wire.name,
+        length * 1e3
+    );
 }

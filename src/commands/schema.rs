@@ -1,12 +1,32 @@
-//! `soffio schema`.
+//! `soffio schema`: the JSON Schema of a file format, for editors that complete and check while one types.
 
 use super::{Failure, Outcome};
+use crate::exhibit;
 
 /// Prints the JSON Schema of a file kind.
+///
+/// Example: soffio schema exhibit > exhibit.schema.json, and `#:schema exhibit.schema.json` as the first line of the
+/// exhibit.toml.
 #[derive(clap::Args, Debug, Default)]
-pub struct Args {}
+pub struct Args {
+    /// Which file.
+    #[arg(value_enum, default_value_t)]
+    kind: Kind,
+}
+
+/// Files that have a schema.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Kind {
+    /// exhibit.toml, format exhibit/1.
+    #[default]
+    Exhibit,
+}
 
 /// Runs the command.
-pub fn run(_args: Args) -> Outcome {
-    Err(Failure { code: 2, message: "soffio schema: under construction".into() })
+pub fn run(args: Args) -> Outcome {
+    let schema = match args.kind {
+        Kind::Exhibit => exhibit::shape::schema(),
+    };
+    println!("{}", serde_json::to_string_pretty(&schema).map_err(Failure::input)?);
+    Ok(())
 }

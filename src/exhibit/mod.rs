@@ -12,11 +12,27 @@ use crate::math::{DVec3, Pose};
 use crate::sound::InstrumentSpec;
 use crate::wind::Surface;
 
+pub mod codes;
+pub mod diagnostic;
+mod fit;
+mod materials;
 pub mod model;
+mod paths;
+pub mod quantity;
+mod resolve;
+pub mod shape;
+pub mod sidecar;
+mod source;
 pub mod view;
 
+pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use model::Model;
+pub use paths::{ids, resolve};
+pub use resolve::{load, plain};
 pub use view::View;
+
+/// File name of the sidecar in an exhibit folder.
+pub const SIDECAR: &str = "exhibit.toml";
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 #[derive(Clone, Debug)]
@@ -59,6 +75,32 @@ pub struct Exhibit {
     pub labels: Labels,
     /// Who made it, and whose rights it carries.
     pub credit: Credit,
+    /// What is probably not meant so.
+    pub warnings: Vec<Diagnostic>,
+    /// Where the values come from, in the order of the file.
+    pub origins: Vec<Origin>,
+}
+
+impl Exhibit {
+    /// The warnings as a report with the sidecar's text, to be shown.
+    pub fn warning_report(&self) -> Report {
+        let file = self.folder.join(SIDECAR);
+        let text = std::fs::read_to_string(&file).unwrap_or_default();
+        Report::in_file(&file.display().to_string(), text.into(), self.warnings.clone())
+    }
+}
+
+/// A resolved value and where it comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// What it belongs to: `body Boom`, `constraint boom-cup`.
+    pub of: String,
+    /// Name of the value.
+    pub key: String,
+    /// The value with its unit.
+    pub value: String,
+    /// `glTF`, `exhibit.toml:12`, or how it was derived.
+    pub source: String,
 }
 
 /// Physical material of a body.

@@ -2,6 +2,12 @@
 
 use crate::math::{DMat4, DVec3};
 
+mod accessor;
+mod import;
+mod look;
+
+pub use import::{Imported, import, load};
+
 /// A glTF model.
 #[derive(Clone, Debug, Default)]
 pub struct Model {

@@ -1,5 +1,7 @@
 //! Shapes: triangle meshes and their mass, convex cores and their distance, rays against moving triangles.
 
+pub mod mass;
 pub mod mesh;
 
-pub use mesh::TriangleMesh;
+pub use mass::Moments;
+pub use mesh::{Extents, TriangleMesh};

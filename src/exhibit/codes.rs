@@ -1,0 +1,70 @@
+//! Codes of all diagnostics. A code keeps its meaning for ever; a retired one is not given again.
+//!
+//! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, W0xxx warnings.
+
+/// A diagnostic's stable code and its meaning in one line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// Such as `E0207`.
+    pub name: &'static str,
+    /// What it means, for listings.
+    pub meaning: &'static str,
+}
+
+macro_rules! codes {
+    ($($constant:ident = $name:literal, $meaning:literal;)*) => {
+        $(#[doc = $meaning] pub const $constant: Code = Code { name: $name, meaning: $meaning };)*
+        /// Every code.
+        pub const ALL: &[Code] = &[$($constant),*];
+    };
+}
+
+codes! {
+    NO_EXHIBIT = "E0001", "no exhibit of this id or folder";
+    UNREADABLE = "E0002", "a file cannot be read";
+    OUTSIDE = "E0003", "a path leaves the exhibit folder";
+    TOO_LARGE = "E0004", "a file is larger than the limit";
+    SYNTAX = "E0101", "the sidecar is not TOML";
+    UNKNOWN_KEY = "E0102", "the sidecar has a key that the format does not know";
+    MISSING_KEY = "E0103", "a required key is missing";
+    WRONG_TYPE = "E0104", "a value has the wrong type or unit";
+    WRONG_SHAPE = "E0105", "a value is not among those allowed";
+    VERSION = "E0106", "the sidecar's format version is not known";
+    DUPLICATE_NAME = "E0201", "two things of a kind have the same name";
+    NOT_FOUND = "E0207", "no node of this name";
+    AMBIGUOUS = "E0208", "several nodes have this name";
+    UNKNOWN_MATERIAL = "E0209", "no material of this name";
+    UNKNOWN_BODY = "E0210", "the node is not a body";
+    DUPLICATE_BODY = "E0211", "a node is declared a body twice";
+    NOT_CLOSED = "E0220", "a mesh is not closed, so its volume is unknown";
+    INSIDE_OUT = "E0221", "the faces of a mesh point inwards";
+    NO_MASS = "E0222", "a body has no mass";
+    INERTIA = "E0223", "an inertia breaks the triangle inequality";
+    SCALED_BODY = "E0224", "the node of a body is scaled unevenly or mirrored";
+    NOT_DESCENDANT = "E0225", "a node does not belong to the body";
+    RANGE = "E0226", "a number is out of its range";
+    BOTH_STATIC = "E0230", "a constraint joins two static things, or a body to itself";
+    APART = "E0231", "the two points of a constraint are apart at rest";
+    LOOP = "E0232", "constraints close a loop";
+    OVER_CONSTRAINED = "E0233", "constraints between two bodies remove the same freedom twice";
+    NOT_PERPENDICULAR = "E0234", "the two axes of an orientation are not perpendicular at rest";
+    NO_AXIS = "E0235", "a direction has no length";
+    NO_MESH = "E0240", "a node has no mesh to take a shape from";
+    NOT_FLAT = "E0241", "a mesh has no outline to fit a plate to";
+    NO_COLLIDER = "E0250", "an impact sound needs a collider on its body";
+    NO_TEXT = "E0260", "a label text is missing";
+    BREATH = "E0261", "a recorded breath cannot be read";
+    ATTRACT_ORDER = "E0262", "the attract script is out of order";
+    BROKEN_MODEL = "E0301", "the model is broken";
+    EXTENSION = "E0302", "the model requires an extension that is not supported";
+    MODEL_LIMIT = "E0303", "the model exceeds a limit";
+    IMAGE = "E0304", "an image of the model cannot be decoded";
+    CYCLE = "E0305", "the node tree of the model is not a tree";
+    NO_CAPTION = "W0401", "a sound has no caption";
+    MISSING_WORDS = "W0402", "a label is missing in a language";
+    NO_ALT = "W0403", "a label has no description for those who cannot see";
+    SKIPPED = "W0404", "a part of the model is not drawn";
+    UNUSED_COLLIDER = "W0405", "a collider can never touch anything";
+    DUPLICATE_NODE = "W0406", "two nodes of the model have the same name";
+    SLENDER = "W0407", "a size looks like a wrong unit";
+}

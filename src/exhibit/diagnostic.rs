@@ -1,0 +1,198 @@
+//! Diagnostics: each problem says where it is, what is wrong, why, and what to do; a report holds all of them.
+//!
+//! Shown with the source line under the message on a terminal (miette), or as JSON for other programs. The codes are
+//! stable: [`super::codes`] lists them.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, SourceCode};
+use serde::Serialize;
+
+use super::codes::Code;
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// The exhibit runs, but something is probably not meant so.
+    Warning,
+    /// The exhibit cannot run.
+    Error,
+}
+
+/// A place in a text file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Location {
+    /// File, as the reader named it.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// Bytes of the file, for the excerpt.
+    #[serde(skip)]
+    pub span: Range<usize>,
+}
+
+/// One problem.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Diagnostic {
+    /// Stable code, such as `E0207`.
+    pub code: &'static str,
+    /// Error or warning.
+    pub severity: Severity,
+    /// What is wrong.
+    pub message: String,
+    /// Why it matters here; stands under the excerpt.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub label: String,
+    /// What to do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub help: Option<String>,
+    /// Where; `None` where it is about a whole file that has no lines (named in the message).
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub location: Option<Location>,
+}
+
+impl Diagnostic {
+    /// A problem without a place.
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Self {
+            code: code.name,
+            severity: if code.name.starts_with('E') { Severity::Error } else { Severity::Warning },
+            message: message.into(),
+            label: String::new(),
+            help: None,
+            location: None,
+        }
+    }
+
+    /// With what to do.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// With words under the excerpt.
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Is it an error?
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}
+
+/// All problems of one load, in the order of the file, with the texts they point into.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// The problems.
+    pub diagnostics: Vec<Diagnostic>,
+    sources: BTreeMap<String, Arc<str>>,
+}
+
+impl Report {
+    /// A report of one problem.
+    pub fn of(diagnostic: Diagnostic) -> Self {
+        Self { diagnostics: vec![diagnostic], sources: BTreeMap::new() }
+    }
+
+    /// A report of problems in one text file.
+    pub fn in_file(file: &str, text: Arc<str>, mut diagnostics: Vec<Diagnostic>) -> Self {
+        diagnostics.sort_by_key(|d| d.location.as_ref().map_or(usize::MAX, |l| l.span.start));
+        Self { diagnostics, sources: BTreeMap::from([(file.to_owned(), text)]) }
+    }
+
+    /// Is any of them an error?
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// Does it hold a problem with this code?
+    pub fn has(&self, code: Code) -> bool {
+        self.diagnostics.iter().any(|d| d.code == code.name)
+    }
+
+    /// Adds all problems of another report.
+    pub fn absorb(&mut self, other: Self) {
+        self.diagnostics.extend(other.diagnostics);
+        self.sources.extend(other.sources);
+    }
+
+    /// One JSON object a problem: `code`, `severity`, `message`, `label`, `help`, `file`, `line`, `column`.
+    pub fn to_json(&self) -> serde_json::Value {
+        // Plain strings and numbers cannot fail to serialise.
+        serde_json::to_value(&self.diagnostics).unwrap_or_default()
+    }
+
+    /// The problems as text, in colour or without.
+    pub fn render(&self, color: bool) -> String {
+        let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+        let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
+        let mut text = String::new();
+        for diagnostic in &self.diagnostics {
+            if handler.render_report(&mut text, self.dress(diagnostic).as_ref()).is_err() {
+                text.push_str(&diagnostic.message);
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    fn dress(&self, diagnostic: &Diagnostic) -> miette::Report {
+        let mut dressed = MietteDiagnostic::new(&diagnostic.message).with_code(diagnostic.code);
+        dressed.severity = Some(match diagnostic.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+        });
+        dressed.help = diagnostic.help.clone();
+        let placed = diagnostic.location.as_ref().and_then(|at| Some((at, self.sources.get(&at.file)?)));
+        let Some((at, text)) = placed else { return miette::Report::new(dressed) };
+        let label = if diagnostic.label.is_empty() { "here" } else { &diagnostic.label };
+        let dressed = dressed.with_label(LabeledSpan::at(at.span.clone(), label));
+        miette::Report::new(dressed).with_source_code(named(&at.file, text))
+    }
+}
+
+impl From<Vec<Diagnostic>> for Report {
+    fn from(diagnostics: Vec<Diagnostic>) -> Self {
+        Self { diagnostics, sources: BTreeMap::new() }
+    }
+}
+
+fn named(file: &str, text: &Arc<str>) -> impl SourceCode + 'static {
+    NamedSource::new(file, text.to_string())
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use std::io::IsTerminal;
+        f.write_str(&self.render(std::io::stderr().is_terminal()))
+    }
+}
+
+impl std::error::Error for Report {}
+
+/// The names most like `wanted`, best first, at most three.
+pub fn near<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    /// Jaro–Winkler similarity below which two names have nothing to do with each other.
+    const LIKENESS: f64 = 0.75;
+    let lower = wanted.to_lowercase();
+    let mut scored: Vec<(f64, &str)> = names
+        .map(|name| (strsim::jaro_winkler(&lower, &name.to_lowercase()), name))
+        .filter(|(score, _)| *score >= LIKENESS)
+        .collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+    scored.dedup_by_key(|(_, name)| *name);
+    scored.into_iter().take(3).map(|(_, name)| name).collect()
+}
+
+/// `"a", "b" or "c"` for messages.
+pub fn quoted(names: &[&str]) -> String {
+    names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
+}

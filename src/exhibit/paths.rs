@@ -1,0 +1,122 @@
+//! Paths: an exhibit reads only what lies in its folder; ids are looked for where exhibits are kept.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::codes;
+use super::diagnostic::{Diagnostic, Report, near, quoted};
+
+/// Reads a file of at most `limit` bytes.
+pub fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, Diagnostic> {
+    let unreadable = |error: std::io::Error| {
+        Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display()))
+    };
+    let size = std::fs::metadata(path).map_err(unreadable)?.len();
+    if size > limit {
+        let message = format!("{} has {size} bytes; the limit is {limit}", path.display());
+        return Err(Diagnostic::new(codes::TOO_LARGE, message));
+    }
+    std::fs::read(path).map_err(unreadable)
+}
+
+/// The file `relative` inside `folder`: no `..`, not absolute, no network address, no link that leads out.
+pub fn inside(folder: &Path, relative: &str) -> Result<PathBuf, Diagnostic> {
+    let outside = |why: &str| {
+        Diagnostic::new(codes::OUTSIDE, format!("the path \"{relative}\" {why}"))
+            .help("put the file into the exhibit folder and give its path from there")
+    };
+    if relative.contains("://") || relative.contains('\\') {
+        return Err(outside("is not a path inside the exhibit folder"));
+    }
+    let path = Path::new(relative);
+    if !path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return Err(outside("leaves the exhibit folder"));
+    }
+    let full = folder.join(path);
+    if let (Ok(real), Ok(base)) = (full.canonicalize(), folder_or_here(folder).canonicalize())
+        && !real.starts_with(&base)
+    {
+        return Err(outside("is a link that leads out of the exhibit folder"));
+    }
+    Ok(full)
+}
+
+fn folder_or_here(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
+}
+
+/// A URI path with its `%20`s as characters.
+pub fn percent_decoded(uri: &str) -> String {
+    let bytes = uri.as_bytes();
+    let mut out = Vec::with_capacity(bytes.len());
+    let mut i = 0;
+    while i < bytes.len() {
+        let hex = (bytes[i] == b'%').then(|| uri.get(i + 1..i + 3)).flatten();
+        match hex.and_then(|hex| u8::from_str_radix(hex, 16).ok()) {
+            Some(byte) => {
+                out.push(byte);
+                i += 3;
+            }
+            None => {
+                out.push(bytes[i]);
+                i += 1;
+            }
+        }
+    }
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+/// Folders that hold exhibits: `exhibits/` here or above, beside the program, or in the source tree of a debug build.
+fn shelves() -> Vec<PathBuf> {
+    let mut shelves = Vec::new();
+    let mut from = |start: Option<PathBuf>| {
+        if let Some(start) = start {
+            shelves.extend(start.ancestors().map(|folder| folder.join("exhibits")).filter(|folder| folder.is_dir()));
+        }
+    };
+    from(std::env::current_dir().ok());
+    from(std::env::current_exe().ok().and_then(|program| program.parent().map(Path::to_path_buf)));
+    if cfg!(debug_assertions) {
+        from(Some(PathBuf::from(env!("CARGO_MANIFEST_DIR"))));
+    }
+    shelves
+}
+
+/// Ids of the exhibits that can be found.
+pub fn ids() -> Vec<String> {
+    let mut ids: Vec<String> = shelves()
+        .iter()
+        .filter_map(|shelf| std::fs::read_dir(shelf).ok())
+        .flat_map(|entries| entries.flatten())
+        .filter(|entry| entry.path().join(super::SIDECAR).is_file())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    ids.sort();
+    ids.dedup();
+    ids
+}
+
+/// The folder of an exhibit: an id under `exhibits/`, or a folder.
+pub fn resolve(id_or_folder: &str) -> Result<PathBuf, Report> {
+    let folder = PathBuf::from(id_or_folder);
+    if folder.join(super::SIDECAR).is_file() {
+        return Ok(folder);
+    }
+    let is_id = !id_or_folder.is_empty() && !id_or_folder.contains(['/', '\\', '.']);
+    let found = shelves().into_iter().map(|shelf| shelf.join(id_or_folder)).find(|f| f.join(super::SIDECAR).is_file());
+    if let (true, Some(found)) = (is_id, found) {
+        return Ok(found);
+    }
+    if folder.is_dir() {
+        let message = format!("the folder {id_or_folder} has no {}", super::SIDECAR);
+        return Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message)));
+    }
+    let known = ids();
+    let likely = near(id_or_folder, known.iter().map(String::as_str));
+    let help = match (likely.as_slice(), known.as_slice()) {
+        ([], []) => "there is no folder exhibits/ here, above, or beside the program".to_owned(),
+        ([], known) => format!("there are: {}", known.join(", ")),
+        (likely, _) => format!("did you mean {}?", quoted(likely)),
+    };
+    let message = format!("no exhibit \"{id_or_folder}\": it is neither an id under exhibits/ nor a folder");
+    Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)))
+}

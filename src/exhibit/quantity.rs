@@ -1,0 +1,142 @@
+//! Numbers with units: a bare number is SI, a string carries its unit (`"35 deg"`, `"12 mm"`, `"2.7 g/cm3"`).
+//!
+//! Each kind of quantity is a type of its own: a length where a mass belongs fails the shape check with the list of
+//! units that fit, not the simulation with a mobile as heavy as a ship.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, de};
+
+/// Splits `"12 mm"` into number and unit.
+fn split(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let unit_at = text.char_indices().find(|&(i, c)| {
+        // The e of an exponent is part of the number where a digit or sign follows it.
+        let exponent =
+            matches!(c, 'e' | 'E') && text[i + 1..].starts_with(|n: char| n.is_ascii_digit() || "+-".contains(n));
+        !(c.is_ascii_digit() || "+-.".contains(c) || exponent)
+    });
+    let (number, unit) = text.split_at(unit_at.map_or(text.len(), |(i, _)| i));
+    number.trim().parse().ok().filter(|n: &f64| n.is_finite()).map(|n| (n, unit.trim()))
+}
+
+fn convert(text: &str, units: &[(&str, f64)]) -> Result<f64, String> {
+    let expected = || units.iter().map(|(unit, _)| *unit).collect::<Vec<_>>().join(", ");
+    let (number, unit) = split(text).ok_or_else(|| format!("\"{text}\" does not begin with a number"))?;
+    let factor = units.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor);
+    factor.map(|factor| number * factor).ok_or_else(|| format!("\"{unit}\" is no unit here; use one of {}", expected()))
+}
+
+fn read<'de, D: Deserializer<'de>>(deserializer: D, units: &[(&str, f64)]) -> Result<f64, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Raw {
+        Number(f64),
+        Text(String),
+    }
+    match Raw::deserialize(deserializer)? {
+        Raw::Number(number) => Ok(number),
+        Raw::Text(text) => convert(&text, units).map_err(de::Error::custom),
+    }
+}
+
+fn schema(kind: &str, units: &[(&str, f64)]) -> Schema {
+    let names: Vec<&str> = units.iter().map(|(unit, _)| *unit).collect();
+    let pattern = names.iter().map(|unit| unit.replace('/', "\\/")).collect::<Vec<_>>().join("|");
+    json_schema!({
+        "description": format!("{kind}: a number in {}, or a text with a unit ({}).", names[0], names.join(", ")),
+        "anyOf": [
+            { "type": "number" },
+            { "type": "string", "pattern": format!(r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*({pattern})\s*$") },
+        ],
+    })
+}
+
+macro_rules! quantities {
+    ($($(#[$doc:meta])* $name:ident, $kind:literal, [$(($unit:literal, $factor:expr)),+];)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize)]
+        pub struct $name(pub f64);
+
+        impl $name {
+            const UNITS: &[(&'static str, f64)] = &[$(($unit, $factor)),+];
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                read(deserializer, Self::UNITS).map(Self)
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                schema($kind, Self::UNITS)
+            }
+        }
+    )*};
+}
+
+const DEGREE: f64 = crate::math::PI / 180.0;
+
+quantities! {
+    /// m.
+    Length, "length", [("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254)];
+    /// kg.
+    Mass, "mass", [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("t", 1e3)];
+    /// kg/m³.
+    Density, "density", [("kg/m3", 1.0), ("g/cm3", 1e3)];
+    /// Pa.
+    Pressure, "pressure", [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+    /// rad.
+    Angle, "angle", [("rad", 1.0), ("deg", DEGREE)];
+    /// m/s.
+    Speed, "speed", [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)];
+    /// rad/s.
+    Rotation, "angular velocity", [("rad/s", 1.0), ("deg/s", DEGREE), ("rpm", crate::math::PI / 30.0)];
+    /// m/s².
+    Acceleration, "acceleration", [("m/s2", 1.0)];
+    /// s.
+    Time, "time", [("s", 1.0), ("ms", 1e-3), ("min", 60.0)];
+    /// 1/s.
+    Rate, "rate", [("/s", 1.0), ("1/s", 1.0), ("/min", 1.0 / 60.0)];
+    /// dB of an amplitude ratio.
+    Decibel, "level", [("dB", 1.0)];
+    /// 1/m².
+    PerArea, "density of points", [("/m2", 1.0), ("/cm2", 1e4), ("/dm2", 1e2)];
+    /// N/m.
+    Stiffness, "stiffness", [("N/m", 1.0), ("N/mm", 1e3), ("N/cm", 1e2)];
+    /// N s/m.
+    Damping, "damping", [("Ns/m", 1.0), ("N s/m", 1.0), ("kg/s", 1.0)];
+    /// kg m².
+    Inertia, "moment of inertia", [("kg m2", 1.0), ("g cm2", 1e-7)];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn length(json: &str) -> Result<f64, String> {
+        serde_json::from_str::<Length>(json).map(|l| l.0).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn units_convert_to_si() {
+        assert_eq!(length("0.25"), Ok(0.25));
+        assert_eq!(length("\"12 mm\""), Ok(12.0 * 1e-3));
+        assert_eq!(length("\"1.5e-3 m\""), Ok(1.5e-3));
+        assert_eq!(length("\"-2in\""), Ok(-2.0 * 0.0254));
+        assert_eq!(serde_json::from_str::<Density>("\"2.7 g/cm3\"").unwrap().0, 2.7 * 1e3);
+        assert_eq!(serde_json::from_str::<Angle>("\"180 deg\"").unwrap().0, 180.0 * DEGREE);
+    }
+
+    #[test]
+    fn a_unit_of_another_kind_is_refused_and_the_right_ones_named() {
+        let message = length("\"3 kg\"").unwrap_err();
+        assert!(message.contains("\"kg\" is no unit here") && message.contains("mm"), "{message}");
+        assert!(length("\"mm\"").is_err() && length("\"\"").is_err() && length("\"nan m\"").is_err());
+    }
+}

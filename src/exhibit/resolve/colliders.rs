@@ -1,0 +1,169 @@
+//! Colliders, and who never collides with whom.
+
+use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::fit::{self, Core};
+use super::super::sidecar::{self, ConstrainedPairs, Fit, Shape};
+use super::super::{Wire, codes};
+use super::{Context, joints};
+use crate::articulation::Constraint;
+use crate::collision::Collider;
+use crate::math::{DMat3, DVec3};
+
+/// Two bodies; `None` is the world.
+pub(super) type Pair = (Option<usize>, Option<usize>);
+
+impl Context<'_> {
+    /// Collision shapes of nodes and of wires.
+    pub(super) fn colliders(&mut self, wires: &[Wire]) -> Vec<Collider> {
+        let sidecar = self.sidecar;
+        let mut out = Vec::new();
+        for (i, given) in sidecar.collider.iter().enumerate() {
+            let at = format!("/collider/{i}");
+            let Some(node) = self.node(&given.node, &format!("{at}/node"), "a collider") else { continue };
+            let body = self.owner[node];
+            let of_body = body.and_then(|b| {
+                let declared = sidecar.body.iter().find(|d| self.nodes_named(&d.node).contains(&self.body_nodes[b]))?;
+                declared.material.clone()
+            });
+            let name = given.material.clone().or(of_body).unwrap_or_else(|| "steel".to_owned());
+            let material = self.material(&name, &format!("{at}/material"));
+            let cores = self.cores(given, node, &at);
+            let of = format!("collider {}", given.node);
+            let moves_with = self.body_name(body).to_owned();
+            self.trace(&of, "body", moves_with, "/-", "glTF node tree");
+            self.trace(&of, "material", name, &format!("{at}/material"), "the body's");
+            let shown = cores.iter().map(|c| format!("{} corners + {:.2} mm", c.corners.len(), c.radius * 1e3));
+            let shown = shown.collect::<Vec<_>>().join("; ");
+            self.trace(&of, "shape", shown, &format!("{at}/shape"), "");
+            let Some(material) = material else { continue };
+            out.extend(cores.into_iter().map(|core| Collider {
+                body,
+                core: core.corners,
+                radius: core.radius,
+                material,
+                node: given.node.clone(),
+            }));
+        }
+        for wire in wires {
+            let collides = sidecar.wire.iter().any(|given| given.name == wire.name && given.collide);
+            if collides {
+                // Within its own radius of the line: the wire is no thicker than it looks.
+                let line = fit::simplify(&wire.points, 0.5 * wire.radius);
+                out.extend(line.windows(2).map(|segment| Collider {
+                    body: wire.body,
+                    core: segment.to_vec(),
+                    radius: wire.radius,
+                    material: wire.material,
+                    node: wire.name.clone(),
+                }));
+            }
+        }
+        out
+    }
+
+    fn cores(&mut self, given: &sidecar::Collider, node: usize, at: &str) -> Vec<Core> {
+        let place = format!("{at}/shape");
+        let frame = self.pose_of(self.owner[node]).matrix().inverse() * self.model.nodes[node].world;
+        let axes = DMat3::from_mat4(frame);
+        // Shapes of stated size keep it: the node gives place and direction, not scale.
+        let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::normalize_or_zero);
+        let origin = frame.w_axis.truncate();
+        let placed = |core: Core| {
+            let turned = |p: DVec3| origin + axes[0] * p.x + axes[1] * p.y + axes[2] * p.z;
+            Core { corners: core.corners.into_iter().map(turned).collect(), radius: core.radius }
+        };
+        match given.shape {
+            Shape::Sphere(ball) => {
+                let radius = self.positive(ball.radius.0, &format!("{place}/sphere/radius"));
+                vec![Core { corners: vec![origin], radius }]
+            }
+            Shape::Capsule(capsule) => {
+                let radius = self.positive(capsule.radius.0, &format!("{place}/capsule/radius"));
+                let half = DVec3::Y * (0.5 * self.not_negative(capsule.height.0, &format!("{place}/capsule/height")));
+                vec![placed(Core { corners: vec![-half, half], radius })]
+            }
+            Shape::Box(shape) => {
+                let size = [0, 1, 2].map(|i| self.positive(shape.size[i].0, &format!("{place}/box/size/{i}")));
+                vec![fit::rounded_box(origin, axes, 0.5 * DVec3::from(size))]
+            }
+            Shape::Cylinder(shape) => {
+                let height = self.positive(shape.height.0, &format!("{place}/cylinder/height"));
+                let radius = self.positive(shape.radius.0, &format!("{place}/cylinder/radius"));
+                vec![placed(fit::cylinder(height, radius))]
+            }
+            Shape::Fit(fit) => self.fitted(fit, node, &place),
+        }
+    }
+
+    fn fitted(&mut self, fit: Fit, node: usize, at: &str) -> Vec<Core> {
+        let Some(mesh) = self.mesh_of(node, at, "a fitted collider") else { return Vec::new() };
+        let cores = mesh.extents().and_then(|extents| match fit {
+            Fit::Sphere => Some(vec![fit::sphere(&mesh, &extents)]),
+            Fit::Capsule => Some(vec![fit::capsule(&extents)]),
+            Fit::Box => {
+                let axes = [extents.axes.x_axis, extents.axes.y_axis, extents.axes.z_axis];
+                Some(vec![fit::rounded_box(extents.center, axes, extents.half)])
+            }
+            Fit::Plate => fit::plate(&mesh, &extents),
+            Fit::Convex => fit::convex(&mesh).map(|core| vec![core]),
+        });
+        cores.unwrap_or_else(|| {
+            let message = format!("no {fit:?} can be fitted to \"{}\"", self.model.nodes[node].name);
+            let help = "a plate needs a flat sheet, a hull a body with volume; try fit = \"box\"";
+            self.report(at, Diagnostic::new(codes::NOT_FLAT, message).help(help));
+            Vec::new()
+        })
+    }
+
+    /// Pairs that never collide, sorted.
+    pub(super) fn excluded_pairs(&mut self, constraints: &[Constraint]) -> Vec<Pair> {
+        let sidecar = self.sidecar;
+        let mut pairs: Vec<Pair> = Vec::new();
+        if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
+            for constraint in constraints {
+                let (a, b) = joints::ends(&constraint.kind);
+                self.exclude(&mut pairs, a, b, &format!("joined by {}", constraint.name), "/-");
+            }
+        }
+        for (i, [first, second]) in sidecar.collision.exclude.iter().enumerate() {
+            let at = format!("/collision/exclude/{i}");
+            let left = self.group(first, &format!("{at}/0"));
+            let right = self.group(second, &format!("{at}/1"));
+            for &a in &left {
+                for &b in &right {
+                    self.exclude(&mut pairs, a, b, "", &at);
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
+    }
+
+    fn exclude(&mut self, pairs: &mut Vec<Pair>, a: Option<usize>, b: Option<usize>, reason: &str, at: &str) {
+        if a != b {
+            let shown = format!("{} – {}", self.body_name(a), self.body_name(b));
+            self.trace("collision", "excluded", shown, at, reason);
+            pairs.push((a.min(b), a.max(b)));
+        }
+    }
+
+    /// Bodies that a node's name or `group:NAME` stands for.
+    fn group(&mut self, name: &str, at: &str) -> Vec<Option<usize>> {
+        let groups = &self.sidecar.collision.groups;
+        let Some(group) = name.strip_prefix("group:") else {
+            return self.node(name, at, "a pair that never collides").map(|n| self.owner[n]).into_iter().collect();
+        };
+        let Some(members) = groups.get(group) else {
+            let likely = near(group, groups.keys().map(String::as_str));
+            let problem = Diagnostic::new(codes::NOT_FOUND, format!("no group named \"{group}\""));
+            let help = format!("groups stand in [collision] groups; near: {}", quoted(&likely));
+            self.report(at, problem.help(help));
+            return Vec::new();
+        };
+        let place = super::join("/collision/groups", group);
+        let nodes = members.iter().enumerate().filter_map(|(i, n)| self.node(n, &format!("{place}/{i}"), "a group"));
+        let nodes: Vec<usize> = nodes.collect();
+        nodes.into_iter().map(|n| self.owner[n]).collect()
+    }
+}

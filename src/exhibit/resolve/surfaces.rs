@@ -1,0 +1,218 @@
+//! What feels the wind and what sounds: both are read off the meshes and wires of the bodies.
+
+use super::super::diagnostic::Diagnostic;
+use super::super::sidecar::{self, Faces, Trigger};
+use super::super::{Body, SoundBinding, SoundTrigger, Wire, codes, fit};
+use super::Context;
+use crate::collision::Collider;
+use crate::geometry::{Extents, TriangleMesh};
+use crate::math::from_decibels;
+use crate::sound::{InstrumentSpec, SoundBody, SoundMaterial};
+use crate::wind::{Surface, SurfaceShape};
+
+/// Drag coefficient of a round wire in cross-flow, Reynolds 10² … 10⁵ (Hoerner, Fluid-Dynamic Drag, 3-9).
+const WIRE_DRAG: f64 = 1.2;
+/// Skin friction of a wire along its axis.
+const WIRE_SKIN: f64 = 0.02;
+/// A mesh whose smallest extent is below this part of its second is a sheet.
+const SHEET: f64 = 0.1;
+/// Hits of one body that sound at once, where the sidecar does not say.
+const DEFAULT_VOICES: usize = 4;
+/// Sheet that has no depth in the model and none in the sidecar, m.
+const NOMINAL_THICKNESS: f64 = 5e-4;
+
+fn is_sheet(mesh: &TriangleMesh, extents: &Extents) -> bool {
+    extents.half.z < SHEET * extents.half.y || !mesh.is_closed()
+}
+
+impl Context<'_> {
+    /// Surfaces of meshes, then of wires.
+    pub(super) fn wind_surfaces(&mut self, wires: &[Wire]) -> Vec<Surface> {
+        let sidecar = self.sidecar;
+        let mut out: Vec<Surface> = Vec::new();
+        for (i, given) in sidecar.wind_surface.iter().enumerate() {
+            out.extend(self.wind_surface(given, &format!("/wind_surface/{i}")));
+        }
+        for wire in wires {
+            let feels = sidecar.wire.iter().any(|given| given.name == wire.name && given.wind);
+            if let (Some(body), true) = (wire.body, feels) {
+                out.push(Surface {
+                    body,
+                    node: wire.name.clone(),
+                    shape: SurfaceShape::Wire { points: wire.points.clone(), radius: wire.radius },
+                    drag_normal: WIRE_DRAG,
+                    drag_tangential: WIRE_SKIN,
+                    gain: 1.0,
+                });
+            }
+        }
+        out
+    }
+
+    fn wind_surface(&mut self, given: &sidecar::WindSurface, at: &str) -> Option<Surface> {
+        let place = format!("{at}/node");
+        let node = self.node(&given.node, &place, "a wind surface")?;
+        let Some(body) = self.owner[node] else {
+            let message = format!("node \"{}\" stands still: wind does not move it", given.node);
+            self.report(
+                &place,
+                Diagnostic::new(codes::UNKNOWN_BODY, message).help("make it a [[body]], or leave this table out"),
+            );
+            return None;
+        };
+        if given.sampling.min > given.sampling.max || given.sampling.per_area.0 <= 0.0 {
+            let message = "sampling needs min ≤ max and a density above zero";
+            self.report(&format!("{at}/sampling"), Diagnostic::new(codes::RANGE, message));
+        }
+        let mesh = self.mesh_of(node, &place, "a wind surface")?;
+        let extents = mesh.extents()?;
+        let sheet = given.faces.map_or_else(|| is_sheet(&mesh, &extents), |faces| faces == Faces::Both);
+        // A sheet is one surface with two sides: of a closed plate one face stands for both.
+        let mesh = if sheet && mesh.is_closed() { fit::one_side(&mesh, extents.axes.z_axis) } else { mesh };
+        let of = format!("wind surface {}", given.node);
+        let area = format!("{:.6} m²{}", mesh.area(), if sheet { ", both sides" } else { "" });
+        self.trace(&of, "area", area, "/-", "derived: mesh");
+        self.trace(
+            &of,
+            "drag.normal",
+            given.drag.normal.to_string(),
+            &format!("{at}/drag/normal"),
+            "default: flat plate",
+        );
+        self.trace(
+            &of,
+            "drag.tangential",
+            given.drag.tangential.to_string(),
+            &format!("{at}/drag/tangential"),
+            "default",
+        );
+        Some(Surface {
+            body,
+            node: given.node.clone(),
+            shape: SurfaceShape::Mesh {
+                mesh,
+                per_area: given.sampling.per_area.0,
+                count: (given.sampling.min, given.sampling.max),
+                sheet,
+                seed: given.sampling.seed,
+            },
+            drag_normal: given.drag.normal,
+            drag_tangential: given.drag.tangential,
+            gain: given.drag.gain,
+        })
+    }
+
+    /// Instruments, and which motion plays which.
+    pub(super) fn sounds(
+        &mut self,
+        bodies: &[Body],
+        colliders: &[Collider],
+    ) -> (Vec<InstrumentSpec>, Vec<SoundBinding>) {
+        let sidecar = self.sidecar;
+        let (mut instruments, mut bindings): (Vec<InstrumentSpec>, Vec<SoundBinding>) = (Vec::new(), Vec::new());
+        for (i, given) in sidecar.sound.iter().enumerate() {
+            let at = format!("/sound/{i}");
+            self.unique(&given.name, bindings.iter().any(|b| b.name == given.name), &format!("{at}/name"));
+            if let Some((instrument, binding)) = self.sound(given, bodies, colliders, instruments.len(), &at) {
+                instruments.push(instrument);
+                bindings.push(binding);
+            }
+        }
+        (instruments, bindings)
+    }
+
+    fn sound(
+        &mut self,
+        given: &sidecar::Sound,
+        bodies: &[Body],
+        colliders: &[Collider],
+        instrument: usize,
+        at: &str,
+    ) -> Option<(InstrumentSpec, SoundBinding)> {
+        let used_for = format!("sound \"{}\"", given.name);
+        let body_node = self.node(&given.body, &format!("{at}/body"), &used_for)?;
+        let Some(body) = self.owner[body_node] else {
+            let message = format!("node \"{}\" is not a moving body", given.body);
+            self.report(
+                &format!("{at}/body"),
+                Diagnostic::new(codes::UNKNOWN_BODY, message).label("it cannot set off a sound"),
+            );
+            return None;
+        };
+        let node = match &given.node {
+            Some(name) => self.node_below(Some(body_node), name, &format!("{at}/node"), &used_for)?,
+            None => body_node,
+        };
+        if given.on == Trigger::Impact && !colliders.iter().any(|c| c.body == Some(body)) {
+            let message = format!("{used_for} waits for hits on \"{}\", which has no collider", given.body);
+            let help = format!("add [[collider]] node = \"{}\"", given.node.as_ref().unwrap_or(&given.body));
+            self.report(&format!("{at}/body"), Diagnostic::new(codes::NO_COLLIDER, message).help(help));
+        }
+        if given.caption.is_none() {
+            let problem = Diagnostic::new(codes::NO_CAPTION, format!("{used_for} has no caption"));
+            self.report(
+                at,
+                problem
+                    .label("visitors who do not hear it read nothing")
+                    .help("add caption = \"key\" and label.*.caption.key"),
+            );
+        }
+        let mesh =
+            self.mesh_of(node, &format!("{at}/{}", if given.node.is_some() { "node" } else { "body" }), &used_for)?;
+        let extents = mesh.extents()?;
+        let material = &self.materials[self.part_material(body, node).unwrap_or(bodies.get(body)?.material)];
+        let params = given.params;
+        let closed = mesh.is_closed();
+        let measured = if extents.half.z > 0.0 { 2.0 * extents.half.z } else { NOMINAL_THICKNESS };
+        let thickness = params.thickness.map_or(measured, |t| t.0);
+        let volume = if closed { mesh.volume() } else { mesh.area() * thickness };
+        let size = SoundBody {
+            half_extents: [
+                params.half_length.map_or(extents.half.x, |l| l.0),
+                params.half_width.map_or(extents.half.y, |l| l.0),
+            ],
+            thickness,
+            area: if closed { volume / measured } else { mesh.area() },
+            mass: if given.node.is_some() { volume * material.density } else { bodies[body].properties.mass },
+        };
+        let sound_material = SoundMaterial {
+            youngs_modulus: material.youngs_modulus,
+            poisson: material.poisson,
+            density: material.density,
+            loss_factor: material.loss_factor,
+        };
+        for (key, value) in
+            [("half_length", size.half_extents[0]), ("half_width", size.half_extents[1]), ("thickness", thickness)]
+        {
+            let place = format!("{at}/params/{key}");
+            self.positive(value, &place);
+            self.trace(&used_for, key, format!("{:.3} mm", value * 1e3), &place, "derived: mesh");
+        }
+        self.trace(&used_for, "timbre", given.timbre.clone(), &format!("{at}/timbre"), "");
+        self.trace(&used_for, "gain", format!("{} dB", given.gain.0), &format!("{at}/gain"), "default");
+        let spec = InstrumentSpec {
+            timbre: given.timbre.clone(),
+            body: size,
+            material: sound_material,
+            gain: from_decibels(given.gain.0),
+            max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
+        };
+        let on = match given.on {
+            Trigger::Impact => SoundTrigger::Impact,
+            Trigger::Wind => SoundTrigger::Wind,
+        };
+        let frame = (extents.axes.x_axis, extents.axes.y_axis, extents.center);
+        Some((
+            spec,
+            SoundBinding { name: given.name.clone(), body, on, instrument, frame, caption: given.caption.clone() },
+        ))
+    }
+
+    /// Material of the `[[body.part]]` that a node belongs to; `None` where it is the body's own.
+    fn part_material(&self, body: usize, node: usize) -> Option<usize> {
+        let declared = self.sidecar.body.iter().find(|d| self.nodes_named(&d.node).contains(&self.body_nodes[body]))?;
+        let part =
+            declared.part.iter().find(|part| self.nodes_named(&part.node).iter().any(|&p| self.is_below(node, p)))?;
+        self.materials.iter().position(|m| m.name == part.material)
+    }
+}

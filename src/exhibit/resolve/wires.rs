@@ -1,0 +1,146 @@
+//! Wires and cords: polylines in the frame of the body that carries them.
+
+use super::super::diagnostic::Diagnostic;
+use super::super::sidecar::{self, Color, Point};
+use super::super::{Wire, codes};
+use super::Context;
+use crate::math::{DVec3, pow};
+
+/// Segments that a smooth wire gets between two of its points.
+const SUBDIVISIONS: usize = 8;
+
+impl Context<'_> {
+    /// All wires that could be resolved.
+    pub(super) fn wires(&mut self) -> Vec<Wire> {
+        let sidecar = self.sidecar;
+        let mut wires: Vec<Wire> = Vec::new();
+        for (i, given) in sidecar.wire.iter().enumerate() {
+            let at = format!("/wire/{i}");
+            self.unique(
+                &given.name,
+                wires.iter().map(|w| w.name.as_str()).any(|n| n == given.name),
+                &format!("{at}/name"),
+            );
+            if let Some(wire) = self.wire(given, &at) {
+                wires.push(wire);
+            }
+        }
+        wires
+    }
+
+    /// Reports a name that is taken.
+    pub(super) fn unique(&mut self, name: &str, taken: bool, at: &str) {
+        if taken {
+            let problem = Diagnostic::new(codes::DUPLICATE_NAME, format!("the name \"{name}\" is taken"));
+            self.report(at, problem.help("names of a kind are unique"));
+        }
+    }
+
+    fn wire(&mut self, given: &sidecar::Wire, at: &str) -> Option<Wire> {
+        let used_for = format!("wire \"{}\"", given.name);
+        let material = self.material(&given.material, &format!("{at}/material"));
+        let node = match &given.body {
+            Some(name) => Some(self.node(name, &format!("{at}/body"), &used_for)?),
+            None => None,
+        };
+        let body = node.and_then(|n| self.owner[n]);
+        if let (Some(node), None) = (node, body) {
+            // A node that stands still carries the wire in its own space; nothing is wrong with that.
+            let name = &self.model.nodes[node].name;
+            let source = format!("glTF node {name}, which stands still");
+            self.trace(&format!("wire {}", given.name), "body", "the world".into(), "/-", &source);
+        }
+        let points: Vec<Option<DVec3>> = (given.points.iter().enumerate())
+            .map(|(i, point)| self.wire_point(node, point, &format!("{at}/points/{i}"), &used_for))
+            .collect();
+        let mut points: Vec<DVec3> = points.into_iter().collect::<Option<_>>()?;
+        points.dedup();
+        if points.len() < 2 {
+            let problem = Diagnostic::new(codes::WRONG_SHAPE, format!("{used_for} has no length"));
+            self.report(&format!("{at}/points"), problem.help("give at least two different points"));
+            return None;
+        }
+        if given.smooth {
+            points = catmull_rom(&points);
+        }
+        let radius = match (given.radius, given.diameter) {
+            (Some(radius), None) => self.positive(radius.0, &format!("{at}/radius")),
+            (None, Some(diameter)) => 0.5 * self.positive(diameter.0, &format!("{at}/diameter")),
+            _ => {
+                let problem = Diagnostic::new(
+                    codes::MISSING_KEY,
+                    format!("{used_for} needs a radius or a diameter, one of them"),
+                );
+                self.report(at, problem.help("add radius = \"1 mm\""));
+                return None;
+            }
+        };
+        Some(Wire {
+            name: given.name.clone(),
+            body,
+            points,
+            radius,
+            material: material?,
+            color: given.color.as_ref().map_or([0.3, 0.3, 0.31], linear),
+            metallic: given.metallic.unwrap_or(1.0),
+            roughness: given.roughness.unwrap_or(0.35),
+        })
+    }
+
+    fn wire_point(&mut self, node: Option<usize>, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
+        match (node, point) {
+            (Some(node), point) => self.point(node, Some(point), at, used_for).map(|anchor| anchor.point),
+            (None, Point::Position(p)) => Some(DVec3::from(p.map(|x| x.0))),
+            (None, Point::Node(name)) => {
+                let mark = self.node(name, at, used_for)?;
+                if self.owner[mark].is_some() {
+                    let body = self.body_name(self.owner[mark]);
+                    let message = format!("node \"{name}\" moves with {body}, and {used_for} stands still");
+                    self.report(
+                        at,
+                        Diagnostic::new(codes::NOT_DESCENDANT, message)
+                            .help(format!("add body = \"{body}\" to the wire")),
+                    );
+                    return None;
+                }
+                Some(self.model.nodes[mark].world.transform_point3(DVec3::ZERO))
+            }
+        }
+    }
+}
+
+/// A uniform Catmull–Rom spline through the points (Catmull and Rom, 1974), its ends mirrored.
+fn catmull_rom(points: &[DVec3]) -> Vec<DVec3> {
+    let last = points.len() - 1;
+    let at = |i: isize| match usize::try_from(i) {
+        Ok(i) if i <= last => points[i],
+        Ok(_) => 2.0 * points[last] - points[last - 1],
+        Err(_) => 2.0 * points[0] - points[1],
+    };
+    let mut out = vec![points[0]];
+    for segment in 0..last {
+        let i = segment as isize;
+        let [p0, p1, p2, p3] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
+        for step in 1..=SUBDIVISIONS {
+            let t = step as f64 / SUBDIVISIONS as f64;
+            let cubic = 3.0 * (p1 - p2) + p3 - p0;
+            let square = 2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3;
+            out.push(p1 + 0.5 * t * ((p2 - p0) + t * (square + t * cubic)));
+        }
+    }
+    out
+}
+
+/// Linear RGB of a colour; the transfer function of sRGB (IEC 61966-2-1).
+fn linear(color: &Color) -> [f32; 3] {
+    match color {
+        Color::Linear(rgb) => *rgb,
+        Color::Hex(text) => {
+            let byte = |i: usize| u8::from_str_radix(text.get(i..i + 2).unwrap_or("00"), 16).unwrap_or(0);
+            [byte(1), byte(3), byte(5)].map(|b| {
+                let v = f64::from(b) / 255.0;
+                (if v <= 0.04045 { v / 12.92 } else { pow((v + 0.055) / 1.055, 2.4) }) as f32
+            })
+        }
+    }
+}

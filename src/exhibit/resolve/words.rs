@@ -1,0 +1,186 @@
+//! Labels, credit, and the attract script with its recorded breaths.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::super::diagnostic::Diagnostic;
+use super::super::source::join;
+use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
+use super::Context;
+
+/// Most bytes of a recorded breath.
+const MAX_WAV_BYTES: u64 = 64 << 20;
+/// Pause after the last step, s, where the sidecar gives no duration.
+const PAUSE: f64 = 10.0;
+
+impl Context<'_> {
+    pub(super) fn labels(&mut self) -> Labels {
+        let sidecar = self.sidecar;
+        let order: Vec<String> =
+            self.source.keys_of("/label").into_iter().filter(|key| key != "default_language").collect();
+        let given = sidecar.label.default_language.clone();
+        let default_language = given.or_else(|| order.first().cloned()).unwrap_or_else(|| "en".to_owned());
+        let mut languages = Vec::new();
+        for code in &order {
+            let Some(words) = sidecar.label.languages.get(code) else { continue };
+            let at = join("/label", code);
+            for (key, value) in [("title", &words.title), ("alt", &words.alt)] {
+                if value.is_empty() {
+                    let code_of = if key == "alt" { codes::NO_ALT } else { codes::MISSING_WORDS };
+                    self.report(&at, Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}")));
+                }
+            }
+            languages.push((code.clone(), self.label(words, &at)));
+        }
+        match sidecar.label.languages.get(&default_language) {
+            Some(default) => self.compare_languages(default, &default_language),
+            None if order.is_empty() => {}
+            None => {
+                let message = format!("there is no label in the default language \"{default_language}\"");
+                self.report(
+                    "/label/default_language",
+                    Diagnostic::new(codes::NO_TEXT, message).help(format!("add [label.{default_language}]")),
+                );
+            }
+        }
+        for (i, sound) in sidecar.sound.iter().enumerate() {
+            if let Some(key) = &sound.caption {
+                self.needs(key, "caption", &format!("/sound/{i}/caption"), |words| &words.caption);
+            }
+        }
+        Labels { default_language, languages }
+    }
+
+    /// Words in the order of the file.
+    fn label(&self, words: &sidecar::Words, at: &str) -> Label {
+        let ordered = |key: &str, map: &BTreeMap<String, String>| {
+            let keys = self.source.keys_of(&join(at, key)).into_iter();
+            keys.filter_map(|k| map.get(&k).map(|text| (k.clone(), text.clone()))).collect()
+        };
+        Label {
+            title: words.title.clone(),
+            maker: words.maker.clone(),
+            body: words.body.clone(),
+            alt: words.alt.clone(),
+            text: ordered("text", &words.text),
+            caption: ordered("caption", &words.caption),
+        }
+    }
+
+    /// Warns where a language lacks what the default one has.
+    fn compare_languages(&mut self, default: &sidecar::Words, default_code: &str) {
+        let sidecar = self.sidecar;
+        for (code, words) in sidecar.label.languages.iter().filter(|(code, _)| *code != default_code) {
+            let pairs = [("text", &default.text, &words.text), ("caption", &default.caption, &words.caption)];
+            for (kind, wanted, has) in pairs {
+                for key in wanted.keys().filter(|key| !has.contains_key(*key)) {
+                    let message = format!("{kind} \"{key}\" is missing in \"{code}\"");
+                    let problem = Diagnostic::new(codes::MISSING_WORDS, message);
+                    let label = format!("\"{default_code}\" has it and is shown instead");
+                    self.report(&join("/label", code), problem.label(label));
+                }
+            }
+        }
+    }
+
+    /// Reports a key that no language has words for.
+    fn needs(&mut self, key: &str, kind: &str, at: &str, map: fn(&sidecar::Words) -> &BTreeMap<String, String>) {
+        let languages = &self.sidecar.label.languages;
+        if !languages.values().any(|words| map(words).contains_key(key)) {
+            let message = format!("no language has a {kind} \"{key}\"");
+            let help = format!("add it: [label.en] {kind} = {{ {key} = \"…\" }}");
+            self.report(at, Diagnostic::new(codes::NO_TEXT, message).help(help));
+        }
+    }
+
+    pub(super) fn credit(&self) -> Credit {
+        let given = &self.sidecar.credit;
+        Credit {
+            model_license: given.model_license.clone(),
+            model_author: given.model_author.clone(),
+            notice: given.notice.clone(),
+            sources: given.sources.clone(),
+        }
+    }
+
+    pub(super) fn attract(&mut self, labels: &Labels) -> Attract {
+        let sidecar = self.sidecar;
+        let mut steps: Vec<AttractStep> = Vec::new();
+        for (i, given) in sidecar.attract.step.iter().enumerate() {
+            let at = format!("/attract/step/{i}");
+            let time = self.not_negative(given.at.0, &format!("{at}/at"));
+            if steps.last().is_some_and(|last| last.at > time) {
+                let message = format!("step {i} comes before the one above it");
+                self.report(
+                    &format!("{at}/at"),
+                    Diagnostic::new(codes::ATTRACT_ORDER, message).help("write the steps in the order of time"),
+                );
+            }
+            let Some(action) = self.action(given, labels, &at) else { continue };
+            steps.push(AttractStep { at: time, action });
+        }
+        let last = steps.last().map_or(0.0, |step| step.at);
+        let duration = sidecar.attract.duration.map_or(if steps.is_empty() { 0.0 } else { last + PAUSE }, |d| d.0);
+        if duration < last {
+            let message = format!("the round ends after {duration} s, and its last step is at {last} s");
+            self.report("/attract/duration", Diagnostic::new(codes::ATTRACT_ORDER, message));
+        }
+        Attract { steps, duration }
+    }
+
+    fn action(&mut self, given: &sidecar::AttractStep, labels: &Labels, at: &str) -> Option<AttractAction> {
+        match (&given.show, &given.blow, given.reset) {
+            (Some(key), None, false) => {
+                if !labels.languages.is_empty() {
+                    self.needs(key, "text", &format!("{at}/show"), |words| &words.text);
+                }
+                Some(AttractAction::Show(key.clone()))
+            }
+            (None, Some(blow), false) => {
+                let place = format!("{at}/blow");
+                if blow.aim.is_some_and(|aim| aim.iter().any(|x| !(0.0..=1.0).contains(x))) {
+                    let problem = Diagnostic::new(codes::RANGE, "the aim lies outside the picture");
+                    self.report(&format!("{place}/aim"), problem.help("(0,0) is top left, (1,1) bottom right"));
+                }
+                match self.breath(&blow.wav) {
+                    Ok((samples, sample_rate)) => Some(AttractAction::Blow { samples, sample_rate, aim: blow.aim }),
+                    Err(problem) => {
+                        self.report(&format!("{place}/wav"), problem);
+                        None
+                    }
+                }
+            }
+            (None, None, true) => Some(AttractAction::Reset),
+            _ => {
+                let problem = Diagnostic::new(codes::WRONG_SHAPE, "a step does one thing");
+                self.report(
+                    at,
+                    problem.help("give one of show, blow and reset = true; two steps may have the same time"),
+                );
+                None
+            }
+        }
+    }
+
+    /// Mono samples of a WAV in the exhibit folder.
+    fn breath(&self, wav: &str) -> Result<(Arc<[f32]>, u32), Diagnostic> {
+        let bytes = paths::read_limited(&paths::inside(self.folder, wav)?, MAX_WAV_BYTES)?;
+        let broken = |error: hound::Error| {
+            Diagnostic::new(codes::BREATH, format!("{wav} is not a WAV that can be read: {error}"))
+                .help("PCM of 8 to 32 bits or 32-bit float")
+        };
+        let mut reader = hound::WavReader::new(bytes.as_slice()).map_err(broken)?;
+        let spec = reader.spec();
+        let samples: Result<Vec<f32>, _> = match spec.sample_format {
+            hound::SampleFormat::Float => reader.samples::<f32>().collect(),
+            hound::SampleFormat::Int => {
+                let full = (1_i64 << (spec.bits_per_sample - 1)) as f32;
+                reader.samples::<i32>().map(|s| s.map(|s| s as f32 / full)).collect()
+            }
+        };
+        let channels = usize::from(spec.channels.max(1));
+        let mono =
+            samples.map_err(broken)?.chunks_exact(channels).map(|f| f.iter().sum::<f32>() / channels as f32).collect();
+        Ok((mono, spec.sample_rate))
+    }
+}

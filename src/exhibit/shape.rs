@@ -1,0 +1,179 @@
+//! The shape check: is the sidecar what the format's JSON Schema says? All violations at once, each where it stands.
+
+use schemars::transform::RecursiveTransform;
+use schemars::{Schema, generate::SchemaSettings};
+use serde_json::{Value, json};
+
+use jsonschema::ValidationError;
+use jsonschema::error::{TypeKind, ValidationErrorKind};
+
+use super::codes;
+use super::diagnostic::{Diagnostic, near, quoted};
+use super::sidecar::Sidecar;
+use super::source::{Source, join};
+
+/// JSON Schema (draft 2020-12) of `exhibit.toml`.
+pub fn schema() -> Value {
+    let open = RecursiveTransform(|schema: &mut Schema| {
+        // Keys of other programs: closed objects stay open for x_*.
+        if schema.get("additionalProperties") == Some(&json!(false)) {
+            schema.insert("patternProperties".into(), json!({ "^x_": true }));
+        }
+    });
+    let mut root =
+        SchemaSettings::draft2020_12().with_transform(open).into_generator().into_root_schema_for::<Sidecar>();
+    root.insert("title".into(), "Soffio exhibit sidecar, format exhibit/1".into());
+    root.to_value()
+}
+
+/// All places where the sidecar does not have the shape of the format.
+pub fn check(source: &Source) -> Vec<Diagnostic> {
+    let schema = schema();
+    let validator = match jsonschema::validator_for(&schema) {
+        Ok(validator) => validator,
+        Err(error) => {
+            return vec![Diagnostic::new(codes::WRONG_SHAPE, format!("the format's own schema is broken: {error}"))];
+        }
+    };
+    let mut found = Vec::new();
+    for error in validator.iter_errors(&source.value) {
+        explain(source, &schema, &error, &mut found);
+    }
+    found
+}
+
+fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut Vec<Diagnostic>) {
+    let at = error.instance_path().to_string();
+    let place = if at.is_empty() { "at the top of the file".to_owned() } else { format!("in {}", readable(&at)) };
+    match error.kind() {
+        ValidationErrorKind::AdditionalProperties { unexpected } => {
+            let known = properties(schema, &error.schema_path().to_string());
+            for key in unexpected {
+                let likely = near(key, known.iter().map(String::as_str));
+                let help = match likely.as_slice() {
+                    [] => format!("known here: {}; keys of your own begin with x_", known.join(", ")),
+                    names => format!("did you mean {}? Keys of your own begin with x_", quoted(names)),
+                };
+                let mut diagnostic = Diagnostic::new(codes::UNKNOWN_KEY, format!("unknown key \"{key}\" {place}"))
+                    .label("the format has no such key")
+                    .help(help);
+                diagnostic.location = Some(source.locate(source.key_span(&join(&at, key))));
+                found.push(diagnostic);
+            }
+        }
+        ValidationErrorKind::Required { property } => {
+            let name = property.as_str().unwrap_or_default();
+            let mut diagnostic = Diagnostic::new(codes::MISSING_KEY, format!("key \"{name}\" is missing {place}"))
+                .label(format!("needs \"{name}\""))
+                .help(format!("add {name} = …{}", described(schema, &error.schema_path().to_string(), name)));
+            diagnostic.location = Some(source.locate(source.span(&at)));
+            found.push(diagnostic);
+        }
+        kind => {
+            let (code, message, help) = value_problem(kind, error.instance(), &readable(&at));
+            let mut diagnostic = Diagnostic::new(code, message);
+            diagnostic.help = help;
+            diagnostic.location = Some(source.locate(source.span(&at)));
+            found.push(diagnostic);
+        }
+    }
+}
+
+fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (codes::Code, String, Option<String>) {
+    let shown = brief(value);
+    match kind {
+        ValidationErrorKind::Type { kind } => {
+            let wanted = match kind {
+                TypeKind::Single(one) => one.to_string(),
+                TypeKind::Multiple(many) => many.iter().map(|t| t.to_string()).collect::<Vec<_>>().join(" or "),
+            };
+            (codes::WRONG_TYPE, format!("{place} is {shown}, which is not of type {wanted}"), None)
+        }
+        ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
+            // The branch that failed deepest inside is the one that was meant.
+            let units = context.iter().flatten().find_map(|e| match e.kind() {
+                ValidationErrorKind::Pattern { pattern } if e.instance().is_string() => Some(pattern.as_str()),
+                _ => None,
+            });
+            let deepest = context.iter().flatten().max_by_key(|e| e.instance_path().to_string().matches('/').count());
+            match (units.and_then(units_of), deepest) {
+                (Some(units), _) => (
+                    codes::WRONG_TYPE,
+                    format!("{place} is {shown}, which has no unit that fits"),
+                    Some(format!("write a number, or a text with one of these units: {units}")),
+                ),
+                (None, Some(inner)) => (
+                    codes::WRONG_TYPE,
+                    format!("{place} is {shown}, which has not the shape of this key"),
+                    Some(inner.to_string()),
+                ),
+                (None, None) => {
+                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has not the shape of this key"), None)
+                }
+            }
+        }
+        ValidationErrorKind::Enum { options } => {
+            let names: Vec<&str> = options.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+            (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(format!("allowed are {}", quoted(&names))))
+        }
+        ValidationErrorKind::Minimum { limit } => {
+            (codes::RANGE, format!("{place} is {shown}"), Some(format!("it must be at least {limit}")))
+        }
+        ValidationErrorKind::Maximum { limit } => {
+            (codes::RANGE, format!("{place} is {shown}"), Some(format!("it must be at most {limit}")))
+        }
+        ValidationErrorKind::MinItems { limit } => {
+            (codes::WRONG_SHAPE, format!("{place} has too few entries"), Some(format!("give at least {limit}")))
+        }
+        ValidationErrorKind::MaxItems { limit } => {
+            (codes::WRONG_SHAPE, format!("{place} has too many entries"), Some(format!("give at most {limit}")))
+        }
+        _ => (codes::WRONG_SHAPE, format!("{place} is {shown}, which this key does not allow"), None),
+    }
+}
+
+/// The units in the pattern of a quantity, `(m|mm|cm)\s*$`.
+fn units_of(pattern: &str) -> Option<String> {
+    let inner = pattern.strip_suffix(r")\s*$")?;
+    let start = inner.rfind('(')?;
+    Some(inner[start + 1..].replace("\\/", "/").replace('|', ", "))
+}
+
+fn brief(value: &Value) -> String {
+    const LENGTH: usize = 60;
+    let text = value.to_string();
+    if text.chars().count() <= LENGTH { text } else { text.chars().take(LENGTH).chain("…".chars()).collect() }
+}
+
+/// `/body/2/node` as `body[2].node`, numbers from 0 as in the file's order.
+fn readable(pointer: &str) -> String {
+    let mut text = String::new();
+    for key in pointer.split('/').skip(1) {
+        match key.parse::<usize>() {
+            Ok(index) => text.push_str(&format!("[{index}]")),
+            Err(_) if text.is_empty() => text.push_str(key),
+            Err(_) => {
+                text.push('.');
+                text.push_str(key);
+            }
+        }
+    }
+    text
+}
+
+/// The schema object that holds the keyword at `schema_path`.
+fn holder<'a>(schema: &'a Value, schema_path: &str) -> Option<&'a Value> {
+    let parent = &schema_path[..schema_path.rfind('/')?];
+    schema.pointer(parent)
+}
+
+fn properties(schema: &Value, schema_path: &str) -> Vec<String> {
+    let object = holder(schema, schema_path).and_then(|s| s.get("properties")).and_then(Value::as_object);
+    object.into_iter().flat_map(|o| o.keys().cloned()).collect()
+}
+
+fn described(schema: &Value, schema_path: &str, name: &str) -> String {
+    let parent = holder(schema, schema_path);
+    let text = parent.and_then(|s| s.get("properties")?.get(name)?.get("description")?.as_str());
+    text.map(|text| format!(" ({text})")).unwrap_or_default()
+}
