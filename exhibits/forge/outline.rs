@@ -32,7 +32,7 @@ impl Knot {
 /// A closed polygon; counter-clockwise around material, clockwise around a hole.
 pub type Polygon = Vec<DVec2>;
 
-/// Samples the closed spline through `knots`, `steps` points per span.
+/// Samples the closed spline through `knots`, `steps` points per curved span.
 pub fn closed_spline(knots: &[Knot], steps: usize) -> Polygon {
     let n = knots.len();
     let at = |i: usize| knots[i % n].point();
@@ -44,7 +44,9 @@ pub fn closed_spline(knots: &[Knot], steps: usize) -> Polygon {
     for i in 0..n {
         let (p, q) = (at(i), at(i + 1));
         let (u, v) = (tangent(i, q - p), tangent(i + 1, q - p));
-        polygon.extend((0..steps).map(|k| hermite(p, u, q, v, k as f64 / steps as f64)));
+        // Between two corners the curve is a straight line: points on it would only make slivers.
+        let straight = knots[i].is_corner() && knots[(i + 1) % n].is_corner();
+        polygon.extend((0..if straight { 1 } else { steps }).map(|k| hermite(p, u, q, v, k as f64 / steps as f64)));
     }
     polygon
 }

@@ -303,3 +303,19 @@ fn the_file_is_valid_gltf_whose_joints_meet() {
         assert!(sidecar.contains(&format!("\"{name}\"")), "no wire of the sidecar runs through {name}");
     }
 }
+
+#[test]
+fn the_loader_weighs_the_work_as_the_forge_balanced_it() {
+    /// The file stores corners as 32-bit floats and points to 0.1 µm: sub-micrometre against millimetres.
+    const FILE_ROUNDING: f64 = 2e-4;
+    let exhibit = soffio::exhibit::load(&exhibits().join("steel-fish")).unwrap_or_else(|report| panic!("{report}"));
+    let work = work();
+    assert_eq!(exhibit.bodies.len(), work.pieces.len());
+    for (piece, pose) in &work.pieces {
+        let body = exhibit.bodies.iter().find(|body| body.name == piece.name).expect("a body per piece");
+        let (got, expected) = (body.properties, piece.mass());
+        assert_close(piece.name, got.mass, expected.mass, FILE_ROUNDING * expected.mass);
+        assert_close("centre", got.center.distance(expected.center), 0.0, 2.0 * PLUMB);
+        assert_close("place", body.pose.position.distance(pose.position), 0.0, 2.0 * PLUMB);
+    }
+}
