@@ -1,7 +1,7 @@
 //! Pictures without a window: draw into an own texture, read it back.
 
 use super::{Frame, Gpu, Options, RenderError, Renderer};
-use crate::exhibit::{Exhibit, Model};
+use crate::exhibit::Exhibit;
 
 /// Format of a headless picture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;

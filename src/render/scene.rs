@@ -225,7 +225,7 @@ mod tests {
             meshes: vec![Mesh { name: String::new(), primitives: vec![triangle] }],
             ..Default::default()
         };
-        let scene = Scene::new(&super::super::picture::of_model(model)).expect("few bodies");
+        let scene = Scene::new(&crate::exhibit::Exhibit::of_model(model)).expect("few bodies");
         let corner = |i: usize| scene.vertices[scene.indices[i] as usize].position;
         let geometric = (corner(1) - corner(0)).cross(corner(2) - corner(0));
         assert!(geometric.z > 0.0 && scene.vertices[0].normal == Vec3::Z, "{geometric}");

@@ -10,7 +10,5 @@ mod kiosk;
 mod pictures;
 mod realtime;
 #[cfg(feature = "kiosk")]
-mod scratch;
-#[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;

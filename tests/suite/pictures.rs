@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec3};
 use soffio::exhibit::model::{Appearance, Camera, Mesh, Model, Node, Primitive};
 use soffio::exhibit::{Body, Exhibit, Wire};
 use soffio::math::Pose;
-use soffio::render::{Frame, ImageRenderer, Options, RenderError, of_model};
+use soffio::render::{Frame, ImageRenderer, Options, RenderError};
 
 /// A plate: an outline in the plane z = 0, extruded by its thickness, fan from the centroid.
 fn plate(outline: &[[f32; 2]], thickness: f32, material: usize) -> Primitive {
@@ -101,7 +101,7 @@ pub fn mobile() -> Exhibit {
     let bodies: Vec<(usize, DVec3)> = places.into_iter().map(|(n, p, at)| (add(n, Some(p), at, None), at)).collect();
     let camera = add("camera", None, DVec3::new(0.08, 0.34, 1.75), Some(0));
     model.cameras.push(Camera { fovy: 0.42, aspect: Some(1.5) });
-    let mut exhibit = of_model(model);
+    let mut exhibit = Exhibit::of_model(model);
     exhibit.camera_node = Some(camera);
     let properties =
         soffio::bodies::MassProperties { mass: 0.1, center: DVec3::ZERO, inertia: soffio::math::DMat3::IDENTITY };

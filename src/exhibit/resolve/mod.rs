@@ -61,9 +61,16 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
 pub fn plain(model_path: &Path) -> Result<Exhibit, Report> {
     let Imported { model, warnings } = import(model_path)?;
     let id = model_path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let camera_node = model.nodes.iter().position(|node| node.camera.is_some());
     let folder = model_path.parent().map(PathBuf::from).unwrap_or_default();
-    Ok(Exhibit { id, camera_node, warnings, ..empty(model, folder) })
+    Ok(Exhibit { id, folder, warnings, ..Exhibit::of_model(model) })
+}
+
+impl Exhibit {
+    /// A model alone as an exhibit in which nothing moves, seen through its first camera.
+    pub fn of_model(model: Model) -> Self {
+        let camera_node = model.nodes.iter().position(|node| node.camera.is_some());
+        Self { camera_node, ..empty(model, PathBuf::new()) }
+    }
 }
 
 /// An exhibit of nothing but its model.
