@@ -19,7 +19,7 @@
 use crate::math::{DMat3, DVec3, outer};
 
 /// Zeroth to second moments of a mass distribution about the origin of its frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
     /// ∫ dm, kg (or m³ where the density is 1).
     pub mass: f64,
@@ -27,6 +27,13 @@ pub struct Moments {
     pub first: DVec3,
     /// ∫ x xᵀ dm, kg m².
     pub second: DMat3,
+}
+
+impl Default for Moments {
+    /// Nothing. (Written out: the default matrix of glam is the identity.)
+    fn default() -> Self {
+        Self { mass: 0.0, first: DVec3::ZERO, second: DMat3::ZERO }
+    }
 }
 
 impl Moments {

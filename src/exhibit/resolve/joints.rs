@@ -4,6 +4,7 @@ use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{Attachment, BodyAxis, Friction, Limit, NailTarget};
 use super::Context;
+use super::bodies::meters;
 use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, PivotFriction, Spring, TiltLimit};
 use crate::math::{DVec3, PI, cos};
 
@@ -131,7 +132,13 @@ impl Context<'_> {
         let of = format!("constraint {name}");
         let shown = match &kind {
             ConstraintKind::PointToPoint { a, b } => {
-                format!("{} at {} m to {} at {} m", self.body_name(a.body), a.point, self.body_name(b.body), b.point)
+                format!(
+                    "{} at {} to {} at {}",
+                    self.body_name(a.body),
+                    meters(a.point),
+                    self.body_name(b.body),
+                    meters(b.point)
+                )
             }
             ConstraintKind::Orientation { a, b } => format!(
                 "{} axis {} perpendicular to {} axis {}",
@@ -164,7 +171,7 @@ impl Context<'_> {
                 let gap = self.at_rest(a).distance(self.at_rest(b));
                 if gap > APART {
                     let message = format!("the two points of \"{name}\" are {:.2} mm apart at rest", gap * 1e3);
-                    let label = format!("{} m and {} m", self.at_rest(a), self.at_rest(b));
+                    let label = format!("{} and {}", meters(self.at_rest(a)), meters(self.at_rest(b)));
                     let help =
                         format!("move one of the two nodes; up to {} mm is taken as meant together", APART * 1e3);
                     self.report(at, Diagnostic::new(codes::APART, message).label(label).help(help));
