@@ -144,7 +144,9 @@ impl Context<'_> {
         at: &str,
         of: &str,
     ) -> MassProperties {
+        let problems_before = self.problems.len();
         let moments = self.geometry(given, body, material, at, of, wires);
+        let geometry_good = self.problems.len() == problems_before;
         let mut properties =
             MassProperties { mass: moments.mass, center: moments.center(), inertia: moments.inertia() };
         let derived = "derived: geometry × density";
@@ -181,7 +183,10 @@ impl Context<'_> {
             &format!("{at}/inertia"),
             derived,
         );
-        self.check_mass(&properties, &given.node, at);
+        // A mesh that could not be weighed has been reported; that nothing is left of the mass is no second problem.
+        if geometry_good {
+            self.check_mass(&properties, &given.node, at);
+        }
         properties
     }
 
