@@ -54,7 +54,7 @@ impl Context<'_> {
                 &joint.name,
             );
             let b = self.second_axis(joint.world_axis, joint.other.as_ref(), &at, &joint.name);
-            if let (Some(a), Some(b)) = (a, b.flatten()) {
+            if let (Some(a), Some(b)) = (a, b) {
                 let kind = ConstraintKind::Orientation { a, b };
                 self.push(&mut out, &joint.name, kind, joint.friction, joint.limit.as_ref(), &joint.body, &at);
             }
@@ -77,27 +77,21 @@ impl Context<'_> {
         self.axis(node, axis, at_axis)
     }
 
-    /// The axis given as `world_axis` or `other`; `Some(None)` where a problem was reported, `None` never.
-    fn second_axis(
-        &mut self,
-        world: Option<[f64; 3]>,
-        other: Option<&BodyAxis>,
-        at: &str,
-        name: &str,
-    ) -> Option<Option<Axis>> {
+    /// The axis given as `world_axis` or `other`; `None` where a problem was reported.
+    fn second_axis(&mut self, world: Option<[f64; 3]>, other: Option<&BodyAxis>, at: &str, name: &str) -> Option<Axis> {
         match (world, other) {
             (Some(axis), None) => {
                 let unit = self.unit(DVec3::from(axis), &format!("{at}/world_axis"));
-                Some(unit.map(|direction| Axis { body: None, direction }))
+                unit.map(|direction| Axis { body: None, direction })
             }
             (None, Some(other)) => {
                 let place = format!("{at}/other");
-                Some(self.body_axis(&other.body, other.axis, &format!("{place}/body"), &format!("{place}/axis"), name))
+                self.body_axis(&other.body, other.axis, &format!("{place}/body"), &format!("{place}/axis"), name)
             }
             _ => {
                 let message = format!("constraint \"{name}\" needs world_axis or other, one of them");
                 self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help("add world_axis = [0, 1, 0]"));
-                Some(None)
+                None
             }
         }
     }
@@ -205,7 +199,7 @@ impl Context<'_> {
             let world = self.pose_of(a.body).vector(a.direction);
             Axis { body: second, direction: self.pose_of(second).inverse_vector(world) }
         } else {
-            self.second_axis(limit.world_axis, limit.other.as_ref(), at, name)??
+            self.second_axis(limit.world_axis, limit.other.as_ref(), at, name)?
         };
         let angle = limit.max.0;
         if !(angle > 0.0 && angle < PI) {
