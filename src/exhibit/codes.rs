@@ -64,7 +64,5 @@ codes! {
     MISSING_WORDS = "W0402", "a label is missing in a language";
     NO_ALT = "W0403", "a label has no description for those who cannot see";
     SKIPPED = "W0404", "a part of the model is not drawn";
-    UNUSED_COLLIDER = "W0405", "a collider can never touch anything";
     DUPLICATE_NODE = "W0406", "two nodes of the model have the same name";
-    SLENDER = "W0407", "a size looks like a wrong unit";
 }

@@ -90,6 +90,23 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
             (codes::WRONG_TYPE, format!("{place} is {shown}, which is not of type {wanted}"), None)
         }
         ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
+            // A choice of words: each branch is one of them.
+            let words: Vec<&str> = context
+                .iter()
+                .flatten()
+                .flat_map(|e| match e.kind() {
+                    ValidationErrorKind::Constant { expected_value } => vec![expected_value.as_str()],
+                    ValidationErrorKind::Enum { options } => {
+                        options.as_array().into_iter().flatten().map(Value::as_str).collect()
+                    }
+                    _ => Vec::new(),
+                })
+                .flatten()
+                .collect();
+            if !words.is_empty() {
+                let help = format!("allowed are {}", quoted(&words));
+                return (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(help));
+            }
             // The branch that failed deepest inside is the one that was meant.
             let units = context.iter().flatten().find_map(|e| match e.kind() {
                 ValidationErrorKind::Pattern { pattern } if e.instance().is_string() => Some(pattern.as_str()),

@@ -30,7 +30,7 @@ pub struct Moments {
 }
 
 impl Default for Moments {
-    /// Nothing yet. (A matrix's own default is the identity.)
+    /// Nothing. (Written out: the default matrix of glam is the identity.)
     fn default() -> Self {
         Self { mass: 0.0, first: DVec3::ZERO, second: DMat3::ZERO }
     }

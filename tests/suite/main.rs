@@ -12,3 +12,4 @@ mod realtime;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;
+mod exhibit;

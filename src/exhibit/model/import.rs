@@ -122,6 +122,13 @@ impl Reader {
                 .help(remedy(extension)));
         }
         root.extensions_required.clear();
+        // The crate's own check looks up the positions' accessor before it has checked the index.
+        let position = json::validation::Checked::Valid(json::mesh::Semantic::Positions);
+        let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        let positions = primitives.filter_map(|primitive| primitive.attributes.get(&position));
+        if let Some(index) = positions.map(|i| i.value()).find(|&i| i >= root.accessors.len()) {
+            return Err(self.broken(format_args!("accessor {index} does not exist")));
+        }
         let document =
             gltf::Document::from_json(root).map_err(|error| self.broken(format_args!("not valid glTF: {error}")))?;
         if document.nodes().len() > MAX_NODES {

@@ -17,6 +17,13 @@ pub(super) struct Declared {
     entry: usize,
 }
 
+/// A point for the reader: micrometres are enough.
+pub(super) fn meters(p: DVec3) -> String {
+    // Adding zero turns −0 into 0.
+    let [x, y, z] = p.to_array().map(|v| (v * 1e6).round() / 1e6 + 0.0);
+    format!("[{x}, {y}, {z}] m")
+}
+
 impl Context<'_> {
     /// Finds the moving bodies and whom each node belongs to.
     pub(super) fn declare_bodies(&mut self) -> Vec<Declared> {
@@ -80,7 +87,7 @@ impl Context<'_> {
             self.trace(&of, "material", named.unwrap_or("steel").into(), &format!("{at}/material"), "default");
             let properties = self.weigh(given, index, material, wires, &at, &of);
             let pose = self.poses[index];
-            self.trace(&of, "position", format!("{} m", pose.position), "/-", "glTF node");
+            self.trace(&of, "position", meters(pose.position), "/-", "glTF node");
             self.trace(&of, "rotation", format!("{} (x y z w)", pose.rotation), "/-", "glTF node");
             let velocity = given.initial.velocity.map_or(DVec3::ZERO, |v| DVec3::from(v.map(|x| x.0)));
             let angular_velocity = given.initial.angular_velocity.map_or(DVec3::ZERO, |v| DVec3::from(v.map(|x| x.0)));
@@ -137,7 +144,9 @@ impl Context<'_> {
         at: &str,
         of: &str,
     ) -> MassProperties {
+        let problems_before = self.problems.len();
         let moments = self.geometry(given, body, material, at, of, wires);
+        let geometry_good = self.problems.len() == problems_before;
         let mut properties =
             MassProperties { mass: moments.mass, center: moments.center(), inertia: moments.inertia() };
         let derived = "derived: geometry × density";
@@ -164,11 +173,20 @@ impl Context<'_> {
             }
         }
         self.trace(of, "mass", format!("{:.6} kg", properties.mass), &format!("{at}/mass"), derived);
-        let center = format!("{} m", properties.center);
+        let center = meters(properties.center);
         self.trace(of, "center_of_mass", center, &format!("{at}/center_of_mass"), derived);
         let (moments, _) = principal_axes(properties.inertia);
-        self.trace(of, "inertia", format!("{moments} kg m² (principal)"), &format!("{at}/inertia"), derived);
-        self.check_mass(&properties, &given.node, at);
+        self.trace(
+            of,
+            "inertia",
+            format!("{:.4e}, {:.4e}, {:.4e} kg m² (principal)", moments.x, moments.y, moments.z),
+            &format!("{at}/inertia"),
+            derived,
+        );
+        // A mesh that could not be weighed has been reported; that nothing is left of the mass is no second problem.
+        if geometry_good {
+            self.check_mass(&properties, &given.node, at);
+        }
         properties
     }
 

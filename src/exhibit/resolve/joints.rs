@@ -4,6 +4,7 @@ use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{Attachment, BodyAxis, Friction, Limit, NailTarget};
 use super::Context;
+use super::bodies::meters;
 use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, PivotFriction, Spring, TiltLimit};
 use crate::math::{DVec3, PI, cos};
 
@@ -53,7 +54,7 @@ impl Context<'_> {
                 &joint.name,
             );
             let b = self.second_axis(joint.world_axis, joint.other.as_ref(), &at, &joint.name);
-            if let (Some(a), Some(b)) = (a, b.flatten()) {
+            if let (Some(a), Some(b)) = (a, b) {
                 let kind = ConstraintKind::Orientation { a, b };
                 self.push(&mut out, &joint.name, kind, joint.friction, joint.limit.as_ref(), &joint.body, &at);
             }
@@ -76,27 +77,21 @@ impl Context<'_> {
         self.axis(node, axis, at_axis)
     }
 
-    /// The axis given as `world_axis` or `other`; `Some(None)` where a problem was reported, `None` never.
-    fn second_axis(
-        &mut self,
-        world: Option<[f64; 3]>,
-        other: Option<&BodyAxis>,
-        at: &str,
-        name: &str,
-    ) -> Option<Option<Axis>> {
+    /// The axis given as `world_axis` or `other`; `None` where a problem was reported.
+    fn second_axis(&mut self, world: Option<[f64; 3]>, other: Option<&BodyAxis>, at: &str, name: &str) -> Option<Axis> {
         match (world, other) {
             (Some(axis), None) => {
                 let unit = self.unit(DVec3::from(axis), &format!("{at}/world_axis"));
-                Some(unit.map(|direction| Axis { body: None, direction }))
+                unit.map(|direction| Axis { body: None, direction })
             }
             (None, Some(other)) => {
                 let place = format!("{at}/other");
-                Some(self.body_axis(&other.body, other.axis, &format!("{place}/body"), &format!("{place}/axis"), name))
+                self.body_axis(&other.body, other.axis, &format!("{place}/body"), &format!("{place}/axis"), name)
             }
             _ => {
                 let message = format!("constraint \"{name}\" needs world_axis or other, one of them");
                 self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help("add world_axis = [0, 1, 0]"));
-                Some(None)
+                None
             }
         }
     }
@@ -131,7 +126,13 @@ impl Context<'_> {
         let of = format!("constraint {name}");
         let shown = match &kind {
             ConstraintKind::PointToPoint { a, b } => {
-                format!("{} at {} m to {} at {} m", self.body_name(a.body), a.point, self.body_name(b.body), b.point)
+                format!(
+                    "{} at {} to {} at {}",
+                    self.body_name(a.body),
+                    meters(a.point),
+                    self.body_name(b.body),
+                    meters(b.point)
+                )
             }
             ConstraintKind::Orientation { a, b } => format!(
                 "{} axis {} perpendicular to {} axis {}",
@@ -164,7 +165,7 @@ impl Context<'_> {
                 let gap = self.at_rest(a).distance(self.at_rest(b));
                 if gap > APART {
                     let message = format!("the two points of \"{name}\" are {:.2} mm apart at rest", gap * 1e3);
-                    let label = format!("{} m and {} m", self.at_rest(a), self.at_rest(b));
+                    let label = format!("{} and {}", meters(self.at_rest(a)), meters(self.at_rest(b)));
                     let help =
                         format!("move one of the two nodes; up to {} mm is taken as meant together", APART * 1e3);
                     self.report(at, Diagnostic::new(codes::APART, message).label(label).help(help));
@@ -198,7 +199,7 @@ impl Context<'_> {
             let world = self.pose_of(a.body).vector(a.direction);
             Axis { body: second, direction: self.pose_of(second).inverse_vector(world) }
         } else {
-            self.second_axis(limit.world_axis, limit.other.as_ref(), at, name)??
+            self.second_axis(limit.world_axis, limit.other.as_ref(), at, name)?
         };
         let angle = limit.max.0;
         if !(angle > 0.0 && angle < PI) {

@@ -1,0 +1,220 @@
+//! Sidecars over one small model: a frame, a boom with a lead weight, a hanging plate.
+//!
+//! Bad ones stand in `tests/cases/exhibit-bad/*.toml`; the first line of each names the codes and lines to be found,
+//! all of them and no others: `# expect E0207:7 E0102:9`.
+
+use std::path::PathBuf;
+
+use soffio::articulation::ConstraintKind;
+use soffio::exhibit::{self, AttractAction, Exhibit, Report, codes};
+use soffio::math::{DVec3, PI};
+use soffio::wind::SurfaceShape;
+
+use super::glb::{Folder, Scene, cuboid, sheet};
+
+/// glTF holds single precision: seven digits.
+const SINGLE: f64 = 1e-6;
+
+/// Post (still), Boom with Weight, Plate on the boom's tip, an open Flag, and two nodes named Twin.
+fn model() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let tip = scene.node("Tip", [0.5, 0.0, 0.0], None, &[]);
+    let end = scene.node("End", [-0.5, 0.0, 0.0], None, &[]);
+    let weight = scene.node("Weight", [-0.4, 0.0, 0.0], Some(&cuboid([0.02, 0.02, 0.02])), &[]);
+    scene.node("Boom", [0.0, 1.0, 0.0], None, &[tip, end, weight]);
+    let hook = scene.node("Hook", [0.0, 0.1, 0.0], None, &[]);
+    scene.node("Plate", [0.5, 0.9, 0.0], Some(&cuboid([0.1, 0.2, 0.001])), &[hook]);
+    scene.node("Post", [0.0, 0.5, 0.0], Some(&cuboid([0.01, 1.0, 0.01])), &[]);
+    scene.node("Flag", [0.0, 2.0, 0.0], Some(&sheet(0.2, 0.1)), &[]);
+    scene.node("Twin", [0.0, 3.0, 0.0], None, &[]);
+    scene.node("Twin", [0.0, 4.0, 0.0], None, &[]);
+    let stretched = scene.node("Stretched", [0.0, 5.0, 0.0], Some(&cuboid([0.1; 3])), &[]);
+    scene.set(stretched, "scale", serde_json::json!([1.0, 2.0, 1.0]));
+    scene.glb()
+}
+
+fn load(sidecar: &str) -> Result<Exhibit, Report> {
+    let folder = Folder::exhibit(&model(), sidecar);
+    exhibit::load(folder.path())
+}
+
+const GOOD: &str = r##"
+[material.steel]
+loss_factor = 1e-3
+[[body]]
+node = "Boom"
+material = "steel"
+x_studio = { note = "keys of others are theirs" }
+[[body.part]]
+node = "Weight"
+material = "lead"
+[[body]]
+node = "Plate"
+material = "aluminium"
+initial = { angular_velocity = [0, "30 deg/s", 0] }
+[[wire]]
+name = "rod"
+body = "Boom"
+points = ["End", [0, 0, 0], "Tip"]
+diameter = "2 mm"
+material = "steel"
+color = "#ff0000"
+collide = true
+[[constraint.nail]]
+name = "pivot"
+body = "Boom"
+to = [0, 1, 0]
+limit = { axis = [0, 1, 0], max = "12 deg" }
+friction = { coefficient = 0.2, radius = "0.3 mm" }
+[[constraint.point-to-point]]
+name = "hook"
+a = { node = "Plate", at = "Hook" }
+b = { node = "Boom", at = "Tip" }
+[[collider]]
+node = "Plate"
+shape = { fit = "plate" }
+[collision]
+groups = { still = ["Post"] }
+exclude = [["Plate", "group:still"]]
+[[wind_surface]]
+node = "Plate"
+[[sound]]
+name = "ring"
+body = "Plate"
+on = "impact"
+timbre = "plate"
+gain = "-6 dB"
+caption = "rings"
+[[attract.step]]
+at = 1
+show = "invite"
+[[attract.step]]
+at = "1.5 s"
+reset = true
+[label.en]
+title = "A test"
+alt = "A rod and a plate."
+text = { invite = "Blow" }
+caption = { rings = "[rings]" }
+"##;
+
+fn good() -> Exhibit {
+    load(GOOD).unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+#[test]
+fn masses_are_volumes_and_wires_times_densities() {
+    let exhibit = good();
+    let rod = PI * 1e-6 * 1.0 * 7850.0;
+    let weight = 8e-6 * 11300.0;
+    let boom = &exhibit.bodies[0].properties;
+    assert!((boom.mass - rod - weight).abs() < SINGLE * weight, "{}", boom.mass);
+    assert!((boom.center.x + 0.4 * weight / (rod + weight)).abs() < SINGLE);
+    // About the boom's own origin: a slender rod and a cube on its arm.
+    let about = boom.inertia_about(DVec3::ZERO).z_axis.z;
+    let expected = rod / 12.0 + rod * 1e-6 / 4.0 + weight * (0.16 + 2.0 * 0.02 * 0.02 / 12.0);
+    assert!((about - expected).abs() < SINGLE * expected, "{about} {expected}");
+    let plate = &exhibit.bodies[1];
+    assert!((plate.properties.mass - 2e-5 * 2700.0).abs() < SINGLE);
+    assert!((plate.angular_velocity.y - PI / 6.0).abs() < SINGLE);
+}
+
+#[test]
+fn joints_get_anchors_axes_and_limits_in_body_frames() {
+    let exhibit = good();
+    let by_name = |name: &str| exhibit.constraints.iter().find(|c| c.name == name).expect("a constraint");
+    let ConstraintKind::PointToPoint { a, b } = &by_name("hook").kind else { panic!("not a point") };
+    assert_eq!((a.body, b.body), (Some(1), Some(0)));
+    assert!(
+        a.point.distance(DVec3::new(0.0, 0.1, 0.0)) < SINGLE && b.point.distance(DVec3::new(0.5, 0.0, 0.0)) < SINGLE
+    );
+    let limit = by_name("pivot").tilt_limit.expect("a limit");
+    assert_eq!((limit.a.body, limit.b.body), (Some(0), None));
+    assert!((limit.angle - PI / 15.0).abs() < SINGLE && limit.b.direction.distance(DVec3::Y) < SINGLE);
+    assert_eq!(exhibit.excluded_pairs, [(None, Some(0)), (None, Some(1)), (Some(0), Some(1))]);
+}
+
+#[test]
+fn a_plate_collides_as_its_outline_and_feels_the_wind_on_one_face_for_both() {
+    let exhibit = good();
+    let plate = exhibit.colliders.iter().find(|c| c.node == "Plate").expect("a collider");
+    assert_eq!(plate.core.len(), 4);
+    assert!((plate.radius - 5e-4).abs() < SINGLE && plate.core.iter().all(|p| p.z.abs() < SINGLE));
+    // A straight wire is one capsule, whatever the number of its points.
+    assert_eq!(exhibit.colliders.iter().filter(|c| c.node == "rod").count(), 1);
+    let SurfaceShape::Mesh { mesh, sheet, .. } = &exhibit.wind_surfaces[0].shape else { panic!("not a mesh") };
+    assert!(*sheet && (mesh.area() - 0.02).abs() < SINGLE, "{}", mesh.area());
+    assert!(matches!(&exhibit.wind_surfaces[1].shape, SurfaceShape::Wire { points, .. } if points.len() == 3));
+}
+
+#[test]
+fn a_sounding_plate_is_measured() {
+    let exhibit = good();
+    let spec = &exhibit.instruments[0];
+    assert!((spec.body.half_extents[0] - 0.1).abs() < SINGLE && (spec.body.half_extents[1] - 0.05).abs() < SINGLE);
+    assert!((spec.body.thickness - 1e-3).abs() < SINGLE && (spec.body.area - 0.02).abs() < SINGLE);
+    assert!((spec.gain - 0.501_187).abs() < SINGLE, "{}", spec.gain);
+    let (long, wide, center) = exhibit.sounds[0].frame;
+    assert!(long.y.abs() > 1.0 - SINGLE && wide.x.abs() > 1.0 - SINGLE && center.length() < SINGLE);
+}
+
+#[test]
+fn the_rest_of_the_file_arrives() {
+    let exhibit = good();
+    assert_eq!(exhibit.wires[0].color, [1.0, 0.0, 0.0]);
+    assert_eq!(exhibit.materials.iter().find(|m| m.name == "steel").map(|m| m.loss_factor), Some(1e-3));
+    assert!(matches!(exhibit.attract.steps[1].action, AttractAction::Reset) && exhibit.attract.duration == 11.5);
+    assert_eq!(exhibit.labels.get("fr").map(|l| l.title.as_str()), Some("A test"));
+    // The model has two nodes of one name, and nothing else is odd.
+    let codes: Vec<&str> = exhibit.warnings.iter().map(|w| w.code).collect();
+    assert_eq!(codes, [codes::DUPLICATE_NODE.name]);
+    let mass = exhibit.origins.iter().find(|o| o.of == "body Plate" && o.key == "mass").expect("an origin");
+    assert!(mass.source.starts_with("derived"), "{mass:?}");
+}
+
+#[test]
+fn an_open_sheet_weighs_by_its_thickness() {
+    let text = "[[body]]\nnode = \"Flag\"\nmaterial = \"steel\"\nthickness = \"0.5 mm\"\n";
+    let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let expected = 0.02 * 5e-4 * 7850.0;
+    assert!((exhibit.bodies[0].properties.mass - expected).abs() < SINGLE * expected);
+}
+
+#[test]
+fn bad_sidecars_give_all_their_problems_each_at_its_line() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases/exhibit-bad");
+    let (mut cases, mut wrong) = (0, String::new());
+    for entry in std::fs::read_dir(&folder).expect("the folder of cases").flatten() {
+        let path = entry.path();
+        let text = std::fs::read_to_string(&path).expect("a case");
+        let first = text.lines().next().unwrap_or_default();
+        let mut expected: Vec<&str> = first.trim_start_matches("# expect").split_whitespace().collect();
+        expected.sort_unstable();
+        let case = Folder::exhibit(&model(), "");
+        case.write("exhibit.toml", text.as_bytes());
+        let report = exhibit::load(case.path()).expect_err(&format!("{} is bad", path.display()));
+        let problems = report.diagnostics.iter().filter(|d| d.is_error());
+        let mut found: Vec<String> =
+            problems.map(|d| format!("{}:{}", d.code, d.location.as_ref().map_or(0, |l| l.line))).collect();
+        found.sort_unstable();
+        if found != expected {
+            wrong += &format!("{}: {found:?}, expected {expected:?}\n{}", path.display(), report.render(false));
+        }
+        cases += 1;
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    assert!(cases >= 10, "{cases} cases");
+}
+
+#[test]
+fn a_report_shows_the_line_and_near_names_and_speaks_json() {
+    let report = load("[[body]]\nnode = \"Boon\"\nmaterial = \"stel\"\nmass = 1\n").expect_err("two misspelt names");
+    let shown = report.render(false);
+    for part in ["E0207", "\"Boon\"", "node = \"Boon\"", "\"Boom\"", "exhibit.toml:4:8"] {
+        assert!(shown.contains(part), "{part} is missing in\n{shown}");
+    }
+    let json = report.to_json();
+    let json = json.as_array().and_then(|all| all.iter().find(|d| d["severity"] == "error")).expect("an error");
+    assert_eq!(json["code"], "E0207");
+    assert_eq!((json["line"].as_u64(), json["column"].as_u64()), (Some(4), Some(8)));
+}
