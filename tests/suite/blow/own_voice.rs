@@ -46,17 +46,17 @@ impl WindSound {
         Self { random: Random::new(seed), level: 0.0, low: [0.0; 2], high: 0.0 }
     }
 
-    /// `speed` 17 m/s is about −10 dB of full scale.
+    /// As loud at the microphone as the breath itself: √(mean square) ≈ 0.65 at 17 m/s, with the square of the speed.
     fn next(&mut self, speed: f64) -> f32 {
         let pole = |corner: f64| 1.0 - (-2.0 * std::f64::consts::PI * corner / f64::from(RATE)).exp();
-        self.level += pole(3.0) * (speed / 17.0 - self.level);
+        self.level += pole(3.0) * (speed * speed / 289.0 - self.level);
         let mut x = self.random.signed();
         for low in &mut self.low {
             *low += pole(120.0) * (x - *low);
             x -= *low;
         }
         self.high += pole(2000.0) * (x - self.high);
-        (2.2 * self.level * self.high) as f32
+        (3.1 * self.level * self.high) as f32
     }
 }
 
