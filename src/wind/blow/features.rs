@@ -16,7 +16,7 @@ pub const COUNT: usize = 14;
 /// Names of the features, in order.
 pub const NAMES: [&str; COUNT] = [
     "rise of the low band over the room, 10 dB",
-    "the same over the room's unrest",
+    "the same less twice the room's unrest, 10 dB",
     "share of the low band in the excess, 10 dB",
     "31–94 Hz over 94–203 Hz, 10 dB",
     "203–406 Hz over the low band, 10 dB",
@@ -59,8 +59,10 @@ const MEMORY: usize = 24;
 const CLIMB: usize = 6;
 /// A room is never taken to be quieter than this, power (−75 dBFS): below it lies a converter's own noise.
 const QUIETEST: f64 = 3.2e-8;
-/// A rise of six times the room's unrest is enough, tenths.
-const PROMINENT: f64 = 60.0;
+/// Below the room by more than this, it is the room that has become quieter, dB.
+const SUNK_DB: f64 = -6.0;
+/// Unrest of a steady noise, dB: what its frames scatter by.
+const CALM_DB: f64 = 2.0;
 /// Part of the predicted own sound that may remain after it is taken away.
 const RESIDUE: f64 = 0.03;
 /// Keeps logarithms finite; far below [`QUIETEST`].
@@ -100,7 +102,7 @@ impl Listener {
         Self {
             smooth: [0.0; BINS],
             room: [0.0; BINS],
-            unrest_db: 1.0,
+            unrest_db: CALM_DB,
             frames: 0,
             learnt: 0,
             levels: [-100.0; MEMORY],
@@ -134,8 +136,9 @@ impl Listener {
         }
         let (features, levels) = self.measure(own);
         if !frozen {
-            // A room that becomes quiet is not restless.
-            self.unrest_db += blend(2.0) * ((levels.rise_db.max(0.0) - self.unrest_db).min(6.0));
+            // A room that has become quieter is another room: its old unrest is forgotten.
+            let unrest = if levels.rise_db > SUNK_DB { levels.rise_db.abs() } else { CALM_DB };
+            self.unrest_db += blend(2.0) * (unrest - self.unrest_db).min(6.0);
         }
         (features, levels)
     }
@@ -185,7 +188,7 @@ impl Listener {
         let rise_middle = decibels(cleaned(MIDDLE.0, MIDDLE.1) / explained(MIDDLE.0, MIDDLE.1));
         let features = [
             rise.clamp(-5.0, 60.0),
-            (10.0 * rise / (1.0 + 2.0 * self.unrest_db)).clamp(-20.0, PROMINENT),
+            (rise - 2.0 * self.unrest_db).clamp(-15.0, 60.0),
             ratio(low, band(e, ALL.0, ALL.1)).clamp(-30.0, 0.0),
             ratio(band(e, 2, 6), band(e, 6, 13)).clamp(-20.0, 20.0),
             ratio(band(e, 13, 26), low).clamp(-30.0, 20.0),
