@@ -70,7 +70,7 @@ const NOTHING: f64 = 1e-14;
 
 /// The room and the last fifth of a second.
 #[derive(Clone, Debug)]
-pub struct Listener {
+pub(super) struct Listener {
     smooth: Power,
     room: Power,
     unrest_db: f64,
@@ -87,7 +87,7 @@ pub struct Listener {
 
 /// Levels that the decision needs beside the features.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Levels {
+pub(super) struct Levels {
     /// Rise of the low band over the room, dB.
     pub rise_db: f64,
     /// Excess of the low band, dB of full scale.

@@ -1,8 +1,8 @@
 //! The blow detector: from microphone samples to the speed of the air at the lips.
 //!
 //! ```text
-//! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (take away the kiosk's own sound)
-//!         → features (rise over the room, shape, pitch, fall) → model (log-odds) → decision (70 ms … 6 s) → speed
+//! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
+//!         → features (rise over the room, shape, pitch, fall) → model (log-odds) → decision (64 ms … 6 s) → speed
 //! ```
 //!
 //! A breath that strikes a capsule is turbulence, not sound: noise below 200 Hz that towers over the room. Level alone

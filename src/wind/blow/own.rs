@@ -119,9 +119,9 @@ impl OwnVoice {
 
     fn learn(&mut self, heard: &[f64; BANDS]) {
         let blend = FRAME_S / MEMORY_S;
-        for b in 0..BANDS {
-            self.heard[b] += blend * (heard[b] - self.heard[b]);
-            self.heard_square[b] += blend * (heard[b] * heard[b] - self.heard_square[b]);
+        for ((mean, square), y) in self.heard.iter_mut().zip(&mut self.heard_square).zip(heard) {
+            *mean += blend * (y - *mean);
+            *square += blend * (y * y - *square);
         }
         let (mut best, mut best_correlation) = (0, 0.0);
         for lag in 0..LAGS {

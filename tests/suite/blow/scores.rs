@@ -1,7 +1,8 @@
 //! The trained detector against the labelled recordings, where they are present, with the bars it must keep.
 //!
-//! The bars guard what is reached on this set, which the model was trained on; figures on unseen recordings are printed
-//! by `train.rs`, which leaves groups out.
+//! The bars guard what is reached on this set, which the model was trained on. On groups of recordings that training
+//! left out (`train.rs` prints them): isolated blows 53/53, in noise of 5 dB and more 12/12, of 0 dB 3/4, 98 false an hour
+//! (thunder, an explosion, rain, a propeller and a metal stair), none on impulses, latency 145/210 ms.
 
 use soffio::wind::blow::model::TRAINED;
 
@@ -61,7 +62,7 @@ fn labelled_recordings_are_told_apart() {
     assert!(scores.noisy_5.0 as f64 >= DETECTION_5_DB * scores.noisy_5.1 as f64, "{scores}");
     assert!(scores.noisy_0.0 as f64 >= DETECTION_0_DB * scores.noisy_0.1 as f64, "{scores}");
     assert!(scores.false_per_hour() <= FALSE_PER_HOUR, "{scores}");
-    assert!(scores.false_impulse <= FALSE_ON_IMPULSES, "{scores}");
+    assert_eq!(scores.false_impulse, FALSE_ON_IMPULSES, "{scores}");
     let latency = (Scores::quantile(&scores.latency, 0.5), Scores::quantile(&scores.latency, 0.9));
     assert!(latency.0 <= LATENCY_S.0 && latency.1 <= LATENCY_S.1, "{scores}");
     assert!(Scores::quantile(&scores.release, 1.0) <= RELEASE_S, "{scores}");
