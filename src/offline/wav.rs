@@ -122,7 +122,11 @@ pub fn write_float(path: impl AsRef<Path>, channels: u16, sample_rate: u32, samp
     let fail = |reason: String| WavError::Write { path: path.into(), reason };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let spec = hound::WavSpec { channels, sample_rate, bits_per_sample: 32, sample_format: hound::SampleFormat::Float };
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|error| fail(error.to_string()))?;
+    let mut builder = tempfile::Builder::new();
+    // Temporary files are private; a recording is an ordinary file, readable as the user's umask allows.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder).map_err(|error| fail(error.to_string()))?;
     let mut write = || -> hound::Result<()> {
         let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.as_file_mut()), spec)?;
         samples.iter().try_for_each(|&sample| writer.write_sample(sample))?;

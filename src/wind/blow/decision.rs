@@ -7,7 +7,7 @@
 //! c ← clamp(c + ℓ Δt, 0, C_FULL),   breath begins at c ≥ C_ON, ends at c = 0
 //! ```
 //!
-//! ℓ is believed up to +4 only, so that even the surest breath needs C_ON / 4 to begin (a pop or a clap does not last
+//! ℓ is believed up to +2.5 only, so that even the surest breath needs C_ON / 2.5 to begin (a pop or a clap does not last
 //! that long), and a doubtful one needs longer. No one blows for longer than six seconds: then the sound is latched as
 //! a machine's until c is 0 again. Order of phases: quiet → waiting → blow → (latched →) quiet.
 
@@ -18,11 +18,11 @@ use crate::math::exp;
 /// The low band must rise by this much over the room, dB.
 pub const LEAST_RISE_DB: f64 = 6.0;
 /// Log-odds are believed down and up to here, nats.
-const BELIEVED: (f64, f64) = (-5.0, 4.0);
+const BELIEVED: (f64, f64) = (-5.0, 2.5);
 /// A breath begins at this sum, nat·s.
-const C_ON: f64 = 0.24;
+const C_ON: f64 = 0.16;
 /// The sum never exceeds this, so that a breath ends in time, nat·s.
-const C_FULL: f64 = 0.34;
+const C_FULL: f64 = 0.25;
 /// Longest breath, s.
 const LONGEST_S: f64 = 6.0;
 

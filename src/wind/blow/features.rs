@@ -4,7 +4,7 @@
 //! above it (the *excess*, power subtraction after Boll 1979) is judged by shape: breath at a capsule is noise below
 //! 200 Hz that falls by 12 dB an octave, has no pitch, and neither jumps nor dies like a knock.
 //!
-//! Symbols: S_k smoothed power of bin k, F_k room, E_k = max(S_k − 1.5 F_k, 0) excess, B_i sums of E over
+//! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, B_i sums of E over
 //! 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz.
 
 use super::spectrum::{BINS, FRAME_S, Power, TRANSFORM, band};
@@ -26,7 +26,7 @@ pub const NAMES: [&str; COUNT] = [
     "flatness of the low band, 10 dB",
     "flatness of 406–1625 Hz, 10 dB",
     "fall from the peak of the last 0.2 s, 10 dB",
-    "roughness of the low band's level (second difference), 10 dB",
+    "climb of the low band in the last 48 ms, 10 dB",
     "rise of 406–1625 Hz over the room, 10 dB",
     "flatness of the low band over 80 ms, 10 dB",
 ];
@@ -42,7 +42,7 @@ pub const MIDDLE_SHARE: usize = 5;
 pub const FALL: usize = 10;
 
 /// Bins of the low band, 31–203 Hz.
-const LOW: (usize, usize) = (2, 13);
+pub const LOW: (usize, usize) = (2, 13);
 /// Bins of the middle, 406–1625 Hz.
 const MIDDLE: (usize, usize) = (26, 104);
 /// Bins of everything that is looked at.
@@ -55,22 +55,28 @@ const PITCH_LAGS: (usize, usize) = (20, 100);
 const SMOOTHING_S: f64 = 0.012;
 /// Frames that are remembered, 0.2 s.
 const MEMORY: usize = 24;
-/// Frames over which roughness is taken, 64 ms.
-const ROUGH_FRAMES: usize = 8;
-/// A bend of the level counts up to this, dB.
-const BEND_DB: f64 = 2.0;
+/// Frames over which a climb is taken, 48 ms: by then a bang falls and a breath still rises.
+const CLIMB: usize = 6;
 /// A room is never taken to be quieter than this, power (−75 dBFS): below it lies a converter's own noise.
 const QUIETEST: f64 = 3.2e-8;
+/// Below the room by more than this, it is the room that has become quieter, dB.
+const SUNK_DB: f64 = -6.0;
+/// Unrest of a steady noise, dB: what its frames scatter by.
+const CALM_DB: f64 = 2.0;
+/// Part of the predicted own sound that may remain after it is taken away.
+const RESIDUE: f64 = 0.03;
 /// Keeps logarithms finite; far below [`QUIETEST`].
 const NOTHING: f64 = 1e-14;
 
 /// The room and the last fifth of a second.
 #[derive(Clone, Debug)]
-pub struct Listener {
+pub(super) struct Listener {
     smooth: Power,
     room: Power,
     unrest_db: f64,
     frames: u64,
+    /// Frames from which the room was learnt.
+    learnt: u64,
     /// Low-band levels of the last frames, dB, a ring.
     levels: [f64; MEMORY],
     excess: Power,
@@ -81,7 +87,7 @@ pub struct Listener {
 
 /// Levels that the decision needs beside the features.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Levels {
+pub(super) struct Levels {
     /// Rise of the low band over the room, dB.
     pub rise_db: f64,
     /// Excess of the low band, dB of full scale.
@@ -96,8 +102,9 @@ impl Listener {
         Self {
             smooth: [0.0; BINS],
             room: [0.0; BINS],
-            unrest_db: 2.0,
+            unrest_db: CALM_DB,
             frames: 0,
+            learnt: 0,
             levels: [-100.0; MEMORY],
             excess: [0.0; BINS],
             slow_low: [0.0; LOW.1 - LOW.0],
@@ -110,37 +117,46 @@ impl Listener {
         self.frames as f64 * FRAME_S
     }
 
-    /// Hears one frame; the room stands still where `frozen`.
-    pub fn push(&mut self, power: &Power, frozen: bool) -> (Features, Levels) {
+    /// Hears one frame, of which `own` is explained by the kiosk itself; the room stands still where `frozen`.
+    pub fn push(&mut self, power: &Power, own: &Power, frozen: bool) -> (Features, Levels) {
         self.frames += 1;
         let quick = if self.frames == 1 { 1.0 } else { blend(SMOOTHING_S) };
         for (s, p) in self.smooth.iter_mut().zip(power) {
             *s += quick * (p - *s);
         }
-        if !frozen {
+        // Of a room that is not known yet, whatever it sounds like is learnt.
+        if !frozen || self.is_new() {
             self.learn_room();
         }
-        for ((e, s), f) in self.excess.iter_mut().zip(&self.smooth).zip(&self.room) {
-            *e = (s - 1.5 * f).max(0.0);
+        for (((e, s), f), own) in self.excess.iter_mut().zip(&self.smooth).zip(&self.room).zip(own) {
+            *e = (s - 1.5 * f - own).max(0.0);
         }
         for (slow, e) in self.slow_low.iter_mut().zip(&self.excess[LOW.0..LOW.1]) {
             *slow += blend(0.08) * (e - *slow);
         }
-        let (features, levels) = self.measure();
+        let (features, levels) = self.measure(own);
         if !frozen {
-            self.unrest_db += blend(2.0) * ((levels.rise_db.abs() - self.unrest_db).min(6.0));
+            // A room that has become quieter is another room: its old unrest is forgotten.
+            let unrest = if levels.rise_db > SUNK_DB { levels.rise_db.abs() } else { CALM_DB };
+            self.unrest_db += blend(2.0) * (unrest - self.unrest_db).min(6.0);
         }
         (features, levels)
+    }
+
+    /// Has it heard the room for less than a third of a second?
+    fn is_new(&self) -> bool {
+        self.learnt as f64 * FRAME_S < 0.3
     }
 
     fn learn_room(&mut self) {
         // The first third of a second counts in full; then down within 0.4 s, up at no more than 9 dB a second,
         // whatever the bang: one frame weighs at most four times the room.
-        let early = 1.0 / self.frames as f64;
+        self.learnt += 1;
+        let early = 1.0 / self.learnt as f64;
         let (down, up) = (blend(0.4).max(early), blend(1.5));
-        let young = self.age() < 0.3;
+        let new = self.is_new();
         for (f, s) in self.room.iter_mut().zip(&self.smooth) {
-            *f = if young {
+            *f = if new {
                 *f + early * (s - *f)
             } else if s < f {
                 *f + down * (s - *f)
@@ -150,26 +166,29 @@ impl Listener {
         }
     }
 
-    fn measure(&mut self) -> (Features, Levels) {
+    fn measure(&mut self, own: &Power) -> (Features, Levels) {
         let (e, quiet) = (&self.excess, QUIETEST);
         let at = (self.frames % MEMORY as u64) as usize;
         let ago = |frames: usize| (at + MEMORY - frames) % MEMORY;
         let floor = band(&self.room, LOW.0, LOW.1) + quiet;
         let level = decibels(band(&self.smooth, LOW.0, LOW.1) + quiet);
-        let rise = level - decibels(floor);
+        // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
+        let explained = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + quiet;
+        let cleaned = |from, to| {
+            let bins = self.smooth[from..to].iter().zip(&own[from..to]);
+            bins.map(|(s, own)| (s - own).max(0.0)).sum::<f64>() + quiet
+        };
+        let rise = decibels(cleaned(LOW.0, LOW.1) / explained(LOW.0, LOW.1));
         self.levels[at] = level;
 
         let low = band(e, LOW.0, LOW.1);
         let middle = band(e, MIDDLE.0, MIDDLE.1);
         let peak = self.levels.iter().fold(f64::NEG_INFINITY, |m: f64, l| m.max(*l));
-        let bend = |i: usize| self.levels[ago(i)] - 2.0 * self.levels[ago(i + 1)] + self.levels[ago(i + 2)];
-        // One great bend is an onset, many small ones are a rough sound.
-        let roughness = (0..ROUGH_FRAMES).map(|i| bend(i).abs().min(BEND_DB)).sum::<f64>() / ROUGH_FRAMES as f64;
-        let rise_middle = decibels(band(&self.smooth, MIDDLE.0, MIDDLE.1) + quiet)
-            - decibels(band(&self.room, MIDDLE.0, MIDDLE.1) + quiet);
+        let climb = level - self.levels[ago(CLIMB)];
+        let rise_middle = decibels(cleaned(MIDDLE.0, MIDDLE.1) / explained(MIDDLE.0, MIDDLE.1));
         let features = [
-            rise.clamp(-5.0, 30.0),
-            (rise - 2.0 * self.unrest_db).clamp(-15.0, 25.0),
+            rise.clamp(-5.0, 60.0),
+            (rise - 2.0 * self.unrest_db).clamp(-15.0, 60.0),
             ratio(low, band(e, ALL.0, ALL.1)).clamp(-30.0, 0.0),
             ratio(band(e, 2, 6), band(e, 6, 13)).clamp(-20.0, 20.0),
             ratio(band(e, 13, 26), low).clamp(-30.0, 20.0),
@@ -179,8 +198,8 @@ impl Listener {
             flatness(&e[LOW.0..LOW.1]).clamp(-20.0, 0.0),
             flatness(&e[MIDDLE.0..MIDDLE.1]).clamp(-20.0, 0.0),
             (peak - level).clamp(0.0, 20.0),
-            roughness,
-            rise_middle.clamp(-5.0, 30.0),
+            climb.clamp(-20.0, 20.0),
+            rise_middle.clamp(-5.0, 60.0),
             flatness(&self.slow_low).clamp(-20.0, 0.0),
         ]
         .map(|x| 0.1 * x);

@@ -1,8 +1,8 @@
 //! The blow detector: from microphone samples to the speed of the air at the lips.
 //!
 //! ```text
-//! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (take away the kiosk's own sound)
-//!         → features (rise over the room, shape, pitch, fall) → model (log-odds) → decision (70 ms … 6 s) → speed
+//! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
+//!         → features (rise over the room, shape, pitch, fall) → model (log-odds) → decision (64 ms … 6 s) → speed
 //! ```
 //!
 //! A breath that strikes a capsule is turbulence, not sound: noise below 200 Hz that towers over the room. Level alone
@@ -195,12 +195,8 @@ impl BlowDetector {
         }
         let blowing = self.decision.phase == Phase::Blow;
         self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
-        let mut cleaned = self.framer.microphone;
-        for (p, own) in cleaned.iter_mut().zip(&self.own_voice.predicted) {
-            *p = (*p - own).max(0.0);
-        }
         let frozen = blowing || self.own_voice.masks(&self.framer.microphone);
-        let (features, levels) = self.listener.push(&cleaned, frozen);
+        let (features, levels) = self.listener.push(&self.framer.microphone, &self.own_voice.predicted, frozen);
         self.features = features;
         self.estimate.floor_dbfs = levels.floor_dbfs;
         if input.square == 0.0 {
@@ -226,10 +222,10 @@ impl BlowDetector {
     fn why_not(&self, levels: &Levels) -> Reason {
         let f = &self.features;
         if levels.rise_db < decision::LEAST_RISE_DB {
-            let own = band(&self.own_voice.predicted, 2, 13);
-            let raw = band(&self.framer.microphone, 2, 13);
-            let heard_own = own > 0.5 * raw && decibels(raw) > levels.floor_dbfs + decision::LEAST_RISE_DB;
-            return if heard_own { Reason::OwnVoice } else { Reason::Quiet };
+            // It rises above the room, but not above what the kiosk itself explains.
+            let heard = decibels(band(&self.framer.microphone, features::LOW.0, features::LOW.1));
+            let explained = heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
+            return if explained { Reason::OwnVoice } else { Reason::Quiet };
         }
         let against = [
             (f[features::FALL] * 10.0 / 6.0, Reason::Impulse),

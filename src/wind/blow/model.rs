@@ -54,21 +54,21 @@ const fn line(knees: [f64; 2], slopes: [f64; 3]) -> Line {
 /// The trained model.
 #[rustfmt::skip]
 pub const TRAINED: Model = Model {
-    bias: 4.860,
+    bias: 4.436,
     lines: [
-        line([1.255, 3.000], [-0.503, -4.973, 0.000]), // rise of the low band over the room, 10 dB
-        line([0.491, 2.471], [3.479, 2.034, 0.208]), // the same less twice the room's unrest, 10 dB
-        line([-0.243, -0.081], [0.059, -0.410, -0.596]), // share of the low band in the excess, 10 dB
-        line([-0.636, -0.005], [0.689, -0.973, 0.395]), // 31–94 Hz over 94–203 Hz, 10 dB
-        line([-0.910, -0.389], [1.202, -0.737, -1.206]), // 203–406 Hz over the low band, 10 dB
-        line([-1.375, -0.632], [0.365, -1.506, 0.207]), // 406–1625 Hz over the low band, 10 dB
-        line([-1.176, -0.676], [1.600, 0.169, -2.647]), // 1625–3400 Hz over 406–1625 Hz, 10 dB
-        line([0.167, 0.276], [-0.127, 0.697, 0.445]), // periodicity of the excess, 80–400 Hz
-        line([-0.900, -0.158], [0.274, -0.048, -1.755]), // flatness of the low band, 10 dB
-        line([-2.000, -0.505], [0.191, 0.191, -0.388]), // flatness of 406–1625 Hz, 10 dB
-        line([0.126, 0.589], [1.188, 0.530, -3.996]), // fall from the peak of the last 0.2 s, 10 dB
-        line([0.052, 0.083], [0.485, -0.497, -1.256]), // roughness of the low band's level (second difference), 10 dB
-        line([0.605, 1.874], [0.166, -1.635, 1.205]), // rise of 406–1625 Hz over the room, 10 dB
-        line([-0.290, -0.093], [3.823, 4.047, -1.568]), // flatness of the low band over 80 ms, 10 dB
+        line([1.261, 3.145], [-0.482, -4.471, 1.432]), // rise of the low band over the room, 10 dB
+        line([0.508, 2.492], [3.953, 1.213, -1.275]), // the same less twice the room's unrest, 10 dB
+        line([-0.243, -0.081], [0.558, -0.135, -0.506]), // share of the low band in the excess, 10 dB
+        line([-0.635, -0.005], [0.674, -0.932, 0.310]), // 31–94 Hz over 94–203 Hz, 10 dB
+        line([-0.911, -0.389], [1.156, -0.427, -1.131]), // 203–406 Hz over the low band, 10 dB
+        line([-1.374, -0.631], [0.414, -1.094, 0.106]), // 406–1625 Hz over the low band, 10 dB
+        line([-1.171, -0.674], [1.583, 0.212, -2.566]), // 1625–3400 Hz over 406–1625 Hz, 10 dB
+        line([0.166, 0.276], [-0.120, 0.758, 0.510]), // periodicity of the excess, 80–400 Hz
+        line([-0.891, -0.158], [0.255, 0.008, -1.548]), // flatness of the low band, 10 dB
+        line([-2.000, -0.500], [0.203, 0.203, -0.715]), // flatness of 406–1625 Hz, 10 dB
+        line([0.127, 0.590], [1.043, 0.954, -4.271]), // fall from the peak of the last 0.2 s, 10 dB
+        line([-0.197, 0.219], [0.293, 0.261, -0.837]), // climb of the low band in the last 48 ms, 10 dB
+        line([0.606, 1.902], [-0.060, -1.561, 1.227]), // rise of 406–1625 Hz over the room, 10 dB
+        line([-0.289, -0.093], [3.806, 3.885, -1.689]), // flatness of the low band over 80 ms, 10 dB
     ],
 };

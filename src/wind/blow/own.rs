@@ -7,13 +7,14 @@
 //! ```text
 //! c(b, d) = cov(x_d, y) / var(x_d)       regression: noise that is independent of x does not bias it
 //! ρ(d)    = Σ_b cov(x_d, y) / √(Σ_b var x_d · var y), bands scaled alike     the lag is where ρ is greatest
-//! ŷ_k(t)  = margin · c(b) · max_{|δ| ≤ 24 ms} x_k(t − d − δ), falling no faster than the room rings
+//! ŷ_k(t)  = margin · c(b) · max_{|δ| ≤ 32 ms} x_k(t − d − δ), falling no faster than the room rings
 //! ```
 //!
 //! Three rules keep a breath from being mistaken for the kiosk's answer to it, which follows it and looks like it:
 //! nothing is learnt while somebody blows; a loudspeaker is never credited with coupling better below 200 Hz than
 //! above; and sustained output that is *not* heard lowers the gain (c ≤ heard / least played over all lags).
 
+use super::features::blend;
 use super::spectrum::{BINS, FRAME_S, Power, band};
 
 /// Longest lag, frames (0.6 s).
@@ -22,9 +23,11 @@ const LAGS: usize = 75;
 const EDGES: [usize; BANDS + 1] = [2, 13, 26, 52, 104, 218];
 const BANDS: usize = 5;
 /// Half width of the window about the lag, frames.
-const SLACK: usize = 3;
-/// Power above the prediction that still counts as own: frames of noise scatter by this much (6 dB).
-const MARGIN: f64 = 4.0;
+const SLACK: usize = 4;
+/// Power above the prediction that still counts as own: smoothed noise scatters by this much (5 dB).
+const MARGIN: f64 = 3.0;
+/// Smoothing of the played spectra, s.
+const SMOOTHING_S: f64 = 0.02;
 /// The room keeps at least this part of the power from frame to frame (reverberation time 0.6 s).
 const RING: f64 = 0.83;
 /// Memory of the regression, s.
@@ -47,7 +50,9 @@ struct Moments {
 /// Learns the path from loudspeaker to microphone and predicts what comes back.
 #[derive(Clone, Debug)]
 pub struct OwnVoice {
-    /// Spectra that were played, a ring over the last `LAGS` frames.
+    /// Spectrum that is being played, smoothed: single frames of noise scatter by 5 dB and more.
+    smooth: Power,
+    /// Smoothed spectra that were played, a ring over the last `LAGS` frames.
     played: Vec<[f32; BINS]>,
     /// Their band powers.
     played_bands: [[f64; BANDS]; LAGS],
@@ -68,6 +73,7 @@ impl OwnVoice {
     /// Nothing learnt.
     pub fn new() -> Self {
         Self {
+            smooth: [0.0; BINS],
             played: vec![[0.0; BINS]; LAGS],
             played_bands: [[0.0; BANDS]; LAGS],
             next: 0,
@@ -90,7 +96,10 @@ impl OwnVoice {
             return;
         }
         self.next = (self.next + 1) % LAGS;
-        self.played[self.next] = std::array::from_fn(|k| own[k] as f32);
+        for (s, x) in self.smooth.iter_mut().zip(own) {
+            *s += blend(SMOOTHING_S) * (x - *s);
+        }
+        self.played[self.next] = std::array::from_fn(|k| self.smooth[k] as f32);
         self.played_bands[self.next] = bands(own);
         if learn {
             self.learn(&bands(microphone));
@@ -110,9 +119,9 @@ impl OwnVoice {
 
     fn learn(&mut self, heard: &[f64; BANDS]) {
         let blend = FRAME_S / MEMORY_S;
-        for b in 0..BANDS {
-            self.heard[b] += blend * (heard[b] - self.heard[b]);
-            self.heard_square[b] += blend * (heard[b] * heard[b] - self.heard_square[b]);
+        for ((mean, square), y) in self.heard.iter_mut().zip(&mut self.heard_square).zip(heard) {
+            *mean += blend * (y - *mean);
+            *square += blend * (y * y - *square);
         }
         let (mut best, mut best_correlation) = (0, 0.0);
         for lag in 0..LAGS {

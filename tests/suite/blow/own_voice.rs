@@ -46,17 +46,17 @@ impl WindSound {
         Self { random: Random::new(seed), level: 0.0, low: [0.0; 2], high: 0.0 }
     }
 
-    /// `speed` 17 m/s is about −10 dB of full scale.
+    /// As loud at the microphone as the breath itself: √(mean square) ≈ 0.65 at 17 m/s, with the square of the speed.
     fn next(&mut self, speed: f64) -> f32 {
         let pole = |corner: f64| 1.0 - (-2.0 * std::f64::consts::PI * corner / f64::from(RATE)).exp();
-        self.level += pole(3.0) * (speed / 17.0 - self.level);
+        self.level += pole(3.0) * (speed * speed / 289.0 - self.level);
         let mut x = self.random.signed();
         for low in &mut self.low {
             *low += pole(120.0) * (x - *low);
             x -= *low;
         }
         self.high += pole(2000.0) * (x - self.high);
-        (2.2 * self.level * self.high) as f32
+        (3.1 * self.level * self.high) as f32
     }
 }
 
@@ -79,6 +79,10 @@ fn quiet_room(seconds: f64) -> Vec<f32> {
     generate::pink_noise(RATE, 90, seconds, -60.0)
 }
 
+/// Part of a breath, its ends left out, for which the wind must hold while the kiosk answers as loudly as the breath:
+/// in the lulls between gusts its own sound covers a soft breath for moments.
+const HELD: f64 = 0.8;
+
 #[test]
 fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
     for (seed, strength) in [(1, 6.0), (2, 8.9), (3, 13.3)] {
@@ -93,7 +97,7 @@ fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
             let inside = |t: f64| t > start + onset + 0.3 && t < start + end - 0.3;
             let during: Vec<_> = wind.iter().filter(|(t, _)| inside(*t)).collect();
             let held = during.iter().filter(|(_, e)| e.speed > 0.0).count() as f64 / during.len() as f64;
-            assert!(held > 0.9, "{strength} m/s from {start} s: wind for {:.0} % of the breath", 100.0 * held);
+            assert!(held > HELD, "{strength} m/s from {start} s: wind for {:.0} % of the breath", 100.0 * held);
             let late = |t: f64| t > start + end + 0.4 && t < start + shape.duration();
             let ghost = wind.iter().find(|(t, e)| late(*t) && e.speed > 0.0);
             assert!(ghost.is_none(), "{strength} m/s from {start} s: wind after the breath: {ghost:?}");

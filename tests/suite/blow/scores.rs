@@ -1,7 +1,8 @@
 //! The trained detector against the labelled recordings, where they are present, with the bars it must keep.
 //!
-//! The bars guard what is reached on this set, which the model was trained on; figures on unseen recordings are printed
-//! by `train.rs`, which leaves groups out.
+//! The bars guard what is reached on this set, which the model was trained on. On groups of recordings that training
+//! left out (`train.rs` prints them): isolated blows 53/53, in noise of 5 dB and more 12/12, of 0 dB 3/4, 98 false an hour
+//! (thunder, an explosion, rain, a propeller and a metal stair), none on impulses, latency 145/210 ms.
 
 use soffio::wind::blow::model::TRAINED;
 
@@ -9,13 +10,17 @@ use super::dataset::{self, Clip, Scores};
 
 /// Part of the isolated blows that must be heard: the goal.
 const DETECTION: f64 = 0.95;
-/// Of the blows in noise of 5 dB and more.
-const DETECTION_5_DB: f64 = 0.75;
-/// Wind without breath, per hour of speech, crowd, steps, music, rain and machines (some 5 minutes of it).
-const FALSE_PER_HOUR: f64 = 40.0;
+/// Of the blows 5 dB and more above a noise: the goal.
+const DETECTION_5_DB: f64 = 0.92;
+/// Of the blows in noise as strong as they are: the goal.
+const DETECTION_0_DB: f64 = 0.75;
+/// Wind without breath, per hour of speech, crowd, steps, music, rain, thunder and machines. The set holds some five
+/// minutes of it, so that one trigger is 11 an hour; the goal of 12 is not reached (thunder, an explosion and a metal
+/// stair remain).
+const FALSE_PER_HOUR: f64 = 80.0;
 /// On knocks, claps, pops and thumps: the goal.
 const FALSE_ON_IMPULSES: usize = 0;
-/// Median and ninth decile from onset to wind, s.
+/// Median and ninth decile from onset to wind, s; the goals are 0.12 and 0.25.
 const LATENCY_S: (f64, f64) = (0.16, 0.25);
 /// Longest wind after the end, s: the goal.
 const RELEASE_S: f64 = 0.3;
@@ -55,8 +60,9 @@ fn labelled_recordings_are_told_apart() {
     println!("{scores}");
     assert!(scores.detection() >= DETECTION, "{scores}");
     assert!(scores.noisy_5.0 as f64 >= DETECTION_5_DB * scores.noisy_5.1 as f64, "{scores}");
+    assert!(scores.noisy_0.0 as f64 >= DETECTION_0_DB * scores.noisy_0.1 as f64, "{scores}");
     assert!(scores.false_per_hour() <= FALSE_PER_HOUR, "{scores}");
-    assert!(scores.false_impulse <= FALSE_ON_IMPULSES, "{scores}");
+    assert_eq!(scores.false_impulse, FALSE_ON_IMPULSES, "{scores}");
     let latency = (Scores::quantile(&scores.latency, 0.5), Scores::quantile(&scores.latency, 0.9));
     assert!(latency.0 <= LATENCY_S.0 && latency.1 <= LATENCY_S.1, "{scores}");
     assert!(Scores::quantile(&scores.release, 1.0) <= RELEASE_S, "{scores}");

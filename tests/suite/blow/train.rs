@@ -247,27 +247,31 @@ fn train_blow() {
         panic!("needs ../shared/breath/labels.csv beside the repository, or SOFFIO_BREATH_DATA");
     };
     let extra = generated();
-    let mut unseen = Scores::default();
     let (set, extra) = (&set, &extra);
     let held_out = |k: u64| {
         let (held, mut known): (Vec<Clip>, Vec<Clip>) = set.iter().cloned().partition(|c| fold(&c.group) == k);
         known.extend(extra.iter().cloned());
         let model = train(&known);
-        held.into_iter().map(|clip| (dataset::judge(&model, &clip), clip)).collect::<Vec<_>>()
+        held.into_iter().map(|clip| (model.clone(), clip)).collect::<Vec<_>>()
     };
-    let verdicts: Vec<_> = std::thread::scope(|scope| {
+    let unseen: Vec<_> = std::thread::scope(|scope| {
         let folds: Vec<_> = (0..FOLDS).map(|k| scope.spawn(move || held_out(k))).collect();
         folds.into_iter().flat_map(|fold| fold.join().unwrap()).collect()
     });
-    for (verdict, clip) in &verdicts {
-        unseen.add(clip, verdict);
-        let wrong = verdict.false_triggers > 0 || clip.is_blow() && !verdict.detected;
-        let slow = verdict.latency.is_some_and(|l| l > 0.25) || verdict.release.is_some_and(|r| r > 0.3);
-        if clip.expected != "ambiguous" && (wrong || slow) {
-            println!("  {} {:?}: {verdict:?}", clip.file, clip.snr_db);
+    // The operating curve: log-odds are shifted before the verdict.
+    for shift in [-0.5, 0.0, 0.5] {
+        let mut scores = Scores::default();
+        for (model, clip) in &unseen {
+            let verdict = dataset::judge(&Model { bias: model.bias + shift, ..model.clone() }, clip);
+            scores.add(clip, &verdict);
+            let wrong = verdict.false_triggers > 0 || clip.is_blow() && !verdict.detected;
+            let slow = verdict.latency.is_some_and(|l| l > 0.25);
+            if shift == 0.0 && clip.expected != "ambiguous" && (wrong || slow) {
+                println!("  {} {:?}: {verdict:?}", clip.file, clip.snr_db);
+            }
         }
+        println!("held out, shifted by {shift:+}: {scores}");
     }
-    println!("held out: {unseen}");
     let known: Vec<Clip> = set.iter().chain(extra).cloned().collect();
     let model = train(&known);
     println!("trained on all: {}", dataset::score(&model, set));
