@@ -122,7 +122,11 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
             default_device(&host, direction)
         } else {
             let devices = all_devices(&host, direction).unwrap_or_default();
-            let exact = devices.iter().position(|d| id(d) == wanted);
+            // `host:id`, the id alone, or the whole name, before any part of either.
+            let exact = devices.iter().position(|d| {
+                let id = id(d);
+                id == wanted || id.split_once(':').is_some_and(|(_, own)| own == wanted) || name(d) == wanted
+            });
             let part = |d: &Device| {
                 let hay = format!("{} {}", name(d), id(d)).to_lowercase();
                 hay.contains(&wanted.to_lowercase())

@@ -133,7 +133,7 @@ pub fn run(args: Args) -> Outcome {
     synth.render(&mut stereo);
     if synth.faults() > 0 {
         return Err(Failure::input(
-            "the numbers given lead nowhere: --impulse, --speed, --at and masses must be finite",
+            "a number given cannot be played: --impulse, --force, --speed, --at and masses must be finite, an impulse at least 0",
         ));
     }
     // A centred sound is 1/√2 on either side: their sum over √2 is the sound itself.

@@ -13,6 +13,8 @@ use crate::noise::{Random, hash_words};
 
 /// Samples between two readings of bound numbers.
 pub(super) const CONTROL: usize = 64;
+/// An envelope below this is over: −120 dB.
+const OVER: f64 = 1e-6;
 /// One operator's block.
 pub(super) type Block = [f32; CONTROL];
 
@@ -52,6 +54,9 @@ pub(super) struct State {
     integrators: [f64; 2],
     g: f64,
     damping: f64,
+    shrink: f64,
+    /// Whether anything that is heard takes this operator.
+    needed: bool,
 }
 
 impl Graph {
@@ -82,7 +87,7 @@ impl Graph {
 
     /// States of a voice that begins with these inputs.
     pub fn begin(&self, states: &mut [State; MAX_NODES], inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
-        for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
+        for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
             *state = State::new(hash_words(&[seed, i as u64]));
             state.gain = operator.gain.at(inputs);
             match &operator.kind {
@@ -97,17 +102,31 @@ impl Graph {
             }
             operator.tune(state, inputs, sample_rate);
         }
+        self.find_needed(states);
     }
 
     /// A grid point: reads bound numbers. `time` is the synth's, s.
     pub fn control(&self, states: &mut [State; MAX_NODES], inputs: &Inputs, time: f64, sample_rate: f64) {
-        for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
+        for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
             state.gain_step = (operator.gain.at(inputs) - state.gain) / CONTROL as f64;
             if let Kind::Multifractal { base, octaves, roughness } = &operator.kind {
                 let next = multifractal((time + CONTROL as f64 / sample_rate) * base, *octaves, *roughness, i as u64);
                 state.change = (next - state.value) / CONTROL as f64;
             }
             operator.tune(state, inputs, sample_rate);
+        }
+        self.find_needed(states);
+    }
+
+    /// What an envelope that is over would shape need not be made: soon after a hit only its partials are left to do.
+    fn find_needed(&self, states: &mut [State; MAX_NODES]) {
+        states.iter_mut().for_each(|state| state.needed = false);
+        for (i, operator) in self.operators.iter().enumerate().rev() {
+            let heard = i + 1 == self.operators.len() || states[i].needed;
+            states[i].needed = heard;
+            if heard && !(matches!(operator.kind, Kind::Env { .. }) && states[i].value == 0.0) {
+                operator.inputs.iter().for_each(|&input| states[input].needed = true);
+            }
         }
     }
 
@@ -120,9 +139,15 @@ impl Graph {
         n: usize,
     ) -> &'a mut [f32] {
         for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
+            if !state.needed {
+                continue;
+            }
             let (before, rest) = blocks.split_at_mut(i);
             let out = &mut rest[0][..n];
             operator.render(state, bank, before, out);
+            if state.gain == 1.0 && state.gain_step == 0.0 {
+                continue;
+            }
             for sample in out {
                 *sample = (f64::from(*sample) * state.gain) as f32;
                 state.gain += state.gain_step;
@@ -140,6 +165,7 @@ impl Operator {
             let hz = cutoff.at(inputs).clamp(5.0, 0.45 * sample_rate);
             state.g = libm::tan(PI * hz / sample_rate);
             state.damping = 1.0 / q.at(inputs).clamp(0.1, 100.0);
+            state.shrink = 1.0 / (1.0 + state.g * (state.damping + state.g));
             // Ringing below −400 dB is not worth the slow arithmetic of denormal numbers.
             for integrator in &mut state.integrators {
                 if integrator.abs() < 1e-20 {
@@ -165,12 +191,12 @@ impl Operator {
                     *y = state.filter(f64::from(*x), *kind) as f32;
                 }
             }
+            (Kind::Env { .. }, Some(_)) if state.value == 0.0 => out.fill(0.0),
             (Kind::Env { .. }, Some(input)) => {
                 for (y, x) in out.iter_mut().zip(input) {
                     *y = (f64::from(*x) * state.value) as f32;
                     state.value *= state.change;
-                    // Denormal numbers are slow, and nobody hears −400 dB.
-                    if state.value < 1e-20 {
+                    if state.value < OVER {
                         state.value = 0.0;
                     }
                 }
@@ -205,15 +231,18 @@ impl State {
             integrators: [0.0; 2],
             g: 0.0,
             damping: 1.0,
+            shrink: 1.0,
+            needed: false,
         }
     }
 
     /// One sample of the state-variable filter by trapezoidal integration (Zavalishin, "The Art of VA Filter Design",
-    /// 2018, 4.1): stable under any change of its coefficients. g = tan(π f/fs), damping = 1/Q.
+    /// 2018, 4.1): stable under any change of its coefficients. g = tan(π f/fs), damping = 1/Q,
+    /// shrink = 1/(1 + g (damping + g)).
     fn filter(&mut self, x: f64, kind: FilterKind) -> f64 {
         let [s1, s2] = self.integrators;
         let (g, damping) = (self.g, self.damping);
-        let high = (x - (damping + g) * s1 - s2) / (1.0 + g * (damping + g));
+        let high = (x - (damping + g) * s1 - s2) * self.shrink;
         let band = g * high + s1;
         let low = g * band + s2;
         self.integrators = [2.0 * band - s1, 2.0 * low - s2];

@@ -10,17 +10,17 @@
 
 use crate::noise::{hash, perlin1};
 
-/// Gradient noise is seldom beyond ±0.7 and never heard as strong gusts; this brings a usual gust to about ±50 %.
-const STRENGTH: f64 = 1.0;
+/// Strongest gust, of the mean: a product has rare peaks far beyond, which would only feed the limiter.
+const STRONGEST: f64 = 3.0;
 
-/// Relative strength of the gust at `t` (in units of the slowest octave), 0 or more, mean about 1.
+/// Relative strength of the gust at `t` (in units of the slowest octave), 0 … 3, mean about 1.
 pub fn multifractal(t: f64, octaves: u32, roughness: f64, seed: u64) -> f64 {
-    let (mut value, mut rate, mut weight) = (1.0, 1.0, STRENGTH);
+    let (mut value, mut rate, mut weight) = (1.0, 1.0, 1.0);
     let falling = libm::exp2(-roughness);
     for octave in 0..octaves {
         value *= 1.0 + weight * perlin1(t * rate, hash(seed ^ u64::from(octave)));
         rate *= 2.0;
         weight *= falling;
     }
-    value.max(0.0)
+    value.clamp(0.0, STRONGEST)
 }

@@ -3,7 +3,7 @@
 use super::bank::Bank;
 use super::excitation::{Contact, Radiator, half_sine_spectrum};
 use super::graph::Graph;
-use super::plate::{PlateMode, free_plate_modes, legendre};
+use super::plate::{PlateMode, free_plate_modes, legendre, onto_plate, outline_exponent};
 use super::timbre::{Inputs, ModalSource, Node, Number, Preset, TimbreError};
 use super::{InstrumentSpec, Strike};
 use crate::math::{PI, exp, ln};
@@ -32,6 +32,8 @@ struct Modal {
     partials: Vec<Partial>,
     /// Shapes of the partials, when the place of the hit is heard; as many as partials.
     shapes: Vec<PlateMode>,
+    /// Exponent of the outline on which the shapes are defined.
+    outline: f64,
 }
 
 struct Partial {
@@ -86,7 +88,7 @@ impl Instrument {
         bank.clear();
         let Some(modal) = &self.modal else { return };
         let mut random = Random::new(seed);
-        let [x, y] = inputs.position.map(legendre);
+        let [x, y] = onto_plate(modal.outline, inputs.position).map(legendre);
         let level = inputs.impulse * modal.gain.at(inputs);
         for (i, partial) in modal.partials.iter().enumerate() {
             let shape = modal.shapes.get(i).map_or(1.0, |mode| mode.shape(&x, &y));
@@ -152,6 +154,7 @@ impl Modal {
             }
         };
         let contact = Contact::new(*contact_radius, *surface_modulus, &spec.material);
-        Some(Ok(Self { contact, detune: *detune, gain: *gain, partials, shapes }))
+        let outline = outline_exponent(&spec.body);
+        Some(Ok(Self { contact, detune: *detune, gain: *gain, partials, shapes, outline }))
     }
 }

@@ -55,11 +55,12 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
     let [a, b] = body.half_extents;
     let (h, nu) = (body.thickness, material.poisson);
     let numbers = [a, b, h, body.area, body.mass, material.youngs_modulus];
-    if !numbers.iter().all(|v| v.is_finite() && *v > 0.0) || !(nu > -1.0 && nu <= 0.5) {
+    let possible = numbers.iter().all(|v| v.is_finite() && *v > 0.0) && nu > -1.0 && nu <= 0.5;
+    if !possible {
         return Vec::new();
     }
     let rigidity = material.youngs_modulus * h * h * h / (12.0 * (1.0 - nu * nu));
-    let quadrature = Quadrature::new(superellipse_exponent(body.area / (4.0 * a * b)));
+    let quadrature = Quadrature::new(outline_exponent(body));
     // The quadrature knows the outline's area only to its own rounding; the mass is the body's.
     let mass_per_weight = body.mass / (4.0 * quadrature.points.iter().map(|p| p.weight).sum::<f64>());
     let stiffness_per_weight = rigidity * a * b;
@@ -105,10 +106,23 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
     modes
 }
 
-/// The exponent p whose superellipse fills `fill` of its bounding rectangle; at least 1 (a rhombus), ∞ from 0.995 up.
+/// A place (−1…1 each) outside of the outline of exponent `p`, pulled straight towards the centre onto the rim: shapes
+/// mean nothing out there, and polynomials grow without bound.
+pub(super) fn onto_plate(p: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    let beyond = if p.is_finite() { pow(x.abs(), p) + pow(y.abs(), p) } else { 0.0 };
+    if beyond <= 1.0 {
+        return [x, y];
+    }
+    let scale = pow(beyond, -1.0 / p);
+    [x * scale, y * scale]
+}
+
+/// The exponent p whose superellipse has the body's area; at least 1 (a rhombus), ∞ where 99.5 % of the bounding
+/// rectangle are filled.
 ///
 /// Area / 4ab = Γ(1 + 1/p)² / Γ(1 + 2/p), increasing in p: bisection in 1/p.
-fn superellipse_exponent(fill: f64) -> f64 {
+pub(super) fn outline_exponent(body: &SoundBody) -> f64 {
+    let fill = body.area / (4.0 * body.half_extents[0] * body.half_extents[1]);
     let fill_of = |inverse: f64| {
         let g = libm::tgamma(1.0 + inverse);
         g * g / libm::tgamma(1.0 + 2.0 * inverse)

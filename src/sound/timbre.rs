@@ -22,7 +22,7 @@ const SHIPPED: [(&str, &str); 3] = [
 const VERSION: u32 = 1;
 /// Most nodes of one timbre.
 pub const MAX_NODES: usize = 12;
-/// Most partials of one timbre; a multiple of the kernel's needs nothing: any number up to this one.
+/// Most partials of one timbre: each voice has room for as many.
 pub const MAX_PARTIALS: usize = 64;
 
 /// What is wrong with a timbre, and where.
@@ -196,7 +196,7 @@ pub enum NoiseKind {
     /// Every sample on its own, uniform in ±1.
     #[default]
     White,
-    /// Gusts: a product of octaves of gradient noise, mean 1 (see `sound::wind`).
+    /// Gusts: a product of octaves of gradient noise, mean 1 ([`multifractal`](crate::sound::multifractal)).
     Multifractal,
 }
 

@@ -99,8 +99,7 @@ impl Voice {
         let out = instrument.graph.render(&mut self.operators, &mut self.bank, blocks, left.len());
         let mut peak = 0.0f32;
         for sample in out.iter() {
-            // A comparison that NaN fails.
-            if !(sample.abs() < BROKEN) {
+            if !sample.is_finite() || sample.abs() > BROKEN {
                 self.state = VoiceState::Free;
                 return false;
             }

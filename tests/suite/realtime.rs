@@ -160,3 +160,95 @@ mod callback {
         assert_eq!(clock.frame(10_000_000), 10_050_680);
     }
 }
+
+/// Against a real sound server. Not part of the usual run: it needs a PulseAudio whose sink `speakers` is looped back as
+/// `speakers.monitor`, and it takes real seconds.
+#[cfg(feature = "kiosk")]
+mod server {
+    use std::time::{Duration, Instant};
+
+    use super::*;
+    use soffio::audio_io::{AudioIo, AudioSettings, DeviceState};
+
+    fn settings() -> AudioSettings {
+        AudioSettings {
+            microphone: "speakers.monitor".into(),
+            loudspeaker: "speakers".into(),
+            volume_db: 0.0,
+            ..AudioSettings::default()
+        }
+    }
+
+    #[test]
+    #[ignore = "needs a PulseAudio with a null sink `speakers`"]
+    fn what_is_sent_is_heard_on_time_and_at_its_level() {
+        // The loop is digital: levels agree to the rounding of f32, distances to the clock map's slow glide.
+        const LEVEL: f32 = 1e-3;
+        const JITTER: u64 = 16;
+        const APART: u64 = 24_000;
+        let mut io = AudioIo::start(&settings(), synth);
+        let (mut heard, mut reference) = (Vec::new(), Vec::new());
+        let began = Instant::now();
+        let mut step = 0u64;
+        while step < 240 * 8 {
+            std::thread::sleep(Duration::from_millis(2));
+            while began.elapsed().as_secs_f64() * 240.0 > step as f64 {
+                let now = step * 200;
+                let due = now.is_multiple_of(APART) && now > APART;
+                io.send(now + 200, &[strike(now + 100, 0)][..usize::from(due)]);
+                step += 1;
+            }
+            if io.read_microphone(&mut heard, &mut reference).is_none() {
+                assert!(began.elapsed() < Duration::from_secs(5), "no microphone: {:?}", io.status());
+            }
+        }
+        let status = io.status();
+        println!("{status:?}, heard {} samples", heard.len());
+        assert!(matches!(status.output, DeviceState::Ok { .. }) && matches!(status.input, DeviceState::Ok { .. }));
+        assert_eq!(heard.len(), reference.len());
+        let onsets = |samples: &[f32]| {
+            let mut found: Vec<u64> = Vec::new();
+            for (i, s) in samples.iter().enumerate() {
+                let loud = s.abs() > 0.08;
+                if loud && found.last().is_none_or(|last| i as u64 > last + APART / 2) {
+                    found.push(i as u64);
+                }
+            }
+            found
+        };
+        let (in_air, sent) = (onsets(&heard), onsets(&reference));
+        println!("onsets {in_air:?}\nplayed {sent:?}");
+        assert!(in_air.len() >= 10);
+        let peak = |samples: &[f32]| samples.iter().fold(0.0f32, |m, s| m.max(s.abs()));
+        println!("peaks: heard {}, played {}", peak(&heard), peak(&reference));
+        assert!((peak(&heard) - peak(&reference)).abs() < LEVEL);
+        for pair in in_air.windows(2) {
+            assert!((pair[1] - pair[0]).abs_diff(APART) <= JITTER, "{in_air:?}");
+        }
+    }
+
+    #[test]
+    #[ignore = "needs a PulseAudio that is ended and started again while it runs"]
+    fn a_lost_server_is_found_again() {
+        let mut io = AudioIo::start(&settings(), synth);
+        let (mut heard, mut reference) = (Vec::new(), Vec::new());
+        let (mut ok, mut lost, mut again) = (false, false, false);
+        let began = Instant::now();
+        while !again && began.elapsed() < Duration::from_secs(40) {
+            std::thread::sleep(Duration::from_millis(50));
+            io.read_microphone(&mut heard, &mut reference);
+            let status = io.status();
+            let both = |f: fn(&DeviceState) -> bool| f(&status.input) && f(&status.output);
+            let works = both(|s| matches!(s, DeviceState::Ok { .. }));
+            let missing = both(|s| matches!(s, DeviceState::Missing(_)));
+            let before = (ok, lost, again);
+            ok |= works;
+            lost |= ok && missing;
+            again |= lost && works;
+            if before != (ok, lost, again) {
+                println!("{:.1} s: {} / {}", began.elapsed().as_secs_f64(), status.input, status.output);
+            }
+        }
+        assert!(ok && lost && again, "{:?}", io.status());
+    }
+}

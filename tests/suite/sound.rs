@@ -278,7 +278,7 @@ fn the_same_scene_has_the_same_bits_in_every_build() {
 }
 
 /// Hash of the scene of seed 9, equal in debug and release.
-const GOLDEN: u64 = 0;
+const GOLDEN: u64 = 0xd5d8_fa8a_d76b_4707;
 
 #[test]
 fn a_hit_starts_on_its_own_sample() {
@@ -501,7 +501,7 @@ fn errors_in_presets_are_located() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(10))]
 
     /// Whatever plates there are, their modes are positive, in order, and ring without fault.
     #[test]
@@ -517,6 +517,7 @@ proptest! {
         synth.command(SoundCommand::Strike(Strike { position: [x, y], ..strike(3, 1e-3) }));
         let out = render(&mut synth, 2000);
         prop_assert!(out.iter().all(|s| s.is_finite()));
+        // Also for hits beside the outline, whose place is only known by its bounds.
         prop_assert_eq!(synth.faults(), 0);
     }
 }
