@@ -11,7 +11,8 @@ pub struct Pair {
     pub b: usize,
 }
 
-/// All pairs of colliders whose bodies differ, move, and are not excluded (joined bodies are).
+/// All pairs of colliders whose bodies differ, move, and are not excluded (joined bodies are). Pairs of the same two
+/// bodies stand together, so that whole bodies can be told apart before their colliders are.
 pub fn pairs(colliders: &[Collider], excluded: &[(Option<usize>, Option<usize>)]) -> Vec<Pair> {
     let mut out = Vec::new();
     for i in 0..colliders.len() {
@@ -23,5 +24,6 @@ pub fn pairs(colliders: &[Collider], excluded: &[(Option<usize>, Option<usize>)]
             out.push(if x.is_some() { Pair { a: i, b: j } } else { Pair { a: j, b: i } });
         }
     }
+    out.sort_by_key(|pair: &Pair| (colliders[pair.a].body, colliders[pair.b].body));
     out
 }

@@ -83,6 +83,15 @@ pub(super) struct Hit {
     proximity: Proximity,
 }
 
+/// Pairs of the same two bodies: `first` up to `end`.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    a: usize,
+    b: Option<usize>,
+    first: usize,
+    end: usize,
+}
+
 /// All pairs of a figure that can meet, and their state.
 #[derive(Clone, Debug)]
 pub struct Contacts {
@@ -91,6 +100,11 @@ pub struct Contacts {
     reach: Vec<f64>,
     balls: Vec<(DVec3, f64)>,
     pairs: Vec<SurfacePair>,
+    /// Runs of pairs that belong to the same two bodies, a ball around each body's colliders (node
+    /// frame), and their farthest point from the centre of mass.
+    runs: Vec<Run>,
+    body_balls: Vec<(DVec3, f64)>,
+    body_reach: Vec<f64>,
     resting: Vec<bool>,
     /// Seconds since each pair's last hit.
     since_hit: Vec<f64>,
@@ -104,7 +118,7 @@ impl Contacts {
     /// The contacts of a figure with these colliders.
     pub fn new(colliders: &[Collider], pairs: Vec<SurfacePair>, bodies: &[RigidBody]) -> Self {
         let balls: Vec<_> = colliders.iter().map(Collider::bounds).collect();
-        let reach = colliders
+        let reach: Vec<f64> = colliders
             .iter()
             .zip(&balls)
             .map(|(c, (center, radius))| {
@@ -113,8 +127,17 @@ impl Contacts {
             })
             .collect();
         let blank = vec![[0.0; 6]; bodies.len()];
+        let own_reach = |body| {
+            let own = colliders.iter().zip(&reach).filter(|(c, _)| c.body == Some(body));
+            own.fold(0.0, |most: f64, (_, r)| most.max(*r))
+        };
+        let body_reach = (0..bodies.len()).map(own_reach).collect();
+        let body_balls = (0..bodies.len()).map(|body| ball_around(colliders, &balls, body)).collect();
         Self {
             reach,
+            runs: runs(colliders, &pairs),
+            body_balls,
+            body_reach,
             balls,
             resting: vec![false; pairs.len()],
             since_hit: vec![f64::INFINITY; pairs.len()],
@@ -146,7 +169,18 @@ impl Contacts {
             *sweep = Sweep::new(b, a);
         }
         let mut first: Option<Hit> = None;
-        for index in 0..self.pairs.len() {
+        for run in 0..self.runs.len() {
+            let run = self.runs[run];
+            if self.bodies_may_meet(&run) {
+                self.first_of_run(run, before, after, &mut first);
+            }
+        }
+        first
+    }
+
+    /// The earliest hit so far, or an earlier one among the pairs of a run.
+    fn first_of_run(&mut self, run: Run, before: &[RigidBody], after: &[RigidBody], first: &mut Option<Hit>) {
+        for index in run.first..run.end {
             if self.resting[index] {
                 continue;
             }
@@ -169,10 +203,9 @@ impl Contacts {
             if self.impacts_left == 0 {
                 self.resting[index] = true;
             } else if first.is_none_or(|f| s < f.s) {
-                first = Some(Hit { s, pair: index, proximity });
+                *first = Some(Hit { s, pair: index, proximity });
             }
         }
-        first
     }
 
     /// Resolves a hit at the bodies' present state; the joints must be factored there.
@@ -317,6 +350,18 @@ impl Contacts {
         self.colliders[collider].body.map_or(Pose::IDENTITY, |body| bodies[body].pose())
     }
 
+    /// Can the balls around two bodies meet during the interval? What stands still may be anywhere.
+    fn bodies_may_meet(&self, run: &Run) -> bool {
+        let Some(b) = run.b else { return true };
+        let place = |body: usize| {
+            let (center, radius) = self.body_balls[body];
+            let sweep = &self.sweeps[body];
+            (sweep.pose(0.0).point(center), radius + sweep.travel(self.body_reach[body]))
+        };
+        let ((at_a, far_a), (at_b, far_b)) = (place(run.a), place(b));
+        at_a.distance_squared(at_b) <= (far_a + far_b + TOUCH) * (far_a + far_b + TOUCH)
+    }
+
     /// Can the balls around two colliders meet during the interval?
     fn may_meet(&self, (a, sweep_a): (usize, &Sweep), (b, sweep_b): (usize, &Sweep)) -> bool {
         let ((center_a, radius_a), (center_b, radius_b)) = (self.balls[a], self.balls[b]);
@@ -324,6 +369,29 @@ impl Contacts {
         let skins = self.colliders[a].radius + self.colliders[b].radius + TOUCH;
         apart <= radius_a + radius_b + skins + sweep_a.travel(self.reach[a]) + sweep_b.travel(self.reach[b])
     }
+}
+
+/// Runs of pairs of the same two bodies.
+fn runs(colliders: &[Collider], pairs: &[SurfacePair]) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (index, SurfacePair { pair, .. }) in pairs.iter().enumerate() {
+        let Some(a) = colliders[pair.a].body else { continue };
+        let b = colliders[pair.b].body;
+        match runs.last_mut() {
+            Some(run) if run.a == a && run.b == b => run.end = index + 1,
+            _ => runs.push(Run { a, b, first: index, end: index + 1 }),
+        }
+    }
+    runs
+}
+
+/// A ball around all colliders of a body, node frame, m.
+fn ball_around(colliders: &[Collider], balls: &[(DVec3, f64)], body: usize) -> (DVec3, f64) {
+    let own = || colliders.iter().zip(balls).filter(|(c, _)| c.body == Some(body));
+    let count = own().count().max(1) as f64;
+    let center = own().map(|(_, ball)| ball.0).sum::<DVec3>() / count;
+    let radius = own().fold(0.0, |r: f64, (c, ball)| r.max(ball.0.distance(center) + ball.1 + c.radius));
+    (center, radius)
 }
 
 /// Stops bodies at the rims of their tilt limits: a one-row contact on the angle between two axes. With T the tilting

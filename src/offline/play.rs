@@ -106,8 +106,7 @@ pub fn run(
     let Play { settings, mut breath, aim, mut script, seconds, aspect, audio, dry, trace, events, fps } = play;
     let (wall, cpu) = (Instant::now(), ProcessTime::now());
     let mut simulation = Simulation::new(exhibit.clone(), settings);
-    let mut soundtrack =
-        Soundtrack::new(exhibit, settings.seed, dry, audio.as_deref()).map_err(PlayError::Output)?;
+    let mut soundtrack = Soundtrack::new(exhibit, settings.seed, dry, audio.as_deref()).map_err(PlayError::Output)?;
     let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;
     let mut events = events.map(|path| EventWriter::create(&path, exhibit)).transpose()?;
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;

@@ -66,17 +66,16 @@ impl Aim {
         self.target = mouth + self.direction * (goal - mouth).dot(self.direction);
     }
 
-    /// The point of the chosen surface's inner ball nearest to the ray.
+    /// The point of the chosen surface's inner ball nearest to the ray. How far a surface is off the ray counts in
+    /// its own radii: a large plate draws a breath from farther than a small one.
     fn lean(&mut self, origin: DVec3, ray: DVec3, targets: &[AimTarget]) -> Option<DVec3> {
         let offset = |t: &AimTarget| {
             let from = t.center - origin;
             from - from.dot(ray) * ray
         };
-        let miss = |index: usize| offset(&targets[index]).length() - targets[index].radius;
+        let miss = |index: usize| offset(&targets[index]).length() / targets[index].radius;
         let nearest = (0..targets.len()).min_by(|&a, &b| miss(a).total_cmp(&miss(b)))?;
-        let keep = self.chosen.filter(|&old| {
-            old < targets.len() && offset(&targets[old]).length() * LOYALTY < offset(&targets[nearest]).length()
-        });
+        let keep = self.chosen.filter(|&old| old < targets.len() && miss(old) * LOYALTY < miss(nearest));
         let chosen = keep.unwrap_or(nearest);
         self.chosen = Some(chosen);
         let target = &targets[chosen];

@@ -185,9 +185,7 @@ mod tests {
             out.last().copied()
         };
         assert_eq!(at(0.9), None);
-        let close = |command: Option<Command>, speed: f64| {
-            matches!(command, Some(Command::Blow(Some(found))) if (found - speed).abs() < 1e-12)
-        };
+        let close = |command: Option<Command>, speed: f64| matches!(command, Some(Command::Blow(Some(found))) if (found - speed).abs() < 1e-12);
         assert!(close(at(1.1), 0.25 * FULL_SPEED));
         assert!(close(at(2.0), 0.5 * FULL_SPEED));
         assert!(close(at(2.4), 0.25 * FULL_SPEED));

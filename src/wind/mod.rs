@@ -4,9 +4,9 @@ use crate::geometry::TriangleMesh;
 
 pub mod blow;
 pub mod force;
+pub mod generate;
 pub mod jet;
 pub mod patches;
-pub mod generate;
 
 /// A surface that feels the wind.
 #[derive(Clone, Debug)]

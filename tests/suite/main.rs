@@ -4,6 +4,7 @@ mod architecture;
 mod articulation;
 mod blow;
 mod dynamics;
+mod exhibit;
 mod forge;
 mod kiosk;
 #[cfg(feature = "kiosk")]
@@ -12,4 +13,3 @@ mod realtime;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;
-mod exhibit;
