@@ -99,6 +99,6 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     if base.a < material.cutoff {
         discard;
     }
-    let radiance = shade(s) + material.emissive * glow;
+    let radiance = shade(s, key_light_at(s)) + material.emissive * glow;
     return vec4f(display(radiance, v.clip.xy), base.a);
 }

@@ -11,7 +11,8 @@
 //!   of the integrating sphere.
 //!
 //! The same functions bake the room's light map and are the radiance that the work reflects, so a mirror shows the
-//! room it hangs in. Radiances are relative: exposure 1 shows the wall at about three quarters of white.
+//! room it hangs in. Radiances are relative: at exposure 1 the wall behind
+//! the work shows at about 0.7 of white.
 
 use std::f32::consts::PI;
 
@@ -24,15 +25,17 @@ pub const FACES: [Face; 6] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left
 /// Texels along each side of a light map layer; its light has no edge finer than that.
 pub const LIGHTMAP_SIZE: u32 = 32;
 /// Reflectance of the walls.
-pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.825, 0.81);
+pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.828, 0.82);
 /// Reflectance of the floor, pale limed oak.
 pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.56, 0.53, 0.49);
 /// Radiance of the ceiling softboxes.
 const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
 /// Radiance of the window: cooler.
 const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
-/// Irradiance of the lamps at the wall behind the work; the second is the weaker.
-const LAMP_IRRADIANCE: [f32; 2] = [1.25, 0.55];
+/// Radiance of the wall behind the work by the fields and what the room sends back, relative to exposure 1.
+const WALL_AMBIENT: f32 = 0.33;
+/// Radiance that the lamps add there; the key's is the greater.
+const WALL_LAMPS: [f32; 2] = [0.26, 0.12];
 
 /// One inner face of the room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,10 +118,8 @@ impl Room {
         let x = Vec3::Y.cross(z);
         let scale = radius / 0.5;
         let extent = (max - min) * 0.5;
-        let depth = extent.dot(z.abs());
-        // Moving parts may swing out of their bounds at rest; the work's reach towards the wall is its radius across.
-        let reach = depth.max(0.55 * extent.dot(x.abs()).max(depth));
-        let behind = reach + 0.3 * scale.clamp(0.4, 1.6);
+        // Mobiles turn: the wall must clear all that their bounds sweep about the vertical.
+        let behind = extent.with_y(0.0).length() + 0.12 * scale;
         let below = work.y - min.y + if stands(exhibit, min.y) { 0.0 } else { 0.25 * scale };
         let distance = (view.eye.as_vec3() - work).length();
         let half = Vec3::new(3.2, 1.7, 3.0) * scale.max(0.3);
@@ -138,19 +139,21 @@ impl Room {
         };
         room.lamps = room.place_lamps(behind);
         room.indirect = room.mean_indirect();
+        room.set_ambient();
         room
     }
 
     /// Key from the upper left, fill from the upper right, both on the work and wide enough for the wall around it.
     fn place_lamps(&self, behind: f32) -> [Lamp; 2] {
         let r = self.radius;
-        let place = |offset: Vec3, disc: f32, color: Vec3, irradiance: f32| {
+        let place = |offset: Vec3, disc: f32, color: Vec3, radiance: f32| {
             let position = self.work + (self.x * offset.x + Vec3::Y * offset.y + self.z * offset.z) * r;
             let aim = self.work - self.z * behind * 0.5;
             let axis = (aim - position).normalize();
             let foot = self.work - self.z * behind;
             let to_foot = position - foot;
             let cosine = to_foot.normalize().dot(self.z);
+            let irradiance = PI * radiance / WALL_ALBEDO.y;
             Lamp {
                 position,
                 axis,
@@ -160,9 +163,21 @@ impl Room {
             }
         };
         [
-            place(Vec3::new(-1.9, 3.1, 4.2), 0.16, Vec3::new(1.0, 0.965, 0.90), LAMP_IRRADIANCE[0]),
-            place(Vec3::new(2.6, 2.6, 3.6), 0.20, Vec3::new(0.96, 0.98, 1.0), LAMP_IRRADIANCE[1]),
+            place(Vec3::new(-1.7, 2.0, 4.4), 0.13, Vec3::new(1.02, 1.0, 0.95), WALL_LAMPS[0]),
+            place(Vec3::new(2.5, 2.3, 4.0), 0.19, Vec3::new(0.98, 1.0, 1.03), WALL_LAMPS[1]),
         ]
+    }
+
+    /// Scales fields and indirect light to the ambient level of the wall behind the work, whatever the room's size.
+    fn set_ambient(&mut self) {
+        let w = self.work - self.center;
+        let foot = Vec3::new(w.dot(self.x), w.y, -self.half.z);
+        let now = (WALL_ALBEDO / PI * self.field_irradiance(foot, Vec3::Z)).element_sum() / 3.0;
+        let gain = WALL_AMBIENT / now;
+        self.indirect *= gain;
+        for field in &mut self.fields {
+            field.radiance *= gain;
+        }
     }
 
     /// Indirect irradiance of the closed room (integrating sphere): ρ Φ / ((1 − ρ) A).
