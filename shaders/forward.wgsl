@@ -31,10 +31,10 @@ struct Vertex {
 struct Varying {
     @builtin(position) clip: vec4f,
     @location(0) position: vec3f,
-    @location(1) @interpolate(perspective, centroid) normal: vec3f,
-    @location(2) @interpolate(perspective, centroid) tangent: vec4f,
-    @location(3) @interpolate(perspective, centroid) uv: vec2f,
-    @location(4) @interpolate(perspective, centroid) color: vec4f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv: vec2f,
+    @location(4) color: vec4f,
 }
 
 @vertex
