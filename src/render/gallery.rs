@@ -27,7 +27,7 @@ pub const LIGHTMAP_SIZE: u32 = 32;
 /// Reflectance of the walls.
 pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.828, 0.82);
 /// Reflectance of the floor, pale limed oak.
-pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.60, 0.57, 0.53);
+pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.59, 0.575, 0.55);
 /// Radiance of the ceiling softboxes.
 const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
 /// Radiance of the window: cooler.
@@ -112,10 +112,9 @@ impl Room {
             (bounds.min.as_vec3(), bounds.max.as_vec3())
         };
         let (work, radius) = (0.5 * (min + max), (0.5 * (max - min).length()).max(0.02));
-        // The wall stands square to the world's axes, opposite the visitor.
+        // The wall stands square to the visitor, so that the picture has a level horizon.
         let view = exhibit.view(16.0 / 9.0);
-        let to_eye = (view.eye - view.target).as_vec3();
-        let z = if to_eye.x.abs() > to_eye.z.abs() { Vec3::X * to_eye.x.signum() } else { Vec3::Z * sign(to_eye.z) };
+        let z = (view.eye - view.target).as_vec3().with_y(0.0).normalize_or(Vec3::Z);
         let x = Vec3::Y.cross(z);
         let scale = radius / 0.5;
         let extent = (max - min) * 0.5;
