@@ -315,6 +315,46 @@ fn dust_adds_light_where_it_is_and_nowhere_else() {
     assert!(gained > 30, "{gained}");
 }
 
+#[test]
+fn a_narrower_picture_shows_all_that_the_camera_shows_in_its_own_aspect() {
+    // Rounding of a few double-precision operations.
+    const ROUNDING: f64 = 1e-9;
+    let exhibit = mobile();
+    let own = exhibit.view(1.5);
+    let corner = {
+        let (origin, direction) = own.ray([1.0, 0.3], 1.5);
+        origin + direction * 2.0
+    };
+    for aspect in [1.4, 1.0, 0.5] {
+        let [x, y] = exhibit.view(aspect).project(corner, aspect).expect("in front");
+        assert!((x - 1.0).abs() < ROUNDING && y > 0.3, "{aspect}: {x} {y}");
+    }
+    assert_eq!(exhibit.view(2.0).fovy, own.fovy, "a wider picture shows more at the sides");
+    let moving = exhibit.bounds(true);
+    let (_, _, forward) = own.axes();
+    assert!((own.target - moving.center()).dot(forward).abs() < ROUNDING, "aimed at the depth of what moves");
+}
+
+#[test]
+fn a_model_without_a_camera_is_framed_whole_in_any_aspect() {
+    let mut exhibit = mobile();
+    exhibit.camera_node = None;
+    let bounds = exhibit.bounds(false);
+    for aspect in [0.4, 1.0, 2.5] {
+        let view = exhibit.view(aspect);
+        for i in 0..8 {
+            let pick = |bit: i32, low: f64, high: f64| if i & bit == 0 { low } else { high };
+            let corner = DVec3::new(
+                pick(1, bounds.min.x, bounds.max.x),
+                pick(2, bounds.min.y, bounds.max.y),
+                pick(4, bounds.min.z, bounds.max.z),
+            );
+            let at = view.project(corner, aspect).expect("in front");
+            assert!(at.iter().all(|c| (0.0..=1.0).contains(c)), "aspect {aspect}, corner {corner}: {at:?}");
+        }
+    }
+}
+
 /// sRGB code to linear light.
 fn linear(code: u8) -> f32 {
     let c = f32::from(code) / 255.0;
