@@ -3,6 +3,4 @@
 #[cfg(feature = "kiosk")]
 mod pictures;
 #[cfg(feature = "kiosk")]
-mod scratch;
-#[cfg(feature = "kiosk")]
 mod shaders;
