@@ -31,10 +31,10 @@ struct Vertex {
 struct Varying {
     @builtin(position) clip: vec4f,
     @location(0) position: vec3f,
-    @location(1) @interpolate(perspective, centroid) normal: vec3f,
-    @location(2) @interpolate(perspective, centroid) tangent: vec4f,
-    @location(3) @interpolate(perspective, centroid) uv: vec2f,
-    @location(4) @interpolate(perspective, centroid) color: vec4f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv: vec2f,
+    @location(4) color: vec4f,
 }
 
 @vertex
@@ -99,6 +99,6 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     if base.a < material.cutoff {
         discard;
     }
-    let radiance = shade(s) + material.emissive * glow;
+    let radiance = shade(s, key_light_at(s)) + material.emissive * glow;
     return vec4f(display(radiance, v.clip.xy), base.a);
 }

@@ -13,6 +13,8 @@
 @group(1) @binding(6) var floor_shadow: texture_2d<f32>;
 @group(1) @binding(7) var lightmap: texture_2d_array<f32>;
 
+override AREA_LIGHT: bool = false;
+
 struct Surface {
     position: vec3f,
     normal: vec3f,     // shading
@@ -101,8 +103,10 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let search = max(spread * 0.5, 1.5 / size.x);
     var blockers = 0.0;
     var depth = 0.0;
-    for (var i = 0; i < 10; i++) {
-        let texel_at = vec2i((at.xy + search * vogel(f32(i), 10.0)) * size);
+    // The number of taps is a uniform so that no driver unrolls the loops: that made shaders slow to build.
+    let taps = globals.shadow_taps;
+    for (var i = 0.0; i < taps; i += 1.0) {
+        let texel_at = vec2i((at.xy + search * vogel(i, taps)) * size);
         let z = textureLoad(shadow_map, clamp(texel_at, vec2i(0), vec2i(size) - 1), 0);
         if z > at.z + 1e-6 {
             blockers += 1.0;
@@ -115,10 +119,10 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let blocker = depth / blockers;
     let width = clamp(spread * (q.w - blocker) / blocker, 1.2 / size.x, search);
     var lit = 0.0;
-    for (var i = 0; i < 16; i++) {
-        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + width * vogel(f32(i), 16.0), at.z);
+    for (var i = 0.0; i < taps; i += 1.0) {
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + width * vogel(i, taps), at.z);
     }
-    return lit / 16.0;
+    return lit / taps;
 }
 
 // Unit irradiance vector of a rectangle: Lambert's sum over its edges (Lambert 1760; Arvo 1995).
@@ -161,7 +165,7 @@ fn area_light(s: Surface, r: Reflector, alpha: f32) -> vec3f {
     let widened = clamp(alpha + globals.shadow_radius / (2.0 * length(near)), 0.0, 1.0);
     let l = normalize(near);
     let gloss = specular(s, r, l, alpha, widened) * size;
-    return globals.area_radiance * (r.diffuse / PI * diffuse + gloss) * shadow(s.position, s.facing, to_center);
+    return globals.area_radiance * (r.diffuse / PI * diffuse + gloss);
 }
 
 fn punctual_light(s: Surface, r: Reflector, alpha: f32, i: u32) -> vec3f {
@@ -199,19 +203,22 @@ fn lamp_light(s: Surface, r: Reflector, alpha: f32, i: u32) -> vec3f {
     return lamp_beam(i, s.position) * (r.diffuse / PI * nl + specular(s, r, normalize(near), alpha, widened));
 }
 
-fn shade(s: Surface) -> vec3f {
+// Part of the light with the shadow map that reaches a surface.
+fn key_light_at(s: Surface) -> f32 {
+    let light = select(globals.lamps[0].position, globals.area_center, AREA_LIGHT);
+    return shadow(s.position, s.facing, light - s.position);
+}
+
+// Radiance towards the eye; `lit` is the part of the shadow-casting light that arrives.
+fn shade(s: Surface, lit: f32) -> vec3f {
     let r = reflector(s);
     let alpha = max(s.roughness * s.roughness, 0.002);
     var sum = image_light(s, r);
     for (var i = 0u; i < globals.lamp_count; i++) {
-        var light = lamp_light(s, r, alpha, i);
-        if i == 0u {
-            light *= shadow(s.position, s.facing, globals.lamps[0].position - s.position);
-        }
-        sum += light;
+        sum += lamp_light(s, r, alpha, i) * select(1.0, lit, i == 0u);
     }
-    if globals.area_radiance.r + globals.area_radiance.g + globals.area_radiance.b > 0.0 {
-        sum += area_light(s, r, alpha);
+    if AREA_LIGHT {
+        sum += area_light(s, r, alpha) * lit;
     }
     for (var i = 0u; i < globals.punctual_count; i++) {
         sum += punctual_light(s, r, alpha, i);

@@ -1,6 +1,9 @@
 // The gallery around the work: six inner faces of a box. Static light comes from a baked map, lamps are evaluated
 // here, and their shadows on the wall behind the work and on the floor are read from the textures of shadows.wgsl.
 
+// Which shadow the faces drawn receive: 0 the wall's, 1 the floor's, 2 none.
+override RECEIVER: u32 = 2u;
+
 struct Varying {
     @builtin(position) clip: vec4f,
     @location(0) position: vec3f,
@@ -50,16 +53,19 @@ fn bicubic(t: texture_2d<f32>, at: vec2f) -> vec2f {
     return g0.y * top + g1.y * low;
 }
 
-fn blocked(plane: u32, p: vec3f) -> vec2f {
-    let q = globals.planes[plane];
-    let at = vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
-    if any(at < vec2f(0.0)) || any(at > vec2f(1.0)) {
+fn blocked(p: vec3f) -> vec2f {
+    if RECEIVER > 1u {
         return vec2f(0.0);
     }
-    if plane == 0u {
-        return min(bicubic(wall_shadow, at), vec2f(1.0));
+    let q = globals.planes[RECEIVER & 1u];
+    let at = vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
+    var hidden: vec2f;
+    if RECEIVER == 0u {
+        hidden = bicubic(wall_shadow, at);
+    } else {
+        hidden = bicubic(floor_shadow, at);
     }
-    return min(bicubic(floor_shadow, at), vec2f(1.0));
+    return select(vec2f(0.0), min(hidden, vec2f(1.0)), all(at >= vec2f(0.0)) && all(at <= vec2f(1.0)));
 }
 
 @fragment
@@ -77,10 +83,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     let map = textureSampleLevel(lightmap, smooth_sampler, uv * 0.5 + 0.5, i32(v.face), 0.0);
     // The map's fourth channel is the radiance of a luminous field.
     let albedo = select(globals.wall_albedo, globals.floor_albedo, v.face == 1u);
-    var hidden = vec2f(0.0);
-    if v.face < 2u {
-        hidden = blocked(v.face, v.position);
-    }
+    let hidden = blocked(v.position);
     var irradiance = map.rgb;
     for (var i = 0u; i < globals.lamp_count; i++) {
         let towards = normalize(globals.lamps[i].position - v.position);

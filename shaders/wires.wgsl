@@ -82,17 +82,14 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     s.roughness = max(v.color.w, 0.15);
     s.occlusion = 1.0;
     // Across the round: one normal where the pixel is small against the wire, the mean of three where it is not.
+    let lit = key_light_at(s);
+    let normals = select(3.0, 1.0, r > 1.5);
+    let first = select(-0.66, clamp(offset / v.a.w, -0.98, 0.98), r > 1.5);
     var radiance = vec3f(0.0);
-    if r > 1.5 {
-        let m = clamp(offset / v.a.w, -0.98, 0.98);
-        s.normal = normalize(side * m + front * sqrt(1.0 - m * m));
-        radiance = shade(s);
-    } else {
-        for (var i = -1; i <= 1; i++) {
-            let m = 0.66 * f32(i);
-            s.normal = side * m + front * sqrt(1.0 - m * m);
-            radiance += shade(s) / 3.0;
-        }
+    for (var i = 0.0; i < normals; i += 1.0) {
+        let m = first + 0.66 * i;
+        s.normal = side * m + front * sqrt(1.0 - m * m);
+        radiance += shade(s, lit) / normals;
     }
     return vec4f(display(radiance, v.clip.xy), alpha);
 }

@@ -263,8 +263,10 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.backdrop);
             pass.draw(0..3, 0..1);
         } else {
-            pass.set_pipeline(&self.pipelines.room);
-            pass.draw(0..36, 0..1);
+            for (pipeline, corners) in self.pipelines.room.iter().zip([0..6, 6..12, 12..36]) {
+                pass.set_pipeline(pipeline);
+                pass.draw(corners, 0..1);
+            }
         }
         pass.set_pipeline(&self.pipelines.wires);
         pass.set_vertex_buffer(0, self.segments_buffer.slice(..));

@@ -9,6 +9,9 @@ use super::shadows::{MapCamera, ReceivingPlane};
 use super::{Frame, Look, Tonemap};
 use crate::exhibit::View;
 
+/// Taps of the blocker search and of the filter of the shadow map.
+const SHADOW_TAPS: f32 = 12.0;
+
 /// A disc lamp.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -59,7 +62,7 @@ pub(super) struct Globals {
     right: Vec3,
     pixel_angle: f32,
     up: Vec3,
-    tonemap: u32,
+    shadow_taps: f32,
     room_center: Vec3,
     dither: f32,
     room_half: Vec3,
@@ -99,12 +102,6 @@ impl Globals {
         shadow_samples: u32,
     ) -> Self {
         let mut g = Self::zeroed();
-        g.tonemap = match look.tonemap {
-            Tonemap::Neutral => 0,
-            Tonemap::Aces => 1,
-            Tonemap::Agx => 2,
-            Tonemap::Clamp => 3,
-        };
         // Without a curve the picture is a measurement: no dither either.
         g.dither = if look.tonemap == Tonemap::Clamp { 0.0 } else { 1.0 };
         (g.room_center, g.room_half, g.room_x, g.room_z) = (room.center, room.half, room.x, room.z);
@@ -120,7 +117,7 @@ impl Globals {
         }
         g.shadow_from_world = map.clip_from_world;
         (g.shadow_radius, g.shadow_texel, g.shadow_near) = (map.light_radius, map.texel, map.near);
-        g.shadow_samples = shadow_samples as f32;
+        (g.shadow_samples, g.shadow_taps) = (shadow_samples as f32, SHADOW_TAPS);
         for (to, from) in g.irradiance.iter_mut().zip(irradiance) {
             *to = from.extend(0.0);
         }

@@ -3,7 +3,7 @@
 use super::scene::Vertex;
 use super::shadows::PLANE_FORMAT;
 use super::wires::Segment;
-use super::{Gpu, Options};
+use super::{Gpu, Options, Tonemap};
 
 pub(super) const FORWARD: &str = concat!(
     include_str!("../../shaders/common.wgsl"),
@@ -43,7 +43,8 @@ pub(super) struct Layouts {
 pub(super) struct Pipelines {
     /// Opaque or blended (first index), single- or double-sided (second).
     pub forward: [[wgpu::RenderPipeline; 2]; 2],
-    pub room: wgpu::RenderPipeline,
+    /// Wall, floor, and the four faces that receive no shadow.
+    pub room: [wgpu::RenderPipeline; 3],
     pub backdrop: wgpu::RenderPipeline,
     pub wires: wgpu::RenderPipeline,
     pub motes: wgpu::RenderPipeline,
@@ -215,6 +216,14 @@ impl Pipelines {
         };
         let adding = Some(wgpu::BlendState { color: add, alpha: add });
         let blending = Some(wgpu::BlendState::ALPHA_BLENDING);
+        let tonemap = match options.look.tonemap {
+            Tonemap::Neutral => 0.0,
+            Tonemap::Aces => 1.0,
+            Tonemap::Agx => 2.0,
+            Tonemap::Clamp => 3.0,
+        };
+        let area_light = if options.look.area_light.is_some() { 1.0 } else { 0.0 };
+        let constants = [("TONEMAP", tonemap), ("AREA_LIGHT", area_light)];
         // A pass into the picture itself.
         let base = || State {
             label: "room",
@@ -222,7 +231,7 @@ impl Pipelines {
             layout: &light_layout,
             entries: ("vertex", Some("fragment")),
             buffer: None,
-            constants: &[],
+            constants: &constants,
             cull: false,
             depth: Some((DEPTH_FORMAT, true, nearer)),
             color: Some((options.format, None)),
@@ -243,10 +252,10 @@ impl Pipelines {
                 },
             )
         };
-        let overlay = |label, module, buffer, blend| {
+        let overlay = |label, module, buffer, constants, blend| {
             let depth = Some((DEPTH_FORMAT, false, nearer));
             let color = Some((options.format, blend));
-            pipeline(device, State { label, module, buffer: Some(buffer), depth, color, ..base() })
+            pipeline(device, State { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
         };
         let plane = |label, entries, buffer, plane: usize, compare, write| {
             pipeline(
@@ -275,7 +284,10 @@ impl Pipelines {
         };
         Self {
             forward: [false, true].map(|blend| [false, true].map(|double_sided| meshes(blend, double_sided))),
-            room: pipeline(device, base()),
+            room: [0.0, 1.0, 2.0].map(|receiver| {
+                let constants = [constants[0], constants[1], ("RECEIVER", receiver)];
+                pipeline(device, State { constants: &constants, ..base() })
+            }),
             backdrop: pipeline(
                 device,
                 State {
@@ -285,8 +297,8 @@ impl Pipelines {
                     ..base()
                 },
             ),
-            wires: overlay("wires", &wires, SEGMENT, blending),
-            motes: overlay("motes", &motes, MOTE, adding),
+            wires: overlay("wires", &wires, SEGMENT, &constants, blending),
+            motes: overlay("motes", &motes, MOTE, &[], adding),
             plane_meshes: [plane_meshes(0), plane_meshes(1)],
             plane_wires: [plane_wires(0), plane_wires(1)],
             shadow_map: pipeline(
@@ -297,6 +309,7 @@ impl Pipelines {
                     layout: &shadow_layout,
                     entries: ("map_vertex", None),
                     buffer: Some(VERTEX),
+                    constants: &[],
                     color: None,
                     samples: 1,
                     ..base()
@@ -308,6 +321,7 @@ impl Pipelines {
                     label: "resolve",
                     module: &resolve,
                     layout: &resolve_layout,
+                    constants: &[],
                     depth: None,
                     samples: 1,
                     ..base()

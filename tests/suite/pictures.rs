@@ -4,7 +4,8 @@ use glam::{DMat4, DVec3, Vec3};
 use soffio::exhibit::model::{Appearance, Camera, Mesh, Model, Node, Primitive};
 use soffio::exhibit::{Body, Exhibit, Wire};
 use soffio::math::Pose;
-use soffio::render::{Frame, ImageRenderer, Options, RenderError};
+use soffio::render::{Frame, ImageRenderer, Look, Options, RenderError, Tonemap};
+use soffio::simulation::Mote;
 
 /// A plate: an outline in the plane z = 0, extruded by its thickness, fan from the centroid.
 fn plate(outline: &[[f32; 2]], thickness: f32, material: usize) -> Primitive {
@@ -177,11 +178,222 @@ fn the_gallery_shows_a_light_wall_a_dark_fish_and_a_soft_shadow() {
         picture.get_pixel((x * 301.0) as u32, (y * 201.0) as u32).0
     };
     let wall = picture.get_pixel(15, 15).0;
-    assert!(wall.iter().all(|&c| (170..=250).contains(&c)), "a light wall: {wall:?}");
+    assert!(wall[..3].iter().all(|&c| (170..=250).contains(&c)), "a light wall: {wall:?}");
     let fish = at(exhibit.bodies[0].pose.position);
     assert!(fish[..3].iter().all(|&c| c < 90), "a dark fish: {fish:?}");
     let red = at(exhibit.bodies[1].pose.position);
     assert!(red[0] > 2 * red[1] && red[0] > 100, "a red plate: {red:?}");
     let again = renderer.draw(&frame(&exhibit, &poses, size)).expect("a picture");
     assert_eq!(picture, again, "the same moment is the same picture");
+}
+
+#[test]
+fn each_lamp_throws_the_fish_on_the_wall_where_geometry_says() {
+    let exhibit = mobile();
+    let Some(mut renderer) = renderer(&exhibit, |_| {}) else { return };
+    let poses: Vec<Pose> = exhibit.bodies.iter().map(|b| b.pose).collect();
+    // The same room with the fish far behind its wall: what the shadow falls on.
+    let mut without = poses.clone();
+    without[0].position.z = -100.0;
+    let size = (600, 400);
+    let [with, without] = [&poses, &without].map(|p| renderer.draw(&frame(&exhibit, p, size)).expect("a picture"));
+    let room = soffio::render::gallery::Room::around(&exhibit);
+    let wall = room.center - room.z * room.half.z;
+    for (lamp, share) in room.lamps.iter().zip([0.26 / 0.76, 0.13 / 0.76]) {
+        let center = exhibit.bodies[0].pose.position.as_vec3();
+        let ray = center - lamp.position;
+        let foot = lamp.position + ray * ((wall - lamp.position).dot(room.z) / ray.dot(room.z));
+        let [x, y] = exhibit.view(1.5).project(foot.as_dvec3(), 1.5).expect("in front");
+        let at = |picture: &image::RgbaImage| linear(picture.get_pixel((x * 600.0) as u32, (y * 400.0) as u32).0[1]);
+        let lost = 1.0 - at(&with) / at(&without);
+        // Shares are those behind the work; the lamps fall off by some tenths towards the edge.
+        const TOLERANCE: f32 = 0.3;
+        assert!((lost / share - 1.0).abs() < TOLERANCE, "lost {lost}, share {share} at {x} {y}");
+    }
+}
+
+#[test]
+fn a_furnace_shows_no_white_thing() {
+    // Uniform light all around: whatever reflects all of it cannot be told from the background.
+    const TOLERANCE: f32 = 0.02;
+    let radiance = Vec3::splat(0.5);
+    for metallic in [0.0, 1.0] {
+        for roughness in [0.05, 0.3, 0.6, 1.0] {
+            let mut sphere = ball(0.4);
+            sphere.material = Some(0);
+            let exhibit = Exhibit::of_model(Model {
+                nodes: vec![still(DMat4::IDENTITY)],
+                roots: vec![0],
+                meshes: vec![Mesh { name: "ball".into(), primitives: vec![sphere] }],
+                materials: vec![paint("white", [1.0; 4], metallic, roughness)],
+                ..Default::default()
+            });
+            let white = std::sync::Arc::new(soffio::render::environment::Environment::new(|_| radiance));
+            let look = Look {
+                tonemap: Tonemap::Clamp,
+                environment: Some(white),
+                background: Some(radiance),
+                ..Default::default()
+            };
+            let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
+            let picture = renderer.draw(&frame(&exhibit, &[], (64, 64))).expect("a picture");
+            for (x, y, pixel) in picture.enumerate_pixels() {
+                let value = linear(pixel.0[1]) / radiance.y;
+                assert!((value - 1.0).abs() < TOLERANCE, "metal {metallic} rough {roughness} at {x},{y}: {value}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wire_thinner_than_a_pixel_is_an_unbroken_line_of_the_right_darkness() {
+    // Goals of the renderer: mean within a tenth, scatter from column to column below a twentieth.
+    const BIAS: f32 = 0.1;
+    const SCATTER: f32 = 0.05;
+    let size = (160, 80);
+    let pixel = 2.0 * (0.2f64 / 2.0).tan() * 2.0 / f64::from(size.1);
+    for width in [0.25, 0.47, 0.88, 1.66] {
+        let mut exhibit = Exhibit::of_model(Model::default());
+        let slope = DVec3::new(1.0, 0.13, 0.0);
+        exhibit.wires.push(Wire {
+            name: "wire".into(),
+            body: None,
+            points: vec![-slope, slope],
+            radius: 0.5 * width * pixel,
+            material: 0,
+            color: [0.0; 3],
+            metallic: 1.0,
+            roughness: 0.5,
+        });
+        let look =
+            Look { tonemap: Tonemap::Clamp, background: Some(Vec3::ONE), env_intensity: 0.0, ..Default::default() };
+        let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
+        let view = soffio::exhibit::View { eye: DVec3::Z * 2.0, target: DVec3::ZERO, up: DVec3::Y, fovy: 0.2 };
+        let frame = Frame { poses: &[], motes: &[], view, size, exposure: 1.0 };
+        let picture = renderer.draw(&frame).expect("a picture");
+        let ink: Vec<f32> =
+            (8..152).map(|x| (0..80).map(|y| 1.0 - linear(picture.get_pixel(x, y).0[1])).sum::<f32>()).collect();
+        let mean = ink.iter().sum::<f32>() / ink.len() as f32;
+        let scatter = (ink.iter().map(|i| (i - mean) * (i - mean)).sum::<f32>() / ink.len() as f32).sqrt() / mean;
+        let expected = (width * slope.length()) as f32;
+        assert!((mean / expected - 1.0).abs() < BIAS, "{width} px: mean {mean}, expected {expected}");
+        assert!(scatter < SCATTER, "{width} px: scatter {scatter}");
+    }
+}
+
+#[test]
+fn both_ways_to_average_samples_agree() {
+    let exhibit = mobile();
+    let mut pictures = Vec::new();
+    for shader_resolve in [true, false] {
+        let Some(mut renderer) = renderer(&exhibit, |options| options.shader_resolve = shader_resolve) else { return };
+        pictures.push(renderer.draw(&frame(&exhibit, &[], (240, 160))).expect("a picture"));
+    }
+    // Either may round to its own side.
+    let worst = pictures[0].iter().zip(pictures[1].iter()).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(worst <= Some(1), "{worst:?} LSB apart");
+}
+
+#[test]
+fn dust_adds_light_where_it_is_and_nowhere_else() {
+    let exhibit = mobile();
+    let Some(mut renderer) = renderer(&exhibit, |_| {}) else { return };
+    let position = exhibit.bodies[0].pose.position + DVec3::Z * 0.1;
+    let mote = Mote { position: position.as_vec3().to_array(), velocity: [0.0; 3], brightness: 0.8 };
+    let dark = frame(&exhibit, &[], (300, 200));
+    let lit = Frame { motes: &[mote], ..dark };
+    let [before, after] = [dark, lit].map(|f| renderer.draw(&f).expect("a picture"));
+    let [x, y] = dark.view.project(position, 1.5).expect("in front");
+    let (x, y) = ((x * 300.0) as i32, (y * 200.0) as i32);
+    let mut gained = 0;
+    for (px, py, pixel) in after.enumerate_pixels() {
+        let old = before.get_pixel(px, py).0[0];
+        let far = (px as i32 - x).abs().max((py as i32 - y).abs()) > 4;
+        assert!(!far || pixel.0[0] == old, "changed at {px},{py}, the mote is at {x},{y}");
+        gained += i32::from(pixel.0[0]) - i32::from(old);
+    }
+    assert!(gained > 30, "{gained}");
+}
+
+#[test]
+fn a_narrower_picture_shows_all_that_the_camera_shows_in_its_own_aspect() {
+    // Rounding of a few double-precision operations.
+    const ROUNDING: f64 = 1e-9;
+    let exhibit = mobile();
+    let own = exhibit.view(1.5);
+    let corner = {
+        let (origin, direction) = own.ray([1.0, 0.3], 1.5);
+        origin + direction * 2.0
+    };
+    for aspect in [1.4, 1.0, 0.5] {
+        let [x, y] = exhibit.view(aspect).project(corner, aspect).expect("in front");
+        assert!((x - 1.0).abs() < ROUNDING && y > 0.3, "{aspect}: {x} {y}");
+    }
+    assert_eq!(exhibit.view(2.0).fovy, own.fovy, "a wider picture shows more at the sides");
+    let moving = exhibit.bounds(true);
+    let (_, _, forward) = own.axes();
+    assert!((own.target - moving.center()).dot(forward).abs() < ROUNDING, "aimed at the depth of what moves");
+}
+
+#[test]
+fn a_model_without_a_camera_is_framed_whole_in_any_aspect() {
+    let mut exhibit = mobile();
+    exhibit.camera_node = None;
+    let bounds = exhibit.bounds(false);
+    for aspect in [0.4, 1.0, 2.5] {
+        let view = exhibit.view(aspect);
+        for i in 0..8 {
+            let pick = |bit: i32, low: f64, high: f64| if i & bit == 0 { low } else { high };
+            let corner = DVec3::new(
+                pick(1, bounds.min.x, bounds.max.x),
+                pick(2, bounds.min.y, bounds.max.y),
+                pick(4, bounds.min.z, bounds.max.z),
+            );
+            let at = view.project(corner, aspect).expect("in front");
+            assert!(at.iter().all(|c| (0.0..=1.0).contains(c)), "aspect {aspect}, corner {corner}: {at:?}");
+        }
+    }
+}
+
+/// sRGB code to linear light.
+fn linear(code: u8) -> f32 {
+    let c = f32::from(code) / 255.0;
+    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+/// A node that shows the first mesh and stands still.
+fn still(world: DMat4) -> Node {
+    Node {
+        name: "still".into(),
+        parent: None,
+        children: vec![],
+        local: world,
+        world,
+        mesh: Some(0),
+        camera: None,
+        light: None,
+    }
+}
+
+/// A ball with smooth normals.
+fn ball(radius: f32) -> Primitive {
+    let (rings, sectors) = (32u32, 48u32);
+    let mut p = Primitive::default();
+    for i in 0..=rings {
+        let (s, c) = (i as f32 / rings as f32 * std::f32::consts::PI).sin_cos();
+        for j in 0..=sectors {
+            let (y, x) = (j as f32 / sectors as f32 * std::f32::consts::TAU).sin_cos();
+            let n = Vec3::new(s * x, c, -s * y);
+            p.normals.push(n.to_array());
+            p.positions.push((n * radius).to_array());
+        }
+    }
+    for i in 0..rings {
+        for j in 0..sectors {
+            let a = i * (sectors + 1) + j;
+            let b = a + sectors + 1;
+            p.indices.extend([a, b, a + 1, a + 1, b, b + 1]);
+        }
+    }
+    p
 }
