@@ -152,7 +152,10 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
         && tenths.first().zip(tenths.last()).is_some_and(|(first, last)| last - first > CREEPING_DB);
     let clipped = heard.iter().filter(|sample| sample.abs() >= 0.999).count() as f64 / heard.len().max(1) as f64;
 
-    let found = format!("{rms:.1} dBFS, peak {:.1} dBFS", decibels(f64::from(peak)));
+    let found = match peak {
+        0.0 => "not a single sample differs from zero".to_owned(),
+        _ => format!("{rms:.1} dBFS, peak {:.1} dBFS", decibels(f64::from(peak))),
+    };
     if heard.len() < sample_rate as usize / 2 {
         let found = format!("{} samples in a second that has {sample_rate}", samples.len());
         return Finding::new(WHAT, Health::Bad, found, "it hardly delivers: try another socket or another device");
@@ -181,7 +184,7 @@ mod machine {
     use super::{Finding, Health, judge_room};
     use crate::audio_io::{AudioIo, DeviceState};
     use crate::config::Config;
-    use crate::kiosk::fonts;
+    use crate::kiosk::{fonts, window};
     use crate::render::Gpu;
     use crate::sound::Synth;
 
@@ -197,12 +200,12 @@ mod machine {
     }
 
     fn display() -> Finding {
-        let finding = match winit::event_loop::EventLoop::new() {
+        let finding = match window::event_loop() {
             Ok(_) => Finding::new("display", Health::Ok, "windows can be opened", ""),
             Err(error) => {
                 let remedy = "start it in a graphical session, where DISPLAY or WAYLAND_DISPLAY is set; without one \
                               the exhibit runs into files";
-                Finding::new("display", Health::Bad, error.to_string(), remedy)
+                Finding::new("display", Health::Bad, error, remedy)
             }
         };
         finding.of_device()

@@ -16,8 +16,8 @@ use super::words::{language_name, words};
 
 /// Half-width of a round jet over its length: where it is half as fast as on its axis (method 4.1).
 const JET_HALF_WIDTH: f64 = 0.094;
-/// Speed that fills the breath meter, m/s: a hearty breath at the lips.
-const FULL_METER: f64 = 12.0;
+/// Speed that fills the breath meter, m/s: a strong breath at the lips.
+const FULL_METER: f64 = 16.0;
 /// Quiet time after which the invitation comes back, s.
 const INVITE_AGAIN: f64 = 8.0;
 /// Time in which the invitation fades, s.
@@ -25,8 +25,8 @@ const FADE: f64 = 0.5;
 /// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
 const BUTTON_MM: f32 = 15.0;
 
-/// Longest line of type, of the page's width.
-const LINE_SHARE: f32 = 0.55;
+/// Longest line of type, of the page's width: label and invitation stand beside the work, not before it.
+const LINE_SHARE: f32 = 0.32;
 
 const INK: Color32 = Color32::from_rgb(38, 36, 34);
 const SOFT_INK: Color32 = Color32::from_rgb(84, 80, 76);
@@ -136,11 +136,11 @@ impl Page<'_> {
         line(&label.title, 1.4, INK, 0.0);
     }
 
-    /// One line, low in the middle, above the label's height.
+    /// Low on the right, above the languages.
     fn invitation(&self, text: &str, opacity: f32) {
         if opacity > 0.01 {
-            let at = pos2(self.picture.center().x, self.picture.bottom() - 4.5 * self.em);
-            self.text(at, Align2::CENTER_BOTTOM, text, 1.35, INK.gamma_multiply(opacity));
+            let at = pos2(self.picture.right(), self.picture.bottom() - 4.5 * self.em);
+            self.text(at, Align2::RIGHT_BOTTOM, text, 1.35, INK.gamma_multiply(opacity));
         }
     }
 
@@ -212,7 +212,7 @@ impl Page<'_> {
         self.painter.line(points, Stroke::new((width * self.em).max(1.0), color));
     }
 
-    /// Type `size` em high, in lines no longer than half the page.
+    /// Type `size` em high, in lines no longer than [`LINE_SHARE`].
     fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32) -> Rect {
         let font = FontId::proportional(size * self.em);
         let galley = self.painter.layout(text.into(), font, color, LINE_SHARE * self.picture.width());

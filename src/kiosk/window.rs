@@ -61,7 +61,7 @@ pub enum Ended {
 
 /// Shows the exhibit until somebody ends it. `interrupted` is set by a signal from outside.
 pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> Result<Ended, Missing> {
-    let events = EventLoop::new().map_err(|error| Missing::Display(error.to_string()))?;
+    let events = event_loop().map_err(Missing::Display)?;
     let display = Box::new(events.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::VULKAN,
@@ -98,6 +98,11 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         _ if interrupted.load(Ordering::Relaxed) => Ended::Interrupted,
         (None, Ok(report)) => Ended::Done(report),
     })
+}
+
+/// The connection to the display; the error is the system's reason alone, without the place in its library.
+pub fn event_loop() -> Result<EventLoop<()>, String> {
+    EventLoop::new().map_err(|error| error.to_string().rsplit(": ").next().unwrap_or_default().to_owned())
 }
 
 /// What exists once there is a window.
