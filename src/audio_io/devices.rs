@@ -26,9 +26,9 @@ pub struct Listed {
     /// As the system calls it.
     pub name: String,
     /// Its own rate, Hz.
-    pub sample_rate: Option<u32>,
+    pub sample_rate: u32,
     /// Its own number of channels.
-    pub channels: Option<u16>,
+    pub channels: u16,
     /// The system's own choice.
     pub default: bool,
 }
@@ -74,7 +74,7 @@ fn id(device: &Device) -> String {
     device.id().map_or_else(|_| device.to_string(), |id| id.to_string())
 }
 
-/// All devices of one direction on the preferred host that has any.
+/// All devices of one direction that can be opened, on the preferred host that has any.
 ///
 /// # Errors
 /// A driver call failed: its message.
@@ -88,10 +88,12 @@ pub fn list(direction: Direction) -> Result<Vec<Listed>, String> {
                 Direction::Output => device.default_output_config(),
             };
             let id = id(&device);
+            // ALSA lists its plug-ins too: those that do not open, and the one that swallows everything.
+            let Some(config) = config.ok().filter(|_| id != "alsa:null") else { continue };
             found.push(Listed {
                 name: name(&device),
-                sample_rate: config.as_ref().ok().map(|c| c.sample_rate()),
-                channels: config.as_ref().ok().map(|c| c.channels()),
+                sample_rate: config.sample_rate(),
+                channels: config.channels(),
                 default: default.as_ref() == Some(&id),
                 id,
             });

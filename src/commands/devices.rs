@@ -34,9 +34,8 @@ pub fn run(args: Args) -> Outcome {
             text += &format!("{title}\n");
             for device in devices {
                 let default = if device.default { "  (the system's own choice)" } else { "" };
-                let rate = device.sample_rate.map(|rate| format!("  {rate} Hz")).unwrap_or_default();
-                let channels = device.channels.map(|n| format!("  {n} ch")).unwrap_or_default();
-                text += &format!("  {}  \"{}\"{rate}{channels}{default}\n", device.id, device.name);
+                let (rate, channels) = (device.sample_rate, device.channels);
+                text += &format!("  {}  \"{}\"  {rate} Hz  {channels} ch{default}\n", device.id, device.name);
             }
             if devices.is_empty() {
                 text += "  none\n";
