@@ -117,11 +117,13 @@ pub fn inverse(a: &Mat6) -> Mat6 {
 /// A pivot below this share of its row's own stiffness says that the row repeats earlier ones.
 const REDUNDANT: f64 = 1e-12;
 
-/// Cholesky factor of the leading `n`×`n` block of a symmetric positive semi-definite matrix, in place in the lower
-/// triangle; the diagonal holds 1/L_jj. A row that repeats earlier ones gets the inverse pivot 0, so that its
-/// multiplier comes out 0; bit j of the answer says so.
-pub fn cholesky(m: &mut RowSquare, n: usize) -> u32 {
+/// Inverse of the leading `n`×`n` block of a symmetric positive semi-definite matrix, in place, both triangles; only
+/// the lower one is read. A row that repeats earlier ones gets zeros, so that its multiplier comes out 0; bit j of the
+/// answer says so.
+pub fn pseudo_inverse(m: &mut RowSquare, n: usize) -> u32 {
+    let n = n.min(MAX_ROWS);
     let mut redundant = 0;
+    // m = L Lᵀ in the lower triangle, inverse pivots on the diagonal.
     for j in 0..n {
         let diagonal = m[j][j];
         let mut d = diagonal;
@@ -140,23 +142,31 @@ pub fn cholesky(m: &mut RowSquare, n: usize) -> u32 {
             m[i][j] = s * inv;
         }
     }
-    redundant
-}
-
-/// Solves L Lᵀ x = b in place with the factor of [`cholesky`].
-pub fn cholesky_solve(m: &RowSquare, n: usize, b: &mut RowVec) {
+    // L⁻¹, in place.
+    for j in 0..n {
+        for i in j + 1..n {
+            let mut s = 0.0;
+            for k in j..i {
+                s -= m[i][k] * m[k][j];
+            }
+            m[i][j] = s * m[i][i];
+        }
+    }
+    // L⁻ᵀ L⁻¹ into the upper triangle, column by column: entry (i, j), i ≤ j, needs only rows from j down.
     for i in 0..n {
-        let mut s = b[i];
-        for k in 0..i {
-            s -= m[i][k] * b[k];
+        for j in i..n {
+            let mut s = 0.0;
+            for k in j..n {
+                // Row k of L⁻¹; its part above the diagonal is not yet overwritten for k ≥ j.
+                s += m[k][i] * m[k][j];
+            }
+            m[i][j] = s;
         }
-        b[i] = s * m[i][i];
     }
-    for i in (0..n).rev() {
-        let mut s = b[i];
-        for k in i + 1..n {
-            s -= m[k][i] * b[k];
+    for i in 0..n {
+        for j in 0..i {
+            m[i][j] = m[j][i];
         }
-        b[i] = s * m[i][i];
     }
+    redundant
 }
