@@ -25,9 +25,7 @@
 //!
 //! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
 
-use super::block::{
-    MAX_ROWS, Mat6, RowBlock, RowSquare, RowVec, Vec6, add_scaled, cholesky, cholesky_solve, dot, inverse, mul,
-};
+use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, RowVec, Vec6, add_scaled, dot, inverse, mul, pseudo_inverse};
 
 /// Rows of one joint between two bodies, at one configuration.
 #[derive(Clone, Debug)]
@@ -79,7 +77,7 @@ struct Hang {
     first: bool,
 }
 
-/// What is kept of a joint's elimination, in the letters of the file's head.
+/// What is kept of a joint's elimination, in the letters of the file's head; `k` holds K⁻¹.
 #[derive(Clone, Debug)]
 struct JointFactor {
     w: RowBlock,
@@ -162,28 +160,24 @@ impl Tree {
             let Some(joint) = hang.joint else { continue };
             let (r, f) = (&rows[joint], &mut self.joints[joint]);
             let (jc, jp) = if hang.first { (&r.a, &r.b) } else { (&r.b, &r.a) };
-            for k in 0..r.rows {
+            let rows = r.rows.min(MAX_ROWS);
+            for k in 0..rows {
                 f.w[k] = mul(&self.inverse[body], &jc[k]);
                 for l in 0..=k {
                     f.k[k][l] = dot(&jc[k], &f.w[l]);
                 }
                 f.k[k][k] += r.compliance[k];
             }
-            self.redundant[joint] = cholesky(&mut f.k, r.rows);
+            self.redundant[joint] = pseudo_inverse(&mut f.k, rows);
             let Some(parent) = hang.parent else { continue };
-            for column in 0..6 {
-                let mut x: RowVec = std::array::from_fn(|k| jp[k][column]);
-                cholesky_solve(&f.k, r.rows, &mut x);
-                for k in 0..r.rows {
-                    f.x[k][column] = x[k];
-                }
-            }
             let a_parent = &mut self.articulated[parent];
-            for k in 0..r.rows {
-                for i in 0..6 {
-                    for j in 0..6 {
-                        a_parent[i][j] += jp[k][i] * f.x[k][j];
-                    }
+            for k in 0..rows {
+                f.x[k] = [0.0; 6];
+                for l in 0..rows {
+                    add_scaled(&mut f.x[k], f.k[k][l], &jp[l]);
+                }
+                for (row, &j) in a_parent.iter_mut().zip(&jp[k]) {
+                    add_scaled(row, j, &f.x[k]);
                 }
             }
         }
@@ -195,25 +189,28 @@ impl Tree {
             let hang = self.hang[body];
             let Some(joint) = hang.joint else { continue };
             let (r, f) = (&rows[joint], &self.joints[joint]);
-            let mut h = g[joint];
-            for k in 0..r.rows {
-                h[k] -= dot(&f.w[k], &b[body]);
+            let rows = r.rows.min(MAX_ROWS);
+            let mut wanted = g[joint];
+            for k in 0..rows {
+                wanted[k] -= dot(&f.w[k], &b[body]);
             }
-            cholesky_solve(&f.k, r.rows, &mut h);
+            let h = &mut lambda[joint];
+            for k in 0..rows {
+                h[k] = (0..rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
+            }
             if let Some(parent) = hang.parent {
                 let jp = if hang.first { &r.b } else { &r.a };
-                for k in 0..r.rows {
+                for k in 0..rows {
                     add_scaled(&mut b[parent], h[k], &jp[k]);
                 }
             }
-            lambda[joint] = h;
         }
         for &body in &self.order {
             let hang = self.hang[body];
             let mut out = mul(&self.inverse[body], &b[body]);
             if let Some(joint) = hang.joint {
                 let (r, f) = (&rows[joint], &self.joints[joint]);
-                for k in 0..r.rows {
+                for k in 0..r.rows.min(MAX_ROWS) {
                     if let Some(parent) = hang.parent {
                         lambda[joint][k] -= dot(&f.x[k], &a[parent]);
                     }

@@ -68,6 +68,11 @@ pub fn run(args: Args) -> Outcome {
     findings.extend(exhibits(&config));
     #[cfg(feature = "kiosk")]
     findings.extend(machine::look(&config));
+    #[cfg(not(feature = "kiosk"))]
+    findings.push(
+        Finding::new("devices", Health::Bad, "this build has no window and no sound", "build with the feature `kiosk`")
+            .of_device(),
+    );
 
     if args.json {
         println!("{}", serde_json::json!(findings));

@@ -394,14 +394,24 @@ fn ball_around(colliders: &[Collider], balls: &[(DVec3, f64)], body: usize) -> (
     (center, radius)
 }
 
+/// How far a tilt is beyond its limit (rad, to first order) and the axis about which it grows; `None` within it.
+pub(super) fn excess(limit: &TiltLimit, bodies: &[RigidBody]) -> Option<(f64, DVec3)> {
+    let axis = |a: &crate::articulation::Axis| a.body.map_or(a.direction, |i| bodies[i].rotation * a.direction);
+    let (t, n) = (axis(&limit.a), axis(&limit.b));
+    let past = cos(limit.angle) - t.dot(n);
+    if past <= 0.0 {
+        return None;
+    }
+    // sin θ turns the excess of the cosine into an angle.
+    let across = n.cross(t);
+    Some((past / across.length(), across.try_normalize()?))
+}
+
 /// Stops bodies at the rims of their tilt limits: a one-row contact on the angle between two axes. With T the tilting
 /// axis and N the one it tilts from, cos θ = T·N falls at the rate (N×T)·(ω_T − ω_N).
 pub(super) fn resolve_limits(limits: &[TiltLimit], system: &mut System, bodies: &mut [RigidBody]) {
     for limit in limits {
-        let axis = |a: &crate::articulation::Axis| a.body.map_or(a.direction, |i| bodies[i].rotation * a.direction);
-        let (t, n) = (axis(&limit.a), axis(&limit.b));
-        let past = cos(limit.angle) - t.dot(n);
-        let Some(out) = n.cross(t).try_normalize().filter(|_| past > 0.0) else { continue };
+        let Some((excess, out)) = excess(limit, bodies) else { continue };
         // Positive along `out` tilts farther.
         let row = vec6(DVec3::ZERO, out);
         system.b.fill([0.0; 6]);
@@ -420,8 +430,6 @@ pub(super) fn resolve_limits(limits: &[TiltLimit], system: &mut System, bodies: 
         }
         let rate: f64 =
             ends.iter().filter_map(|(body, sign)| body.map(|b| sign * out.dot(bodies[b].angular_velocity))).sum();
-        // sin θ turns the excess of the cosine into an angle.
-        let excess = past / t.cross(n).length();
         let (push, turn) = (-(1.0 + limit.restitution) * rate.max(0.0) / k, -excess / k);
         for (body, a) in bodies.iter_mut().zip(&system.a) {
             body.velocity += push * crate::articulation::block::linear(a);

@@ -59,7 +59,7 @@ impl Dynamics {
             self.stages[0][body] = mean;
         }
         self.advance_from_start(h, 0);
-        self.project(h);
+        self.project();
     }
 
     /// Rates of the bodies' present state into a stage.
@@ -109,8 +109,8 @@ impl Dynamics {
         }
     }
 
-    /// Closes the joints in place and speed, and lets pivot friction act for `h` seconds.
-    fn project(&mut self, h: f64) {
+    /// Closes the joints in place and speed.
+    fn project(&mut self) {
         if self.system.joints().is_empty() {
             return;
         }
@@ -119,12 +119,17 @@ impl Dynamics {
         if self.system.largest_error() < PROJECTION_REACH {
             self.system.solve_displacement();
             self.system.apply_displacement(&mut self.bodies);
-            if self.settings.friction {
-                self.system.add_friction(&self.bodies, &self.loads, h);
-                self.system.factor();
-            }
             self.system.solve_velocity(&self.bodies);
             self.system.apply_velocity(&mut self.bodies);
         }
+    }
+
+    /// Lets pivot friction act for `dt` seconds, the joints held.
+    pub(super) fn rub(&mut self, dt: f64) {
+        self.system.evaluate(&self.bodies);
+        self.system.add_friction(&self.bodies, &self.loads, dt);
+        self.system.factor();
+        self.system.solve_velocity(&self.bodies);
+        self.system.apply_velocity(&mut self.bodies);
     }
 }

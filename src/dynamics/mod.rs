@@ -1,7 +1,7 @@
 //! Motion by the laws: Lagrange multipliers, integration, friction of pivots, impacts.
 //!
 //! One step is: integrate the constrained equations of motion by the classical fourth-order Runge–Kutta method,
-//! close what the joints drifted apart (projection), let pivot friction act, and stop at each impact on the way.
+//! close what the joints drifted apart (projection), stop at each impact on the way, and let pivot friction act.
 //!
 //! Symbols as in `articulation`: C constraint value, J its Jacobian, λ multipliers. Accelerations solve
 //!
@@ -122,6 +122,9 @@ impl Dynamics {
             done += self.substep(h, done, impacts);
             self.substeps += 1;
         }
+        if self.settings.friction {
+            self.rub(dt);
+        }
         self.restore_bad_bodies()
     }
 
@@ -137,7 +140,8 @@ impl Dynamics {
             self.prepare_impulses();
             self.contacts.resolve_impact(&hit, now + used, &mut self.system, &mut self.bodies, impacts);
         }
-        if self.contacts.has_resting() || !self.limits.is_empty() {
+        let at_limit = self.limits.iter().any(|limit| contacts::excess(limit, &self.bodies).is_some());
+        if self.contacts.has_resting() || at_limit {
             self.prepare_impulses();
             self.contacts.resolve_resting(&mut self.system, &mut self.bodies);
             contacts::resolve_limits(&self.limits, &mut self.system, &mut self.bodies);

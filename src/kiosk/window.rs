@@ -238,7 +238,7 @@ impl ApplicationHandler for App<'_> {
                     show.live.controls().exhibit = Some(exhibit);
                 }
             }
-            Some(Err(report)) => self.say(format!("{report}\nThe last good exhibit stays on show.")),
+            Some(Err(report)) => self.say(format!("{}\nThe last good exhibit stays on show.", report.trim_end())),
             None => {}
         }
         let now = Instant::now();

@@ -13,6 +13,8 @@ const ROOM: f64 = 0.5;
 const CARRIED: f64 = 0.03;
 /// Drift of the room's air that carries dust (not sculptures), m/s.
 const DRIFT: f64 = 0.012;
+/// Steps between two looks at that drift.
+const DRIFT_STEPS: usize = 24;
 /// Lives end after this long, s: in the room, and in a breath.
 const LIFE: (f64, f64) = (9.0, 1.1);
 /// Rest brightness of dust in still air, and the speed (m/s) at which it is fully lit.
@@ -25,6 +27,8 @@ const IN_BREATH: usize = COUNT * 4 / 5;
 struct Speck {
     position: DVec3,
     velocity: DVec3,
+    /// Of the room's air where it is, m/s.
+    drift: DVec3,
     age: f64,
     life: f64,
 }
@@ -35,6 +39,7 @@ pub struct Motes {
     random: Random,
     center: DVec3,
     time: f64,
+    step: usize,
 }
 
 impl Motes {
@@ -48,17 +53,21 @@ impl Motes {
                 speck
             })
             .collect();
-        Self { specks, random, center, time: 0.0 }
+        Self { specks, random, center, time: 0.0, step: 0 }
     }
 
     /// Lets the air carry the dust for `dt` seconds; `air` is the breath's velocity at a point.
     pub fn advance(&mut self, jet: Option<&Jet>, air: impl Fn(DVec3) -> DVec3, dt: f64) {
         self.time += dt;
+        self.step += 1;
         let share = 1.0 - exp(-dt / CARRIED);
         for (index, speck) in self.specks.iter_mut().enumerate() {
-            let at = speck.position / 0.2 + DVec3::splat(0.1 * self.time);
-            let drift = DVec3::new(perlin3(at, 11), perlin3(at, 12), perlin3(at, 13)) * DRIFT;
-            speck.velocity = speck.velocity.lerp(air(speck.position) + drift, share);
+            // The room's air changes slowly: each speck asks it now and then, in turn.
+            if (index + self.step) % DRIFT_STEPS == 0 {
+                let at = speck.position / 0.2 + DVec3::splat(0.1 * self.time);
+                speck.drift = DVec3::new(perlin3(at, 11), perlin3(at, 12), perlin3(at, 13)) * DRIFT;
+            }
+            speck.velocity = speck.velocity.lerp(air(speck.position) + speck.drift, share);
             speck.position += dt * speck.velocity;
             speck.age += dt;
             let in_breath = jet.filter(|_| index < IN_BREATH);
@@ -91,7 +100,7 @@ impl Motes {
 fn in_room(random: &mut Random, center: DVec3) -> Speck {
     let offset = DVec3::new(random.signed(), random.signed(), random.signed()) * ROOM;
     let life = LIFE.0 * random.range(0.6, 1.4);
-    Speck { position: center + offset, velocity: DVec3::ZERO, age: 0.0, life }
+    Speck { position: center + offset, velocity: DVec3::ZERO, drift: DVec3::ZERO, age: 0.0, life }
 }
 
 /// Somewhere in the core of the jet, from a hand before the lips to past the sculpture.
@@ -100,5 +109,11 @@ fn in_jet(random: &mut Random, jet: &Jet) -> Speck {
     let (t, b) = tangents(jet.direction);
     let across = (t * random.signed() + b * random.signed()) * (SPREAD * x);
     let position = jet.mouth + x * jet.direction + across;
-    Speck { position, velocity: jet.velocity(position), age: 0.0, life: LIFE.1 * random.range(0.5, 1.0) }
+    Speck {
+        position,
+        velocity: jet.velocity(position),
+        drift: DVec3::ZERO,
+        age: 0.0,
+        life: LIFE.1 * random.range(0.5, 1.0),
+    }
 }

@@ -116,10 +116,10 @@ impl WindField {
                 let still = patch_force(patch, &pose, -own, feeler);
                 add_wrench(&mut out[feeler.body], body, point, still);
                 report.force += still;
-                let Some(breath) = breath else { continue };
+                let Some(breath) = breath.filter(|b| faces(patch, &pose, b.jet.mouth - point)) else { continue };
                 let air = self.air(breath, point);
                 let speed = air.length();
-                if speed < STILL_AIR || !faces(patch, &pose, breath.jet.mouth - point) {
+                if speed < STILL_AIR {
                     continue;
                 }
                 if !self.sees(&poses, feeler.body, patch, &pose, point, breath.jet.mouth) {

@@ -141,10 +141,12 @@ fn the_core_calls_no_clock_device_or_platform_function() {
         if layer(&own) >= layer(CORE_END) {
             continue;
         }
-        let files = if own == "exhibit" { &[] } else { FILES };
+        // The loader is the one door to the disk.
+        let loader = own == "exhibit";
+        let files = if loader { &[] } else { FILES };
         for (number, line) in code(&path) {
             for (call, why) in FORBIDDEN.iter().copied().chain(files.iter().map(|call| (*call, "a file or a socket"))) {
-                if line.contains(call) {
+                if line.contains(call) && !(loader && call == "std::env") {
                     wrong.push(format!("{}:{number}: {call} ({why})", path.display()));
                 }
             }
