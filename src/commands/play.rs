@@ -183,7 +183,11 @@ fn frame_writer(_: &Args, _: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failu
 }
 
 #[cfg(feature = "kiosk")]
-fn frame_writer(args: &Args, _exhibit: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
-    let Some(_folder) = &args.frames else { return Ok(None) };
-    Ok(None)
+fn frame_writer(args: &Args, exhibit: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
+    use crate::offline::pictures::Pictures;
+    let Some(folder) = args.frames.clone() else { return Ok(None) };
+    std::fs::create_dir_all(&folder)
+        .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;
+    let mut pictures = Pictures::new(exhibit, args.size).map_err(Failure::device)?;
+    Ok(Some(Box::new(move |frame, simulation| pictures.save(simulation, &folder.join(format!("{frame:06}.png"))))))
 }

@@ -13,3 +13,4 @@ mod realtime;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;
+mod steel_fish;
