@@ -219,7 +219,7 @@ fn the_sound_follows_the_breath() {
     let (before, during, after) = (level(0.0, 0.4), level(1.0, 1.8), level(5.5, 6.0));
     println!("before {before:.0}, during {during:.0}, after {after:.0} dBFS");
     assert!(before < -120.0, "sound before any breath: {before} dBFS");
-    assert!(during > -40.0, "the breath is hardly heard: {during} dBFS");
+    assert!(during > -45.0, "the breath is hardly heard: {during} dBFS");
     assert!(after < during - 20.0, "the sound does not end: {after} dBFS");
 }
 
