@@ -7,3 +7,4 @@ pub mod play;
 pub mod soundtrack;
 pub mod trace;
 pub mod wav;
+pub mod whole;

@@ -8,6 +8,7 @@ use ebur128::{EbuR128, Mode};
 use hound::{SampleFormat, WavSpec, WavWriter};
 use tempfile::NamedTempFile;
 
+use super::whole;
 use crate::exhibit::Exhibit;
 use crate::math::decibels;
 use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
@@ -79,9 +80,8 @@ struct WholeWav {
 
 impl WholeWav {
     fn create(path: &Path) -> Result<Self, String> {
-        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", path.display());
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = NamedTempFile::new_in(folder).map_err(|e| says(&e))?;
+        let says = |e: &dyn std::fmt::Display| whole::failed(path, e).to_string();
+        let file = whole::begin(path).map_err(|e| e.to_string())?;
         let handle = file.reopen().map_err(|e| says(&e))?;
         let spec = WavSpec {
             channels: CHANNELS,
@@ -97,13 +97,11 @@ impl WholeWav {
         let mut samples = block.iter();
         samples
             .try_for_each(|&sample| self.writer.write_sample(sample))
-            .map_err(|e| format!("cannot write {}: {e}", self.path.display()))
+            .map_err(|e| whole::failed(&self.path, &e).to_string())
     }
 
     fn finish(self) -> Result<(), String> {
-        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", self.path.display());
-        self.writer.finalize().map_err(|e| says(&e))?;
-        self.file.persist(&self.path).map_err(|e| says(&e.error))?;
-        Ok(())
+        self.writer.finalize().map_err(|e| whole::failed(&self.path, &e).to_string())?;
+        whole::put(self.file, &self.path).map_err(|e| e.to_string())
     }
 }
