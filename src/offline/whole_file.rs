@@ -17,15 +17,15 @@ impl WholeFile {
     /// Begins a file beside its final place. The error names the file and what stands in the way.
     pub fn create(path: &Path) -> io::Result<Self> {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let says = |e: io::Error| {
-            let why = if folder.is_dir() { e.to_string() } else { "its folder does not exist; make it first".into() };
-            io::Error::new(e.kind(), format!("cannot write {}: {why}", path.display()))
-        };
+        if !folder.is_dir() {
+            let why = format!("there is no folder {}; make it first", folder.display());
+            return Err(io::Error::new(io::ErrorKind::NotFound, format!("cannot write {}: {why}", path.display())));
+        }
         let mut builder = tempfile::Builder::new();
         // Temporary files are private; what a user asked for is an ordinary file, readable as the umask allows.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder).map_err(says)?;
+        let file = builder.tempfile_in(folder).map_err(|error| failed(path, &error))?;
         Ok(Self { out: BufWriter::new(file), path: path.to_path_buf() })
     }
 
@@ -41,18 +41,24 @@ impl WholeFile {
 
     /// Puts the file in its place.
     pub fn finish(self) -> io::Result<()> {
-        let file = self.out.into_inner().map_err(|e| e.into_error())?;
-        file.persist(&self.path).map_err(|e| e.error)?;
+        let file = self.out.into_inner().map_err(|e| failed(&self.path, e.error()))?;
+        file.persist(&self.path).map_err(|e| failed(&self.path, &e.error))?;
         Ok(())
     }
 }
 
+/// The error of a file that could not be written: which, why, what to look at.
+fn failed(path: &Path, why: &io::Error) -> io::Error {
+    let help = "check the folder, its permissions and the free space";
+    io::Error::new(why.kind(), format!("cannot write {}: {why}; {help}", path.display()))
+}
+
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.out.write(bytes)
+        self.out.write(bytes).map_err(|error| failed(&self.path, &error))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
+        self.out.flush().map_err(|error| failed(&self.path, &error))
     }
 }

@@ -3,6 +3,7 @@
 mod architecture;
 mod articulation;
 mod blow;
+mod cli;
 mod dynamics;
 mod exhibit;
 mod forge;
