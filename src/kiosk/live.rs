@@ -19,6 +19,7 @@ use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{Microphone, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{SoundCommand, Synth};
 
+use super::breaths::Breaths;
 use super::pace::Pacer;
 use super::stage::{Controls, Stage};
 
@@ -188,6 +189,7 @@ struct Thread {
     heard: Vec<f32>,
     played: Vec<f32>,
     sounds: Vec<SoundCommand>,
+    breaths: Breaths,
     load: Load,
 }
 
@@ -206,6 +208,7 @@ impl Thread {
             heard: Vec::new(),
             played: Vec::new(),
             sounds: Vec::new(),
+            breaths: Breaths::default(),
             load: Load::default(),
         }
     }
@@ -262,6 +265,10 @@ impl Thread {
             controls.commands.clear();
             self.sounds.extend_from_slice(self.stage.sounds());
             self.write_trace()?;
+            let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
+            for turn in self.breaths.note(step, breath, controls.hold, self.stage.attracts()) {
+                tracing::info!("{:.3} s: {turn}", step as f64 / STEPS_PER_SECOND as f64);
+            }
         }
         let each = before.elapsed().as_secs_f64() / due as f64;
         self.load.step_s += 0.02 * (each - self.load.step_s);

@@ -15,6 +15,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::ModifiersState;
 use winit::window::{Fullscreen, Window, WindowId};
 
+use crate::audio_io::DeviceState;
 use crate::config::Config;
 use crate::exhibit::{Label, Labels};
 use crate::simulation::Command;
@@ -82,6 +83,7 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         staff: Staff::default(),
         attracts: false,
         hears: true,
+        sounds: true,
         clock: Clock::new(),
         lost: 0,
         missing: None,
@@ -157,6 +159,7 @@ struct App<'a> {
     language: String,
     attracts: bool,
     hears: bool,
+    sounds: bool,
     clock: Clock,
     lost: u32,
     missing: Option<Missing>,
@@ -291,7 +294,7 @@ impl App<'_> {
             wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
         });
         self.follow_attract(&frame);
-        self.follow_hearing(&frame);
+        self.follow_devices(&frame);
         match wish {
             Some(Wish::Close) => events.exit(),
             Some(Wish::Reload) => self.reload.ask(),
@@ -329,16 +332,26 @@ impl App<'_> {
         self.attracts = frame.attracts;
     }
 
-    /// Staff hear of a microphone that comes or goes.
-    fn follow_hearing(&mut self, frame: &Frame) {
-        if frame.hears == self.hears || self.clock.seconds(Instant::now()) < DEVICES_OPEN_S {
+    /// Staff hear of a device that comes or goes.
+    fn follow_devices(&mut self, frame: &Frame) {
+        if self.clock.seconds(Instant::now()) < DEVICES_OPEN_S {
             return;
         }
-        self.hears = frame.hears;
-        self.say(match frame.hears {
-            true => "the microphone listens".into(),
-            false => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
-        });
+        if frame.hears != self.hears {
+            self.hears = frame.hears;
+            self.say(match frame.hears {
+                true => "the microphone listens".into(),
+                false => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
+            });
+        }
+        let sounds = matches!(frame.load.audio.output, DeviceState::Ok { .. });
+        if sounds != self.sounds {
+            self.sounds = sounds;
+            self.say(match sounds {
+                true => "the loudspeaker sounds".into(),
+                false => "no loudspeaker: the exhibit moves in silence; `soffio doctor` says more".into(),
+            });
+        }
     }
 
     /// What a press at a point of the picture asks for, where it is not a breath.
