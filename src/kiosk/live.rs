@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use crate::audio_io::{AudioIo, AudioStatus};
+use crate::audio_io::{AudioIo, AudioStatus, DeviceState};
 use crate::config::AudioSettings;
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
@@ -74,6 +74,16 @@ pub struct Load {
 }
 
 impl Frame {
+    /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
+    pub fn is_deaf(&self) -> bool {
+        !self.hears && matches!(self.load.audio.input, DeviceState::Missing(_))
+    }
+
+    /// Is it certain that there is no loudspeaker?
+    pub fn is_mute(&self) -> bool {
+        matches!(self.load.audio.output, DeviceState::Missing(_))
+    }
+
     /// The moment to draw at `now`: one step behind the simulation, so that there is always one to interpolate to.
     pub fn moment(&self, now: Instant) -> Snapshot {
         let since = now.saturating_duration_since(self.due).as_secs_f64();

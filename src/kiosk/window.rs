@@ -15,7 +15,6 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::ModifiersState;
 use winit::window::{Fullscreen, Window, WindowId};
 
-use crate::audio_io::DeviceState;
 use crate::config::Config;
 use crate::exhibit::{Label, Labels};
 use crate::simulation::Command;
@@ -35,8 +34,6 @@ const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
 const NAP: Duration = Duration::from_millis(50);
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;
-/// Time that devices may take to open before staff hear that one is missing, s.
-const DEVICES_OPEN_S: f64 = 4.0;
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;
 
@@ -82,8 +79,8 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         buttons: Vec::new(),
         staff: Staff::default(),
         attracts: false,
-        hears: true,
-        sounds: true,
+        deaf: false,
+        mute: false,
         clock: Clock::new(),
         lost: 0,
         missing: None,
@@ -158,8 +155,8 @@ struct App<'a> {
     languages: Vec<String>,
     language: String,
     attracts: bool,
-    hears: bool,
-    sounds: bool,
+    deaf: bool,
+    mute: bool,
     clock: Clock,
     lost: u32,
     missing: Option<Missing>,
@@ -283,7 +280,7 @@ impl App<'_> {
                 moment: &moment,
                 view,
                 attract_text: frame.attract_text.as_deref(),
-                hears: frame.hears,
+                hears: !frame.is_deaf(),
                 languages: &self.languages,
                 language: &self.language,
                 time: vitals.time,
@@ -332,24 +329,20 @@ impl App<'_> {
         self.attracts = frame.attracts;
     }
 
-    /// Staff hear of a device that comes or goes.
+    /// Staff hear of a device that is missing, and of its return.
     fn follow_devices(&mut self, frame: &Frame) {
-        if self.clock.seconds(Instant::now()) < DEVICES_OPEN_S {
-            return;
-        }
-        if frame.hears != self.hears {
-            self.hears = frame.hears;
-            self.say(match frame.hears {
-                true => "the microphone listens".into(),
-                false => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
+        if frame.is_deaf() != self.deaf {
+            self.deaf = frame.is_deaf();
+            self.say(match self.deaf {
+                true => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
+                false => "the microphone listens".into(),
             });
         }
-        let sounds = matches!(frame.load.audio.output, DeviceState::Ok { .. });
-        if sounds != self.sounds {
-            self.sounds = sounds;
-            self.say(match sounds {
-                true => "the loudspeaker sounds".into(),
-                false => "no loudspeaker: the exhibit moves in silence; `soffio doctor` says more".into(),
+        if frame.is_mute() != self.mute {
+            self.mute = frame.is_mute();
+            self.say(match self.mute {
+                true => "no loudspeaker: the exhibit moves in silence; `soffio doctor` says more".into(),
+                false => "the loudspeaker sounds".into(),
             });
         }
     }
