@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use crate::audio_io::{AudioIo, AudioStatus};
+use crate::audio_io::{AudioIo, AudioStatus, DeviceState};
 use crate::config::AudioSettings;
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
@@ -19,6 +19,7 @@ use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{Microphone, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{SoundCommand, Synth};
 
+use super::breaths::Breaths;
 use super::pace::Pacer;
 use super::stage::{Controls, Stage};
 
@@ -73,6 +74,16 @@ pub struct Load {
 }
 
 impl Frame {
+    /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
+    pub fn is_deaf(&self) -> bool {
+        !self.hears && matches!(self.load.audio.input, DeviceState::Missing(_))
+    }
+
+    /// Is it certain that there is no loudspeaker?
+    pub fn is_mute(&self) -> bool {
+        matches!(self.load.audio.output, DeviceState::Missing(_))
+    }
+
     /// The moment to draw at `now`: one step behind the simulation, so that there is always one to interpolate to.
     pub fn moment(&self, now: Instant) -> Snapshot {
         let since = now.saturating_duration_since(self.due).as_secs_f64();
@@ -188,6 +199,7 @@ struct Thread {
     heard: Vec<f32>,
     played: Vec<f32>,
     sounds: Vec<SoundCommand>,
+    breaths: Breaths,
     load: Load,
 }
 
@@ -206,6 +218,7 @@ impl Thread {
             heard: Vec::new(),
             played: Vec::new(),
             sounds: Vec::new(),
+            breaths: Breaths::default(),
             load: Load::default(),
         }
     }
@@ -262,6 +275,10 @@ impl Thread {
             controls.commands.clear();
             self.sounds.extend_from_slice(self.stage.sounds());
             self.write_trace()?;
+            let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
+            for turn in self.breaths.note(step, breath, controls.hold, self.stage.attracts()) {
+                tracing::info!("{:.3} s: {turn}", step as f64 / STEPS_PER_SECOND as f64);
+            }
         }
         let each = before.elapsed().as_secs_f64() / due as f64;
         self.load.step_s += 0.02 * (each - self.load.step_s);

@@ -5,6 +5,7 @@
 //! which knows no clock and no device, so that tests and recordings run exactly what visitors see.
 
 pub mod attract;
+pub mod breaths;
 pub mod events;
 pub mod fonts;
 pub mod input;

@@ -2,7 +2,7 @@
 //!
 //! It is set like a label on a museum wall: dark type on the light wall, few words, no frames. The ring is a circle
 //! of the air itself, as wide as the jet is where it meets the sculpture, drawn in perspective; the arc along it is
-//! the breath meter. Type meets a contrast of 4.5 : 1 on the wall and graphics 3 : 1; a pale halo keeps both over
+//! the breath meter. Type meets a contrast of 4.5 : 1 on wall and floor and graphics 3 : 1; a pale halo keeps both over
 //! dark parts of the picture.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
@@ -25,11 +25,17 @@ const FADE: f64 = 0.5;
 /// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
 const BUTTON_MM: f32 = 15.0;
 
-/// Longest line of type, of the page's width: label and invitation stand beside the work, not before it.
+/// Longest line of type, of the page's width: label and invitation stand beside the work, not before it. On a tall
+/// page they stand below it, and may meet in the middle.
 const LINE_SHARE: f32 = 0.32;
+const TALL_LINE_SHARE: f32 = 0.46;
+
+/// Smallest type, em: 2.9 mm on a 1280 x 720 picture of the usual screen.
+const SMALL: f32 = 0.72;
 
 const INK: Color32 = Color32::from_rgb(38, 36, 34);
-const SOFT_INK: Color32 = Color32::from_rgb(84, 80, 76);
+/// On the floor too, the darkest ground that type stands on (luminance 0.34), 4.5 : 1.
+const SOFT_INK: Color32 = Color32::from_rgb(52, 50, 48);
 const VERMILION: Color32 = Color32::from_rgb(190, 44, 22);
 const HALO: Color32 = Color32::from_rgba_premultiplied(170, 170, 168, 170);
 
@@ -130,8 +136,8 @@ impl Page<'_> {
                 at.y -= self.text(at, Align2::LEFT_BOTTOM, text, size, color).height() + space * self.em;
             }
         };
-        line(notice, 0.55, SOFT_INK, 0.1);
-        line(privacy.unwrap_or_default(), 0.55, SOFT_INK, 0.6);
+        line(notice, SMALL, SOFT_INK, 0.2);
+        line(privacy.unwrap_or_default(), SMALL, SOFT_INK, 0.6);
         line(&label.maker, 0.85, SOFT_INK, 0.1);
         line(&label.title, 1.4, INK, 0.0);
     }
@@ -212,10 +218,12 @@ impl Page<'_> {
         self.painter.line(points, Stroke::new((width * self.em).max(1.0), color));
     }
 
-    /// Type `size` em high, in lines no longer than [`LINE_SHARE`].
+    /// Type `size` em high, in lines no longer than its share of the page.
     fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32) -> Rect {
         let font = FontId::proportional(size * self.em);
-        let galley = self.painter.layout(text.into(), font, color, LINE_SHARE * self.picture.width());
+        let tall = self.picture.height() > self.picture.width();
+        let line = self.picture.width() * if tall { TALL_LINE_SHARE } else { LINE_SHARE };
+        let galley = self.painter.layout(text.into(), font, color, line);
         let rect = anchor.anchor_size(at, galley.size());
         let halo = HALO.gamma_multiply(0.5 * f32::from(color.a()) / 255.0);
         let blur = 0.05 * self.em;

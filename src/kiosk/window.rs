@@ -34,8 +34,6 @@ const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
 const NAP: Duration = Duration::from_millis(50);
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;
-/// Time that devices may take to open before staff hear that one is missing, s.
-const DEVICES_OPEN_S: f64 = 4.0;
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;
 
@@ -81,7 +79,8 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         buttons: Vec::new(),
         staff: Staff::default(),
         attracts: false,
-        hears: true,
+        deaf: false,
+        mute: false,
         clock: Clock::new(),
         lost: 0,
         missing: None,
@@ -156,7 +155,8 @@ struct App<'a> {
     languages: Vec<String>,
     language: String,
     attracts: bool,
-    hears: bool,
+    deaf: bool,
+    mute: bool,
     clock: Clock,
     lost: u32,
     missing: Option<Missing>,
@@ -280,7 +280,7 @@ impl App<'_> {
                 moment: &moment,
                 view,
                 attract_text: frame.attract_text.as_deref(),
-                hears: frame.hears,
+                hears: !frame.is_deaf(),
                 languages: &self.languages,
                 language: &self.language,
                 time: vitals.time,
@@ -291,7 +291,7 @@ impl App<'_> {
             wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
         });
         self.follow_attract(&frame);
-        self.follow_hearing(&frame);
+        self.follow_devices(&frame);
         match wish {
             Some(Wish::Close) => events.exit(),
             Some(Wish::Reload) => self.reload.ask(),
@@ -329,16 +329,22 @@ impl App<'_> {
         self.attracts = frame.attracts;
     }
 
-    /// Staff hear of a microphone that comes or goes.
-    fn follow_hearing(&mut self, frame: &Frame) {
-        if frame.hears == self.hears || self.clock.seconds(Instant::now()) < DEVICES_OPEN_S {
-            return;
+    /// Staff hear of a device that is missing, and of its return.
+    fn follow_devices(&mut self, frame: &Frame) {
+        if frame.is_deaf() != self.deaf {
+            self.deaf = frame.is_deaf();
+            self.say(match self.deaf {
+                true => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
+                false => "the microphone listens".into(),
+            });
         }
-        self.hears = frame.hears;
-        self.say(match frame.hears {
-            true => "the microphone listens".into(),
-            false => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
-        });
+        if frame.is_mute() != self.mute {
+            self.mute = frame.is_mute();
+            self.say(match self.mute {
+                true => "no loudspeaker: the exhibit moves in silence; `soffio doctor` says more".into(),
+                false => "the loudspeaker sounds".into(),
+            });
+        }
     }
 
     /// What a press at a point of the picture asks for, where it is not a breath.

@@ -1,0 +1,126 @@
+# A gallery room without hardware: a display, a microphone, a loudspeaker, each virtual and private to this run.
+# Sourced by run.sh. Everything started here is ended by the trap, however the run ends.
+#
+#   paplay -d mic_in F.wav     somebody makes a sound before the microphone
+#   parec -d speakers.monitor  what the loudspeaker plays
+#
+# The null sinks are timers, not hardware: `norewinds` keeps them from swallowing the first two seconds of a stream.
+
+room=$(mktemp -d)
+started=()
+
+leave_room() {
+    local pid
+    for pid in "${started[@]}"; do
+        kill "$pid" 2>/dev/null || true
+    done
+    for pid in "${started[@]}"; do
+        for _ in {1..30}; do
+            kill -0 "$pid" 2>/dev/null || continue 2
+            sleep 0.1
+        done
+        kill -9 "$pid" 2>/dev/null || true
+    done
+    wait 2>/dev/null || true
+    if [ -n "${SOFFIO_LIVE_KEEP:-}" ]; then
+        mkdir -p "$SOFFIO_LIVE_KEEP"
+        find "$room" -maxdepth 1 -type f -exec cp -t "$SOFFIO_LIVE_KEEP" {} +
+    fi
+    rm -rf "$room"
+}
+trap leave_room EXIT
+trap 'exit 130' INT TERM
+
+# Runs a command in the background, ended with the room at the latest. Its id is in $last.
+start() {
+    local log=$1
+    shift
+    "$@" >"$room/$log.out" 2>"$room/$log.err" &
+    last=$!
+    started+=("$last")
+}
+
+# Waits up to so many seconds until a command succeeds.
+within() {
+    local end=$((SECONDS + $1))
+    shift
+    until "$@" >/dev/null 2>&1; do
+        [ "$SECONDS" -lt "$end" ] || return 1
+        sleep 0.1
+    done
+}
+
+enter_room() {
+    mkdir -p "$room/run" "$room/home"
+    chmod 700 "$room/run"
+    export HOME=$room/home XDG_RUNTIME_DIR=$room/run PULSE_SERVER=unix:$room/run/pulse/native
+    export XDG_CONFIG_HOME=$room/home/.config XDG_CACHE_HOME=$room/home/.cache
+    unset WAYLAND_DISPLAY RUST_LOG PULSE_SINK PULSE_SOURCE
+    cat >"$room/room.pa" <<'PA'
+load-module module-native-protocol-unix auth-anonymous=1
+load-module module-null-sink sink_name=mic_in rate=48000 channels=1 channel_map=mono format=float32le norewinds=1
+load-module module-remap-source master=mic_in.monitor source_name=mic
+load-module module-null-sink sink_name=speakers rate=48000 channels=2 format=float32le norewinds=1
+set-default-sink speakers
+set-default-source mic
+PA
+    start pulse pulseaudio -n -F "$room/room.pa" --daemonize=no --exit-idle-time=-1 --use-pid-file=no --disallow-exit \
+        --realtime=no --high-priority=no
+    within 10 pactl info || { cat "$room/pulse.err" >&2; return 1; }
+    # The server finds a free number itself and says which.
+    start xvfb Xvfb -displayfd 1 -screen 0 "${1:-1280x720}x24" -nolisten tcp
+    within 10 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
+    DISPLAY=:$(cat "$room/xvfb.out")
+    export DISPLAY
+    # Without a window manager no window becomes fullscreen.
+    start openbox openbox
+    within 10 xprop -root _NET_SUPPORTING_WM_CHECK
+}
+
+# Kiosk under test: its log is $room/$1.err. A debug build on software graphics opens its window within seconds.
+start_kiosk() {
+    local name=$1
+    shift
+    start "$name" timeout --kill-after=5 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" --no-attract "$@"
+    kiosk=$last
+    within 20 grep -q 'pixels on' "$room/$name.err"
+}
+
+# Waits for the kiosk's own end; its exit code.
+end_kiosk() {
+    local code=0
+    wait "$kiosk" || code=$?
+    [ "$code" -eq 0 ] || sed "s/^/    /" "$room/$1.err" >&2
+    return "$code"
+}
+
+# A file, whatever its rate, played before the microphone; returns when it has been heard.
+before_microphone() {
+    paplay -d mic_in "$1"
+}
+
+# Wall clock, s.
+now() {
+    date +%s.%N
+}
+
+# Wall-clock times, s, of the lines of a kiosk's log that hold a text.
+log_times() {
+    { grep -F -- "$2" "$room/$1.err" || true; } | while read -r stamp _; do date -d "$stamp" +%s.%N; done
+}
+
+# The kiosk's own time, s, of the breaths from a source that begin: `breaths FILE SOURCE begins|ends`.
+breaths() {
+    sed -nE "s/.* ([0-9.]+) s: a breath $3 \($2\).*/\1/p" "$room/$1.err"
+}
+
+# Level of a recording between two moments, dB of full scale (RMS over both channels); −140 for silence.
+level() { # level RAW FROM SECONDS
+    sox -t raw -r 48000 -c 2 -e float -b 32 "$1" -n trim "$2" "$3" stats 2>&1 |
+        awk '/^RMS lev dB/ { print ($4 == "-inf" || $4 < -140) ? -140 : $4; found = 1 } END { if (!found) print -140 }'
+}
+
+# Is an arithmetic comparison true?
+holds() {
+    awk "BEGIN { exit !($*) }"
+}
