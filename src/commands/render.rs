@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<(u32, u32)>,
     /// Lets the exhibit move for so many seconds first.
-    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     time: f64,
     /// PNG to write.
     #[arg(short, long, value_name = "OUT.png")]
@@ -68,8 +68,7 @@ pub fn run(args: Args) -> Outcome {
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure };
     let picture = renderer.draw(&frame).map_err(failure)?;
-    write_png(&picture, &args.output)
-        .map_err(|error| Failure::input(format!("{} cannot be written: {error}", args.output.display())))
+    write_png(&picture, &args.output).map_err(Failure::input)
 }
 
 /// The exhibit to draw: by id or folder, or a model alone.

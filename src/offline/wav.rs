@@ -73,13 +73,8 @@ pub enum WavError {
         rate: u32,
     },
     /// The file could not be written.
-    #[error("{path}: cannot be written ({reason}). Check the folder, its permissions and the free space.")]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What went wrong.
-        reason: String,
-    },
+    #[error("{0}")]
+    Write(String),
 }
 
 /// Reads a WAV as mono.
@@ -121,14 +116,14 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
 /// Writes interleaved samples (full scale ±1) as 32-bit float.
 pub fn write_float(path: impl AsRef<Path>, channels: u16, sample_rate: u32, samples: &[f32]) -> Result<(), WavError> {
     let path = path.as_ref();
-    let fail = |reason: String| WavError::Write { path: path.into(), reason };
+    let fail = |error: std::io::Error| WavError::Write(error.to_string());
     let spec = hound::WavSpec { channels, sample_rate, bits_per_sample: 32, sample_format: hound::SampleFormat::Float };
-    let file = WholeFile::create(path).map_err(|error| fail(error.to_string()))?;
+    let file = WholeFile::create(path).map_err(fail)?;
     let write = || -> hound::Result<()> {
         let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.reopen()?), spec)?;
         samples.iter().try_for_each(|&sample| writer.write_sample(sample))?;
         writer.finalize()
     };
-    write().map_err(|error| fail(error.to_string()))?;
-    file.finish().map_err(|error| fail(error.to_string()))
+    write().map_err(|error| WavError::Write(format!("cannot write {}: {error}", path.display())))?;
+    file.finish().map_err(fail)
 }
