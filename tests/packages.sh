@@ -17,13 +17,22 @@ need_rust() {
     fi
 }
 
+# Is any of these files there? (A pattern that matches nothing stays as it is.)
+any() {
+    local file
+    for file in "$@"; do
+        [ -e "$file" ] && return 0
+    done
+    return 1
+}
+
 # Is a command, header, shared library, Vulkan driver or font there?
 present() {
     case "$1" in
         *.h) [ -e "/usr/include/$1" ] ;;
         *.so.*) { ldconfig -p 2>/dev/null || /sbin/ldconfig -p; } 2>/dev/null | grep -qF "$1" ;;
-        lvp_icd) ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1 ;;
-        Nanum*) ls /usr/share/fonts/truetype/nanum/ /usr/share/fonts/opentype/noto/*CJK* >/dev/null 2>&1 ;;
+        lvp_icd) any /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json ;;
+        Nanum*) any /usr/share/fonts/truetype/nanum/*.ttf /usr/share/fonts/opentype/noto/*CJK* ;;
         *) command -v "$1" >/dev/null 2>&1 ;;
     esac
 }

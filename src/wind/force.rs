@@ -5,6 +5,7 @@
 //! ```text
 //! side:   F = ½ ρ C_D A |v_n| v_n n             where v_n = v·n < 0 (the windward side carries the plate's whole C_D)
 //!           + ½ ρ C_f A |v_t| v_t               skin friction along the face
+//! sheet:  the same for either sign of v_n      (a mesh that is one face of a thin sheet)
 //! wire:   F = ½ ρ C_D A |v_⊥| v_⊥               v_⊥ across the wire
 //! ```
 //!
@@ -184,6 +185,10 @@ impl WindField {
     ) -> bool {
         let lift = match patch.face {
             Face::Side(normal) => pose.vector(normal) * RAY_START,
+            Face::Sheet(normal) => {
+                let n = pose.vector(normal);
+                n * (RAY_START * n.dot(mouth - point).signum())
+            }
             Face::Wire(_) => DVec3::ZERO,
         };
         let way = mouth - (point + lift);
@@ -200,7 +205,7 @@ impl WindField {
 fn faces(patch: &Patch, pose: &Pose, to: DVec3) -> bool {
     match patch.face {
         Face::Side(normal) => pose.vector(normal).dot(to) > 0.0,
-        Face::Wire(_) => true,
+        Face::Sheet(_) | Face::Wire(_) => true,
     }
 }
 
@@ -208,11 +213,12 @@ fn faces(patch: &Patch, pose: &Pose, to: DVec3) -> bool {
 fn patch_force(patch: &Patch, pose: &Pose, v: DVec3, feeler: &Feeler) -> DVec3 {
     let pressure = 0.5 * AIR_DENSITY * patch.area * feeler.gain;
     match patch.face {
-        Face::Side(normal) => {
+        Face::Side(normal) | Face::Sheet(normal) => {
             let n = pose.vector(normal);
             let along = v.dot(n);
             let slip = v - along * n;
-            let push = if along < 0.0 { feeler.drag_normal * along.abs() * along * n } else { DVec3::ZERO };
+            let lee = along >= 0.0 && matches!(patch.face, Face::Side(_));
+            let push = if lee { DVec3::ZERO } else { feeler.drag_normal * along.abs() * along * n };
             pressure * (push + feeler.drag_tangential * slip.length() * slip)
         }
         Face::Wire(axis) => {

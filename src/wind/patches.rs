@@ -25,6 +25,8 @@ pub struct Patch {
 pub enum Face {
     /// One side of a surface, with its outward unit normal.
     Side(DVec3),
+    /// A sheet without thickness: flow from either side takes hold of it. Unit normal.
+    Sheet(DVec3),
     /// A wire, with its unit direction.
     Wire(DVec3),
 }
@@ -35,7 +37,10 @@ const WIRE_PIECE: f64 = 0.02;
 /// The patches of a surface.
 pub fn split(surface: &Surface) -> Vec<Patch> {
     match &surface.shape {
-        SurfaceShape::Mesh { mesh, per_area, count, seed, .. } => sample_mesh(mesh, *per_area, *count, *seed),
+        SurfaceShape::Mesh { mesh, per_area, count, sheet, seed } => {
+            let face = if *sheet { Face::Sheet } else { Face::Side };
+            sample_mesh(mesh, *per_area, *count, *seed, face)
+        }
         SurfaceShape::Wire { points, radius } => points
             .windows(2)
             .flat_map(|ends| {
@@ -54,7 +59,13 @@ pub fn split(surface: &Surface) -> Vec<Patch> {
     }
 }
 
-fn sample_mesh(mesh: &TriangleMesh, per_area: f64, (least, most): (usize, usize), seed: u64) -> Vec<Patch> {
+fn sample_mesh(
+    mesh: &TriangleMesh,
+    per_area: f64,
+    (least, most): (usize, usize),
+    seed: u64,
+    face: impl Fn(DVec3) -> Face,
+) -> Vec<Patch> {
     // Running sum of triangle areas, to place points by their share of the whole.
     let mut sums = Vec::with_capacity(mesh.triangles.len());
     let mut total = 0.0;
@@ -83,7 +94,7 @@ fn sample_mesh(mesh: &TriangleMesh, per_area: f64, (least, most): (usize, usize)
                 (u, v) = (1.0 - u, 1.0 - v);
             }
             let normal = (b - a).cross(c - a).normalize_or(DVec3::Y);
-            Patch { point: a + u * (b - a) + v * (c - a), face: Face::Side(normal), area: total / count as f64 }
+            Patch { point: a + u * (b - a) + v * (c - a), face: face(normal), area: total / count as f64 }
         })
         .collect()
 }

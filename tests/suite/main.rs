@@ -15,3 +15,4 @@ mod realtime;
 mod shaders;
 mod sound;
 mod steel_fish;
+mod wind;
