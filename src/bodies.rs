@@ -95,7 +95,7 @@ impl RigidBody {
     }
 
     /// Mixes the state into a hash.
-    pub fn hash(&self, hash: &mut StateHash) {
+    pub fn add_to(&self, hash: &mut StateHash) {
         hash.add_vector(self.position);
         for q in self.rotation.to_array() {
             hash.add(q);

@@ -2,7 +2,7 @@
 //!
 //! One annotated file, `kiosk-config/kiosk.toml`; the command line stands over it and the built-in defaults under it.
 //! Every key has a unit, a range and a default. The shipped file *is* the default (a test compares), and the
-//! defaults are the only list of keys there is: a key they do not have is unknown ([`diagnose`]).
+//! defaults are the only list of keys there is: a key they do not have is unknown (`config/diagnose.rs`).
 //!
 //! Invariant: a [`Config`] that came from [`Config::load`] or [`Config::parse`] is inside every range of [`LIMITS`].
 

@@ -69,6 +69,12 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
             diagnostic.location = Some(source.locate(source.span(&at)));
             found.push(diagnostic);
         }
+        ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context }
+            if let Some(inner) = deepest(context)
+                && depth(inner) > depth(error) =>
+        {
+            explain(source, schema, inner, found);
+        }
         kind => {
             let (code, message, help) = value_problem(kind, error.instance(), &readable(&at));
             let mut diagnostic = Diagnostic::new(code, message);
@@ -77,6 +83,15 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
             found.push(diagnostic);
         }
     }
+}
+
+/// Of a choice, the problem that lies deepest inside: its branch is the one that was meant.
+fn deepest<'a>(context: &'a [Vec<ValidationError<'static>>]) -> Option<&'a ValidationError<'static>> {
+    context.iter().flatten().max_by_key(|error| depth(error))
+}
+
+fn depth(error: &ValidationError) -> usize {
+    error.instance_path().to_string().matches('/').count()
 }
 
 fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (codes::Code, String, Option<String>) {
@@ -107,13 +122,11 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
                 let help = format!("allowed are {}", quoted(&words));
                 return (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(help));
             }
-            // The branch that failed deepest inside is the one that was meant.
             let units = context.iter().flatten().find_map(|e| match e.kind() {
                 ValidationErrorKind::Pattern { pattern } if e.instance().is_string() => Some(pattern.as_str()),
                 _ => None,
             });
-            let deepest = context.iter().flatten().max_by_key(|e| e.instance_path().to_string().matches('/').count());
-            match (units.and_then(units_of), deepest) {
+            match (units.and_then(units_of), deepest(context)) {
                 (Some(units), _) => (
                     codes::WRONG_TYPE,
                     format!("{place} is {shown}, which has no unit that fits"),

@@ -171,6 +171,20 @@ pub fn join(path: &str, key: &str) -> String {
     format!("{path}/{}", key.replace('~', "~0").replace('/', "~1"))
 }
 
+/// Sorts names as people number things: `Rod.9` before `Rod.10`. Texts and the numbers after them, in turn.
+pub fn natural_key(name: &str) -> Vec<(&str, u64)> {
+    let mut key = Vec::new();
+    let mut rest = name;
+    while !rest.is_empty() {
+        let (text, after) = rest.split_at(rest.find(|c: char| c.is_ascii_digit()).unwrap_or(rest.len()));
+        let (digits, after) = after.split_at(after.find(|c: char| !c.is_ascii_digit()).unwrap_or(after.len()));
+        let number = digits.bytes().fold(0_u64, |n, b| n.saturating_mul(10).saturating_add(u64::from(b - b'0')));
+        key.push((text, number));
+        rest = after;
+    }
+    key
+}
+
 fn unescape(key: &str) -> String {
     key.replace("~1", "/").replace("~0", "~")
 }

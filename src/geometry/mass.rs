@@ -8,7 +8,7 @@
 //! ∫ xxᵀdV = V · (Σ vᵢvᵢᵀ + ssᵀ) / ((k+1)(k+2))
 //! ```
 //!
-//! (barycentric moments: E[λᵢλⱼ] = (1+δᵢⱼ)/((k+1)(k+2))). A wire is a sum of segments (k = 1), an open sheet of
+//! (barycentric moments: `E[λᵢλⱼ] = (1+δᵢⱼ)/((k+1)(k+2))`). A wire is a sum of segments (k = 1), an open sheet of
 //! triangles (k = 2). A closed mesh is a signed sum of tetrahedra that share one apex (k = 3): by the divergence
 //! theorem what lies outside cancels, so any apex gives the volume integral. It is the same polynomial as in
 //! Mirtich, "Fast and Accurate Computation of Polyhedral Mass Properties" (1996), and Eberly, "Polyhedral Mass

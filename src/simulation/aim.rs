@@ -38,18 +38,16 @@ pub struct Aim {
 }
 
 impl Aim {
-    /// Follows the pointer (picture coordinates) for `dt` seconds.
+    /// Follows the sight line through the pointer (origin and unit direction) for `dt` seconds.
     pub fn follow(
         &mut self,
         view: &View,
-        aspect: f64,
-        pointer: [f64; 2],
+        (origin, ray): (DVec3, DVec3),
         distance: f64,
         profile: Profile,
         targets: &[AimTarget],
         dt: f64,
     ) {
-        let (origin, ray) = view.ray(pointer, aspect);
         let facing = (view.eye - view.target).normalize();
         let depth = (view.target - origin).dot(facing) / ray.dot(facing);
         let on_plane = origin + depth * ray;

@@ -246,7 +246,8 @@ impl Simulation {
         }));
         let pointer = input.pointer.unwrap_or([0.5, 0.5]);
         let Settings { distance, profile, .. } = self.settings;
-        self.aim.follow(&self.view.1, aspect, pointer, distance, profile, &self.aim_targets, DT);
+        let view = &self.view.1;
+        self.aim.follow(view, view.ray(pointer, aspect), distance, profile, &self.aim_targets, DT);
     }
 
     /// Turns the breath into forces.
@@ -396,7 +397,7 @@ impl Simulation {
         hash.add(self.step as f64);
         hash.add(self.speed);
         for body in &self.dynamics.bodies {
-            body.hash(&mut hash);
+            body.add_to(&mut hash);
         }
         hash.0
     }

@@ -63,7 +63,7 @@ impl Motes {
         let share = 1.0 - exp(-dt / CARRIED);
         for (index, speck) in self.specks.iter_mut().enumerate() {
             // The room's air changes slowly: each speck asks it now and then, in turn.
-            if (index + self.step) % DRIFT_STEPS == 0 {
+            if (index + self.step).is_multiple_of(DRIFT_STEPS) {
                 let at = speck.position / 0.2 + DVec3::splat(0.1 * self.time);
                 speck.drift = DVec3::new(perlin3(at, 11), perlin3(at, 12), perlin3(at, 13)) * DRIFT;
             }

@@ -1,4 +1,4 @@
-//! The kernel of all ringing: a bank of decaying partials, y[t] = Σ a e^(−c t) sin(ω t).
+//! The kernel of all ringing: a bank of decaying partials, `y[t] = Σ a e^(−c t) sin(ω t)`.
 //!
 //! Each partial is a phasor z that turns and shrinks by ρ = e^((−c + iω)/fs) per sample. Instead of turning it sample
 //! by sample, a frame of [`FRAME`] samples is read off one state and stored rows ρ^0 … ρ^15,

@@ -3,7 +3,8 @@
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Motion};
 use super::super::{Body, Wire, codes};
-use super::{Context, rigid};
+use super::Context;
+use super::nodes::rigid;
 use crate::bodies::MassProperties;
 use crate::geometry::Moments;
 use crate::geometry::mass::principal_axes;

@@ -3,6 +3,7 @@
 use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::fit::{self, Core};
 use super::super::sidecar::{self, ConstrainedPairs, Fit, Shape};
+use super::super::source::join;
 use super::super::{Wire, codes};
 use super::{Context, joints};
 use crate::articulation::Constraint;
@@ -47,8 +48,8 @@ impl Context<'_> {
         for wire in wires {
             let collides = sidecar.wire.iter().any(|given| given.name == wire.name && given.collide);
             if collides {
-                // Within its own radius of the line: the wire is no thicker than it looks.
-                let line = fit::simplify(&wire.points, 0.5 * wire.radius);
+                // The chain's axis stays inside the wire: what hits it hits what one sees.
+                let line = fit::simplify(&wire.points, wire.radius);
                 out.extend(line.windows(2).map(|segment| Collider {
                     body: wire.body,
                     core: segment.to_vec(),
@@ -161,7 +162,7 @@ impl Context<'_> {
             self.report(at, problem.help(help));
             return Vec::new();
         };
-        let place = super::join("/collision/groups", group);
+        let place = join("/collision/groups", group);
         let nodes = members.iter().enumerate().filter_map(|(i, n)| self.node(n, &format!("{place}/{i}"), "a group"));
         let nodes: Vec<usize> = nodes.collect();
         nodes.into_iter().map(|n| self.owner[n]).collect()

@@ -5,6 +5,7 @@ use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{Attachment, BodyAxis, Friction, Limit, NailTarget};
 use super::Context;
 use super::bodies::meters;
+use super::colliders::Pair;
 use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, PivotFriction, Spring, TiltLimit};
 use crate::math::{DVec3, PI, cos};
 
@@ -261,7 +262,7 @@ impl Context<'_> {
     /// The bodies and the world, joined by constraints, must form a forest, and no two rows between the same two
     /// bodies may hold the same freedom: the tree factor of the solver has then full rank.
     pub(super) fn check_topology(&mut self, constraints: &[Constraint]) {
-        let mut groups: Vec<((Option<usize>, Option<usize>), Vec<&Constraint>)> = Vec::new();
+        let mut groups: Vec<(Pair, Vec<&Constraint>)> = Vec::new();
         for constraint in constraints {
             let (a, b) = ends(&constraint.kind);
             let pair = (a.min(b), a.max(b));

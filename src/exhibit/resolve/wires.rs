@@ -1,7 +1,7 @@
 //! Wires and cords: polylines in the frame of the body that carries them.
 
 use super::super::diagnostic::Diagnostic;
-use super::super::sidecar::{self, Color, Point};
+use super::super::sidecar::{self, Color, Point, Points};
 use super::super::{Wire, codes};
 use super::Context;
 use crate::math::{DVec3, pow};
@@ -50,10 +50,7 @@ impl Context<'_> {
             let source = format!("glTF node {name}, which stands still");
             self.trace(&format!("wire {}", given.name), "body", "the world".into(), "/-", &source);
         }
-        let points: Vec<Option<DVec3>> = (given.points.iter().enumerate())
-            .map(|(i, point)| self.wire_point(node, point, &format!("{at}/points/{i}"), &used_for))
-            .collect();
-        let mut points: Vec<DVec3> = points.into_iter().collect::<Option<_>>()?;
+        let mut points = self.wire_points(node, &given.points, &format!("{at}/points"), &used_for)?;
         points.dedup();
         if points.len() < 2 {
             let problem = Diagnostic::new(codes::WRONG_SHAPE, format!("{used_for} has no length"));
@@ -85,6 +82,22 @@ impl Context<'_> {
             metallic: given.metallic.unwrap_or(1.0),
             roughness: given.roughness.unwrap_or(0.35),
         })
+    }
+
+    /// The line through all points, in the frame of the body of `node`; `None` where one of them is wrong.
+    fn wire_points(&mut self, node: Option<usize>, points: &Points, at: &str, used_for: &str) -> Option<Vec<DVec3>> {
+        match points {
+            Points::Named(pattern) => {
+                let marks = self.marks(node, pattern, at, used_for)?;
+                Some(marks.into_iter().map(|mark| self.anchor(mark, DVec3::ZERO).point).collect())
+            }
+            Points::Listed(points) => {
+                let resolved: Vec<Option<DVec3>> = (points.iter().enumerate())
+                    .map(|(i, point)| self.wire_point(node, point, &format!("{at}/{i}"), used_for))
+                    .collect();
+                resolved.into_iter().collect()
+            }
+        }
     }
 
     fn wire_point(&mut self, node: Option<usize>, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {

@@ -7,9 +7,16 @@ use super::super::diagnostic::Diagnostic;
 use super::super::source::join;
 use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
 use super::Context;
+use crate::wind::generate::{self, BreathShape, HARDEST_M_S};
 
 /// Most bytes of a recorded breath.
 const MAX_WAV_BYTES: u64 = 64 << 20;
+/// Rate of a made breath, Hz: all that the blow detector listens to lies below 6 kHz.
+const BREATH_RATE: u32 = 16_000;
+/// Quiet before and after a made breath, s: the detector learns the room's noise in it.
+const QUIET_AROUND: f64 = 0.4;
+/// Longest attack, hold or release of a made breath, s.
+const LONGEST_BREATH: f64 = 30.0;
 /// Pause after the last step, s, where the sidecar gives no duration.
 const PAUSE: f64 = 10.0;
 
@@ -116,7 +123,7 @@ impl Context<'_> {
                     Diagnostic::new(codes::ATTRACT_ORDER, message).help("write the steps in the order of time"),
                 );
             }
-            let Some(action) = self.action(given, labels, &at) else { continue };
+            let Some(action) = self.action(given, labels, &at, i) else { continue };
             steps.push(AttractStep { at: time, action });
         }
         let last = steps.last().map_or(0.0, |step| step.at);
@@ -128,7 +135,13 @@ impl Context<'_> {
         Attract { steps, duration }
     }
 
-    fn action(&mut self, given: &sidecar::AttractStep, labels: &Labels, at: &str) -> Option<AttractAction> {
+    fn action(
+        &mut self,
+        given: &sidecar::AttractStep,
+        labels: &Labels,
+        at: &str,
+        number: usize,
+    ) -> Option<AttractAction> {
         match (&given.show, &given.blow, given.reset) {
             (Some(key), None, false) => {
                 if !labels.languages.is_empty() {
@@ -142,13 +155,8 @@ impl Context<'_> {
                     let problem = Diagnostic::new(codes::RANGE, "the aim lies outside the picture");
                     self.report(&format!("{place}/aim"), problem.help("(0,0) is top left, (1,1) bottom right"));
                 }
-                match self.breath(&blow.wav) {
-                    Ok((samples, sample_rate)) => Some(AttractAction::Blow { samples, sample_rate, aim: blow.aim }),
-                    Err(problem) => {
-                        self.report(&format!("{place}/wav"), problem);
-                        None
-                    }
-                }
+                let (samples, sample_rate) = self.blow(blow, &place, number)?;
+                Some(AttractAction::Blow { samples, sample_rate, aim: blow.aim })
             }
             (None, None, true) => Some(AttractAction::Reset),
             _ => {
@@ -157,6 +165,44 @@ impl Context<'_> {
                     at,
                     problem.help("give one of show, blow and reset = true; two steps may have the same time"),
                 );
+                None
+            }
+        }
+    }
+
+    /// Samples and rate of a breath: the recording's, or made from its strength; `seed` makes two of them differ.
+    fn blow(&mut self, given: &sidecar::Blow, at: &str, seed: usize) -> Option<(Arc<[f32]>, u32)> {
+        let times = [("attack", given.attack), ("hold", given.hold), ("release", given.release)];
+        match (&given.wav, given.strength) {
+            (Some(wav), None) if times.iter().all(|(_, time)| time.is_none()) => match self.breath(wav) {
+                Ok(breath) => Some(breath),
+                Err(problem) => {
+                    self.report(&format!("{at}/wav"), problem);
+                    None
+                }
+            },
+            (None, Some(strength)) => {
+                let default = BreathShape::default();
+                let mut seconds = [default.attack, default.hold, default.release];
+                for (value, (key, time)) in seconds.iter_mut().zip(times) {
+                    let Some(time) = time else { continue };
+                    *value = time.0;
+                    if !(0.0..=LONGEST_BREATH).contains(value) {
+                        let problem = Diagnostic::new(codes::RANGE, format!("{value} s is no time of a breath"));
+                        self.report(&format!("{at}/{key}"), problem.help(format!("give 0 to {LONGEST_BREATH} s")));
+                        return None;
+                    }
+                }
+                let [attack, hold, release] = seconds;
+                let strength = strength * HARDEST_M_S;
+                let quiet = QUIET_AROUND;
+                let shape = BreathShape { lead_in: quiet, strength, attack, hold, release, lead_out: quiet, ..default };
+                Some((generate::breath(BREATH_RATE, seed as u64, &shape).into(), BREATH_RATE))
+            }
+            _ => {
+                let problem = Diagnostic::new(codes::WRONG_SHAPE, "a breath is a recording, or made from its strength");
+                let help = "give wav alone, or strength with attack, hold and release where they differ from the usual";
+                self.report(at, problem.help(help));
                 None
             }
         }

@@ -9,6 +9,7 @@ use soffio::articulation::ConstraintKind;
 use soffio::exhibit::{self, AttractAction, Exhibit, Report, codes};
 use soffio::math::{DVec3, PI};
 use soffio::wind::SurfaceShape;
+use soffio::wind::blow::BlowDetector;
 
 use super::glb::{Folder, Scene, cuboid, sheet};
 
@@ -178,6 +179,79 @@ fn an_open_sheet_weighs_by_its_thickness() {
     let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let expected = 0.02 * 5e-4 * 7850.0;
     assert!((exhibit.bodies[0].properties.mass - expected).abs() < SINGLE * expected);
+}
+
+#[test]
+fn a_pattern_takes_a_wire_through_its_points_in_natural_order() {
+    let mut scene = Scene::default();
+    let marks = [("Rod.10", 0.3), ("Rod.9", 0.2), ("Rod.1", 0.1), ("Rodent", 9.0)];
+    let mut below: Vec<_> = marks.iter().map(|(name, x)| scene.node(name, [*x, 0.0, 0.0], None, &[])).collect();
+    below.push(scene.node("Weight", [0.0; 3], Some(&cuboid([0.02; 3])), &[]));
+    scene.node("Boom", [0.0, 1.0, 0.0], None, &below);
+    scene.node("Stay.2", [0.0, 0.0, 2.0], None, &[]);
+    scene.node("Stay.1", [0.0, 0.0, 1.0], None, &[]);
+    let wire = |name: &str, points: &str| {
+        format!("[[wire]]\nname = \"{name}\"\npoints = \"{points}\"\ndiameter = \"1 mm\"\nmaterial = \"steel\"\n")
+    };
+    let body = "[[body]]\nnode = \"Boom\"\nmaterial = \"steel\"\n";
+    let text = format!("{body}{}body = \"Boom\"\n{}", wire("rod", "Rod.*"), wire("stay", "Stay.*"));
+    let exhibit =
+        exhibit::load(Folder::exhibit(&scene.glb(), &text).path()).unwrap_or_else(|report| panic!("{report}"));
+    let along = |wire: usize, axis: DVec3| exhibit.wires[wire].points.iter().map(|p| p.dot(axis)).collect::<Vec<_>>();
+    for (found, expected) in [(along(0, DVec3::X), &[0.1, 0.2, 0.3][..]), (along(1, DVec3::Z), &[1.0, 2.0])] {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < SINGLE), "{found:?} {expected:?}");
+    }
+    assert_eq!((exhibit.wires[0].body, exhibit.wires[1].body), (Some(0), None));
+}
+
+#[test]
+fn a_wire_collides_as_few_capsules_that_stay_inside_it() {
+    let exhibit = exhibit::load(&exhibit::resolve("steel-fish").expect("shipped")).unwrap_or_else(|r| panic!("{r}"));
+    for name in ["b2-wire", "b4-wire"] {
+        let wire = exhibit.wires.iter().find(|wire| wire.name == name).expect("a wire");
+        let chain: Vec<_> =
+            exhibit.colliders.iter().filter(|c| c.node == name).map(|c| (c.core[0], c.core[1])).collect();
+        let segments = wire.points.len() - 1;
+        assert!((1..=segments / 2).contains(&chain.len()), "{} capsules for {segments} segments", chain.len());
+        assert!(chain.windows(2).all(|pair| pair[0].1 == pair[1].0), "the chain is whole");
+        assert_eq!((chain[0].0, chain[chain.len() - 1].1), (wire.points[0], wire.points[segments]));
+        for &point in &wire.points {
+            let off = |&(a, b): &(DVec3, DVec3)| {
+                let t = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+                point.distance(a + (b - a) * t)
+            };
+            let distance = chain.iter().map(off).fold(f64::INFINITY, f64::min);
+            assert!(distance <= wire.radius, "{name}: {distance} m off");
+        }
+    }
+}
+
+#[test]
+fn a_breath_made_from_its_strength_is_heard_as_one_and_is_always_the_same() {
+    let text = "[[attract.step]]\nat = 0\nblow = { strength = 0.5, hold = \"0.8 s\", aim = [0.3, 0.4] }\n\
+                [[attract.step]]\nat = 5\nblow = { strength = 0.5, hold = \"0.8 s\" }\n";
+    let breaths = || {
+        let exhibit = load(text).unwrap_or_else(|report| panic!("{report}"));
+        let breath = |i: usize| match &exhibit.attract.steps[i].action {
+            AttractAction::Blow { samples, sample_rate, aim } => (samples.to_vec(), *sample_rate, *aim),
+            other => panic!("{other:?}"),
+        };
+        [breath(0), breath(1)]
+    };
+    let [first, second] = breaths();
+    assert_eq!(breaths(), [first.clone(), second.clone()]);
+    assert_ne!(first.0, second.0, "two breaths of a script differ");
+    assert_eq!((first.1, first.2, second.2), (16_000, Some([0.3, 0.4]), None));
+    // 0.4 s of quiet on either side, 0.12 s up, 0.8 s, 0.3 s down.
+    assert_eq!(first.0.len(), (2.02 * 16_000.0) as usize);
+    let mut detector = BlowDetector::new(first.1);
+    let mut blowing = 0;
+    for step in first.0.chunks(16_000 / 240) {
+        detector.push(step, &[]);
+        blowing += usize::from(detector.estimate().speed > 0.0);
+    }
+    assert!(blowing as f64 / 240.0 > 0.5, "heard for {blowing} steps");
 }
 
 #[test]

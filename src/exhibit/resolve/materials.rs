@@ -1,0 +1,112 @@
+//! Materials: the built-in table, what the sidecar changes of it, and pairs that break the combine rule.
+
+use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::source::join;
+use super::super::{Material, MaterialPair, codes, materials};
+use super::Context;
+
+impl Context<'_> {
+    pub(super) fn materials(&mut self) {
+        for name in self.source.keys_of("/material") {
+            let Some(given) = self.sidecar.material.get(&name) else { continue };
+            let at = join("/material", &name);
+            let base = materials::builtin(&name);
+            let default = base.clone().unwrap_or(Material {
+                name: name.clone(),
+                density: 0.0,
+                static_friction: 0.4,
+                dynamic_friction: 0.3,
+                restitution: 0.4,
+                youngs_modulus: 0.0,
+                poisson: 0.3,
+                loss_factor: 0.01,
+            });
+            let material = Material {
+                name: name.clone(),
+                density: given.density.map_or(default.density, |v| v.0),
+                static_friction: given.static_friction.unwrap_or(default.static_friction),
+                dynamic_friction: given.dynamic_friction.unwrap_or(default.dynamic_friction),
+                restitution: given.restitution.unwrap_or(default.restitution),
+                youngs_modulus: given.youngs_modulus.map_or(default.youngs_modulus, |v| v.0),
+                poisson: given.poisson.unwrap_or(default.poisson),
+                loss_factor: given.loss_factor.unwrap_or(default.loss_factor),
+            };
+            for (key, value) in [("density", material.density), ("youngs_modulus", material.youngs_modulus)] {
+                if value <= 0.0 {
+                    let what = if base.is_none() {
+                        "a material that is not built in needs it"
+                    } else {
+                        "it must be above zero"
+                    };
+                    let message = format!("material \"{name}\" has no {key}");
+                    let known = materials::names().collect::<Vec<_>>().join(", ");
+                    self.report(
+                        &at,
+                        Diagnostic::new(codes::RANGE, message).label(what).help(format!("built in: {known}")),
+                    );
+                }
+            }
+            self.trace_material(&material, &at, base.is_some());
+            self.materials.push(material);
+        }
+    }
+
+    pub(super) fn trace_material(&mut self, material: &Material, at: &str, builtin: bool) {
+        let of = format!("material {}", material.name);
+        let otherwise = if builtin { "built-in table" } else { "default" };
+        for (key, value) in [
+            ("density", format!("{} kg/m³", material.density)),
+            ("static_friction", material.static_friction.to_string()),
+            ("dynamic_friction", material.dynamic_friction.to_string()),
+            ("restitution", material.restitution.to_string()),
+            ("youngs_modulus", format!("{} GPa", material.youngs_modulus / 1e9)),
+            ("poisson", material.poisson.to_string()),
+            ("loss_factor", material.loss_factor.to_string()),
+        ] {
+            self.trace(&of, key, value, &join(at, key), otherwise);
+        }
+    }
+
+    pub(super) fn material_pairs(&mut self) -> Vec<MaterialPair> {
+        let sidecar = self.sidecar;
+        let mut pairs = Vec::new();
+        for (i, given) in sidecar.material_pair.iter().enumerate() {
+            let at = format!("/material_pair/{i}/pair");
+            let first = self.material(&given.pair[0], &format!("{at}/0"));
+            let second = self.material(&given.pair[1], &format!("{at}/1"));
+            if let (Some(a), Some(b)) = (first, second) {
+                pairs.push(MaterialPair {
+                    pair: (a, b),
+                    restitution: given.restitution,
+                    dynamic_friction: given.dynamic_friction,
+                    static_friction: given.static_friction,
+                });
+            }
+        }
+        pairs
+    }
+
+    /// Index of a material of the sidecar or of the built-in table.
+    pub(super) fn material(&mut self, name: &str, at: &str) -> Option<usize> {
+        if let Some(index) = self.materials.iter().position(|m| m.name == name) {
+            return Some(index);
+        }
+        if let Some(material) = materials::builtin(name) {
+            self.trace_material(&material, "/material/-", true);
+            self.materials.push(material);
+            return Some(self.materials.len() - 1);
+        }
+        let builtin: Vec<&str> = materials::names().collect();
+        let known = self.sidecar.material.keys().map(String::as_str).chain(builtin.iter().copied());
+        let likely = near(name, known);
+        let help = match likely.as_slice() {
+            [] => format!(
+                "built in: {}; or write a table [material.{name}]",
+                materials::names().collect::<Vec<_>>().join(", ")
+            ),
+            names => format!("did you mean {}?", quoted(names)),
+        };
+        self.report(at, Diagnostic::new(codes::UNKNOWN_MATERIAL, format!("no material named \"{name}\"")).help(help));
+        None
+    }
+}

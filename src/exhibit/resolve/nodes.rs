@@ -1,0 +1,251 @@
+//! From a name in the sidecar to a node of the model, and from a node to points, axes and meshes of its body.
+
+use super::super::codes;
+use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::sidecar::Point;
+use super::super::source::natural_key;
+use super::Context;
+use crate::articulation::{Anchor, Axis};
+use crate::geometry::TriangleMesh;
+use crate::math::{DMat3, DMat4, DQuat, DVec3, Pose};
+
+impl Context<'_> {
+    /// The node named `name`: a unique name, a path `Frame/Arm`, or `#12`.
+    pub(super) fn node(&mut self, name: &str, at: &str, used_for: &str) -> Option<usize> {
+        self.node_below(None, name, at, used_for)
+    }
+
+    /// The node named `name`, those below `root` first.
+    pub(super) fn node_below(&mut self, root: Option<usize>, name: &str, at: &str, used_for: &str) -> Option<usize> {
+        let model = self.model;
+        if let Some(index) = name.strip_prefix('#').and_then(|digits| digits.parse::<usize>().ok())
+            && index < model.nodes.len()
+        {
+            return Some(index);
+        }
+        let mut found = self.nodes_named(name);
+        if found.len() > 1
+            && let Some(root) = root
+        {
+            found.retain(|&node| self.is_below(node, root));
+        }
+        match found.as_slice() {
+            [one] => Some(*one),
+            [] => {
+                let likely = near(name, model.nodes.iter().map(|node| node.name.as_str()));
+                let help = match likely.as_slice() {
+                    [] => "names are case-sensitive; `soffio explain` lists the nodes".to_owned(),
+                    names => format!("nodes with near names: {}", quoted(names)),
+                };
+                let message = format!("no node named \"{name}\" in {}", self.sidecar.model);
+                self.report(
+                    at,
+                    Diagnostic::new(codes::NOT_FOUND, message).label(format!("used for {used_for}")).help(help),
+                );
+                None
+            }
+            several => {
+                let indices: Vec<String> = several.iter().map(|i| format!("#{i}")).collect();
+                let message = format!("{} nodes are named \"{name}\"", several.len());
+                let help = format!("rename them, write a path \"Parent/{name}\", or an index: {}", indices.join(", "));
+                self.report(
+                    at,
+                    Diagnostic::new(codes::AMBIGUOUS, message).label(format!("used for {used_for}")).help(help),
+                );
+                None
+            }
+        }
+    }
+
+    /// Nodes with this name, or at the end of this path.
+    pub(super) fn nodes_named(&self, name: &str) -> Vec<usize> {
+        let nodes = &self.model.nodes;
+        let exact: Vec<usize> = (0..nodes.len()).filter(|&i| nodes[i].name == name).collect();
+        if !exact.is_empty() || !name.contains('/') {
+            return exact;
+        }
+        let ends = |leaf: &usize| {
+            let mut at = Some(*leaf);
+            name.rsplit('/').all(|part| {
+                let here = at.filter(|&i| nodes[i].name == part);
+                at = here.and_then(|i| nodes[i].parent);
+                here.is_some()
+            })
+        };
+        (0..nodes.len()).filter(ends).collect()
+    }
+
+    /// The nodes that a pattern such as `Rod.*` stands for, in natural order: children of `root` that belong to its
+    /// body, or without a root all nodes that stand still.
+    pub(super) fn marks(&mut self, root: Option<usize>, pattern: &str, at: &str, used_for: &str) -> Option<Vec<usize>> {
+        let model = self.model;
+        let Some(start) = pattern.strip_suffix('*').filter(|start| !start.is_empty() && !start.contains('*')) else {
+            let message = format!("\"{pattern}\" names no points");
+            let help = "write how their names begin, and a *: \"Rod.*\"; or list them one by one";
+            self.report(at, Diagnostic::new(codes::WRONG_SHAPE, message).help(help));
+            return None;
+        };
+        let candidates: Vec<usize> = match root {
+            Some(root) => model.nodes[root].children.clone(),
+            None => (0..model.nodes.len()).collect(),
+        };
+        let owner = root.and_then(|root| self.owner[root]);
+        let named = |node: &usize| self.owner[*node] == owner && model.nodes[*node].name.starts_with(start);
+        let mut marks: Vec<usize> = candidates.into_iter().filter(named).collect();
+        marks.sort_by_cached_key(|&node| natural_key(&model.nodes[node].name));
+        if marks.len() < 2 {
+            let place = match root {
+                Some(root) => format!("below \"{}\"", model.nodes[root].name),
+                None => "that stands still".to_owned(),
+            };
+            let message = match marks.len() {
+                0 => format!("no node {place} has a name that begins with \"{start}\""),
+                _ => format!("one node alone {place} has a name that begins with \"{start}\""),
+            };
+            let known = model.nodes.iter().map(|node| node.name.as_str());
+            let help = match near(start, known).as_slice() {
+                [] => "a wire has at least two points".to_owned(),
+                names => format!("a wire has at least two points; near names: {}", quoted(names)),
+            };
+            self.report(
+                at,
+                Diagnostic::new(codes::NOT_FOUND, message).label(format!("used for {used_for}")).help(help),
+            );
+            return None;
+        }
+        Some(marks)
+    }
+
+    /// Is `node` `root` or below it?
+    pub(super) fn is_below(&self, node: usize, root: usize) -> bool {
+        std::iter::successors(Some(node), |&n| self.model.nodes[n].parent).any(|n| n == root)
+    }
+
+    /// Name of a body, or of the world, for messages.
+    pub(super) fn body_name(&self, body: Option<usize>) -> &str {
+        body.map_or("the world", |b| self.model.nodes[self.body_nodes[b]].name.as_str())
+    }
+
+    pub(super) fn pose_of(&self, body: Option<usize>) -> Pose {
+        body.map_or(Pose::IDENTITY, |b| self.poses[b])
+    }
+
+    /// A point of a node's space as an anchor of the body that the node belongs to.
+    pub(super) fn anchor(&self, node: usize, point: DVec3) -> Anchor {
+        let body = self.owner[node];
+        let world = self.model.nodes[node].world.transform_point3(point);
+        Anchor { body, point: self.pose_of(body).inverse_point(world) }
+    }
+
+    /// A direction of a node's space as an axis of the body that the node belongs to.
+    pub(super) fn axis(&mut self, node: usize, direction: [f64; 3], at: &str) -> Option<Axis> {
+        let body = self.owner[node];
+        let world = self.model.nodes[node].world.transform_vector3(DVec3::from(direction));
+        self.unit(world, at).map(|unit| Axis { body, direction: self.pose_of(body).inverse_vector(unit) })
+    }
+
+    pub(super) fn unit(&mut self, direction: DVec3, at: &str) -> Option<DVec3> {
+        let unit = direction.try_normalize();
+        if unit.is_none() {
+            let problem = Diagnostic::new(codes::NO_AXIS, "a direction has no length");
+            self.report(at, problem.help("give a vector such as [0, 1, 0]"));
+        }
+        unit
+    }
+
+    /// A point given as a node's name or as coordinates in the space of `node`.
+    pub(super) fn point(&mut self, node: usize, given: Option<&Point>, at: &str, used_for: &str) -> Option<Anchor> {
+        match given {
+            None => Some(self.anchor(node, DVec3::ZERO)),
+            Some(Point::Position(p)) => Some(self.anchor(node, DVec3::from(p.map(|x| x.0)))),
+            Some(Point::Node(name)) => {
+                let mark = self.node_below(Some(node), name, at, used_for)?;
+                if self.owner[mark] != self.owner[node] {
+                    let (mark_body, body) = (self.body_name(self.owner[mark]), self.body_name(self.owner[node]));
+                    let message = format!("node \"{name}\" belongs to {mark_body}, not to {body}");
+                    self.report(
+                        at,
+                        Diagnostic::new(codes::NOT_DESCENDANT, message)
+                            .help("hang the node below the body in the model"),
+                    );
+                    return None;
+                }
+                Some(self.anchor(mark, DVec3::ZERO))
+            }
+        }
+    }
+
+    /// World position of an anchor at rest.
+    pub(super) fn at_rest(&self, anchor: &Anchor) -> DVec3 {
+        self.pose_of(anchor.body).point(anchor.point)
+    }
+
+    /// Nodes at and below `root` that belong to the same body, without the subtrees in `except`.
+    pub(super) fn subtree(&self, root: usize, except: &[usize]) -> Vec<usize> {
+        let mut nodes = Vec::new();
+        let mut waiting = vec![root];
+        while let Some(node) = waiting.pop() {
+            nodes.push(node);
+            let children = self.model.nodes[node].children.iter().copied();
+            waiting.extend(children.filter(|c| self.owner[*c] == self.owner[root] && !except.contains(c)));
+        }
+        nodes.sort_unstable();
+        nodes
+    }
+
+    /// The mesh of one node in the frame of its body; `None` where it has none.
+    pub(super) fn node_mesh(&self, node: usize) -> Option<TriangleMesh> {
+        let mesh = &self.model.meshes[self.model.nodes[node].mesh?];
+        let frame = self.pose_of(self.owner[node]).matrix().inverse() * self.model.nodes[node].world;
+        let mirrored = DMat3::from_mat4(frame).determinant() < 0.0;
+        let mut out = TriangleMesh::default();
+        for primitive in &mesh.primitives {
+            let base = out.positions.len() as u32;
+            out.positions.extend(primitive.positions.iter().map(|p| DVec3::from(p.map(f64::from))));
+            out.triangles.extend(primitive.indices.chunks_exact(3).map(|t| {
+                if mirrored { [base + t[0], base + t[2], base + t[1]] } else { [base + t[0], base + t[1], base + t[2]] }
+            }));
+        }
+        // Weld before the transform: equal corners are equal in the file, not always after rounding.
+        out = out.welded();
+        for p in &mut out.positions {
+            *p = frame.transform_point3(*p);
+        }
+        (!out.triangles.is_empty()).then_some(out)
+    }
+
+    /// The meshes at and below a node, in the frame of its body; reports where there is none.
+    pub(super) fn mesh_of(&mut self, node: usize, at: &str, used_for: &str) -> Option<TriangleMesh> {
+        let mut mesh = TriangleMesh::default();
+        for part in self.subtree(node, &[]) {
+            if let Some(own) = self.node_mesh(part) {
+                mesh.append(&own);
+            }
+        }
+        if mesh.triangles.is_empty() {
+            let name = &self.model.nodes[node].name;
+            let message = format!("node \"{name}\" has no mesh");
+            self.report(at, Diagnostic::new(codes::NO_MESH, message).label(format!("needed for {used_for}")));
+            return None;
+        }
+        Some(mesh)
+    }
+}
+
+/// Rotation and position of a matrix of rotation, translation and one positive scale; `None` where it is more.
+pub(super) fn rigid(matrix: &DMat4) -> Option<Pose> {
+    /// glTF stores single precision: seven digits, of which chains of nodes lose one or two.
+    const EVEN: f64 = 1e-5;
+    let axes = DMat3::from_mat4(*matrix);
+    let lengths = DVec3::new(axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length());
+    let scale = lengths.element_sum() / 3.0;
+    let even = (lengths - scale).abs().max_element() <= EVEN * scale;
+    let square = [(axes.x_axis, axes.y_axis), (axes.y_axis, axes.z_axis), (axes.z_axis, axes.x_axis)];
+    let right_angled = square.iter().all(|(a, b)| a.dot(*b).abs() <= EVEN * scale * scale);
+    if !(scale > 0.0 && even && right_angled && axes.determinant() > 0.0) {
+        return None;
+    }
+    let rotation =
+        DQuat::from_mat3(&DMat3::from_cols(axes.x_axis / lengths.x, axes.y_axis / lengths.y, axes.z_axis / lengths.z));
+    Some(Pose { rotation: rotation.normalize(), position: matrix.w_axis.truncate() })
+}

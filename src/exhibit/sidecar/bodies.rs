@@ -1,0 +1,141 @@
+//! Bodies, their parts, and the wires and cords between their points.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::super::quantity::*;
+use super::{Name, Point};
+
+/// A node that moves as one rigid body with all nodes below it that are not bodies themselves.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// glTF node: a name, a path "Frame/Arm", or "#12".
+    pub node: String,
+    /// Material: density for the mass, friction, restitution, sound.
+    pub material: Option<String>,
+    /// Mass; wins over density.
+    pub mass: Option<Mass>,
+    /// Centre of mass in node space.
+    pub center_of_mass: Option<[Length; 3]>,
+    /// Moments of inertia about the centre of mass.
+    pub inertia: Option<PrincipalInertia>,
+    /// Thickness of the sheet, where the mesh is an open surface.
+    pub thickness: Option<Length>,
+    /// Rate at which linear motion fades besides the air on the wind surfaces.
+    pub linear_damping: Option<Rate>,
+    /// Rate at which rotation fades.
+    pub angular_damping: Option<Rate>,
+    /// Motion at the start.
+    #[serde(default)]
+    pub initial: Initial,
+    /// Does it move?
+    #[serde(default)]
+    pub motion: Motion,
+    /// Nodes below it that are made of something else.
+    #[serde(default)]
+    pub part: Vec<Part>,
+}
+
+/// Principal moments of inertia.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PrincipalInertia {
+    /// Moments about the principal axes.
+    pub diagonal: [Inertia; 3],
+    /// Principal axes to node axes, quaternion [x, y, z, w].
+    pub orientation: Option<[f64; 4]>,
+}
+
+/// Motion at the start.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Initial {
+    /// Velocity of the centre of mass, world axes.
+    pub velocity: Option<[Speed; 3]>,
+    /// Angular velocity, world axes.
+    pub angular_velocity: Option<[Rotation; 3]>,
+}
+
+/// Does a body move?
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Motion {
+    /// Moved by forces.
+    #[default]
+    Dynamic,
+    /// Stands still.
+    Static,
+}
+
+/// A node below a body, with what is below it, of another material.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// glTF node below the body.
+    pub node: String,
+    /// Its material.
+    pub material: String,
+    /// Thickness of the sheet, where the mesh is an open surface.
+    pub thickness: Option<Length>,
+}
+
+/// A wire or cord: drawn as a round rod, has mass, feels the wind.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wire {
+    /// Unique name.
+    pub name: Name,
+    /// Node of the body that carries it; without it the wire stands still.
+    pub body: Option<String>,
+    /// The line.
+    pub points: Points,
+    /// Rounds the line through its points (Catmull–Rom).
+    #[serde(default)]
+    pub smooth: bool,
+    /// Radius; or give the diameter.
+    pub radius: Option<Length>,
+    /// Diameter; or give the radius.
+    pub diameter: Option<Length>,
+    /// Physical material.
+    pub material: String,
+    /// Colour: linear [r, g, b], or sRGB "#rrggbb".
+    pub color: Option<Color>,
+    /// 0 dielectric … 1 metal.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub metallic: Option<f32>,
+    /// Perceptual roughness 0 … 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub roughness: Option<f32>,
+    /// Does it collide?
+    #[serde(default)]
+    pub collide: bool,
+    /// Does it feel the wind?
+    #[serde(default = "yes")]
+    pub wind: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// The line of a wire.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Points {
+    /// "Rod.*": all nodes below the body's whose names begin so, in natural order (Rod.9 before Rod.10); for a wire
+    /// that stands still, all nodes that do.
+    Named(String),
+    /// One by one: nodes, or [x, y, z] in the body's node space.
+    Listed(#[schemars(length(min = 2, max = 4096))] Vec<Point>),
+}
+
+/// A colour.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Color {
+    /// Linear RGB, 0 … 1.
+    Linear([f32; 3]),
+    /// sRGB, "#rrggbb".
+    Hex(#[schemars(regex(pattern = "^#[0-9a-fA-F]{6}$"))] String),
+}

@@ -1,0 +1,230 @@
+//! What the surfaces of a work do: collide, feel the wind, sound.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::super::quantity::*;
+use super::Name;
+
+/// A collision shape.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Collider {
+    /// glTF node: it moves with the body the node belongs to, and the shape is centred in its frame.
+    pub node: String,
+    /// Material; by default the body's.
+    pub material: Option<String>,
+    /// The shape.
+    pub shape: Shape,
+}
+
+/// A collision shape: one of the kinds. Axes as in glTF: capsules and cylinders stand along Y.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// A ball.
+    Sphere(Sphere),
+    /// A cylinder with round ends.
+    Capsule(Capsule),
+    /// A box.
+    Box(BoxShape),
+    /// A cylinder.
+    Cylinder(Cylinder),
+    /// Taken from the mesh of the node and of the nodes below it.
+    Fit(Fit),
+}
+
+/// A ball.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sphere {
+    /// Radius.
+    pub radius: Length,
+}
+
+/// A cylinder with round ends along Y.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Capsule {
+    /// Distance between the centres of the ends.
+    pub height: Length,
+    /// Radius.
+    pub radius: Length,
+}
+
+/// A box along the axes.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxShape {
+    /// Full lengths of the edges.
+    pub size: [Length; 3],
+}
+
+/// A cylinder along Y.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cylinder {
+    /// Height.
+    pub height: Length,
+    /// Radius.
+    pub radius: Length,
+}
+
+/// What is fitted to a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Fit {
+    /// The ball around it.
+    Sphere,
+    /// The capsule along its longest axis.
+    Capsule,
+    /// The box along its principal axes.
+    Box,
+    /// Sheet metal: its outline, cut into convex pieces, half its thickness around.
+    Plate,
+    /// Its convex hull.
+    Convex,
+}
+
+/// What collides with what.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Collision {
+    /// Names for several nodes, used as "group:NAME".
+    pub groups: BTreeMap<String, Vec<String>>,
+    /// Pairs of nodes or groups that never collide.
+    pub exclude: Vec<[String; 2]>,
+    /// Do bodies that are joined collide?
+    pub constrained_pairs: ConstrainedPairs,
+}
+
+/// Do bodies that are joined collide?
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ConstrainedPairs {
+    /// No.
+    #[default]
+    Exclude,
+    /// Yes.
+    Collide,
+}
+
+/// A surface that feels the wind: the mesh of a node and of the nodes below it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WindSurface {
+    /// glTF node that is a body or belongs to one.
+    pub node: String,
+    /// How densely it is sampled.
+    #[serde(default)]
+    pub sampling: Sampling,
+    /// Which side of the triangles feels the wind.
+    pub faces: Option<Faces>,
+    /// Coefficients.
+    #[serde(default)]
+    pub drag: Drag,
+}
+
+/// How densely a wind surface is sampled.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sampling {
+    /// Sample points per area.
+    pub per_area: PerArea,
+    /// Fewest points.
+    #[schemars(range(min = 1, max = 4096))]
+    pub min: usize,
+    /// Most points.
+    #[schemars(range(min = 1, max = 4096))]
+    pub max: usize,
+    /// Seed of the points.
+    pub seed: u64,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self { per_area: PerArea(4000.0), min: 16, max: 400, seed: 1 }
+    }
+}
+
+/// Which side of the triangles feels the wind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Faces {
+    /// A thin sheet: either side.
+    Both,
+    /// A solid: the outside.
+    Front,
+}
+
+/// Drag coefficients.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Drag {
+    /// For flow along the normal: 1.17 for a plate.
+    #[schemars(range(min = 0.0))]
+    pub normal: f64,
+    /// Skin friction for flow along the face.
+    #[schemars(range(min = 0.0))]
+    pub tangential: f64,
+    /// Multiplies the force.
+    #[schemars(range(min = 0.0))]
+    pub gain: f64,
+}
+
+impl Default for Drag {
+    fn default() -> Self {
+        Self { normal: 1.17, tangential: 0.02, gain: 1.0 }
+    }
+}
+
+/// Which motion of which body plays which sound.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sound {
+    /// Unique name.
+    pub name: Name,
+    /// Node of the body.
+    pub body: String,
+    /// The part that sounds, where it is not all of the body.
+    pub node: Option<String>,
+    /// What sets it off.
+    pub on: Trigger,
+    /// Name of the timbre.
+    pub timbre: String,
+    /// Level.
+    #[serde(default)]
+    pub gain: Decibel,
+    /// Key of a caption in the labels.
+    pub caption: Option<String>,
+    /// Most simultaneous hits.
+    #[schemars(range(min = 1, max = 64))]
+    pub max_voices: Option<usize>,
+    /// Dimensions that the mesh does not tell.
+    #[serde(default)]
+    pub params: SoundParams,
+}
+
+/// Dimensions of a sounding body that the mesh does not tell.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SoundParams {
+    /// Longest half extent.
+    pub half_length: Option<Length>,
+    /// Second half extent.
+    pub half_width: Option<Length>,
+    /// Thickness of the sheet.
+    pub thickness: Option<Length>,
+}
+
+/// What sets a sound off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Trigger {
+    /// A hit on the body.
+    Impact,
+    /// The wind at the body.
+    Wind,
+}

@@ -1,0 +1,94 @@
+//! Words by language, credit, and what is shown and blown when nobody is there.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::super::quantity::Time;
+
+/// What happens when nobody is there.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Attract {
+    /// Steps in time order; the script repeats after the last.
+    pub step: Vec<AttractStep>,
+    /// Length of one round; by default 10 s after the last step.
+    pub duration: Option<Time>,
+}
+
+/// One step of the attract script: one of show, blow, reset.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AttractStep {
+    /// Since the script began.
+    pub at: Time,
+    /// Key of a label text to show.
+    pub show: Option<String>,
+    /// A breath.
+    pub blow: Option<Blow>,
+    /// Puts everything back to where it started.
+    #[serde(default)]
+    pub reset: bool,
+}
+
+/// A breath: a recording, or made from its strength.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Blow {
+    /// WAV file inside the exhibit folder.
+    pub wav: Option<String>,
+    /// Instead of a recording: speed at the lips over that of the hardest blow (17 m/s), 0 … 1. Gentle is 0.22.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub strength: Option<f64>,
+    /// With `strength`: from nothing to the height; by default 0.12 s.
+    pub attack: Option<Time>,
+    /// With `strength`: time at the height; by default 1.2 s.
+    pub hold: Option<Time>,
+    /// With `strength`: from there to nothing; by default 0.3 s.
+    pub release: Option<Time>,
+    /// Picture coordinates, (0,0) top left, (1,1) bottom right; by default the centre.
+    pub aim: Option<[f64; 2]>,
+}
+
+/// Words by language code.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+pub struct Label {
+    /// Language shown first.
+    pub default_language: Option<String>,
+    /// One table per language.
+    #[serde(flatten)]
+    pub languages: BTreeMap<String, Words>,
+}
+
+/// Words of one language.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Words {
+    /// Title of the work.
+    pub title: String,
+    /// Maker.
+    pub maker: String,
+    /// Wall text.
+    pub body: String,
+    /// What is to be seen, for those who cannot.
+    pub alt: String,
+    /// Texts by key.
+    pub text: BTreeMap<String, String>,
+    /// Captions of sounds by key.
+    pub caption: BTreeMap<String, String>,
+}
+
+/// Who made it, and whose rights it carries.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Credit {
+    /// SPDX id of the model's licence.
+    pub model_license: String,
+    /// Who made the model.
+    pub model_author: String,
+    /// Rights notice shown with the label.
+    pub notice: String,
+    /// Sources of facts on the label.
+    pub sources: Vec<String>,
+}
