@@ -235,6 +235,20 @@ impl Config {
     }
 }
 
+/// JSON Schema (draft 2020-12) of the file, with the ranges of [`LIMITS`].
+pub fn schema() -> serde_json::Value {
+    let inline = schemars::generate::SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
+    let mut schema = inline.into_generator().into_root_schema_for::<Config>().to_value();
+    for limit in LIMITS {
+        let pointer = format!("/properties/{}", limit.key.replace('.', "/properties/"));
+        if let Some(serde_json::Value::Object(number)) = schema.pointer_mut(&pointer) {
+            number.insert("minimum".into(), limit.low.into());
+            number.insert("maximum".into(), limit.high.into());
+        }
+    }
+    schema
+}
+
 /// The first [`FILE`] from the working directory upwards.
 fn find() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;

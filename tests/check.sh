@@ -4,9 +4,9 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
 format()   { cargo fmt --all -- --check; }
-headless() { cargo test --locked --quiet --no-default-features; }
 lints()    { cargo clippy --locked --quiet --all-targets -- -D warnings; }
-full()     { cargo test --locked --quiet; }
+headless() { cargo clippy --locked --quiet --all-targets --no-default-features -- -D warnings; }
+suite()    { cargo test --locked --quiet; }
 exhibits() { cargo run --locked --quiet -- check exhibits/* kiosk-config/kiosk.toml; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
 live()     { cargo build --locked --quiet && tests/live/run.sh target/debug/soffio; }
@@ -33,7 +33,7 @@ long() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(format headless lints full exhibits docs live)
+[ ${#parts[@]} -gt 0 ] || parts=(format lints headless docs suite exhibits live)
 [ "${parts[0]}" = --long ] && parts=(long)
 for part in "${parts[@]}"; do
     echo "== $part"

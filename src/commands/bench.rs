@@ -23,7 +23,7 @@ pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
     exhibits: Vec<String>,
     /// Simulated seconds of each measurement.
-    #[arg(long, default_value_t = 10.0, value_parser = super::play::parse_seconds)]
+    #[arg(long, default_value_t = 10.0, value_parser = super::play::parse_seconds, allow_negative_numbers = true)]
     seconds: f64,
     /// One JSON object a line.
     #[arg(long)]

@@ -1,17 +1,19 @@
-//! `soffio check`: all problems of exhibits and models at once, each located and explained.
+//! `soffio check`: all problems of exhibits, models and configurations at once, each located and explained.
 
 use std::io::IsTerminal;
+use std::ops::Range;
 use std::path::Path;
 
 use super::{Failure, Outcome};
-use crate::exhibit::{self, Report, model};
+use crate::config::{Config, ConfigError};
+use crate::exhibit::{self, Diagnostic, Location, Report, codes, model};
 
 /// Validates exhibits, configs and models: all problems at once, located, explained.
 ///
 /// Example: soffio check exhibits/steel-fish
 #[derive(clap::Args, Debug, Default)]
 pub struct Args {
-    /// Exhibit ids or folders, their exhibit.toml, .glb or .gltf files.
+    /// Exhibit ids or folders, their exhibit.toml, .glb or .gltf files; a site's configuration (any other .toml).
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<String>,
     /// Prints one JSON array of problems to stdout.
@@ -50,9 +52,38 @@ fn check(path: &str) -> Report {
         "toml" if file.file_name().is_some_and(|name| name == exhibit::SIDECAR) => {
             exhibit_report(file.parent().unwrap_or(file))
         }
+        "toml" => Config::load(Some(file)).map(|_| Report::default()).map_err(|error| config_report(&error)),
         _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder)),
     };
     outcome.unwrap_or_else(|report| report)
+}
+
+/// A configuration's problems in the form of an exhibit's.
+fn config_report(error: &ConfigError) -> Report {
+    let file = error.file.display().to_string();
+    // A file that cannot be read again has no lines to show; its problems stand without them.
+    let text = std::fs::read_to_string(&error.file).unwrap_or_default();
+    let diagnostics = error.problems.iter().map(|problem| {
+        let message = if problem.line > 0 { problem.message.clone() } else { format!("{file} {}", problem.message) };
+        let mut diagnostic = Diagnostic::new(codes::CONFIG, message);
+        diagnostic.help = Some(problem.help.clone()).filter(|help| !help.is_empty());
+        diagnostic.location = (problem.line > 0).then(|| Location {
+            file: file.clone(),
+            line: problem.line,
+            column: problem.column,
+            span: rest_of_line(&text, problem.line, problem.column),
+        });
+        diagnostic
+    });
+    Report::in_file(&file, text.as_str().into(), diagnostics.collect())
+}
+
+/// Bytes from a place to the end of its line; line and column (in characters) count from 1.
+fn rest_of_line(text: &str, line: usize, column: usize) -> Range<usize> {
+    let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+    let line = text[start..].lines().next().unwrap_or_default();
+    let before: usize = line.chars().take(column - 1).map(char::len_utf8).sum();
+    start + before..start + line.len()
 }
 
 fn exhibit_report(folder: &Path) -> Result<Report, Report> {

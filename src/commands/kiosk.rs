@@ -37,7 +37,7 @@ pub struct Args {
     #[arg(long, value_name = "WAV")]
     breath: Option<PathBuf>,
     /// End after so much time
-    #[arg(long = "for", value_name = "SECONDS", value_parser = super::play::parse_seconds)]
+    #[arg(long = "for", value_name = "SECONDS", value_parser = super::play::parse_seconds, allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Never play the attract script
     #[arg(long)]

@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long, value_name = "WAV")]
     breath: Option<PathBuf>,
     /// Where the breath is aimed, picture coordinates: 0,0 top left, 1,1 bottom right.
-    #[arg(long, value_name = "X,Y", value_parser = parse_aim, conflicts_with = "script")]
+    #[arg(long, value_name = "X,Y", value_parser = parse_aim, allow_hyphen_values = true, conflicts_with = "script")]
     aim: Option<[f64; 2]>,
     /// What a visitor does over time, JSON lines.
     #[arg(long, value_name = "FILE")]
@@ -40,7 +40,7 @@ pub struct Args {
     #[arg(long)]
     no_wind: bool,
     /// Length; default is the recording's or script's length and 5 s.
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
     /// How motion is solved.
     #[arg(long, value_enum, default_value_t = SolverArg::Auto)]
@@ -94,7 +94,7 @@ enum SolverArg {
 pub fn parse_aim(text: &str) -> Result<[f64; 2], String> {
     let wrong = || format!("\"{text}\" is no aim; write two numbers from 0 to 1, as in 0.4,0.5");
     let (x, y) = text.split_once(',').ok_or_else(wrong)?;
-    let read = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let read = |part: &str| part.trim().parse::<f64>().ok().filter(|v| (0.0..=1.0).contains(v));
     Ok([read(x).ok_or_else(wrong)?, read(y).ok_or_else(wrong)?])
 }
 
@@ -183,7 +183,11 @@ fn frame_writer(_: &Args, _: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failu
 }
 
 #[cfg(feature = "kiosk")]
-fn frame_writer(args: &Args, _exhibit: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
-    let Some(_folder) = &args.frames else { return Ok(None) };
-    Ok(None)
+fn frame_writer(args: &Args, exhibit: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
+    use crate::offline::pictures::Pictures;
+    let Some(folder) = args.frames.clone() else { return Ok(None) };
+    std::fs::create_dir_all(&folder)
+        .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;
+    let mut pictures = Pictures::new(exhibit, args.size).map_err(Failure::device)?;
+    Ok(Some(Box::new(move |frame, simulation| pictures.save(simulation, &folder.join(format!("{frame:06}.png"))))))
 }

@@ -1,11 +1,11 @@
 //! `soffio render`.
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Failure, Outcome};
 use crate::exhibit::{self, Exhibit};
+use crate::offline::pictures::write_png;
 use crate::render::scenario::Scenario;
 use crate::render::{Frame, ImageRenderer, RenderError};
 use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<(u32, u32)>,
     /// Lets the exhibit move for so many seconds first.
-    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     time: f64,
     /// PNG to write.
     #[arg(short, long, value_name = "OUT.png")]
@@ -68,8 +68,7 @@ pub fn run(args: Args) -> Outcome {
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure };
     let picture = renderer.draw(&frame).map_err(failure)?;
-    write_png(&picture, &args.output)
-        .map_err(|error| Failure::input(format!("{} cannot be written: {error}", args.output.display())))
+    write_png(&picture, &args.output).map_err(Failure::input)
 }
 
 /// The exhibit to draw: by id or folder, or a model alone.
@@ -96,21 +95,4 @@ fn failure(error: RenderError) -> Failure {
         RenderError::TooManyBodies { .. } | RenderError::Size { .. } => Failure::input(error),
         _ => Failure::device(error),
     }
-}
-
-/// Writes a PNG that is there whole or not at all.
-pub fn write_png(picture: &image::RgbaImage, path: &Path) -> std::io::Result<()> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    let mut bytes = Vec::new();
-    picture.write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(std::io::Error::other)?;
-    file.write_all(&bytes)?;
-    #[cfg(unix)]
-    {
-        // A temporary file is private; a picture has the rights of any new file.
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
-    }
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }

@@ -1,7 +1,8 @@
 //! `soffio schema`: the JSON Schema of a file format, for editors that complete and check while one types.
 
 use super::{Failure, Outcome};
-use crate::exhibit;
+use crate::sound::timbre::Preset;
+use crate::{config, exhibit};
 
 /// Prints the JSON Schema of a file kind.
 ///
@@ -20,12 +21,18 @@ pub enum Kind {
     /// exhibit.toml, format exhibit/1.
     #[default]
     Exhibit,
+    /// kiosk-config/kiosk.toml, the site's configuration.
+    Kiosk,
+    /// audio/timbres/*.toml, a sound as data.
+    Timbre,
 }
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let schema = match args.kind {
         Kind::Exhibit => exhibit::shape::schema(),
+        Kind::Kiosk => config::schema(),
+        Kind::Timbre => schemars::schema_for!(Preset).to_value(),
     };
     println!("{}", serde_json::to_string_pretty(&schema).map_err(Failure::input)?);
     Ok(())

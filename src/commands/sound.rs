@@ -1,10 +1,11 @@
 //! `soffio sound`: one sound of one timbre, for listening and for measuring.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::{Failure, Outcome};
 use crate::math::PI;
+use crate::offline::wav;
 use crate::simulation::SAMPLE_RATE;
 use crate::sound::{InstrumentSpec, Preset, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound, timbre};
 
@@ -138,8 +139,8 @@ pub fn run(args: Args) -> Outcome {
     }
     // A centred sound is 1/√2 on either side: their sum over √2 is the sound itself.
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    let mono = stereo.as_chunks::<2>().0.iter().map(|[left, right]| (left + right) * half);
-    write_wav(output, mono).map_err(|error| Failure::input(format!("{}: {error}", output.display())))
+    let mono: Vec<f32> = stereo.as_chunks::<2>().0.iter().map(|[left, right]| (left + right) * half).collect();
+    wav::write_float(output, 1, SAMPLE_RATE, &mono).map_err(Failure::input)
 }
 
 /// `--set`: the body's, or the preset's.
@@ -188,23 +189,4 @@ fn command(args: &Args, setup: &Setup, preset: &Preset, synth: &Synth) -> SoundC
         pan: 0.0,
         distance: 1.0,
     })
-}
-
-/// Mono float WAV; the file appears whole or not at all.
-fn write_wav(path: &Path, samples: impl Iterator<Item = f32>) -> Result<(), Box<dyn std::error::Error>> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    let spec = hound::WavSpec {
-        channels: 1,
-        sample_rate: SAMPLE_RATE,
-        bits_per_sample: 32,
-        sample_format: hound::SampleFormat::Float,
-    };
-    let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.as_file_mut()), spec)?;
-    for sample in samples {
-        writer.write_sample(sample)?;
-    }
-    writer.finalize()?;
-    file.persist(path)?;
-    Ok(())
 }

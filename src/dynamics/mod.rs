@@ -27,11 +27,9 @@ pub use contacts::{Contacts, Impact, ImpactKind, SurfacePair};
 use forces::Damping;
 use integrate::Rate;
 
-/// Largest phase of the stiffest tension mode in one substep, rad. The fourth-order method loses the share
-/// (φ⁶/72) of a mode's energy a substep: at 0.1 rad and 1 kHz less than 10⁻⁵ in a second of the stiffest mode.
-const MODE_PHASE: f64 = 0.1;
-/// A free spin is followed this much less finely than a mode, squared: its rates turn with it, its energy hardly moves.
-const SPIN_WEIGHT: f64 = 0.25;
+/// Largest phase φ of the stiffest tension mode in one substep, rad. The fourth-order method loses the share φ⁶/72 of
+/// such a mode's energy a substep, 10⁻⁶ here; slower motion, which holds nearly all of it, loses next to nothing.
+const MODE_PHASE: f64 = 0.2;
 /// Most substeps of one step: beyond it a mode is followed less finely, not at all less stably.
 const MOST_SUBSTEPS: u32 = 32;
 /// Faster than this is not a sculpture but a fault, m/s and rad/s.
@@ -158,7 +156,7 @@ impl Dynamics {
     /// Substeps that follow the fastest motion: of the tension modes (a body that hangs by the arm r under the load λ
     /// swings about it with ω² = |λ| |r| / I⊥), or of the free spin.
     fn substep_count(&self, dt: f64) -> u32 {
-        let spins = self.bodies.iter().map(|body| SPIN_WEIGHT * body.angular_velocity.length_squared());
+        let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let mut stiffest = spins.fold(0.0, f64::max);
         for (joint, &load) in self.loads.iter().enumerate() {
             let link = self.system.joints()[joint].link;

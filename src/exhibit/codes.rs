@@ -1,6 +1,7 @@
 //! Codes of all diagnostics. A code keeps its meaning for ever; a retired one is not given again.
 //!
-//! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, W0xxx warnings.
+//! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, E05xx the site's configuration, W0xxx
+//! warnings.
 
 /// A diagnostic's stable code and its meaning in one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,11 +56,13 @@ codes! {
     NO_TEXT = "E0260", "a label text is missing";
     BREATH = "E0261", "a recorded breath cannot be read";
     ATTRACT_ORDER = "E0262", "the attract script is out of order";
+    UNKNOWN_TIMBRE = "E0263", "no timbre of this name";
     BROKEN_MODEL = "E0301", "the model is broken";
     EXTENSION = "E0302", "the model requires an extension that is not supported";
     MODEL_LIMIT = "E0303", "the model exceeds a limit";
     IMAGE = "E0304", "an image of the model cannot be decoded";
     CYCLE = "E0305", "the node tree of the model is not a tree";
+    CONFIG = "E0501", "the site's configuration does not hold";
     NO_CAPTION = "W0401", "a sound has no caption";
     MISSING_WORDS = "W0402", "a label is missing in a language";
     NO_ALT = "W0403", "a label has no description for those who cannot see";

@@ -15,6 +15,9 @@ use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation};
 const TAIL: f64 = 4.0;
 /// The picture is taken this long after the breath began, s: when the sculpture has visibly turned.
 const PICTURE_AT: f64 = 2.0;
+/// Pixels of the picture.
+#[cfg(feature = "kiosk")]
+const PICTURE_SIZE: (u32, u32) = (1280, 720);
 
 /// What a headless run left.
 pub struct Demo {
@@ -65,6 +68,7 @@ fn picture(_: &Arc<Exhibit>, _: &Simulation, _: &Path) -> Result<(), String> {
 }
 
 #[cfg(feature = "kiosk")]
-fn picture(_exhibit: &Arc<Exhibit>, _simulation: &Simulation, _path: &Path) -> Result<(), String> {
-    Err("later".into())
+fn picture(exhibit: &Arc<Exhibit>, simulation: &Simulation, path: &Path) -> Result<(), String> {
+    use super::pictures::Pictures;
+    Pictures::new(exhibit, PICTURE_SIZE).map_err(|e| e.to_string())?.save(simulation, path)
 }

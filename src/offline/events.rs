@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::trace::WholeFile;
+use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::simulation::Event;
 

@@ -3,7 +3,10 @@
 pub mod demo;
 pub mod events;
 pub mod feed;
+#[cfg(feature = "kiosk")]
+pub mod pictures;
 pub mod play;
 pub mod soundtrack;
 pub mod trace;
 pub mod wav;
+pub mod whole_file;

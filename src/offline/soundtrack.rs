@@ -2,12 +2,12 @@
 
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ebur128::{EbuR128, Mode};
 use hound::{SampleFormat, WavSpec, WavWriter};
-use tempfile::NamedTempFile;
 
+use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::decibels;
 use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
@@ -20,6 +20,8 @@ const CHANNELS: u16 = 2;
 pub struct Soundtrack {
     synth: Synth,
     block: Vec<f32>,
+    /// Samples of the limiter's look-ahead still to be left out at the beginning, so that a hit sounds on its sample.
+    early: usize,
     peak: f32,
     loudness: Option<EbuR128>,
     file: Option<WholeWav>,
@@ -41,6 +43,7 @@ impl Soundtrack {
         synth.set_dry(dry);
         let file = path.map(WholeWav::create).transpose()?;
         Ok(Self {
+            early: synth.latency() * usize::from(CHANNELS),
             synth,
             block: vec![0.0; SAMPLES_PER_STEP as usize * usize::from(CHANNELS)],
             peak: 0.0,
@@ -55,55 +58,63 @@ impl Soundtrack {
             self.synth.command(sound);
         }
         self.synth.render(&mut self.block);
-        self.peak = self.block.iter().fold(self.peak, |peak, s| peak.max(s.abs()));
+        self.keep()
+    }
+
+    /// Measures and writes what was rendered.
+    fn keep(&mut self) -> Result<(), String> {
+        let block = &self.block[self.early.min(self.block.len())..];
+        self.early -= self.block.len() - block.len();
+        self.peak = block.iter().fold(self.peak, |peak, s| peak.max(s.abs()));
         if let Some(loudness) = &mut self.loudness {
-            loudness.add_frames_f32(&self.block).map_err(|e| e.to_string())?;
+            loudness.add_frames_f32(block).map_err(|e| e.to_string())?;
         }
-        self.file.as_mut().map_or(Ok(()), |file| file.write(&self.block))
+        self.file.as_mut().map_or(Ok(()), |file| file.write(block))
     }
 
     /// Puts the file in its place and says how loud it was.
-    pub fn finish(self) -> Result<Levels, String> {
+    pub fn finish(mut self) -> Result<Levels, String> {
+        // What the limiter still holds: as much as was left out at the beginning.
+        let held = self.synth.latency() * usize::from(CHANNELS) - self.early;
+        self.block.truncate(held);
+        self.synth.render(&mut self.block);
+        self.keep()?;
         self.file.map_or(Ok(()), WholeWav::finish)?;
         let lufs = self.loudness.and_then(|l| l.loudness_global().ok()).unwrap_or(f64::NEG_INFINITY);
         Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs })
     }
 }
 
-/// A WAV that appears at its place only when it is whole: written through a second handle, then moved.
+/// A WAV on its way: written through a second handle of its file.
 struct WholeWav {
     writer: WavWriter<BufWriter<File>>,
-    file: NamedTempFile,
-    path: PathBuf,
+    file: WholeFile,
 }
 
 impl WholeWav {
     fn create(path: &Path) -> Result<Self, String> {
-        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", path.display());
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = NamedTempFile::new_in(folder).map_err(|e| says(&e))?;
-        let handle = file.reopen().map_err(|e| says(&e))?;
+        let file = WholeFile::create(path).map_err(|e| e.to_string())?;
         let spec = WavSpec {
             channels: CHANNELS,
             sample_rate: SAMPLE_RATE,
             bits_per_sample: 32,
             sample_format: SampleFormat::Float,
         };
+        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", path.display());
+        let handle = file.reopen().map_err(|e| says(&e))?;
         let writer = WavWriter::new(BufWriter::new(handle), spec).map_err(|e| says(&e))?;
-        Ok(Self { writer, file, path: path.to_path_buf() })
+        Ok(Self { writer, file })
     }
 
     fn write(&mut self, block: &[f32]) -> Result<(), String> {
-        let mut samples = block.iter();
-        samples
-            .try_for_each(|&sample| self.writer.write_sample(sample))
-            .map_err(|e| format!("cannot write {}: {e}", self.path.display()))
+        let written = block.iter().try_for_each(|&sample| self.writer.write_sample(sample));
+        written.map_err(|e| format!("cannot write {}: {e}", self.file.path().display()))
     }
 
     fn finish(self) -> Result<(), String> {
-        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", self.path.display());
+        let path = self.file.path().to_path_buf();
+        let says = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", path.display());
         self.writer.finalize().map_err(|e| says(&e))?;
-        self.file.persist(&self.path).map_err(|e| says(&e.error))?;
-        Ok(())
+        self.file.finish().map_err(|e| says(&e))
     }
 }

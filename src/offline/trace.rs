@@ -4,50 +4,16 @@
 //! t = k / fps. Numbers are written as the shortest text that reads back to the same bits, so two equal runs give
 //! equal files. The file appears whole when the run ends.
 
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::Path;
 
-use tempfile::NamedTempFile;
-
+use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::Pose;
 use crate::simulation::{STEPS_PER_SECOND, Simulation, Snapshot};
 
 /// Frames per second of a trace nobody asked otherwise of.
 pub const DEFAULT_FPS: u32 = 60;
-
-/// A file that appears at its place only when it is whole.
-pub struct WholeFile {
-    out: BufWriter<NamedTempFile>,
-    path: PathBuf,
-}
-
-impl WholeFile {
-    /// Begins a file beside its final place.
-    pub fn create(path: &Path) -> io::Result<Self> {
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = NamedTempFile::new_in(folder)
-            .map_err(|e| io::Error::new(e.kind(), format!("cannot write into {}: {e}", folder.display())))?;
-        Ok(Self { out: BufWriter::new(file), path: path.to_path_buf() })
-    }
-
-    /// Puts the file in its place.
-    pub fn finish(self) -> io::Result<()> {
-        let file = self.out.into_inner().map_err(|e| e.into_error())?;
-        file.persist(&self.path).map_err(|e| e.error)?;
-        Ok(())
-    }
-}
-
-impl Write for WholeFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.out.write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
-    }
-}
 
 /// Writes a trace while a run goes on.
 pub struct TraceWriter {

@@ -1,8 +1,10 @@
 //! WAV files: in (PCM 8–32 bit or float, 8–192 kHz, any channel count, down-mixed), out (32-bit float).
 //!
-//! Invariant: a file appears whole or not at all (written beside its place and renamed).
+//! Invariant: a file appears whole or not at all.
 
 use std::path::{Path, PathBuf};
+
+use super::whole_file::WholeFile;
 
 /// Sample rates the kiosk understands, Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 8_000..=192_000;
@@ -71,13 +73,8 @@ pub enum WavError {
         rate: u32,
     },
     /// The file could not be written.
-    #[error("{path}: cannot be written ({reason}). Check the folder, its permissions and the free space.")]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What went wrong.
-        reason: String,
-    },
+    #[error("{0}")]
+    Write(String),
 }
 
 /// Reads a WAV as mono.
@@ -119,20 +116,14 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
 /// Writes interleaved samples (full scale ±1) as 32-bit float.
 pub fn write_float(path: impl AsRef<Path>, channels: u16, sample_rate: u32, samples: &[f32]) -> Result<(), WavError> {
     let path = path.as_ref();
-    let fail = |reason: String| WavError::Write { path: path.into(), reason };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let fail = |error: std::io::Error| WavError::Write(error.to_string());
     let spec = hound::WavSpec { channels, sample_rate, bits_per_sample: 32, sample_format: hound::SampleFormat::Float };
-    let mut builder = tempfile::Builder::new();
-    // Temporary files are private; a recording is an ordinary file, readable as the user's umask allows.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder).map_err(|error| fail(error.to_string()))?;
-    let mut write = || -> hound::Result<()> {
-        let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.as_file_mut()), spec)?;
+    let file = WholeFile::create(path).map_err(fail)?;
+    let write = || -> hound::Result<()> {
+        let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.reopen()?), spec)?;
         samples.iter().try_for_each(|&sample| writer.write_sample(sample))?;
         writer.finalize()
     };
-    write().map_err(|error| fail(error.to_string()))?;
-    file.persist(path).map_err(|error| fail(error.error.to_string()))?;
-    Ok(())
+    write().map_err(|error| WavError::Write(format!("cannot write {}: {error}", path.display())))?;
+    file.finish().map_err(fail)
 }

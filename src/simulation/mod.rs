@@ -303,7 +303,8 @@ impl Simulation {
             self.events.push(event);
         }
         let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
-        let air = breath.map_or(0.0, |breath| self.wind.air(&breath, self.aim.target).length());
+        // What is heard is the wind the sculpture feels: a gain on the force is its root on the speed.
+        let air = breath.map_or(0.0, |breath| breath.gain.sqrt() * self.wind.air(&breath, self.aim.target).length());
         let sample = (self.step + 1) * SAMPLES_PER_STEP;
         self.sounds.push(sonify::wind(sample, air, self.report.gust, self.aim.target, &listener));
     }

@@ -103,7 +103,7 @@ impl Script {
         let mut actions: Vec<(f64, Action)> = Vec::new();
         for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
             let fail = |problem: String| ScriptError { line: index + 1, problem };
-            let line: Line = serde_json::from_str(text).map_err(|e| fail(e.to_string()))?;
+            let line: Line = serde_json::from_str(text).map_err(|error| fail(reason(&error)))?;
             if !(line.t >= 0.0 && line.t.is_finite()) {
                 return Err(fail(format!("t = {} is no time; give seconds from 0", line.t)));
             }
@@ -112,6 +112,9 @@ impl Script {
             }
             if let Some(solver) = line.solver.filter(|s| s != "dynamics" && s != "auto") {
                 return Err(fail(format!("solver \"{solver}\" is not one of: dynamics, auto")));
+            }
+            if let Some([x, y]) = line.aim.filter(|aim| !aim.iter().all(|v| (0.0..=1.0).contains(v))) {
+                return Err(fail(format!("the aim [{x}, {y}] is outside the picture; give two numbers from 0 to 1")));
             }
             // The language changes words only, and an offline run shows none.
             let _ = line.language;
@@ -171,6 +174,13 @@ impl Script {
     }
 }
 
+/// What serde has to say, with the column alone: the line is that of the script.
+fn reason(error: &serde_json::Error) -> String {
+    let said = error.to_string();
+    let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
+    format!("column {}: {what}", error.column())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,7 +207,13 @@ mod tests {
     fn mistakes_are_told_with_their_line() {
         let late = "{\"t\": 2, \"aim\": [0, 0]}\n{\"t\": 1, \"reset\": true}";
         assert_eq!(Script::parse(late).expect_err("out of order").line, 2);
-        for bad in ["{\"t\": 1, \"blwo\": 3}", "{\"t\": -1}", "{\"t\": 0, \"blow\": 1e9}", "not json"] {
+        for bad in [
+            "{\"t\": 1, \"blwo\": 3}",
+            "{\"t\": 1, \"aim\": [0.5, 1.5]}",
+            "{\"t\": -1}",
+            "{\"t\": 0, \"blow\": 1e9}",
+            "not json",
+        ] {
             assert_eq!(Script::parse(bad).expect_err("a mistake").line, 1, "{bad}");
         }
     }

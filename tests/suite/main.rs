@@ -3,6 +3,7 @@
 mod architecture;
 mod articulation;
 mod blow;
+mod cli;
 mod dynamics;
 mod exhibit;
 mod forge;
@@ -13,3 +14,4 @@ mod realtime;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;
+mod steel_fish;

@@ -1,13 +1,13 @@
 //! What feels the wind and what sounds: both are read off the meshes and wires of the bodies.
 
-use super::super::diagnostic::Diagnostic;
+use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::sidecar::{self, Faces, Trigger};
 use super::super::{Body, SoundBinding, SoundTrigger, Wire, codes, fit};
 use super::Context;
 use crate::collision::Collider;
 use crate::geometry::{Extents, TriangleMesh};
 use crate::math::from_decibels;
-use crate::sound::{InstrumentSpec, SoundBody, SoundMaterial};
+use crate::sound::{InstrumentSpec, SoundBody, SoundMaterial, timbre};
 use crate::wind::{Surface, SurfaceShape};
 
 /// Drag coefficient of a round wire in cross-flow, Reynolds 10² … 10⁵ (Hoerner, Fluid-Dynamic Drag, 3-9).
@@ -148,6 +148,7 @@ impl Context<'_> {
             let help = format!("add [[collider]] node = \"{}\"", given.node.as_ref().unwrap_or(&given.body));
             self.report(&format!("{at}/body"), Diagnostic::new(codes::NO_COLLIDER, message).help(help));
         }
+        self.check_timbre(&given.timbre, &format!("{at}/timbre"), &used_for);
         if given.caption.is_none() {
             let problem = Diagnostic::new(codes::NO_CAPTION, format!("{used_for} has no caption"));
             self.report(
@@ -206,6 +207,20 @@ impl Context<'_> {
             spec,
             SoundBinding { name: given.name.clone(), body, on, instrument, frame, caption: given.caption.clone() },
         ))
+    }
+
+    /// Reports a timbre that is not shipped.
+    fn check_timbre(&mut self, name: &str, at: &str, used_for: &str) {
+        if timbre::names().any(|known| known == name) {
+            return;
+        }
+        let likely = near(name, timbre::names());
+        let help = match likely.as_slice() {
+            [] => format!("there are {}", quoted(&timbre::names().collect::<Vec<_>>())),
+            names => format!("did you mean {}? `soffio sound --list` names them all", quoted(names)),
+        };
+        let problem = Diagnostic::new(codes::UNKNOWN_TIMBRE, format!("no timbre named \"{name}\""));
+        self.report(at, problem.label(format!("used for {used_for}")).help(help));
     }
 
     /// Material of the `[[body.part]]` that a node belongs to; `None` where it is the body's own.

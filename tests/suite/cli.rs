@@ -1,0 +1,401 @@
+//! The program as its users meet it: the real binary, its exit codes, its words, the files it leaves.
+//!
+//! Every run has a folder of its own as working directory. A refusal is one message on stderr that names the place,
+//! the fault and the remedy; it leaves no file, and neither it nor a success ever shows the program's inside.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// A folder of its own for one test.
+struct Desk(tempfile::TempDir);
+
+/// What a run of the program left.
+struct Run {
+    code: Option<i32>,
+    out: String,
+    err: String,
+    args: String,
+}
+
+impl Desk {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        std::fs::write(self.path(name), bytes).expect("a writable folder");
+    }
+
+    /// The program in this folder, without a screen or a graphics driver.
+    fn soffio(&self, args: &[&str]) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_soffio"))
+            .args(args)
+            .current_dir(self.0.path())
+            .env("RUST_BACKTRACE", "1")
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env_remove("RUST_LOG")
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
+            .output()
+            .expect("the program starts");
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        let (out, err, args) = (text(output.stdout), text(output.stderr), args.join(" "));
+        for inside in ["panicked", "stack backtrace", "RUST_BACKTRACE"] {
+            assert!(!err.contains(inside), "{args}: {err}");
+        }
+        Run { code: output.status.code(), out, err, args }
+    }
+
+    /// Names of all that lies here, sorted.
+    fn files(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).expect("readable").flatten();
+        let mut names: Vec<_> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// The fish's folder with one text of its sidecar replaced (its first place), as `exhibit/` here.
+    fn spoiled(&self, find: &str, replace: &str) -> PathBuf {
+        let folder = self.path("exhibit");
+        std::fs::create_dir_all(folder.join("breaths")).expect("a writable folder");
+        for name in ["steel-fish.glb", "breaths/gentle.wav", "breaths/normal.wav", "breaths/strong.wav"] {
+            std::fs::copy(fish().join(name), folder.join(name)).expect("shipped");
+        }
+        let sidecar = std::fs::read_to_string(fish().join("exhibit.toml")).expect("shipped");
+        assert!(sidecar.contains(find), "the sidecar has no {find}");
+        std::fs::write(folder.join("exhibit.toml"), sidecar.replacen(find, replace, 1)).expect("writable");
+        folder
+    }
+
+    /// Mono 16-bit samples at `rate`.
+    fn wav(&self, name: &str, rate: u32, samples: &[i16]) {
+        let spec = hound::WavSpec {
+            channels: 1,
+            sample_rate: rate,
+            bits_per_sample: 16,
+            sample_format: hound::SampleFormat::Int,
+        };
+        let mut writer = hound::WavWriter::create(self.path(name), spec).expect("writable");
+        samples.iter().for_each(|&sample| writer.write_sample(sample).expect("writable"));
+        writer.finalize().expect("writable");
+    }
+}
+
+impl Run {
+    /// Ended with `code` and nothing on stdout, and stderr is one message with all these words.
+    #[track_caller]
+    fn refused(&self, code: i32, words: &[&str]) {
+        assert_eq!(self.code, Some(code), "soffio {}\n{}", self.args, self.err);
+        assert_eq!(self.out, "", "soffio {}", self.args);
+        let heads = self.err.lines().filter(|line| line.starts_with("soffio: ") || line.starts_with("error: ")).count();
+        assert_eq!(heads, 1, "one message: {}", self.err);
+        for word in words {
+            assert!(self.err.contains(word), "soffio {}: no \"{word}\" in\n{}", self.args, self.err);
+        }
+    }
+
+    /// Ended well; its stdout.
+    #[track_caller]
+    fn done(&self) -> &str {
+        assert_eq!(self.code, Some(0), "soffio {}\n{}", self.args, self.err);
+        &self.out
+    }
+
+    /// Ended well; all of its stdout as JSON.
+    #[track_caller]
+    fn json(&self) -> Value {
+        serde_json::from_str(self.done()).unwrap_or_else(|error| panic!("{error}: {}", self.out))
+    }
+
+    /// Stdout's last line as JSON.
+    #[track_caller]
+    fn summary(&self) -> Value {
+        let line = self.out.lines().last().unwrap_or_else(|| panic!("no output: {}", self.err));
+        serde_json::from_str(line).unwrap_or_else(|error| panic!("{error}: {line}"))
+    }
+}
+
+fn fish() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish")
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+#[test]
+fn a_missing_exhibit_is_named_with_those_there_are() {
+    let desk = Desk::new();
+    desk.soffio(&["play", "steel-fsh"]).refused(1, &["steel-fsh", "steel-fish"]);
+    desk.soffio(&["explain", "steel-fsh"]).refused(1, &["steel-fsh", "steel-fish"]);
+    desk.soffio(&["explain", text(&fish()), "RedPlat"]).refused(1, &["RedPlat", "\"RedPlate\""]);
+    assert!(desk.files().is_empty());
+}
+
+#[test]
+fn a_broken_sidecar_is_told_by_file_line_reason_and_remedy() {
+    for (find, replace, words) in [
+        ("[scene]", "[scene", &["exhibit.toml:", "not TOML"][..]),
+        ("loss_factor", "loss_facter", &["exhibit.toml:", "unknown key \"loss_facter\"", "\"loss_factor\""]),
+        ("node = \"RedPlate\"", "node = \"RedPlat\"", &["exhibit.toml:", "no node named \"RedPlat\"", "\"RedPlate\""]),
+        ("node = \"RedPlate\"", "node = \"RedPlate\"\nmass = 0", &["exhibit.toml:", "mass = 0", "0 is not above zero"]),
+        ("timbre = \"plate\"", "timbre = \"plat\"", &["exhibit.toml:", "no timbre named \"plat\"", "\"plate\""]),
+        ("breaths/normal.wav", "breaths/norma.wav", &["exhibit.toml:", "norma.wav", "cannot be read"]),
+        ("model = \"steel-fish.glb\"", "model = \"../fish.glb\"", &["exhibit.toml:", "leaves the exhibit folder"]),
+    ] {
+        let desk = Desk::new();
+        let folder = desk.spoiled(find, replace);
+        desk.soffio(&["play", text(&folder), "--audio", "out.wav"]).refused(1, words);
+        assert_eq!(desk.files(), ["exhibit"], "nothing is written");
+        let checked = desk.soffio(&["check", text(&folder), "--json"]);
+        assert_eq!(checked.code, Some(1));
+        let problems: Value = serde_json::from_str(&checked.out).expect("JSON");
+        let first = &problems[0];
+        assert!(first["line"].as_u64().is_some_and(|line| line > 0), "{first}");
+        assert!(first["code"].as_str().is_some_and(|code| code.starts_with('E')), "{first}");
+    }
+}
+
+#[test]
+fn a_truncated_model_is_told_where_the_sidecar_names_it() {
+    let desk = Desk::new();
+    let folder = desk.spoiled("", "");
+    let model = std::fs::read(fish().join("steel-fish.glb")).expect("shipped");
+    std::fs::write(folder.join("steel-fish.glb"), &model[..model.len() / 2]).expect("writable");
+    desk.soffio(&["play", text(&folder)]).refused(1, &["exhibit.toml:", "steel-fish.glb", "export the model again"]);
+    let alone = desk.soffio(&["check", text(&folder.join("steel-fish.glb"))]);
+    assert_eq!(alone.code, Some(1), "{}", alone.err);
+    assert!(alone.err.contains("1 problem"), "{}", alone.err);
+}
+
+#[test]
+fn a_recording_that_cannot_be_heard_is_refused_with_a_remedy() {
+    let desk = Desk::new();
+    desk.wav("empty.wav", 48_000, &[]);
+    desk.wav("slow.wav", 4_000, &[0; 4_000]);
+    desk.write("words.wav", "not a sound");
+    desk.wav("whole.wav", 48_000, &[0; 480]);
+    let whole = std::fs::read(desk.path("whole.wav")).expect("just written");
+    desk.write("cut.wav", &whole[..whole.len() / 2]);
+    let before = desk.files();
+    for (file, words) in [
+        ("missing.wav", &["missing.wav", "Check the path"][..]),
+        ("empty.wav", &["empty.wav", "no samples"]),
+        ("words.wav", &["words.wav", "not a WAV", "Convert it"]),
+        ("slow.wav", &["slow.wav", "4000 Hz", "8000–192000 Hz", "Resample"]),
+        ("cut.wav", &["cut.wav", "truncated"]),
+    ] {
+        desk.soffio(&["play", text(&fish()), "--breath", file, "--trace", "trace.csv"]).refused(1, words);
+        desk.soffio(&["breath", file]).refused(1, words);
+    }
+    assert_eq!(desk.files(), before, "nothing is written");
+}
+
+#[test]
+fn a_silent_recording_plays_and_moves_no_air() {
+    let desk = Desk::new();
+    desk.wav("silent.wav", 48_000, &[0; 24_000]);
+    desk.soffio(&["play", text(&fish()), "--breath", "silent.wav", "--seconds", "0.5", "--events", "e.jsonl"]).done();
+    let events = std::fs::read_to_string(desk.path("e.jsonl")).expect("written");
+    assert!(!events.contains("\"trigger\""), "{events}");
+    let heard = desk.soffio(&["breath", "silent.wav"]);
+    heard.done();
+    let summary = heard.summary();
+    assert_eq!((&summary["blow"], &summary["onset_s"]), (&Value::Bool(false), &Value::Null));
+}
+
+#[test]
+fn mistyped_options_are_usage() {
+    let desk = Desk::new();
+    let exhibit = fish();
+    let play = |args: &[&str]| desk.soffio(&[&["play", text(&exhibit)], args].concat());
+    play(&["--aim", "0.5"]).refused(2, &["--aim", "0.4,0.5"]);
+    play(&["--aim", "0.5,2"]).refused(2, &["--aim", "0 to 1"]);
+    play(&["--size", "1280"]).refused(2, &["--size", "1280x720"]);
+    play(&["--size", "0x720"]).refused(2, &["--size"]);
+    play(&["--seconds", "-1"]).refused(2, &["--seconds"]);
+    play(&["--seconds", "long"]).refused(2, &["--seconds", "long"]);
+    play(&["--seconds", "nan"]).refused(2, &["--seconds"]);
+    play(&["--fps", "0"]).refused(2, &["--fps"]);
+    play(&["--lodu"]).refused(2, &["--lodu"]);
+    desk.soffio(&["plya"]).refused(2, &["plya", "play"]);
+    assert!(desk.files().is_empty());
+}
+
+#[test]
+fn a_bad_script_line_is_named() {
+    let desk = Desk::new();
+    desk.write("script.jsonl", "{\"t\": 0, \"aim\": [0.5, 0.5]}\n{\"t\": 1, \"blwo\": 3}\n");
+    desk.soffio(&["play", text(&fish()), "--script", "script.jsonl"]).refused(1, &["script.jsonl", "line 2", "blow"]);
+    desk.soffio(&["play", text(&fish()), "--script", "none.jsonl"]).refused(1, &["none.jsonl", "check the path"]);
+}
+
+#[test]
+fn an_output_without_a_folder_is_refused_and_leaves_nothing() {
+    let desk = Desk::new();
+    for (option, file) in [("--audio", "no/a.wav"), ("--trace", "no/a.csv"), ("--events", "no/a.jsonl")] {
+        let refused = desk.soffio(&["play", text(&fish()), "--seconds", "0.1", option, file]);
+        refused.refused(1, &[file, "folder"]);
+    }
+    desk.soffio(&["sound", "plate", "-o", "no/a.wav"]).refused(1, &["no/a.wav", "folder"]);
+    desk.soffio(&["sound", "plat", "-o", "a.wav"]).refused(1, &["plat", "plate"]);
+    assert!(desk.files().is_empty());
+}
+
+#[cfg(feature = "kiosk")]
+#[test]
+fn a_picture_without_a_driver_says_what_to_install() {
+    let desk = Desk::new();
+    desk.soffio(&["render", text(&fish()), "-o", "a.png"]).refused(3, &["mesa-vulkan-drivers"]);
+    desk.soffio(&["render", text(&fish()), "--size", "wide", "-o", "a.png"]).refused(2, &["--size", "1280x720"]);
+    desk.soffio(&["render", text(&fish()), "--time", "-1", "-o", "a.png"]).refused(2, &["--time"]);
+    assert!(desk.files().is_empty());
+}
+
+#[cfg(feature = "kiosk")]
+#[test]
+fn the_kiosk_without_a_display_plays_a_breath_and_names_its_files() {
+    let desk = Desk::new();
+    let run = desk.soffio(&["kiosk", "--for", "1", "--exhibit", text(&fish())]);
+    run.done();
+    assert!(run.err.contains("no display"), "{}", run.err);
+    for name in ["out/steel-fish.wav", "out/steel-fish.csv"] {
+        assert!(run.err.contains(name), "{name} is not named: {}", run.err);
+        assert!(desk.path(name).metadata().is_ok_and(|file| file.len() > 1000), "{name}");
+    }
+    assert!(run.summary()["steps"].as_u64().is_some_and(|steps| steps > 0));
+}
+
+#[cfg(feature = "kiosk")]
+#[test]
+fn devices_and_doctor_speak_json() {
+    let desk = Desk::new();
+    let devices = desk.soffio(&["devices", "--json"]);
+    // A machine without a sound system is a missing driver, told in words.
+    if devices.code == Some(3) {
+        devices.refused(3, &[]);
+    } else {
+        devices.done();
+        let all = devices.summary();
+        assert!(["microphones", "loudspeakers", "gpus"].iter().all(|kind| all[kind].is_array()), "{all}");
+        assert_eq!(all["gpus"], Value::Array(Vec::new()), "the drivers are hidden");
+    }
+    let doctor = desk.soffio(&["doctor", "--json"]);
+    assert!(matches!(doctor.code, Some(0 | 1 | 3)), "{:?} {}", doctor.code, doctor.err);
+    let findings: Vec<Value> = serde_json::from_str(&doctor.out).expect("a JSON array");
+    for finding in findings {
+        assert!(finding["what"].is_string() && finding["found"].is_string(), "{finding}");
+        let bad = finding["health"] == "bad";
+        assert!(!bad || finding["remedy"].as_str().is_some_and(|remedy| !remedy.is_empty()), "{finding}");
+    }
+}
+
+#[test]
+fn schemas_are_json_schemas() {
+    let desk = Desk::new();
+    for kind in ["exhibit", "kiosk", "timbre"] {
+        let schema = desk.soffio(&["schema", kind]).json();
+        assert!(jsonschema::meta::is_valid(&schema), "{kind}");
+        assert!(schema["properties"].as_object().is_some_and(|keys| !keys.is_empty()), "{kind}: {schema}");
+    }
+    let kiosk = desk.soffio(&["schema", "kiosk"]).json();
+    for limit in soffio::config::LIMITS {
+        let pointer = format!("/properties/{}", limit.key.replace('.', "/properties/"));
+        let number = kiosk.pointer(&pointer).unwrap_or_else(|| panic!("no {} in {kiosk}", limit.key));
+        assert_eq!((number["minimum"].as_f64(), number["maximum"].as_f64()), (Some(limit.low), Some(limit.high)));
+    }
+    desk.soffio(&["schema", "exhibi"]).refused(2, &["exhibit"]);
+}
+
+#[test]
+fn the_shipped_files_are_good() {
+    let desk = Desk::new();
+    let config = Path::new(env!("CARGO_MANIFEST_DIR")).join(soffio::config::FILE);
+    let run = desk.soffio(&["check", text(&fish()), text(&fish().join("steel-fish.glb")), text(&config)]);
+    run.done();
+    assert_eq!(run.err.lines().filter(|line| line.ends_with(": good")).count(), 3, "{}", run.err);
+}
+
+#[test]
+fn a_configuration_is_checked_where_it_stands() {
+    let desk = Desk::new();
+    desk.write("site.toml", "[breath]\ngian = 2\ndistance_m = 30.0\n");
+    let told = desk.soffio(&["check", "site.toml"]);
+    assert_eq!(told.code, Some(1));
+    for word in ["site.toml:2:1", "breath.gian", "`gain`", "site.toml:3:14", "30", "2 problems"] {
+        assert!(told.err.contains(word), "{word} is missing: {}", told.err);
+    }
+    let json = desk.soffio(&["check", "site.toml", "--json"]);
+    let problems: Value = serde_json::from_str(&json.out).expect("JSON");
+    assert_eq!((&problems[0]["line"], &problems[1]["line"]), (&Value::from(2), &Value::from(3)), "{problems}");
+}
+
+#[test]
+fn explain_says_where_each_value_comes_from() {
+    let desk = Desk::new();
+    let run = desk.soffio(&["explain", text(&fish()), "Boom"]);
+    let told = run.done();
+    for words in ["body Boom", "[exhibit.toml:", "[derived: mesh × 7850 kg/m³]", "constraint cup-on-point", "boom-rod"]
+    {
+        assert!(told.contains(words), "no \"{words}\" in\n{told}");
+    }
+    assert!(!told.contains("body RedPlate"), "{told}");
+}
+
+#[test]
+fn a_breath_is_summed_up_in_the_promised_fields() {
+    let desk = Desk::new();
+    let breath = fish().join("breaths/strong.wav");
+    let run = desk.soffio(&["breath", text(&breath)]);
+    run.done();
+    let summary = run.summary();
+    assert_eq!(summary["file"], text(&breath));
+    assert_eq!(summary["blow"], true);
+    let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}: {summary}"));
+    assert!(number("peak") >= number("mean") && number("mean") > 0.0, "{summary}");
+    assert!(number("onset_s") > 0.0 && number("seconds_blowing") > 0.0 && number("triggers") >= 1.0, "{summary}");
+    let rows = desk.soffio(&["breath", text(&breath), "--csv"]);
+    assert!(rows.done().starts_with("t,speed,confidence\n"));
+    desk.soffio(&["breath", "--csv", text(&breath), text(&breath)]).refused(2, &["--csv"]);
+}
+
+#[test]
+fn a_run_is_summed_up_in_the_promised_fields_and_leaves_what_was_asked() {
+    let desk = Desk::new();
+    let breath = fish().join("breaths/strong.wav");
+    let outputs = ["--audio", "a.wav", "--trace", "t.csv", "--events", "e.jsonl"];
+    let exhibit = fish();
+    let args = ["play", text(&exhibit), "--breath", text(&breath), "--seconds", "0.5", "--seed", "7"];
+    let run = desk.soffio(&[&args[..], &outputs].concat());
+    run.done();
+    let summary = run.summary();
+    for key in [
+        "steps",
+        "wall_s",
+        "cpu_s",
+        "real_time_factor",
+        "max_joint_error_m",
+        "energy_j",
+        "impacts",
+        "solver_switches",
+        "peak_dbfs",
+        "lufs",
+        "profile",
+        "seed",
+        "state_hash",
+    ] {
+        assert!(summary.get(key).is_some(), "no {key} in {summary}");
+    }
+    assert_eq!((&summary["steps"], &summary["seed"]), (&Value::from(120), &Value::from(7)));
+    assert_eq!(summary["profile"], "gallery");
+    assert_eq!(desk.files(), ["a.wav", "e.jsonl", "t.csv"]);
+    let trace = std::fs::read_to_string(desk.path("t.csv")).expect("written");
+    assert!(trace.starts_with("t,body,x,y,z,qw,qx,qy,qz\n"), "{}", trace.lines().next().unwrap_or_default());
+}
