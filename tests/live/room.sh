@@ -74,7 +74,7 @@ PA
     export DISPLAY
     # Without a window manager no window becomes fullscreen.
     start openbox openbox
-    within 10 xprop -root _NET_SUPPORTING_WM_CHECK
+    within 10 xdotool get_desktop
 }
 
 # Kiosk under test: its log is $room/$1.err. A debug build on software graphics opens its window within seconds.
