@@ -74,14 +74,14 @@ PA
     export DISPLAY
     # Without a window manager no window becomes fullscreen.
     start openbox openbox
-    within 10 xprop -root _NET_SUPPORTING_WM_CHECK
+    within 10 xdotool get_desktop
 }
 
 # Kiosk under test: its log is $room/$1.err. A debug build on software graphics opens its window within seconds.
 start_kiosk() {
     local name=$1
     shift
-    start "$name" timeout --kill-after=5 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" --no-attract "$@"
+    start "$name" timeout --kill-after=5 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" "$@"
     kiosk=$last
     within 20 grep -q 'pixels on' "$room/$name.err"
 }
@@ -94,9 +94,28 @@ end_kiosk() {
     return "$code"
 }
 
+# What the loudspeaker plays comes back to the microphone, 60 ms late and so much louder (dB).
+close_the_loop() {
+    pactl load-module module-loopback source=speakers.monitor sink=mic_in latency_msec=60 >"$room/loop"
+    within 5 loopback
+    pactl set-sink-input-volume "$(loopback | head -1)" "$1dB"
+}
+loopback() {
+    pactl list sink-inputs | awk '/^Sink Input #/ { id = substr($3, 2) } /module-loopback/ { print id; n++ } END { exit !n }'
+}
+open_the_loop() {
+    pactl unload-module "$(cat "$room/loop")"
+}
+
 # A file, whatever its rate, played before the microphone; returns when it has been heard.
 before_microphone() {
     paplay -d mic_in "$1"
+}
+
+# A gallery is never silent: pink noise at −60 dB of full scale, as long as the room lasts.
+room_tone() {
+    sox -n -r 48000 -c 1 -e float -b 32 "$room/tone.wav" synth 60 pinknoise norm -47
+    start tone sh -c "while paplay -d mic_in '$room/tone.wav'; do :; done"
 }
 
 # Wall clock, s.
