@@ -1,4 +1,4 @@
-//! The command line: one file per command, arguments and all (design.md section 3).
+//! The command line: one file per command, arguments and all.
 
 use std::process::ExitCode;
 use std::sync::Arc;

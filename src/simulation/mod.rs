@@ -48,7 +48,7 @@ const STABILIZATION_TIME: f64 = 0.04;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
-/// How a breath becomes wind (design.md, two breath profiles).
+/// How a breath becomes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Profile {
     /// No travelling front; gain such that a child's gentle breath visibly moves a sculpture within a second.

@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn centre_speeds_are_the_published_ones() {
-        // exhibits.md 4.2: normal breath 8.9 m/s, lips 10 mm: 1.8, 1.07, 0.67, 0.45 m/s at 0.3, 0.5, 0.8, 1.2 m.
+        // 6 U₀ d/x for a normal breath, 8.9 m/s through lips of 10 mm: 1.8, 1.07, 0.67, 0.45 m/s at 0.3, 0.5, 0.8, 1.2 m.
         for (x, v) in [(0.3, 1.8), (0.5, 1.07), (0.8, 0.67), (1.2, 0.45)] {
             assert!((jet(8.9).center_speed(x, 8.9) / v - 1.0).abs() < 0.02);
         }

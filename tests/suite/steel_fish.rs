@@ -62,7 +62,7 @@ fn it_hangs_level_when_no_wind_blows() {
 
 #[test]
 fn a_push_swings_it_at_the_tilt_period() {
-    // exhibits.md 1.1: 2.3 s at h = 30 mm in the 1:6 maquette, I for the loads as points.
+    // 2π √(I / M g h) of the drawing: I = 0.00243 kg m² with the loads as points, M = 60.7 g, h = 30 mm.
     const PERIOD: f64 = 2.3;
     const SPREAD: f64 = 0.05;
     let mut simulation =
@@ -155,7 +155,7 @@ fn a_minute_of_hard_breath_neither_breaks_nor_blows_it_apart() {
 
 #[test]
 fn a_childs_gentle_breath_visibly_moves_it_within_a_second() {
-    // Gentle: 3.8 m/s at the lips (exhibits.md 4.2), pointer left alone. Visible: some body moves 5 mm or turns 2°.
+    // Gentle: 3.8 m/s at the lips, 18 L/min through 10 mm. Pointer left alone. Visible: some body moves 5 mm or turns 2°.
     let mut simulation = Simulation::new(steel_fish(), Settings::default());
     run(&mut simulation, 1.0);
     let before: Vec<_> = simulation.bodies().to_vec();
