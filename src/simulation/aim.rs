@@ -20,8 +20,11 @@ pub struct AimTarget {
 
 /// Another surface must be nearer to the ray by this share before the breath leaves the one it leans to.
 const LOYALTY: f64 = 0.7;
-/// The ray itself is followed within this share of a surface's ball.
+/// The ray itself is followed within this share of a surface's ball. Farther out a long plate leaves most of its ball to
+/// the air, so there the breath slides back towards the middle,
 const INNER: f64 = 0.5;
+/// and a ray that misses the ball altogether is drawn this near to the middle: on the surface, wherever it has turned.
+const MIDDLE: f64 = 0.2;
 /// The lean follows its goal with this time constant, s: no jumps while blowing.
 const LEAN_TIME: f64 = 0.08;
 
@@ -64,7 +67,7 @@ impl Aim {
         self.target = mouth + self.direction * (goal - mouth).dot(self.direction);
     }
 
-    /// The point of the chosen surface's inner ball nearest to the ray. How far a surface is off the ray counts in
+    /// The point of the chosen surface's ball that the breath goes to. How far a surface is off the ray counts in
     /// its own radii: a large plate draws a breath from farther than a small one.
     fn lean(&mut self, origin: DVec3, ray: DVec3, targets: &[AimTarget]) -> Option<DVec3> {
         let offset = |t: &AimTarget| {
@@ -78,8 +81,9 @@ impl Aim {
         self.chosen = Some(chosen);
         let target = &targets[chosen];
         let off = offset(target);
-        let inner = INNER * target.radius;
-        // Towards the ray, as far as the inner ball reaches.
-        Some(target.center - if off.length() <= inner { off } else { off * (inner / off.length()) })
+        let miss = miss(chosen);
+        let back = INNER - (INNER - MIDDLE) * (miss - INNER) / (1.0 - INNER);
+        let kept = miss.min(back.max(MIDDLE));
+        Some(target.center - off.normalize_or_zero() * (kept * target.radius))
     }
 }
