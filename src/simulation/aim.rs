@@ -20,10 +20,10 @@ pub struct AimTarget {
 
 /// Another surface must be nearer to the ray by this share before the breath leaves the one it leans to.
 const LOYALTY: f64 = 0.7;
-/// The ray itself is followed within this share of a surface's ball. Farther out a long plate leaves most of its ball to
-/// the air, so there the breath slides back towards the middle,
+/// The ray itself is followed within this share of a surface's ball. Farther out a long plate leaves most of its ball
+/// to the air, so there the breath slides back towards the middle.
 const INNER: f64 = 0.5;
-/// and a ray that misses the ball altogether is drawn this near to the middle: on the surface, wherever it has turned.
+/// A ray that misses the ball altogether is drawn this near to the middle: on the surface, wherever it has turned.
 const MIDDLE: f64 = 0.2;
 /// The lean follows its goal with this time constant, s: no jumps while blowing.
 const LEAN_TIME: f64 = 0.08;
