@@ -30,7 +30,8 @@ any() {
 present() {
     case "$1" in
         *.h) [ -e "/usr/include/$1" ] ;;
-        *.so.*) { ldconfig -p 2>/dev/null || /sbin/ldconfig -p; } 2>/dev/null | grep -qF "$1" ;;
+        # Not grep -q: it would end ldconfig early, which pipefail takes for a failure.
+        *.so.*) { ldconfig -p || /sbin/ldconfig -p; } 2>/dev/null | grep -F "$1" >/dev/null ;;
         lvp_icd) any /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json ;;
         Nanum*) any /usr/share/fonts/truetype/nanum/*.ttf /usr/share/fonts/opentype/noto/*CJK* ;;
         *) command -v "$1" >/dev/null 2>&1 ;;

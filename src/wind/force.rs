@@ -61,10 +61,6 @@ pub struct Breath<'a> {
 pub struct WindReport {
     /// Sum of all forces, N.
     pub force: DVec3,
-    /// Area-weighted mean speed of the breath at the patches it reaches, m/s.
-    pub speed: f64,
-    /// Where it reaches them, world, m; the mean by area.
-    pub center: DVec3,
     /// Relative gust at the target, about ±1.
     pub gust: f64,
 }
@@ -106,7 +102,6 @@ impl WindField {
         let mut report = WindReport::default();
         self.breath.fill([0.0; 6]);
         let mut breath_total = 0.0;
-        let mut area_reached = 0.0;
         let poses = |body: usize| bodies[body].pose();
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
@@ -119,8 +114,7 @@ impl WindField {
                 report.force += still;
                 let Some(breath) = breath.filter(|b| faces(patch, &pose, b.jet.mouth - point)) else { continue };
                 let air = self.air(breath, point);
-                let speed = air.length();
-                if speed < STILL_AIR {
+                if air.length() < STILL_AIR {
                     continue;
                 }
                 if !self.sees(&poses, feeler.body, patch, &pose, point, breath.jet.mouth) {
@@ -130,9 +124,6 @@ impl WindField {
                 let blown = patch_force(patch, &pose, air - own, feeler) - still;
                 breath_total += blown.length();
                 add_wrench(&mut self.breath[feeler.body], body, point, blown);
-                report.speed += patch.area * speed;
-                report.center += patch.area * point;
-                area_reached += patch.area;
             }
         }
         if let Some(breath) = breath {
@@ -143,10 +134,6 @@ impl WindField {
                     out[k] += share * blown[k];
                 }
                 report.force += share * crate::articulation::block::linear(blown);
-            }
-            if area_reached > 0.0 {
-                report.speed /= area_reached;
-                report.center /= area_reached;
             }
             report.gust = self.gust(breath, breath.jet.mouth + 0.5 * breath.jet.direction);
         }

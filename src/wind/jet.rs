@@ -2,7 +2,7 @@
 //!
 //! Symbols: d lip diameter, U₀ speed at the lips, x distance along the axis, r distance from it.
 //!
-//! **Jet** (default). A round turbulent jet keeps its momentum and entrains air (`reference`: S. B. Pope, Turbulent
+//! **Jet** (default). A round turbulent jet keeps its momentum and entrains air (S. B. Pope, Turbulent
 //! Flows, 2000, section 5.1):
 //!
 //! ```text
