@@ -110,7 +110,7 @@ impl Dynamics {
     }
 
     /// Closes the joints in place and speed.
-    fn project(&mut self) {
+    pub(super) fn project(&mut self) {
         if self.system.joints().is_empty() {
             return;
         }

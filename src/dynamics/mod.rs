@@ -143,6 +143,8 @@ impl Dynamics {
             self.prepare_impulses();
             self.contacts.resolve_resting(&mut self.system, &mut self.bodies);
             contacts::resolve_limits(&self.limits, &mut self.system, &mut self.bodies);
+            // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
+            self.project();
         }
         used
     }
