@@ -7,7 +7,7 @@ format()   { cargo fmt --all -- --check; }
 lints()    { cargo clippy --locked --quiet --all-targets -- -D warnings; }
 headless() { cargo clippy --locked --quiet --all-targets --no-default-features -- -D warnings; }
 suite()    { cargo test --locked --quiet; }
-exhibits() { cargo run --locked --quiet -- check exhibits/* kiosk-config/kiosk.toml; }
+exhibits() { cargo run --locked --quiet -- check exhibits kiosk-config/kiosk.toml; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
 live()     { cargo build --locked --quiet && tests/live/run.sh target/debug/soffio; }
 

@@ -13,7 +13,8 @@ use crate::exhibit::{self, Diagnostic, Location, Report, codes, model};
 /// Example: soffio check exhibits/steel-fish
 #[derive(clap::Args, Debug, Default)]
 pub struct Args {
-    /// Exhibit ids or folders, their exhibit.toml, .glb or .gltf files; a site's configuration (any other .toml).
+    /// Exhibit ids or folders, a folder of exhibits, their exhibit.toml, .glb or .gltf files; a site's configuration
+    /// (any other .toml).
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<String>,
     /// Prints one JSON array of problems to stdout.
@@ -24,8 +25,8 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let mut all = Report::default();
-    for path in &args.paths {
-        let report = check(path);
+    for path in args.paths.iter().flat_map(|path| expand(path)) {
+        let report = check(&path);
         if !args.json {
             let verdict = match (report.has_errors(), report.diagnostics.len()) {
                 (_, 0) => "good".to_owned(),
@@ -41,6 +42,18 @@ pub fn run(args: Args) -> Outcome {
         println!("{}", all.to_json());
     }
     if all.has_errors() { Err(Failure { code: 1, message: String::new() }) } else { Ok(()) }
+}
+
+/// The exhibits of a folder of exhibits in the order of their names; any other path is itself.
+fn expand(path: &str) -> Vec<String> {
+    let own = Path::new(path).join(exhibit::SIDECAR).exists();
+    let children = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut inside: Vec<String> = children
+        .filter(|child| child.join(exhibit::SIDECAR).exists())
+        .map(|child| child.to_string_lossy().into_owned())
+        .collect();
+    inside.sort();
+    if own || inside.is_empty() { vec![path.into()] } else { inside }
 }
 
 /// Problems and warnings of one path, by what it is.
