@@ -9,11 +9,11 @@ headless() { cargo clippy --locked --quiet --all-targets --no-default-features -
 suite()    { cargo test --locked --quiet; }
 exhibits() { cargo run --locked --quiet -- check exhibits kiosk-config/kiosk.toml; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
-live()     { cargo build --locked --quiet && tests/live/run.sh target/debug/soffio; }
+live()     { cargo build --locked --quiet && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
 
 # Longer runs than a change needs: each leaves its mark in out/long and is not run again until the sources change.
 long() {
-    local stamp part
+    local stamp part built="${CARGO_TARGET_DIR:-target}/release"
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
@@ -24,9 +24,9 @@ long() {
         fi
         echo "== $part"
         case $part in
-            soak-blow)  target/release/soffio play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
-            soak-still) target/release/soffio play steel-fish --seconds 7200 ;;
-            soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh target/release/soffio ;;
+            soak-blow)  "$built/soffio" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
+            soak-still) "$built/soffio" play steel-fish --seconds 7200 ;;
+            soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh "$built/soffio" ;;
         esac
         echo "$stamp" >"out/long/$part"
     done
