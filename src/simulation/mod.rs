@@ -280,7 +280,6 @@ impl Simulation {
                 speed: 0.0,
             });
         }
-        let poses: Vec<_> = self.dynamics.bodies.iter().map(RigidBody::pose).collect();
         for impact in &self.impacts {
             let t = began + impact.time;
             let body = |collider: usize| self.exhibit.colliders[collider].body;
@@ -299,7 +298,7 @@ impl Simulation {
             };
             if event.kind == EventKind::Impact {
                 self.impact_count += 1;
-                sonify::strikes(&self.exhibit, &event, impact, &poses, &listener, &mut self.sounds);
+                sonify::strikes(&self.exhibit, &event, impact, &self.dynamics.bodies, &listener, &mut self.sounds);
             }
             self.events.push(event);
         }

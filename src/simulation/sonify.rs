@@ -1,9 +1,10 @@
 //! From motion to sound: which impact strikes which instrument, where on the body, and how the wind is heard.
 
 use super::event::Event;
+use crate::bodies::RigidBody;
 use crate::dynamics::Impact;
 use crate::exhibit::{Exhibit, SoundTrigger, View};
-use crate::math::{DVec3, Pose};
+use crate::math::DVec3;
 use crate::sound::{SoundCommand, Strike, WindSound};
 
 /// Impacts softer than this make no sound, N s: a milligram at walking pace.
@@ -37,7 +38,7 @@ pub fn strikes(
     exhibit: &Exhibit,
     event: &Event,
     impact: &Impact,
-    poses: &[Pose],
+    bodies: &[RigidBody],
     listener: &Listener,
     out: &mut Vec<SoundCommand>,
 ) {
@@ -48,7 +49,7 @@ pub fn strikes(
     for body in event.bodies.into_iter().flatten() {
         for sound in exhibit.sounds.iter().filter(|s| s.body == body && s.on == SoundTrigger::Impact) {
             let (first, second, center) = sound.frame;
-            let local = poses[body].inverse_point(event.point) - center;
+            let local = bodies[body].pose().inverse_point(event.point) - center;
             let half = exhibit.instruments[sound.instrument].body.half_extents;
             let along = |axis: DVec3, half: f64| (local.dot(axis) / half.max(1e-6)).clamp(-1.0, 1.0) as f32;
             out.push(SoundCommand::Strike(Strike {
