@@ -81,7 +81,9 @@ impl Constraint {
     pub fn bodies(&self) -> (Option<usize>, Option<usize>) {
         match &self.kind {
             ConstraintKind::PointToPoint { a, b } => (a.body, b.body),
-            ConstraintKind::Orientation { a, b } => (a.body, b.body),
+            ConstraintKind::Orientation { a, b, .. } => (a.body, b.body),
+            ConstraintKind::PointOnPlane { point, plane, .. } => (point.body, plane.body),
+            ConstraintKind::Coupling { .. } => (None, None),
         }
     }
 
@@ -89,7 +91,7 @@ impl Constraint {
     pub fn row_count(&self) -> usize {
         match self.kind {
             ConstraintKind::PointToPoint { .. } => 3,
-            ConstraintKind::Orientation { .. } => 1,
+            _ => 1,
         }
     }
 }
@@ -98,7 +100,7 @@ impl Constraint {
 pub fn gap(constraint: &Constraint, bodies: &[RigidBody]) -> f64 {
     match &constraint.kind {
         ConstraintKind::PointToPoint { a, b } => point(a, bodies).position.distance(point(b, bodies).position),
-        ConstraintKind::Orientation { .. } => 0.0,
+        _ => 0.0,
     }
 }
 
@@ -145,13 +147,14 @@ impl Joint {
                         self.push(rows, a.body, ja, jb, c[k], bias[k]);
                     }
                 }
-                ConstraintKind::Orientation { a, b } => {
+                ConstraintKind::Orientation { a, b, .. } => {
                     let ((t, wt), (n, wn)) = (direction(a, bodies), direction(b, bodies));
                     let (dt, dn) = (wt.cross(t), wn.cross(n));
                     let bias = wt.cross(dt).dot(n) + t.dot(wn.cross(dn)) + 2.0 * dt.dot(dn);
                     let j = t.cross(n);
                     self.push(rows, a.body, vec6(DVec3::ZERO, j), vec6(DVec3::ZERO, -j), t.dot(n), bias);
                 }
+                _ => {}
             }
         }
         self.hard = rows.rows;

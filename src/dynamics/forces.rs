@@ -1,7 +1,7 @@
 //! Forces on the bodies: gravity, springs, damping, the gyroscopic torque, and what is handed in from outside.
 
 use crate::articulation::block::{Vec6, vec6};
-use crate::articulation::{Anchor, Spring};
+use crate::articulation::{Anchor, Spring, SpringKind};
 use crate::bodies::RigidBody;
 use crate::math::DVec3;
 
@@ -33,11 +33,13 @@ pub fn collect(
         }
     }
     for spring in springs {
-        let ((pa, va), (pb, vb)) = (end(&spring.a, bodies), end(&spring.b, bodies));
+        let SpringKind::Linear { a, b: other } = &spring.kind else { continue };
+        let ((pa, va), (pb, vb)) = (end(a, bodies), end(other, bodies));
         let (length, Some(along)) = ((pb - pa).length(), (pb - pa).try_normalize()) else { continue };
-        let pull = spring.stiffness * (length - spring.rest_length) + spring.damping * (vb - va).dot(along);
-        push(&spring.a, pa, pull * along, bodies, b);
-        push(&spring.b, pb, -pull * along, bodies, b);
+        let pull = spring.stiffness.at(0.0).value * (length - spring.rest.at(0.0).value)
+            + spring.damping.at(0.0).value * (vb - va).dot(along);
+        push(a, pa, pull * along, bodies, b);
+        push(other, pb, -pull * along, bodies, b);
     }
 }
 
@@ -47,8 +49,9 @@ pub fn energy(bodies: &[RigidBody], gravity: DVec3, springs: &[Spring]) -> f64 {
     let stretched: f64 = springs
         .iter()
         .map(|s| {
-            let stretch = (end(&s.b, bodies).0 - end(&s.a, bodies).0).length() - s.rest_length;
-            0.5 * s.stiffness * stretch * stretch
+            let SpringKind::Linear { a, b } = &s.kind else { return 0.0 };
+            let stretch = (end(b, bodies).0 - end(a, bodies).0).length() - s.rest.at(0.0).value;
+            0.5 * s.stiffness.at(0.0).value * stretch * stretch
         })
         .sum();
     moving + stretched

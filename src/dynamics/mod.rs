@@ -13,17 +13,19 @@
 //! from then on projection keeps the joints closed to rounding.
 
 mod contacts;
+mod drive;
 pub mod forces;
 pub mod impulse;
 mod integrate;
 
 use crate::articulation::block::Vec6;
-use crate::articulation::{Constraint, Spring, System, TiltLimit};
+use crate::articulation::{Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
 use crate::math::{DMat3, DVec3};
 
 pub use contacts::{Contacts, Impact, ImpactKind, SurfacePair};
+pub use drive::{Drive, Instant, Motion};
 use forces::Damping;
 use integrate::Rate;
 
@@ -36,6 +38,30 @@ const MOST_SUBSTEPS: u32 = 32;
 const SPEED_LIMIT: f64 = 100.0;
 const SPIN_LIMIT: f64 = 5_000.0;
 
+/// How time is advanced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// Precise where that costs next to nothing (few bodies, no contact), else Runge–Kutta.
+    #[default]
+    Auto,
+    /// Semi-implicit Euler with projection: one solve a step, first order.
+    Fast,
+    /// The classical fourth-order Runge–Kutta method with projection.
+    RungeKutta,
+    /// The Gauss–Legendre method of sixth order: energy stays bounded over days.
+    Precise,
+}
+
+/// Which linear solver finds the multipliers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Solver {
+    /// The tree factor, linear in the number of bodies.
+    #[default]
+    Sparse,
+    /// One dense matrix of all rows: the reference.
+    Dense,
+}
+
 /// What is constant over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -45,6 +71,10 @@ pub struct Settings {
     pub friction: bool,
     /// 1/ω₀ of the stabiliser, s.
     pub stabilization_time: f64,
+    /// How time is advanced.
+    pub integrator: Integrator,
+    /// Which linear solver finds the multipliers.
+    pub solver: Solver,
 }
 
 /// Everything a figure needs to move.
@@ -55,8 +85,12 @@ pub struct Figure<'a> {
     pub damping: Vec<Damping>,
     /// Joints.
     pub constraints: &'a [Constraint],
+    /// What stays within bounds.
+    pub limits: &'a [Limit],
     /// Springs.
     pub springs: &'a [Spring],
+    /// Bodies that follow a given motion.
+    pub drives: &'a [Drive],
     /// Collision shapes, materials resolved per pair.
     pub colliders: &'a [Collider],
     /// Pairs that can meet and what their surfaces do.
@@ -71,7 +105,7 @@ pub struct Dynamics {
     damping: Vec<Damping>,
     springs: Vec<Spring>,
     system: System,
-    limits: Vec<TiltLimit>,
+    limits: Vec<Limit>,
     contacts: Contacts,
     external: Vec<Vec6>,
     /// Force that each joint carried at the last solve, N.
@@ -86,7 +120,6 @@ impl Dynamics {
     /// A figure at its start.
     pub fn new(figure: Figure, settings: Settings) -> Self {
         let n = figure.bodies.len();
-        let limits = figure.constraints.iter().filter_map(|c| c.tilt_limit).collect();
         let system = System::new(n, figure.constraints);
         let rates = vec![Rate::default(); n];
         Self {
@@ -99,7 +132,7 @@ impl Dynamics {
             damping: if settings.friction { figure.damping } else { vec![Damping::default(); n] },
             springs: figure.springs.to_vec(),
             system,
-            limits,
+            limits: figure.limits.to_vec(),
             external: vec![[0.0; 6]; n],
             stages: [rates.clone(), rates.clone(), rates.clone(), rates],
             substeps: 1,

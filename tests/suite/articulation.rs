@@ -1,7 +1,7 @@
 //! The tree factor against a dense solve of the same equations, on random figures with and without loops.
 
 use soffio::articulation::block::{MAX_ROWS, angular, linear, vec6};
-use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, System};
+use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function, System};
 use soffio::bodies::{MassProperties, RigidBody};
 use soffio::math::{DMat3, DVec3, Pose, rotation};
 use soffio::noise::Random;
@@ -27,13 +27,13 @@ fn random_body(random: &mut Random) -> RigidBody {
 fn point(random: &mut Random, name: usize, a: Option<usize>, b: Option<usize>) -> Constraint {
     let anchor = |body, random: &mut Random| Anchor { body, point: random_vector(random) };
     let kind = ConstraintKind::PointToPoint { a: anchor(a, random), b: anchor(b, random) };
-    Constraint { name: format!("point-{name}"), kind, friction: None, tilt_limit: None }
+    Constraint::new(&format!("point-{name}"), kind)
 }
 
 fn orientation(random: &mut Random, name: usize, a: Option<usize>, b: Option<usize>) -> Constraint {
     let axis = |body, random: &mut Random| Axis { body, direction: random_vector(random).normalize() };
-    let kind = ConstraintKind::Orientation { a: axis(a, random), b: axis(b, random) };
-    Constraint { name: format!("orientation-{name}"), kind, friction: None, tilt_limit: None }
+    let kind = ConstraintKind::Orientation { a: axis(a, random), b: axis(b, random), angle: Function::default() };
+    Constraint::new(&format!("orientation-{name}"), kind)
 }
 
 /// A random figure: a tree hung from the world, every third joint with an orientation row, and `loops` extra joints.
