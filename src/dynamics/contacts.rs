@@ -158,6 +158,16 @@ impl Contacts {
         }
     }
 
+    /// Is there nothing that could meet?
+    pub(super) fn is_empty(&self) -> bool {
+        self.pairs.is_empty()
+    }
+
+    /// The moving body of a collider.
+    pub(super) fn body_of(&self, collider: usize) -> Option<usize> {
+        self.colliders[collider].body
+    }
+
     /// Is any pair resting?
     pub(super) fn has_resting(&self) -> bool {
         self.resting.iter().any(|&r| r)
