@@ -346,6 +346,7 @@ impl Simulation {
 
     /// The bodies' state, for tests that push a sculpture by hand.
     pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
+        self.dynamics.disturb();
         &mut self.dynamics.bodies
     }
 

@@ -72,7 +72,8 @@ fn step_time(scene: &Scene, steps: usize) -> f64 {
 /// s per factor and solve at the start.
 fn solve_time(scene: &Scene, times: usize) -> f64 {
     let bodies = scene.rigid_bodies();
-    let mut system = System::new(bodies.len(), &scene.constraints());
+    let mut system =
+        System::new(&bodies, &vec![false; bodies.len()], &scene.constraints(), crate::articulation::Method::Sparse);
     system.evaluate(&bodies);
     let start = ThreadTime::now();
     for _ in 0..times {
