@@ -76,6 +76,15 @@ pub fn rotation(w: DVec3) -> DQuat {
     DQuat::from_xyzw(s * w.x, s * w.y, s * w.z, c).normalize()
 }
 
+/// The inverse of [`rotation`]: axis times angle of a unit quaternion, rad, angle in 0 … 2π.
+pub fn rotation_vector(q: DQuat) -> DVec3 {
+    let v = DVec3::new(q.x, q.y, q.z);
+    let s = v.length();
+    // θ/sin(θ/2): two terms of its series below 1e-4.
+    let scale = if s < 1e-4 { 2.0 + s * s / 3.0 } else { 2.0 * atan2(s, q.w) / s };
+    v * scale
+}
+
 /// Matrix of the cross product: `skew(a) · b = a × b`.
 pub fn skew(a: DVec3) -> DMat3 {
     DMat3::from_cols(DVec3::new(0.0, a.z, -a.y), DVec3::new(-a.z, 0.0, a.x), DVec3::new(a.y, -a.x, 0.0))

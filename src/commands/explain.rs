@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use super::{Failure, Outcome};
-use crate::articulation::{Constraint, ConstraintKind};
 use crate::exhibit::diagnostic::{near, quoted};
 use crate::exhibit::{self, Exhibit, Origin};
 
@@ -56,8 +55,8 @@ pub fn explain(exhibit: &Exhibit) -> String {
 fn explain_body(exhibit: &Exhibit, body: usize) -> String {
     let name = &exhibit.bodies[body].name;
     let mut of = vec![format!("body {name}")];
-    of.extend(exhibit.constraints.iter().filter(|c| touches(c, body)).map(|c| format!("constraint {}", c.name)));
-    let springs = exhibit.springs.iter().filter(|s| s.a.body == Some(body) || s.b.body == Some(body));
+    of.extend(exhibit.constraints.iter().filter(|c| c.kind.touches(body)).map(|c| format!("constraint {}", c.name)));
+    let springs = exhibit.springs.iter().filter(|s| s.kind.touches(body));
     of.extend(springs.map(|s| format!("spring {}", s.name)));
     of.extend(exhibit.colliders.iter().filter(|c| c.body == Some(body)).map(|c| format!("collider {}", c.node)));
     of.extend(exhibit.wind_surfaces.iter().filter(|s| s.body == body).map(|s| format!("wind surface {}", s.node)));
@@ -69,14 +68,6 @@ fn explain_body(exhibit: &Exhibit, body: usize) -> String {
         wire_line(&mut out, exhibit, wire);
     }
     out
-}
-
-fn touches(constraint: &Constraint, body: usize) -> bool {
-    let (a, b) = match &constraint.kind {
-        ConstraintKind::PointToPoint { a, b } => (a.body, b.body),
-        ConstraintKind::Orientation { a, b } => (a.body, b.body),
-    };
-    a == Some(body) || b == Some(body)
 }
 
 fn table<'a>(out: &mut String, origins: impl Iterator<Item = &'a Origin>) {

@@ -12,7 +12,7 @@
 //! again when it has opened by more than [`RELEASE_GAP`].
 
 use crate::articulation::block::{Vec6, dot, vec6};
-use crate::articulation::{System, TiltLimit};
+use crate::articulation::{Limit, LimitKind, System};
 use crate::bodies::RigidBody;
 use crate::collision::{Collider, Corners, Pair, Proximity, Sweep, TOUCH, TimeOfImpact, time_of_impact};
 use crate::math::{DMat3, DVec3, Pose, cos, tangents};
@@ -152,6 +152,16 @@ impl Contacts {
         for since in &mut self.since_hit {
             *since += dt;
         }
+    }
+
+    /// Is there nothing that could meet?
+    pub(super) fn is_empty(&self) -> bool {
+        self.pairs.is_empty()
+    }
+
+    /// The moving body of a collider.
+    pub(super) fn body_of(&self, collider: usize) -> Option<usize> {
+        self.colliders[collider].body
     }
 
     /// Is any pair resting?
@@ -391,10 +401,11 @@ fn ball_around(colliders: &[Collider], balls: &[(DVec3, f64)], body: usize) -> (
 }
 
 /// How far a tilt is beyond its limit (rad, to first order) and the axis about which it grows; `None` within it.
-pub(super) fn excess(limit: &TiltLimit, bodies: &[RigidBody]) -> Option<(f64, DVec3)> {
+pub(super) fn excess(limit: &Limit, bodies: &[RigidBody]) -> Option<(f64, DVec3)> {
+    let LimitKind::Tilt { a, b, max } = &limit.kind else { return None };
     let axis = |a: &crate::articulation::Axis| a.body.map_or(a.direction, |i| bodies[i].rotation * a.direction);
-    let (t, n) = (axis(&limit.a), axis(&limit.b));
-    let past = cos(limit.angle) - t.dot(n);
+    let (t, n) = (axis(a), axis(b));
+    let past = cos(*max) - t.dot(n);
     if past <= 0.0 {
         return None;
     }
@@ -405,13 +416,14 @@ pub(super) fn excess(limit: &TiltLimit, bodies: &[RigidBody]) -> Option<(f64, DV
 
 /// Stops bodies at the rims of their tilt limits: a one-row contact on the angle between two axes. With T the tilting
 /// axis and N the one it tilts from, cos θ = T·N falls at the rate (N×T)·(ω_T − ω_N).
-pub(super) fn resolve_limits(limits: &[TiltLimit], system: &mut System, bodies: &mut [RigidBody]) {
+pub(super) fn resolve_limits(limits: &[Limit], system: &mut System, bodies: &mut [RigidBody]) {
     for limit in limits {
         let Some((excess, out)) = excess(limit, bodies) else { continue };
         // Positive along `out` tilts farther.
         let row = vec6(DVec3::ZERO, out);
         system.b.fill([0.0; 6]);
-        let ends = [(limit.a.body, 1.0), (limit.b.body, -1.0)];
+        let LimitKind::Tilt { a, b, .. } = &limit.kind else { continue };
+        let ends = [(a.body, 1.0), (b.body, -1.0)];
         for (body, sign) in ends {
             if let Some(body) = body {
                 system.push_impulse(body, &row, sign);

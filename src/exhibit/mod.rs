@@ -5,9 +5,10 @@
 
 use std::path::PathBuf;
 
-use crate::articulation::{Constraint, Spring};
+use crate::articulation::{Constraint, Limit, Spring};
 use crate::bodies::MassProperties;
 use crate::collision::Collider;
+use crate::dynamics::{Drive, Integrator, Solver};
 use crate::math::{DVec3, Pose};
 use crate::sound::InstrumentSpec;
 use crate::wind::Surface;
@@ -55,8 +56,18 @@ pub struct Exhibit {
     pub bodies: Vec<Body>,
     /// Joints.
     pub constraints: Vec<Constraint>,
+    /// What stays within bounds: tilts, stops, slack cords, ratchets.
+    pub limits: Vec<Limit>,
     /// Springs and dampers.
     pub springs: Vec<Spring>,
+    /// Bodies that follow key frames or a path.
+    pub drives: Vec<Drive>,
+    /// How time is advanced.
+    pub integrator: Integrator,
+    /// Which linear solver finds the multipliers.
+    pub solver: Solver,
+    /// 1/ω₀ of the joints' stabiliser, s.
+    pub stabilization_time: f64,
     /// Wires and cords: drawn as capsules, feel the wind, have mass.
     pub wires: Vec<Wire>,
     /// Collision shapes.

@@ -43,8 +43,6 @@ pub const SAMPLE_RATE: u32 = 48_000;
 pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
 /// Seconds per step.
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
-/// Time constant of the joints' stabiliser, s.
-const STABILIZATION_TIME: f64 = 0.04;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
@@ -433,7 +431,9 @@ fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
             .map(|body| Damping { linear: body.linear_damping, angular: body.angular_damping })
             .collect(),
         constraints: &exhibit.constraints,
+        limits: &exhibit.limits,
         springs: &exhibit.springs,
+        drives: &exhibit.drives,
         colliders: &exhibit.colliders,
         pairs: pairs(&exhibit.colliders, &exhibit.excluded_pairs)
             .into_iter()
@@ -447,7 +447,9 @@ fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
     let dynamics = dynamics::Settings {
         gravity: exhibit.gravity,
         friction: settings.friction,
-        stabilization_time: STABILIZATION_TIME,
+        stabilization_time: exhibit.stabilization_time,
+        integrator: exhibit.integrator,
+        solver: exhibit.solver,
     };
     Dynamics::new(figure, dynamics)
 }

@@ -4,7 +4,7 @@ use soffio::articulation::{Anchor, Constraint, ConstraintKind, PivotFriction};
 use soffio::bodies::{MassProperties, RigidBody};
 use soffio::collision::{Collider, Shape, pairs};
 use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Settings, SurfacePair};
+use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Settings, Solver, SurfacePair};
 use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sqrt};
 
 const G: f64 = 9.81;
@@ -13,7 +13,13 @@ const DT: f64 = 1.0 / 240.0;
 const JOINT_ERROR: f64 = 1e-9;
 
 fn settings(friction: bool) -> Settings {
-    Settings { gravity: DVec3::new(0.0, -G, 0.0), friction, stabilization_time: 0.04 }
+    Settings {
+        gravity: DVec3::new(0.0, -G, 0.0),
+        friction,
+        stabilization_time: 0.04,
+        integrator: Integrator::RungeKutta,
+        solver: Solver::Sparse,
+    }
 }
 
 fn body(mass: f64, inertia: DVec3, position: DVec3) -> RigidBody {
@@ -23,17 +29,12 @@ fn body(mass: f64, inertia: DVec3, position: DVec3) -> RigidBody {
 
 fn joint(name: &str, a: (Option<usize>, DVec3), b: (Option<usize>, DVec3)) -> Constraint {
     let anchor = |(body, point)| Anchor { body, point };
-    Constraint {
-        name: name.into(),
-        kind: ConstraintKind::PointToPoint { a: anchor(a), b: anchor(b) },
-        friction: None,
-        tilt_limit: None,
-    }
+    Constraint::new(name, ConstraintKind::PointToPoint { a: anchor(a), b: anchor(b) })
 }
 
 fn figure<'a>(bodies: Vec<RigidBody>, constraints: &'a [Constraint]) -> Figure<'a> {
     let damping = vec![Damping::default(); bodies.len()];
-    Figure { bodies, damping, constraints, springs: &[], colliders: &[], pairs: Vec::new() }
+    Figure { bodies, damping, constraints, limits: &[], springs: &[], drives: &[], colliders: &[], pairs: Vec::new() }
 }
 
 fn run(dynamics: &mut Dynamics, seconds: f64) -> Vec<Impact> {

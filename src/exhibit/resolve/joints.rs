@@ -2,11 +2,13 @@
 
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
-use super::super::sidecar::{Attachment, BodyAxis, Friction, Limit, NailTarget};
+use super::super::sidecar::{self, Attachment, BodyAxis, Friction, NailTarget};
 use super::Context;
 use super::bodies::meters;
 use super::colliders::Pair;
-use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, PivotFriction, Spring, TiltLimit};
+use crate::articulation::{
+    Anchor, Axis, Constraint, ConstraintKind, Function, Limit, LimitKind, PivotFriction, Schedule, Spring, SpringKind,
+};
 use crate::math::{DVec3, PI, cos};
 
 /// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
@@ -18,10 +20,10 @@ const MAX_CONSTRAINTS: usize = 4096;
 
 impl Context<'_> {
     /// All constraints that could be resolved, in the order of the kinds and of the file.
-    pub(super) fn constraints(&mut self) -> Vec<Constraint> {
+    pub(super) fn constraints(&mut self) -> (Vec<Constraint>, Vec<Limit>) {
         let sidecar = self.sidecar;
         let given = &sidecar.constraint;
-        let mut out: Vec<Constraint> = Vec::new();
+        let mut out: (Vec<Constraint>, Vec<Limit>) = Default::default();
         for (i, joint) in given.point_to_point.iter().enumerate() {
             let at = format!("/constraint/point-to-point/{i}");
             let a = self.attachment(&joint.a, &format!("{at}/a"), &joint.name);
@@ -56,12 +58,12 @@ impl Context<'_> {
             );
             let b = self.second_axis(joint.world_axis, joint.other.as_ref(), &at, &joint.name);
             if let (Some(a), Some(b)) = (a, b) {
-                let kind = ConstraintKind::Orientation { a, b };
+                let kind = ConstraintKind::Orientation { a, b, angle: Function::default() };
                 self.push(&mut out, &joint.name, kind, joint.friction, joint.limit.as_ref(), &joint.body, &at);
             }
         }
-        if out.len() > MAX_CONSTRAINTS {
-            let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.len());
+        if out.0.len() > MAX_CONSTRAINTS {
+            let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.0.len());
             self.report("/constraint", Diagnostic::new(codes::MODEL_LIMIT, message));
         }
         out
@@ -100,15 +102,15 @@ impl Context<'_> {
     #[expect(clippy::too_many_arguments, reason = "the parts that the three kinds of joint have in common")]
     fn push(
         &mut self,
-        out: &mut Vec<Constraint>,
+        out: &mut (Vec<Constraint>, Vec<Limit>),
         name: &str,
         kind: ConstraintKind,
         friction: Option<Friction>,
-        limit: Option<&Limit>,
+        limit: Option<&sidecar::Limit>,
         first: &str,
         at: &str,
     ) {
-        self.unique(name, out.iter().any(|c| c.name == name), &format!("{at}/name"));
+        self.unique(name, out.0.iter().any(|c| c.name == name), &format!("{at}/name"));
         let (a, b) = ends(&kind);
         if a == b {
             let message = format!("constraint \"{name}\" joins {} to itself", self.body_name(a));
@@ -135,13 +137,14 @@ impl Context<'_> {
                     meters(b.point)
                 )
             }
-            ConstraintKind::Orientation { a, b } => format!(
+            ConstraintKind::Orientation { a, b, .. } => format!(
                 "{} axis {} perpendicular to {} axis {}",
                 self.body_name(a.body),
                 a.direction,
                 self.body_name(b.body),
                 b.direction
             ),
+            _ => String::new(),
         };
         self.trace(&of, "joins", shown, at, "");
         if let Some(f) = friction {
@@ -153,10 +156,11 @@ impl Context<'_> {
                 "",
             );
         }
-        if let Some(t) = &tilt_limit {
-            self.trace(&of, "limit", format!("{:.2}°", t.angle * 180.0 / PI), &format!("{at}/limit"), "");
+        if let Some(Limit { kind: LimitKind::Tilt { max, .. }, .. }) = &tilt_limit {
+            self.trace(&of, "limit", format!("{:.2}°", max * 180.0 / PI), &format!("{at}/limit"), "");
         }
-        out.push(Constraint { name: name.to_owned(), kind, friction, tilt_limit });
+        out.1.extend(tilt_limit);
+        out.0.push(Constraint { friction, ..Constraint::new(name, kind) });
     }
 
     /// Holds the constraint at rest? What does not would be torn together in the first step.
@@ -172,7 +176,7 @@ impl Context<'_> {
                     self.report(at, Diagnostic::new(codes::APART, message).label(label).help(help));
                 }
             }
-            ConstraintKind::Orientation { a, b } => {
+            ConstraintKind::Orientation { a, b, .. } => {
                 let (t, n) = (self.pose_of(a.body).vector(a.direction), self.pose_of(b.body).vector(b.direction));
                 let off = crate::math::asin(t.dot(n).clamp(-1.0, 1.0)).abs();
                 if off > OBLIQUE {
@@ -184,17 +188,18 @@ impl Context<'_> {
                     );
                 }
             }
+            _ => {}
         }
     }
 
     fn tilt_limit(
         &mut self,
-        limit: &Limit,
+        limit: &sidecar::Limit,
         first: &str,
         second: Option<usize>,
         at: &str,
         name: &str,
-    ) -> Option<TiltLimit> {
+    ) -> Option<Limit> {
         let a = self.body_axis(first, limit.axis, at, &format!("{at}/axis"), name)?;
         let b = if limit.world_axis.is_none() && limit.other.is_none() {
             let world = self.pose_of(a.body).vector(a.direction);
@@ -217,7 +222,11 @@ impl Context<'_> {
                 Diagnostic::new(codes::RANGE, format!("constraint \"{name}\" is beyond its tilt limit at rest"));
             self.report(&format!("{at}/max"), problem.help("turn the axis round, or allow more"));
         }
-        Some(TiltLimit { a, b, angle, restitution: limit.restitution })
+        Some(Limit {
+            name: name.to_owned(),
+            kind: LimitKind::Tilt { a, b, max: angle },
+            restitution: limit.restitution,
+        })
     }
 
     /// Springs and dampers.
@@ -238,22 +247,35 @@ impl Context<'_> {
             let length = self.at_rest(&a).distance(self.at_rest(&b));
             let spring = Spring {
                 name: given.name.clone(),
-                a,
-                b,
-                rest_length: self.not_negative(given.rest_length.map_or(length, |l| l.0), &format!("{at}/rest_length")),
-                stiffness: self.not_negative(given.stiffness.0, &format!("{at}/stiffness")),
-                damping: self.not_negative(given.damping.map_or(0.0, |d| d.0), &format!("{at}/damping")),
+                kind: SpringKind::Linear { a, b },
+                rest: self.not_negative(given.rest_length.map_or(length, |l| l.0), &format!("{at}/rest_length")).into(),
+                stiffness: self.not_negative(given.stiffness.0, &format!("{at}/stiffness")).into(),
+                damping: self.not_negative(given.damping.map_or(0.0, |d| d.0), &format!("{at}/damping")).into(),
+                schedule: Schedule::default(),
+                breaking: None,
             };
             let of = format!("spring {}", given.name);
             self.trace(
                 &of,
                 "rest_length",
-                format!("{} m", spring.rest_length),
+                format!("{} m", spring.rest.at(0.0).value),
                 &format!("{at}/rest_length"),
                 "derived: length at rest",
             );
-            self.trace(&of, "stiffness", format!("{} N/m", spring.stiffness), &format!("{at}/stiffness"), "");
-            self.trace(&of, "damping", format!("{} N s/m", spring.damping), &format!("{at}/damping"), "default");
+            self.trace(
+                &of,
+                "stiffness",
+                format!("{} N/m", spring.stiffness.at(0.0).value),
+                &format!("{at}/stiffness"),
+                "",
+            );
+            self.trace(
+                &of,
+                "damping",
+                format!("{} N s/m", spring.damping.at(0.0).value),
+                &format!("{at}/damping"),
+                "default",
+            );
             out.push(spring);
         }
         out
@@ -293,7 +315,7 @@ impl Context<'_> {
         const DEPENDENT: f64 = 1e-6;
         let center = members.iter().find_map(|c| match &c.kind {
             ConstraintKind::PointToPoint { a, .. } => Some(self.at_rest(a)),
-            ConstraintKind::Orientation { .. } => None,
+            _ => None,
         });
         // Lengths against angles: scaled by the arms at hand, so that the test does not depend on the unit.
         let mut arms = 0.0_f64;
@@ -310,10 +332,11 @@ impl Context<'_> {
                     let arm = center.map_or(DVec3::ZERO, |c| self.at_rest(a) - c) * scale;
                     DVec3::AXES.map(|e| [e, arm.cross(e)]).to_vec()
                 }
-                ConstraintKind::Orientation { a, b } => {
+                ConstraintKind::Orientation { a, b, .. } => {
                     let (t, n) = (self.pose_of(a.body).vector(a.direction), self.pose_of(b.body).vector(b.direction));
                     vec![[DVec3::ZERO, t.cross(n)]]
                 }
+                _ => Vec::new(),
             };
             for row in rows {
                 let dot = |u: &[DVec3; 2], v: &[DVec3; 2]| u[0].dot(v[0]) + u[1].dot(v[1]);
@@ -359,7 +382,9 @@ impl Context<'_> {
 pub(super) fn ends(kind: &ConstraintKind) -> (Option<usize>, Option<usize>) {
     match kind {
         ConstraintKind::PointToPoint { a, b } => (a.body, b.body),
-        ConstraintKind::Orientation { a, b } => (a.body, b.body),
+        ConstraintKind::Orientation { a, b, .. } => (a.body, b.body),
+        ConstraintKind::PointOnPlane { point, plane, .. } => (point.body, plane.body),
+        ConstraintKind::Coupling { .. } => (None, None),
     }
 }
 

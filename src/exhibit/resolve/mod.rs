@@ -20,6 +20,7 @@ use super::model::{Imported, Model, import};
 use super::sidecar::Sidecar;
 use super::source::Source;
 use super::{Exhibit, Material, Origin, SIDECAR, codes, paths, shape};
+use crate::dynamics::{Integrator, Solver};
 use crate::math::{DVec3, Pose};
 
 /// Most bytes of a sidecar.
@@ -85,7 +86,12 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         material_pairs: Vec::new(),
         bodies: Vec::new(),
         constraints: Vec::new(),
+        limits: Vec::new(),
         springs: Vec::new(),
+        drives: Vec::new(),
+        integrator: Integrator::Auto,
+        solver: Solver::Sparse,
+        stabilization_time: STABILIZATION_TIME,
         wires: Vec::new(),
         colliders: Vec::new(),
         excluded_pairs: Vec::new(),
@@ -117,6 +123,9 @@ fn typed(source: &Source) -> Result<Sidecar, Vec<Diagnostic>> {
     serde_json::from_value(source.value.clone())
         .map_err(|error| vec![Diagnostic::new(codes::WRONG_SHAPE, format!("{}: {error}", source.file))])
 }
+
+/// Time constant 1/ω₀ of the joints' stabiliser unless the sidecar says otherwise, s.
+const STABILIZATION_TIME: f64 = 0.04;
 
 /// What all stages share.
 struct Context<'a> {
@@ -165,7 +174,7 @@ impl<'a> Context<'a> {
         let declared = self.declare_bodies();
         let wires = self.wires();
         let bodies = self.weigh_bodies(&declared, &wires);
-        let constraints = self.constraints();
+        let (constraints, limits) = self.constraints();
         let springs = self.springs();
         self.check_topology(&constraints);
         let excluded_pairs = self.excluded_pairs(&constraints);
@@ -182,6 +191,7 @@ impl<'a> Context<'a> {
             material_pairs,
             bodies,
             constraints,
+            limits,
             springs,
             wires,
             colliders,

@@ -5,8 +5,8 @@
 
 use std::path::PathBuf;
 
-use soffio::articulation::ConstraintKind;
 use soffio::collision::Collider;
+use soffio::articulation::{ConstraintKind, LimitKind};
 use soffio::exhibit::{self, AttractAction, Exhibit, Report, codes};
 use soffio::geometry::support::Core;
 use soffio::math::{DVec3, PI};
@@ -131,9 +131,10 @@ fn joints_get_anchors_axes_and_limits_in_body_frames() {
     assert!(
         a.point.distance(DVec3::new(0.0, 0.1, 0.0)) < SINGLE && b.point.distance(DVec3::new(0.5, 0.0, 0.0)) < SINGLE
     );
-    let limit = by_name("pivot").tilt_limit.expect("a limit");
-    assert_eq!((limit.a.body, limit.b.body), (Some(0), None));
-    assert!((limit.angle - PI / 15.0).abs() < SINGLE && limit.b.direction.distance(DVec3::Y) < SINGLE);
+    let limit = exhibit.limits.iter().find(|limit| limit.name == "pivot").expect("a limit");
+    let LimitKind::Tilt { a, b, max } = limit.kind else { panic!("not a tilt") };
+    assert_eq!((a.body, b.body), (Some(0), None));
+    assert!((max - PI / 15.0).abs() < SINGLE && b.direction.distance(DVec3::Y) < SINGLE);
     assert_eq!(exhibit.excluded_pairs, [(None, Some(0)), (None, Some(1)), (Some(0), Some(1))]);
 }
 

@@ -1,0 +1,119 @@
+//! When a constraint acts: windows, ramps, periods, triggers, breaking.
+//!
+//! A row carries the *share* s ∈ [0, 1] of the force that would hold it: 0 is absent, 1 is hard. In the multiplier
+//! system a row's own diagonal K is divided by s, so that alone it yields λ = s · λ_hard, whatever its units; two rows
+//! whose shares cross morph one constraint into the other. A row that closes again finds its error drawn in by the
+//! critically damped stabiliser, never snapped.
+
+/// When a constraint acts. The default is always.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Schedule {
+    /// Times during which it acts, in order, apart from each other; none at all is always.
+    pub windows: Vec<Window>,
+    /// The windows repeat after this time, s.
+    pub period: Option<f64>,
+    /// Seconds over which the share grows from 0 at a window's start.
+    pub ramp_in: f64,
+    /// Seconds over which it falls to 0 before a window's end.
+    pub ramp_out: f64,
+    /// What starts the clock of the windows; without it they count from the exhibit's reset.
+    pub trigger: Option<Trigger>,
+}
+
+/// A span of time, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// First moment.
+    pub start: f64,
+    /// It acts no more from here on; may be infinite.
+    pub end: f64,
+}
+
+/// What starts a schedule's clock; each time anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Trigger {
+    /// A hit on a body.
+    Impact {
+        /// Index of the body.
+        body: usize,
+        /// Of this impulse or more, N s.
+        least_impulse: f64,
+    },
+    /// A breath.
+    Breath {
+        /// Of this speed at the lips or more, m/s.
+        least_speed: f64,
+    },
+}
+
+/// The load at which a constraint gives way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Breaking {
+    /// Of its lengths' multipliers, N.
+    pub force: f64,
+    /// Of its angles' multipliers, N m.
+    pub torque: f64,
+    /// Of what a hit sends through it, N s (angles: N m s).
+    pub impulse: f64,
+    /// Seconds after which it closes again; infinite is at the next reset.
+    pub restore: f64,
+}
+
+impl Default for Breaking {
+    fn default() -> Self {
+        Self { force: f64::INFINITY, torque: f64::INFINITY, impulse: f64::INFINITY, restore: f64::INFINITY }
+    }
+}
+
+impl Schedule {
+    /// Is there nothing to look up?
+    pub fn is_always(&self) -> bool {
+        self.windows.is_empty() && self.trigger.is_none()
+    }
+
+    /// The share at `t` seconds after reset; `triggered` is when the trigger last fired, if it did.
+    pub fn share(&self, t: f64, triggered: Option<f64>) -> f64 {
+        let t = match (&self.trigger, triggered) {
+            (None, _) => t,
+            (Some(_), Some(at)) => t - at,
+            (Some(_), None) => return 0.0,
+        };
+        if self.windows.is_empty() {
+            return 1.0;
+        }
+        let t = self.period.map_or(t, |period| t - period * (t / period).floor());
+        let Some(window) = self.windows.iter().find(|w| w.start <= t && t < w.end) else { return 0.0 };
+        let rise = if self.ramp_in > 0.0 { (t - window.start) / self.ramp_in } else { 1.0 };
+        let fall = if self.ramp_out > 0.0 { (window.end - t) / self.ramp_out } else { 1.0 };
+        rise.min(fall).clamp(0.0, 1.0)
+    }
+
+    /// The windows without the times of `other` (its ramps become this one's).
+    pub fn without(&self, other: &Self) -> Self {
+        let own = if self.windows.is_empty() {
+            vec![Window { start: 0.0, end: f64::INFINITY }]
+        } else {
+            self.windows.clone()
+        };
+        let holes = if other.windows.is_empty() {
+            vec![Window { start: 0.0, end: f64::INFINITY }]
+        } else {
+            other.windows.clone()
+        };
+        let mut left = own;
+        for hole in &holes {
+            let mut rest = Vec::new();
+            for window in left {
+                let before = Window { start: window.start, end: window.end.min(hole.start) };
+                let after = Window { start: window.start.max(hole.end), end: window.end };
+                rest.extend([before, after].into_iter().filter(|w| w.start < w.end));
+            }
+            left = rest;
+        }
+        if left.is_empty() {
+            // Never: a window that is over before it begins.
+            left.push(Window { start: 0.0, end: 0.0 });
+        }
+        Self { windows: left, ramp_in: other.ramp_out, ramp_out: other.ramp_in, ..self.clone() }
+    }
+}
