@@ -79,6 +79,8 @@ pub struct RowState {
     length: bool,
     /// Constraint that it belongs to.
     constraint: usize,
+    /// Is it so far from closed that the stabiliser draws it together?
+    gathers: bool,
 }
 
 /// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
@@ -225,7 +227,7 @@ impl System {
             slot.active = share > 0.0;
             slot.share = share;
             let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
-            self.states[coupling.at] = RowState::new(&row, coupling.constraint);
+            self.states[coupling.at].set(&row, coupling.constraint);
         }
     }
 
@@ -271,12 +273,21 @@ impl System {
         }
     }
 
-    /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ − ω₀² C − 2 ω₀ Ċ. The accelerations of driven
-    /// bodies stand in `a`.
+    /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
+    /// The others are closed by projection: their errors at an integrator's inner stages belong to the method.
+    pub fn look_for_gaps(&mut self) {
+        for state in &mut self.states {
+            state.gathers = state.value.abs() > PROJECTION_REACH;
+        }
+    }
+
+    /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ, and − ω₀² C − 2 ω₀ Ċ where rows gather. The
+    /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
         self.rates(bodies);
         for (g, state) in self.g.iter_mut().zip(&self.states) {
-            *g = -state.bias - omega0 * (omega0 * state.value + 2.0 * *g);
+            let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
+            *g = -state.bias - drawn;
         }
         self.solve();
     }
@@ -286,7 +297,7 @@ impl System {
         self.b.fill([0.0; 6]);
         self.still();
         for (g, state) in self.g.iter_mut().zip(&self.states) {
-            *g = if state.gathers() { 0.0 } else { -state.value };
+            *g = if state.gathers { 0.0 } else { -state.value };
         }
         self.clear_friction();
         self.solve();
@@ -299,7 +310,7 @@ impl System {
         self.still();
         self.rates(bodies);
         for (g, state) in self.g.iter_mut().zip(&self.states) {
-            *g = if state.gathers() { 0.0 } else { -*g };
+            *g = if state.gathers { 0.0 } else { -*g };
         }
         self.solve();
     }
@@ -376,7 +387,7 @@ impl System {
         for (body, a) in bodies.iter_mut().zip(&self.a) {
             body.displace(linear(a), angular(a));
         }
-        for state in self.states.iter_mut().filter(|state| !state.gathers()) {
+        for state in self.states.iter_mut().filter(|state| !state.gathers) {
             state.value = 0.0;
         }
     }
@@ -549,13 +560,10 @@ impl System {
 }
 
 impl RowState {
-    fn new(row: &Row, constraint: usize) -> Self {
-        Self { value: row.value, feed: row.feed, bias: row.bias, length: row.length, constraint }
-    }
-
-    /// Is it still being drawn together?
-    fn gathers(&self) -> bool {
-        self.value.abs() > PROJECTION_REACH
+    /// Takes over a row's numbers.
+    fn set(&mut self, row: &Row, constraint: usize) {
+        let gathers = self.gathers;
+        *self = Self { value: row.value, feed: row.feed, bias: row.bias, length: row.length, constraint, gathers };
     }
 }
 
@@ -579,8 +587,9 @@ impl Joint {
             let (p, q) = if own { (p, q) } else { (q, p) };
             let (c, bias) = (p.position - q.position, p.centripetal - q.centripetal);
             for k in 0..3 {
-                states[self.at + k] =
-                    RowState { value: c[k], feed: 0.0, bias: bias[k], length: true, constraint: *index };
+                let state = &mut states[self.at + k];
+                (state.value, state.feed, state.bias) = (c[k], 0.0, bias[k]);
+                (state.length, state.constraint) = (true, *index);
             }
             (self.rows, self.hard) = (3, 3);
             self.arms = Some((p.arm, q.arm));
@@ -606,7 +615,7 @@ impl Joint {
                 (rows.a[k], rows.b[k]) = if own { (row.a, row.b) } else { (row.b, row.a) };
                 rows.compliance[k] = 0.0;
                 rows.share[k] = share;
-                states[self.at + k] = RowState::new(&row, index);
+                states[self.at + k].set(&row, index);
                 rows.rows = k + 1;
             };
             match &constraint.kind {

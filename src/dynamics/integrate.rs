@@ -1,17 +1,25 @@
 //! The integrators: from one state of constrained bodies to a later one.
 //!
-//! State of a body: (x, q, v, ω). Its rate: (v, ½ ω q, a, α), with a and α from the joints' solve. The quaternion is
-//! integrated as four numbers and normalised, which keeps a method's order. Afterwards the joints have drifted by
+//! State of a body: (x, q, v, ω), with a and α from the joints' solve. Within a substep its rotation is written as
+//! q = exp(σ) q₀ and the vector σ is integrated (Munthe-Kaas), so that a body spinning about a fixed axis, as every
+//! wheel does, turns by exactly the angle it should:
+//!
+//! ```text
+//! σ̇ = ω − ½ σ×ω + k σ×(σ×ω)          k = (1 − (θ/2) cot(θ/2))/θ² = 1/12 + θ²/720 + θ⁴/30240 + …,  θ = |σ|
+//! ```
+//!
+//! Afterwards the joints have drifted by
 //! the method's local error; one Newton step on C (least in kinetic energy) brings them back to rounding, one linear
 //! solve does the same for Ċ. The factor of that projection also gives the rate at the new state, which is the next
 //! substep's first stage.
 //!
 //! **Runge–Kutta**, the classical method of fourth order. The new state's own rate k₅ beside the last stage k₄ gives
-//! an estimate of the local error for nothing: e = h/6 (k₅ − k₄) is what a companion of third order would differ by.
-//! It is measured in the norm of the kinetic energy,
+//! an estimate of the local error for nothing: h/6 (k₅ − k₄) = c h⁴ y⁗ is what a companion of third order would
+//! differ by, and its change from one substep to the next, c h⁵ y⁽⁵⁾, has the order of the method's own error. It is
+//! measured in the norm of the kinetic energy:
 //!
 //! ```text
-//! error = √(Σ e·M e / Σ v·M v)
+//! d = (k₅ − k₄)/h³       e = h⁵/6 (d − d')/h'       error = √(Σ e·M e / Σ v·M v)       ' the substep before
 //! ```
 //!
 //! **Gauss–Legendre** with three stages, of sixth order, symplectic on smooth motion:
@@ -24,9 +32,9 @@
 //! II.1.3). **Fast**: semi-implicit Euler.
 
 use super::{Dynamics, forces};
-use crate::articulation::block::{angular, linear, vec6};
+use crate::articulation::block::{Vec6, angular, linear, vec6};
 use crate::bodies::RigidBody;
-use crate::math::{DQuat, DVec3};
+use crate::math::{DQuat, DVec3, rotation};
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
 const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
@@ -73,43 +81,39 @@ impl State {
         body.angular_velocity = self.angular_velocity;
     }
 
-    /// This state and `h` times a rate, into a body.
+    /// This state and `h` times a rate, into a body; returns σ.
     #[inline]
-    fn advance(&self, h: f64, rate: &Rate, body: &mut RigidBody) {
+    fn advance(&self, h: f64, rate: &Rate, body: &mut RigidBody) -> DVec3 {
+        let turn = h * rate.turn;
         body.position = self.position + h * rate.velocity;
-        body.rotation = (self.rotation + rate.rotation * h).normalize();
+        body.rotation = rotation(turn) * self.rotation;
         body.velocity = self.velocity + h * rate.acceleration;
         body.angular_velocity = self.angular_velocity + h * rate.angular_acceleration;
+        turn
     }
 }
 
 /// Rate of change of a body's state.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rate {
     velocity: DVec3,
-    rotation: DQuat,
+    /// σ̇.
+    turn: DVec3,
     acceleration: DVec3,
     angular_acceleration: DVec3,
 }
 
-impl Default for Rate {
-    fn default() -> Self {
-        Self {
-            velocity: DVec3::ZERO,
-            rotation: DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0),
-            acceleration: DVec3::ZERO,
-            angular_acceleration: DVec3::ZERO,
-        }
-    }
-}
-
 impl Rate {
+    /// Of a body that has turned by σ since the substep began.
     #[inline]
-    fn of(body: &RigidBody, a: &[f64; 6]) -> Self {
+    fn of(body: &RigidBody, sigma: DVec3, a: &Vec6) -> Self {
         let w = body.angular_velocity;
+        let across = sigma.cross(w);
+        let square = sigma.length_squared();
+        let k = 1.0 / 12.0 + square * (1.0 / 720.0 + square / 30240.0);
         Self {
             velocity: body.velocity,
-            rotation: DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * body.rotation * 0.5,
+            turn: w - 0.5 * across + k * sigma.cross(across),
             acceleration: linear(a),
             angular_acceleration: angular(a),
         }
@@ -118,7 +122,7 @@ impl Rate {
     #[inline]
     fn add(&mut self, weight: f64, other: &Self) {
         self.velocity += weight * other.velocity;
-        self.rotation = self.rotation + other.rotation * weight;
+        self.turn += weight * other.turn;
         self.acceleration += weight * other.acceleration;
         self.angular_acceleration += weight * other.angular_acceleration;
     }
@@ -130,34 +134,46 @@ impl Dynamics {
         self.ensure_rates(t);
         for stage in 1..4 {
             for (index, body) in self.bodies.iter_mut().enumerate() {
-                let rate = Rate::of(body, &self.system.a[index]);
-                let mean = &mut self.mean[index];
+                let (mean, sigma) = (&mut self.mean[index], &mut self.turned[index]);
                 if stage == 1 {
-                    *mean = Rate::default();
+                    (*mean, *sigma) = (Rate::default(), DVec3::ZERO);
                 }
+                let rate = Rate::of(body, *sigma, &self.system.a[index]);
                 mean.add(WEIGHTS[stage - 1], &rate);
-                self.start[index].advance(NODES[stage] * h, &rate, body);
+                *sigma = self.start[index].advance(NODES[stage] * h, &rate, body);
             }
             self.accelerate(t + NODES[stage] * h);
         }
         for (index, body) in self.bodies.iter_mut().enumerate() {
-            let rate = Rate::of(body, &self.system.a[index]);
+            let rate = Rate::of(body, self.turned[index], &self.system.a[index]);
             let mean = &mut self.mean[index];
             mean.add(WEIGHTS[3], &rate);
             self.last[index] = self.system.a[index];
             self.start[index].advance(h, mean, body);
         }
         self.arrive(t + h);
-        // k₅ − k₄ in the norm of the kinetic energy.
+        self.estimate(h)
+    }
+
+    /// The error of a Runge–Kutta substep of `h` that has just arrived, as a share of the velocities.
+    fn estimate(&mut self, h: f64) -> f64 {
+        let cube = h * h * h;
+        let spread = self.fourth_step.map_or(h, |before| h * h / before);
         let (mut error, mut scale) = (0.0, 0.0);
         for (index, body) in self.bodies.iter().enumerate() {
             let (mass, inertia) = (body.properties.mass, self.system.inertia_world(index));
-            let norm = |v: &[f64; 6]| mass * linear(v).length_squared() + angular(v).dot(inertia.mul(angular(v)));
-            let difference: [f64; 6] =
-                std::array::from_fn(|k| h / 6.0 * (self.system.a[index][k] - self.last[index][k]));
-            error += norm(&difference);
+            let norm = |v: &Vec6| mass * linear(v).length_squared() + angular(v).dot(inertia.mul(angular(v)));
+            let (a, last) = (&self.system.a[index], &self.last[index]);
+            let fourth: Vec6 = std::array::from_fn(|k| (a[k] - last[k]) / cube);
+            let before = std::mem::replace(&mut self.fourth[index], fourth);
+            let change: Vec6 = match self.fourth_step {
+                Some(_) => std::array::from_fn(|k| (fourth[k] - before[k]) * cube * spread / 6.0),
+                None => fourth.map(|x| x * cube * h / 6.0 * UNKNOWN),
+            };
+            error += norm(&change);
             scale += norm(&vec6(body.velocity, body.angular_velocity)) + mass * SLOWEST * SLOWEST;
         }
+        self.fourth_step = Some(h);
         (error / scale).sqrt()
     }
 
@@ -178,11 +194,12 @@ impl Dynamics {
     pub(super) fn gauss(&mut self, t: f64, h: f64) -> bool {
         self.ensure_rates(t);
         for (index, body) in self.bodies.iter().enumerate() {
-            let rate = Rate::of(body, &self.system.a[index]);
+            let rate = Rate::of(body, DVec3::ZERO, &self.system.a[index]);
             // A body's velocity changes as its acceleration says, which is the better first guess.
             for (stage, node) in GAUSS_NODES.into_iter().enumerate() {
                 let mut guess = rate;
                 guess.velocity += node * h * rate.acceleration;
+                guess.turn += node * h * rate.angular_acceleration;
                 self.stages[stage][index] = guess;
             }
         }
@@ -195,15 +212,18 @@ impl Dynamics {
                     for (other, weight) in GAUSS[stage].into_iter().enumerate() {
                         mean.add(weight, &self.stages[other][index]);
                     }
-                    self.start[index].advance(h, &mean, body);
+                    self.turned[index] = self.start[index].advance(h, &mean, body);
                 }
                 self.accelerate(t + GAUSS_NODES[stage] * h);
                 for (index, body) in self.bodies.iter().enumerate() {
-                    let rate = Rate::of(body, &self.system.a[index]);
+                    let rate = Rate::of(body, self.turned[index], &self.system.a[index]);
                     let old = &self.stages[stage][index];
                     change += (rate.acceleration - old.acceleration).length_squared()
-                        + (rate.angular_acceleration - old.angular_acceleration).length_squared();
-                    size += rate.acceleration.length_squared() + rate.angular_acceleration.length_squared();
+                        + (rate.angular_acceleration - old.angular_acceleration).length_squared()
+                        + (rate.turn - old.turn).length_squared();
+                    size += rate.acceleration.length_squared()
+                        + rate.angular_acceleration.length_squared()
+                        + rate.turn.length_squared();
                     self.stages[stage][index] = rate;
                 }
             }
@@ -240,7 +260,11 @@ impl Dynamics {
         if self.fresh {
             return;
         }
-        self.accelerate(t);
+        self.carry_driven(t);
+        self.system.evaluate(&self.bodies);
+        self.system.look_for_gaps();
+        self.system.factor();
+        self.solve_forces(t);
         self.fresh = true;
     }
 
@@ -287,8 +311,17 @@ impl Dynamics {
         if self.system.states().is_empty() {
             return;
         }
+        self.system.look_for_gaps();
+        let apart = self.system.largest_error();
         self.system.solve_displacement();
         self.system.close(&mut self.bodies);
+        if apart > COARSE {
+            // Newton's error is the square of what was there.
+            self.system.evaluate(&self.bodies);
+            self.system.factor();
+            self.system.solve_displacement();
+            self.system.close(&mut self.bodies);
+        }
         self.system.solve_velocity(&self.bodies);
         self.system.apply_velocity(&mut self.bodies);
     }
@@ -304,6 +337,10 @@ impl Dynamics {
     }
 }
 
+/// Joints farther apart than this before projection are projected twice, m or rad: the second time from the square of it.
+const COARSE: f64 = 1e-7;
+/// Where no earlier substep tells how fast the estimate changes, this share of it is taken.
+const UNKNOWN: f64 = 0.1;
 /// Slower motion than this is followed no more closely than this one, m/s.
 const SLOWEST: f64 = 1e-3;
 /// Rates that still change by less than this share are good enough when iterations run out.
