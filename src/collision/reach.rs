@@ -120,8 +120,8 @@ impl Reach {
     fn apart(&self, (a, first): (usize, &Volume), (b, second): (usize, &Volume)) -> f64 {
         match (*first, *second) {
             (Volume::Still, Volume::Still) => f64::NEG_INFINITY,
-            (Volume::Still, other) => self.from_still(a, other.ball()),
-            (other, Volume::Still) => self.from_still(b, other.ball()),
+            (Volume::Still, other) => self.still_from(a, other.ball()),
+            (other, Volume::Still) => self.still_from(b, other.ball()),
             (Volume::Ring { .. }, Volume::Ball { center, radius }) => first.ring_from(center) - radius,
             (Volume::Ball { center, radius }, Volume::Ring { .. }) => second.ring_from(center) - radius,
             (
@@ -143,7 +143,7 @@ impl Reach {
         }
     }
 
-    fn from_still(&self, still: usize, (center, radius): (DVec3, f64)) -> f64 {
+    fn still_from(&self, still: usize, (center, radius): (DVec3, f64)) -> f64 {
         let Some(Some(shape)) = self.still.get(still) else { return f64::NEG_INFINITY };
         proximity(&Shape::sphere(center, radius), &Pose::IDENTITY, shape, &Pose::IDENTITY).gap
     }

@@ -158,7 +158,7 @@ fn scene(seed: u64, bodies: usize) -> (Vec<Collider>, Vec<Sweep>) {
         let properties = MassProperties { mass: 1.0, center, inertia: DMat3::IDENTITY };
         let before = RigidBody::at_rest(properties, pose(random, 0.5));
         let mut after = before;
-        after.displace(signed(random) * 0.1, signed(random) * if seed % 2 == 0 { 0.1 } else { 1.0 });
+        after.displace(signed(random) * 0.1, signed(random) * if seed.is_multiple_of(2) { 0.1 } else { 1.0 });
         sweeps.push(Sweep::new(&before, &after));
     }
     for _ in 0..4 {
