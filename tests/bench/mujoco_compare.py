@@ -282,6 +282,7 @@ def measure(binary, scene, dt, budget):
         "drop": ours.get("s4_drop_rel_err"),
         "phase": ours.get("s4_max_coupling_err_m"),
         "ppm": ours.get("s5_period_err_hermite_ppm"),
+        "whole_s": round(scene.data["duration"] / dt) * dt * (1 - 1e-9),
         "repeats": ours["repeat_bitwise"],
     }
     return rows
@@ -313,10 +314,13 @@ def goals(table, linear):
     """Rows (goal, what, ours, wanted, met)."""
     find = lambda name, slow: next((r for (n, dt), r in table.items() if n == name and (dt < 2e-3) == slow), None)
 
-    def need(goal, what, value, most, unit=""):
-        met = value is not None and value <= most
+    def need(goal, what, value, most, unit="", row=None):
+        """`row` is the run that the value is the largest of: where it stopped early, it can only be met so far."""
+        met = "NOT MET" if value is None or not value <= most else "met"
+        if met == "met" and row and row["sim_s"] < row["whole_s"]:
+            met = f"met in the first {row['sim_s']:.2f} s"
         shown = "none" if value is None else f"{value:.3g}"
-        print(f"{goal:<4} {what:<52} {shown:>10}{unit} {most:>10.3g}{unit}  {'met' if met else 'NOT MET'}")
+        print(f"{goal:<4} {what:<52} {shown:>10}{unit} {most:>10.3g}{unit}  {met}")
 
     def faster(goal, what, value, least):
         print(f"{goal:<4} {what:<52} {value:>10.3g}x {least:>10.3g}x  {'met' if value >= least else 'NOT MET'}")
@@ -329,14 +333,14 @@ def goals(table, linear):
         if rows := find(f"S2_mobile_{n}", False):
             own, rk4 = rows["soffio"], rows["rk4"]
             faster("G1", f"mobile {n}: MuJoCo RK4's time over ours", rk4["us"] / own["us"], 6)
-            need("G1", f"mobile {n}: energy, MuJoCo RK4's is the bar", whole(own), rk4["E"])
-            need("G1", f"mobile {n}: joints", own["J"], 1e-12, " m")
-            need("G2", f"mobile {n}: energy", whole(own), 1e-6)
+            need("G1", f"mobile {n}: energy, MuJoCo RK4's is the bar", whole(own), rk4["E"], row=own)
+            need("G1", f"mobile {n}: joints", own["J"], 1e-12, " m", own)
+            need("G2", f"mobile {n}: energy", whole(own), 1e-6, row=own)
     for n, least in ((100, 100), (1000, 15_000)):
         if rows := find(f"S1_chain_{n}", False):
             own = rows["soffio"]
             faster("G3", f"chain {n}: MuJoCo RK4's step over our substep", rows["rk4"]["us"] * own["substeps"] / own["us"], least)
-            need("G5", f"chain {n}: energy over {own['sim_s']:.2f} s", whole(own), 1e-3)
+            need("G5", f"chain {n}: energy over 10 s", whole(own), 1e-3, row=own)
     for shape in ("chain", "tree"):
         rows = {row["n"]: row for row in linear if row["shape"] == shape}
         for n in (1_000, 10_000):
@@ -349,15 +353,15 @@ def goals(table, linear):
                 need("G4", f"{shape} {n}: step per body", 1e3 * rows[n]["us_per_body_step"], 300, " ns")
     if rows := find("S1_chain_10", False):
         own = rows["soffio"]
-        need("G5", "chain 10: energy over 10 s", whole(own), 1e-6)
-        need("G5", "chain 10: joints", own["J"], 1e-12, " m")
+        need("G5", "chain 10: energy over 10 s", whole(own), 1e-6, row=own)
+        need("G5", "chain 10: joints", own["J"], 1e-12, " m", own)
         if fine := find("S1_chain_10", True):
             ratio = (own["us"] * 240) / (fine["rk4"]["us"] * 1000)
             need("G5", "chain 10: time per simulated s over RK4's at 1/1000", ratio, 1, "x")
     if rows := find("S6_massratio_10000", False):
         own = rows["soffio"]
-        need("G6", "mass ratio: energy", whole(own), 1e-8)
-        need("G6", "mass ratio: joints", own["J"], 1e-12, " m")
+        need("G6", "mass ratio: energy", whole(own), 1e-8, row=own)
+        need("G6", "mass ratio: joints", own["J"], 1e-12, " m", own)
         need("G6", "mass ratio: step", own["us"], 120, " us")
     if rows := find("S4_gears", False):
         own = rows["soffio"]
@@ -367,7 +371,7 @@ def goals(table, linear):
     if rows := find("S5_pendulum", False):
         own = rows["soffio"]
         need("G9", "pendulum: period, 1e-6", abs(own["ppm"]), 1e-5)
-        need("G9", "pendulum: energy", whole(own), 1e-9)
+        need("G9", "pendulum: energy", whole(own), 1e-9, row=own)
 
 
 def main():
@@ -378,6 +382,8 @@ def main():
     parser.add_argument("--budget", type=float, default=10.0, help="processor time of each measuring pass, s")
     parser.add_argument("--linear", action="store_true", help="also what a body costs as figures grow (G4)")
     args = parser.parse_args()
+    # A run that diverges is told in the table, not in a log file wherever this was started.
+    mujoco.set_mju_user_warning(lambda message: None)
     table = {}
     for path in args.scenes:
         scene = Scene(path)

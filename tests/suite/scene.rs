@@ -248,6 +248,41 @@ fn a_made_mobile_hangs_level() {
     }
 }
 
+/// An engine whose steps take a given processor time, and whose state is how many there were.
+struct Slow {
+    step: f64,
+    done: u32,
+}
+
+impl Engine for Slow {
+    fn step(&mut self) -> bool {
+        let start = cpu_time::ThreadTime::now();
+        while start.elapsed().as_secs_f64() < self.step {}
+        self.done += 1;
+        true
+    }
+
+    fn substeps(&self) -> u32 {
+        1
+    }
+
+    fn states(&self, out: &mut Vec<State>) {
+        *out = vec![State { position: DVec3::X * f64::from(self.done), ..State::WORLD }];
+    }
+}
+
+#[test]
+fn later_rounds_run_the_steps_of_the_first_however_long_they_take() {
+    let mut best = Best::default();
+    let limits = Limits { seconds: f64::INFINITY, budget: 5e-3 };
+    for step in [1e-3, 3e-3, 2e-3] {
+        best.round(&mut Slow { step, done: 0 }, 1_000, limits);
+    }
+    assert!((1..1_000).contains(&best.steps()), "the first round ends in its time, not after {} steps", best.steps());
+    assert!(best.agree(), "all rounds have the same steps");
+    assert!(best.us_per_step() >= 1e3, "{} us", best.us_per_step());
+}
+
 /// A scene as a file has it, half a second of it, at most `drift` of its energy lost or won.
 #[track_caller]
 fn runs_well(scene: &Scene, drift: f64) {

@@ -1,8 +1,9 @@
 //! Articulated scenes as files: the same figure for this engine and for any other, and one way to measure both.
 //!
-//! A scene is bodies, joints in tree order and couplings, in SI units ([`format`](mod@format)). It becomes a figure ([`figure`]), is run
-//! ([`run`]), and is judged by numbers that come from the file and the poses alone ([`measure`]), never from the
-//! engine. Scenes can be made as well as read ([`make`]), so that figures nobody tuned for go the same way.
+//! A scene is bodies, joints in tree order and couplings, in SI units ([`format`](mod@format)). It becomes a figure
+//! (`figure.rs`), is run ([`run`]), and is judged by numbers that come from the file and the poses alone
+//! ([`measure`]), never from the engine. Scenes can be made as well as read ([`make`]), so that figures nobody tuned
+//! for go the same way.
 
 mod figure;
 pub mod format;

@@ -1,7 +1,7 @@
 //! Runs a scene in an engine: one pass that measures what comes out, and rounds that measure only time.
 //!
 //! Time is processor time of the thread, so other work on the machine counts less; the best of the rounds is told, as
-//! other work can only add. The rounds of several engines can take turns ([`time_round`]), so that a slow spell of the
+//! other work can only add. The rounds of several engines can take turns ([`Best::round`]), so that a slow spell of the
 //! machine hits all of them.
 
 use std::hint::black_box;
@@ -112,22 +112,20 @@ pub fn step_count(scene: &Scene, dt: f64, seconds: f64) -> u64 {
 
 /// One measurement of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timed {
-    /// Steps run.
-    pub steps: u64,
+struct Timed {
+    steps: u64,
     /// Processor time of them all, s.
-    pub seconds: f64,
+    seconds: f64,
     /// Bits of the states after the last one.
-    pub hash: u64,
+    hash: u64,
 }
 
-/// Runs an engine for at most `steps` steps and about as much processor time as a round has.
-pub fn time_round(engine: &mut (impl Engine + ?Sized), steps: u64, limits: Limits) -> Timed {
-    let most = limits.budget.min(ROUND_TIME);
+/// Runs an engine for at most `steps` steps and about `most` s of processor time; one step at least.
+fn time_round(engine: &mut (impl Engine + ?Sized), steps: u64, most: f64) -> Timed {
     let (mut done, mut chunk) = (0, 1);
     let start = ThreadTime::now();
     let mut elapsed = 0.0;
-    while done < steps && elapsed < most {
+    loop {
         let before = elapsed;
         let now = chunk.min(steps - done);
         for _ in 0..now {
@@ -135,6 +133,9 @@ pub fn time_round(engine: &mut (impl Engine + ?Sized), steps: u64, limits: Limit
         }
         done += now;
         elapsed = start.elapsed().as_secs_f64();
+        if done >= steps || elapsed >= most {
+            break;
+        }
         if elapsed - before < LOOK {
             chunk *= 2;
         }
@@ -153,15 +154,16 @@ pub struct Best {
 }
 
 impl Best {
-    /// Runs one more round; the first sets how many steps the others have.
+    /// Runs one more round of `steps` steps. If the first takes longer than a round may, it ends there, and the others
+    /// run the steps that it ran.
     pub fn round(&mut self, engine: &mut (impl Engine + ?Sized), steps: u64, limits: Limits) {
         match self.first {
             None => {
-                let timed = time_round(engine, steps, limits);
+                let timed = time_round(engine, steps, limits.budget.min(ROUND_TIME));
                 *self = Self { first: Some(timed), seconds: timed.seconds, agree: true };
             }
             Some(first) => {
-                let timed = time_round(engine, first.steps, Limits { budget: f64::INFINITY, ..limits });
+                let timed = time_round(engine, first.steps, f64::INFINITY);
                 self.seconds = self.seconds.min(timed.seconds);
                 self.agree &= timed.hash == first.hash;
             }
