@@ -71,6 +71,12 @@ const C: [f64; 6] = [-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 
 #[inline]
 pub fn rotation(w: DVec3) -> DQuat {
     let x = 0.25 * w.length_squared();
+    if x < 1e-3 {
+        // The terms left out are below 10⁻¹⁷.
+        let s = 0.5 + x * (S[0] + x * (S[1] + x * S[2]));
+        let c = 1.0 + x * (C[0] + x * (C[1] + x * (C[2] + x * C[3])));
+        return DQuat::from_xyzw(s * w.x, s * w.y, s * w.z, c);
+    }
     if x < 0.0625 {
         // Horner's scheme; products with constants, as a division costs as much as the rest.
         let s = 0.5 + x * (S[0] + x * (S[1] + x * (S[2] + x * (S[3] + x * S[4]))));
@@ -85,6 +91,17 @@ fn large_rotation(w: DVec3) -> DQuat {
     let (s, c) = sincos(0.5 * angle);
     let s = s / angle;
     DQuat::from_xyzw(s * w.x, s * w.y, s * w.z, c).normalize()
+}
+
+/// Product of two quaternions, written out.
+#[inline]
+pub fn product(p: DQuat, q: DQuat) -> DQuat {
+    DQuat::from_xyzw(
+        p.w * q.x + p.x * q.w + (p.y * q.z - p.z * q.y),
+        p.w * q.y + p.y * q.w + (p.z * q.x - p.x * q.z),
+        p.w * q.z + p.z * q.w + (p.x * q.y - p.y * q.x),
+        p.w * q.w - (p.x * q.x + p.y * q.y + p.z * q.z),
+    )
 }
 
 /// A quaternion whose length differs from 1 by rounding, back at 1: one Newton step of 1/√x, exact to rounding.

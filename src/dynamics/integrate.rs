@@ -34,7 +34,7 @@
 use super::{Dynamics, forces};
 use crate::articulation::block::{Vec6, angular, linear, vec6};
 use crate::bodies::RigidBody;
-use crate::math::{DQuat, DVec3, renormalized, rotation};
+use crate::math::{DQuat, DVec3, product, renormalized, rotation};
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
 const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
@@ -86,7 +86,7 @@ impl State {
     fn advance(&self, h: f64, rate: &Rate, body: &mut RigidBody) -> DVec3 {
         let turn = h * rate.turn;
         body.position = self.position + h * rate.velocity;
-        body.rotation = renormalized(rotation(turn) * self.rotation);
+        body.rotation = renormalized(product(rotation(turn), self.rotation));
         body.velocity = self.velocity + h * rate.acceleration;
         body.angular_velocity = self.angular_velocity + h * rate.angular_acceleration;
         turn

@@ -34,10 +34,10 @@ use integrate::{Rate, State};
 /// such a mode holds next to none of the energy, and at 1 it loses what little it has within some ten periods.
 const TENSION_PHASE: f64 = 3.2;
 /// Largest turn of a body in one substep, rad.
-const SPIN_PHASE: f64 = 0.5;
+const SPIN_PHASE: f64 = 0.25;
 /// Largest estimated error of a substep, as a share of the velocities in the norm of the kinetic energy. The estimate
 /// is that of a method one order lower, so the true error is some hundred times less.
-const TOLERANCE: f64 = 1e-7;
+const TOLERANCE: f64 = 1e-6;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
