@@ -3,7 +3,7 @@
 use crate::math::DVec3;
 
 pub mod block;
-mod function;
+pub mod function;
 mod loops;
 pub mod rows;
 mod schedule;
@@ -243,6 +243,18 @@ impl ConstraintKind {
             Self::Orientation { a, b, .. } => either((a.body, b.body)),
             Self::Coupling { terms } => terms.iter().any(|term| either(term.measure.bodies())),
         }
+    }
+}
+
+impl LimitKind {
+    /// Does it act on this body?
+    pub fn touches(&self, body: usize) -> bool {
+        let (a, b) = match self {
+            Self::Tilt { a, b, .. } => (a.body, b.body),
+            Self::Range { measure, .. } | Self::Ratchet { measure, .. } => measure.bodies(),
+            Self::Distance { a, b, .. } => (a.body, b.body),
+        };
+        a == Some(body) || b == Some(body)
     }
 }
 
