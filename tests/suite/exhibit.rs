@@ -1,7 +1,11 @@
 //! Exhibits: good ones load with the numbers that formulas give; bad ones are refused with the right code and line.
 
+mod constraints;
+mod example;
 mod glb;
 mod mass;
 mod model;
+mod motion;
 mod shipped;
 mod sidecar;
+mod timing;

@@ -122,8 +122,12 @@ impl Context<'_> {
         let mut pairs: Vec<Pair> = Vec::new();
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
             for constraint in constraints {
-                let (a, b) = joints::ends(&constraint.kind);
-                self.exclude(&mut pairs, a, b, &format!("joined by {}", constraint.name), "/-");
+                for (a, b) in joints::pairs(&constraint.kind) {
+                    let known = pairs.contains(&(a.min(b), a.max(b)));
+                    if !known {
+                        self.exclude(&mut pairs, a, b, &format!("joined by {}", constraint.group()), "/-");
+                    }
+                }
             }
         }
         for (i, [first, second]) in sidecar.collision.exclude.iter().enumerate() {

@@ -1,370 +1,236 @@
-//! Joints: anchors and axes in body frames, and the checks that a solver relies on.
+//! Joints: what the sidecar's constraint tables mean as rows between bodies.
+//!
+//! Each kind has a function here or in a submodule that finds its anchors and axes, and adds its rows under the
+//! table's name (`axle`), or, for a combination, its parts (`axle/nail`, `axle/across-1`). Rest values come from the
+//! poses of the model; whether the rows hold is asked where the bodies start.
+
+mod checks;
+mod combinations;
+mod elements;
+mod functions;
+mod gears;
+mod limits;
+mod points;
+mod rank;
+mod schedule;
+mod springs;
 
 use super::super::codes;
-use super::super::diagnostic::Diagnostic;
-use super::super::sidecar::{self, Attachment, BodyAxis, Friction, NailTarget};
+use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::sidecar::Friction;
 use super::Context;
 use super::bodies::meters;
 use super::colliders::Pair;
-use crate::articulation::{
-    Anchor, Axis, Constraint, ConstraintKind, Function, Limit, LimitKind, PivotFriction, Schedule, Spring, SpringKind,
-};
-use crate::math::{DVec3, PI, cos};
+pub(super) use functions::interpolation;
 
-/// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
-const APART: f64 = 1e-4;
-/// Axes of an orientation may be this far from perpendicular at rest: 0.1°.
-const OBLIQUE: f64 = 0.1 * PI / 180.0;
+use crate::articulation::{
+    Axis, Breaking, Constraint, ConstraintKind, Limit, Measure, PivotFriction, Schedule, Spring,
+};
+
 /// Most constraints of an exhibit.
 const MAX_CONSTRAINTS: usize = 4096;
 
+/// All that the constraint tables give.
+#[derive(Default)]
+pub(super) struct Joints {
+    pub constraints: Vec<Constraint>,
+    pub limits: Vec<Limit>,
+    pub springs: Vec<Spring>,
+    /// The turn or way that is left free by a hinge or a slider, for tables that point at it with `of`.
+    free: Vec<(String, Measure)>,
+    names: Vec<String>,
+}
+
+/// What all rows of one table have in common.
+struct Header<'n> {
+    name: &'n str,
+    /// JSON pointer of the table.
+    at: &'n str,
+    schedule: Schedule,
+    breaking: Option<Breaking>,
+}
+
 impl Context<'_> {
-    /// All constraints that could be resolved, in the order of the kinds and of the file.
-    pub(super) fn constraints(&mut self) -> (Vec<Constraint>, Vec<Limit>) {
+    /// All constraints, limits and springs that could be resolved, in the order of the kinds and of the file.
+    pub(super) fn joints(&mut self) -> Joints {
         let sidecar = self.sidecar;
         let given = &sidecar.constraint;
-        let mut out: (Vec<Constraint>, Vec<Limit>) = Default::default();
-        for (i, joint) in given.point_to_point.iter().enumerate() {
-            let at = format!("/constraint/point-to-point/{i}");
-            let a = self.attachment(&joint.a, &format!("{at}/a"), &joint.name);
-            let b = self.attachment(&joint.b, &format!("{at}/b"), &joint.name);
-            if let (Some(a), Some(b)) = (a, b) {
-                let kind = ConstraintKind::PointToPoint { a, b };
-                self.push(&mut out, &joint.name, kind, joint.friction, joint.limit.as_ref(), &joint.a.node, &at);
-            }
-        }
-        for (i, joint) in given.nail.iter().enumerate() {
-            let at = format!("/constraint/nail/{i}");
-            let used_for = format!("constraint \"{}\"", joint.name);
-            let node = self.node(&joint.body, &format!("{at}/body"), &used_for);
-            let a = node.and_then(|node| self.point(node, joint.at.as_ref(), &format!("{at}/at"), &used_for));
-            let b = match &joint.to {
-                NailTarget::World(p) => Some(Anchor { body: None, point: DVec3::from(p.map(|x| x.0)) }),
-                NailTarget::Node(to) => self.attachment(to, &format!("{at}/to"), &joint.name),
-            };
-            if let (Some(a), Some(b)) = (a, b) {
-                let kind = ConstraintKind::PointToPoint { a, b };
-                self.push(&mut out, &joint.name, kind, joint.friction, joint.limit.as_ref(), &joint.body, &at);
-            }
-        }
-        for (i, joint) in given.orientation.iter().enumerate() {
-            let at = format!("/constraint/orientation/{i}");
-            let a = self.body_axis(
-                &joint.body,
-                joint.body_axis,
-                &format!("{at}/body"),
-                &format!("{at}/body_axis"),
-                &joint.name,
-            );
-            let b = self.second_axis(joint.world_axis, joint.other.as_ref(), &at, &joint.name);
-            if let (Some(a), Some(b)) = (a, b) {
-                let kind = ConstraintKind::Orientation { a, b, angle: Function::default() };
-                self.push(&mut out, &joint.name, kind, joint.friction, joint.limit.as_ref(), &joint.body, &at);
-            }
-        }
-        if out.0.len() > MAX_CONSTRAINTS {
-            let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.0.len());
+        let mut out = Joints::default();
+        self.each("point-to-point", &given.point_to_point, &mut out, Self::point_to_point);
+        self.each("nail", &given.nail, &mut out, Self::nail);
+        self.each("orientation", &given.orientation, &mut out, Self::orientation);
+        self.each("point-on-plane", &given.point_on_plane, &mut out, Self::point_on_plane);
+        self.each("hinge", &given.hinge, &mut out, |this, hinge, at, out| this.hinge(hinge, "nail", at, out));
+        self.each("universal", &given.universal, &mut out, Self::universal);
+        self.each("slider", &given.slider, &mut out, Self::slider);
+        self.each("line", &given.line, &mut out, Self::line);
+        self.each("weld", &given.weld, &mut out, Self::weld);
+        self.each("windmill", &given.windmill, &mut out, |this, hinge, at, out| this.hinge(hinge, "point", at, out));
+        self.each("gear", &given.gear, &mut out, Self::gear);
+        self.each("gear-weight", &given.gear_weight, &mut out, Self::gear_weight);
+        self.each("element", &given.element, &mut out, Self::element);
+        self.each("ratchet", &given.ratchet, &mut out, Self::ratchet);
+        self.each("limit", &given.limit, &mut out, Self::bounds);
+        self.each("spring", &given.spring, &mut out, Self::spring);
+        self.each("torsion-spring", &given.torsion_spring, &mut out, Self::torsion_spring);
+        if out.constraints.len() > MAX_CONSTRAINTS {
+            let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.constraints.len());
             self.report("/constraint", Diagnostic::new(codes::MODEL_LIMIT, message));
         }
         out
     }
 
-    fn attachment(&mut self, given: &Attachment, at: &str, name: &str) -> Option<Anchor> {
-        let used_for = format!("constraint \"{name}\"");
-        let node = self.node(&given.node, &format!("{at}/node"), &used_for)?;
-        self.point(node, given.at.as_ref(), &format!("{at}/at"), &used_for)
-    }
-
-    fn body_axis(&mut self, body: &str, axis: [f64; 3], at_body: &str, at_axis: &str, name: &str) -> Option<Axis> {
-        let node = self.node(body, at_body, &format!("constraint \"{name}\""))?;
-        self.axis(node, axis, at_axis)
-    }
-
-    /// The axis given as `world_axis` or `other`; `None` where a problem was reported.
-    fn second_axis(&mut self, world: Option<[f64; 3]>, other: Option<&BodyAxis>, at: &str, name: &str) -> Option<Axis> {
-        match (world, other) {
-            (Some(axis), None) => {
-                let unit = self.unit(DVec3::from(axis), &format!("{at}/world_axis"));
-                unit.map(|direction| Axis { body: None, direction })
-            }
-            (None, Some(other)) => {
-                let place = format!("{at}/other");
-                self.body_axis(&other.body, other.axis, &format!("{place}/body"), &format!("{place}/axis"), name)
-            }
-            _ => {
-                let message = format!("constraint \"{name}\" needs world_axis or other, one of them");
-                self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help("add world_axis = [0, 1, 0]"));
-                None
-            }
+    fn each<T>(&mut self, kind: &str, list: &[T], out: &mut Joints, resolve: fn(&mut Self, &T, &str, &mut Joints)) {
+        for (i, one) in list.iter().enumerate() {
+            resolve(self, one, &format!("/constraint/{kind}/{i}"), out);
         }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the parts that the three kinds of joint have in common")]
+    /// Takes a name; reports one that is taken.
+    fn name(&mut self, name: &str, at: &str, out: &mut Joints) {
+        self.unique(name, out.names.iter().any(|taken| taken == name), &format!("{at}/name"));
+        out.names.push(name.to_owned());
+    }
+
+    /// Can these two be held together? One of them must be a body that moves freely.
+    fn joinable(&mut self, a: Option<usize>, b: Option<usize>, name: &str, at: &str) -> bool {
+        let given = |body: Option<usize>| body.is_none_or(|body| self.is_driven(body));
+        let message = if a == b && a.is_some() {
+            format!("constraint \"{name}\" joins {} to itself", self.body_name(a))
+        } else if given(a) && given(b) {
+            format!("constraint \"{name}\" joins two things that stand still or follow a path")
+        } else {
+            return true;
+        };
+        let help = "one of the two must be a [[body]] that moves freely";
+        self.report(at, Diagnostic::new(codes::BOTH_STATIC, message).help(help));
+        false
+    }
+
+    /// Adds one constraint: the table's own (`part` empty) or a part of a combination.
     fn push(
         &mut self,
-        out: &mut (Vec<Constraint>, Vec<Limit>),
-        name: &str,
+        out: &mut Joints,
+        header: &Header,
+        part: &str,
         kind: ConstraintKind,
-        friction: Option<Friction>,
-        limit: Option<&sidecar::Limit>,
-        first: &str,
-        at: &str,
+        friction: Option<PivotFriction>,
     ) {
-        self.unique(name, out.0.iter().any(|c| c.name == name), &format!("{at}/name"));
-        let (a, b) = ends(&kind);
-        if a == b {
-            let message = format!("constraint \"{name}\" joins {} to itself", self.body_name(a));
-            let message =
-                if a.is_none() { format!("constraint \"{name}\" joins two things that stand still") } else { message };
-            let help = "one of the two must be a [[body]] that moves";
-            self.report(at, Diagnostic::new(codes::BOTH_STATIC, message).help(help));
-            return;
+        let name = if part.is_empty() { header.name.to_owned() } else { format!("{}/{part}", header.name) };
+        // What acts later may be open until then.
+        let schedule = &header.schedule;
+        let at_start = schedule.windows.is_empty() || schedule.windows.iter().any(|window| window.start <= 0.0);
+        if at_start && schedule.trigger.is_none() {
+            self.check_rest(&kind, &name, header.at);
         }
-        self.check_rest(&kind, name, at);
-        let friction = friction.map(|f| PivotFriction {
+        let of = format!("constraint {name}");
+        let source = if part.is_empty() { "" } else { "part of the combination" };
+        let place = if part.is_empty() { header.at } else { "/-" };
+        let shown = self.shown(&kind);
+        self.trace(&of, "holds", shown, place, source);
+        if let Some(f) = friction {
+            let value = format!("μ {}, r {} m", f.coefficient, f.radius);
+            self.trace(&of, "friction", value, &format!("{}/friction", header.at), "");
+        }
+        out.constraints.push(Constraint {
+            name,
+            kind,
+            schedule: header.schedule.clone(),
+            breaking: header.breaking,
+            friction,
+        });
+    }
+
+    /// Notes what a combination was expanded into, and when the table's rows act and break.
+    fn trace_header(&mut self, header: &Header, kind: &str, out: &Joints, first: usize) {
+        let of = format!("constraint {}", header.name);
+        let parts: Vec<&str> = out.constraints[first..].iter().map(|c| c.name.as_str()).collect();
+        if parts.iter().any(|name| name.contains('/')) {
+            let rows: usize = out.constraints[first..].iter().map(|c| rows_of(&c.kind)).sum();
+            self.trace(&of, kind, format!("{rows} rows: {}", parts.join(", ")), header.at, "");
+        }
+        self.trace_timing(&of, header);
+    }
+
+    fn friction(&mut self, given: Option<Friction>, at: &str) -> Option<PivotFriction> {
+        given.map(|f| PivotFriction {
             coefficient: f.coefficient,
             radius: self.not_negative(f.radius.0, &format!("{at}/friction/radius")),
-        });
-        let tilt_limit = limit.and_then(|limit| self.tilt_limit(limit, first, b, &format!("{at}/limit"), name));
-        let of = format!("constraint {name}");
-        let shown = match &kind {
-            ConstraintKind::PointToPoint { a, b } => {
-                format!(
-                    "{} at {} to {} at {}",
-                    self.body_name(a.body),
-                    meters(a.point),
-                    self.body_name(b.body),
-                    meters(b.point)
-                )
-            }
-            ConstraintKind::Orientation { a, b, .. } => format!(
-                "{} axis {} perpendicular to {} axis {}",
-                self.body_name(a.body),
-                a.direction,
-                self.body_name(b.body),
-                b.direction
-            ),
-            _ => String::new(),
-        };
-        self.trace(&of, "joins", shown, at, "");
-        if let Some(f) = friction {
-            self.trace(
-                &of,
-                "friction",
-                format!("μ {}, r {} m", f.coefficient, f.radius),
-                &format!("{at}/friction"),
-                "",
-            );
-        }
-        if let Some(Limit { kind: LimitKind::Tilt { max, .. }, .. }) = &tilt_limit {
-            self.trace(&of, "limit", format!("{:.2}°", max * 180.0 / PI), &format!("{at}/limit"), "");
-        }
-        out.1.extend(tilt_limit);
-        out.0.push(Constraint { friction, ..Constraint::new(name, kind) });
-    }
-
-    /// Holds the constraint at rest? What does not would be torn together in the first step.
-    fn check_rest(&mut self, kind: &ConstraintKind, name: &str, at: &str) {
-        match kind {
-            ConstraintKind::PointToPoint { a, b } => {
-                let gap = self.at_rest(a).distance(self.at_rest(b));
-                if gap > APART {
-                    let message = format!("the two points of \"{name}\" are {:.2} mm apart at rest", gap * 1e3);
-                    let label = format!("{} and {}", meters(self.at_rest(a)), meters(self.at_rest(b)));
-                    let help =
-                        format!("move one of the two nodes; up to {} mm is taken as meant together", APART * 1e3);
-                    self.report(at, Diagnostic::new(codes::APART, message).label(label).help(help));
-                }
-            }
-            ConstraintKind::Orientation { a, b, .. } => {
-                let (t, n) = (self.pose_of(a.body).vector(a.direction), self.pose_of(b.body).vector(b.direction));
-                let off = crate::math::asin(t.dot(n).clamp(-1.0, 1.0)).abs();
-                if off > OBLIQUE {
-                    let message =
-                        format!("the two axes of \"{name}\" are {:.2}° from perpendicular at rest", off * 180.0 / PI);
-                    self.report(
-                        at,
-                        Diagnostic::new(codes::NOT_PERPENDICULAR, message).label(format!("{t} and {n} in the world")),
-                    );
-                }
-            }
-            _ => {}
-        }
-    }
-
-    fn tilt_limit(
-        &mut self,
-        limit: &sidecar::Limit,
-        first: &str,
-        second: Option<usize>,
-        at: &str,
-        name: &str,
-    ) -> Option<Limit> {
-        let a = self.body_axis(first, limit.axis, at, &format!("{at}/axis"), name)?;
-        let b = if limit.world_axis.is_none() && limit.other.is_none() {
-            let world = self.pose_of(a.body).vector(a.direction);
-            Axis { body: second, direction: self.pose_of(second).inverse_vector(world) }
-        } else {
-            self.second_axis(limit.world_axis, limit.other.as_ref(), at, name)?
-        };
-        let angle = limit.max.0;
-        if !(angle > 0.0 && angle < PI) {
-            let problem = Diagnostic::new(
-                codes::RANGE,
-                format!("a tilt limit of {:.1}° limits nothing, or all", angle * 180.0 / PI),
-            );
-            self.report(&format!("{at}/max"), problem.help("give an angle between 0 and 180 deg"));
-            return None;
-        }
-        let (u, v) = (self.pose_of(a.body).vector(a.direction), self.pose_of(b.body).vector(b.direction));
-        if u.dot(v) < cos(angle) {
-            let problem =
-                Diagnostic::new(codes::RANGE, format!("constraint \"{name}\" is beyond its tilt limit at rest"));
-            self.report(&format!("{at}/max"), problem.help("turn the axis round, or allow more"));
-        }
-        Some(Limit {
-            name: name.to_owned(),
-            kind: LimitKind::Tilt { a, b, max: angle },
-            restitution: limit.restitution,
         })
     }
 
-    /// Springs and dampers.
-    pub(super) fn springs(&mut self) -> Vec<Spring> {
-        let sidecar = self.sidecar;
-        let mut out: Vec<Spring> = Vec::new();
-        for (i, given) in sidecar.constraint.spring.iter().enumerate() {
-            let at = format!("/constraint/spring/{i}");
-            self.unique(&given.name, out.iter().any(|s| s.name == given.name), &format!("{at}/name"));
-            let a = self.attachment(&given.a, &format!("{at}/a"), &given.name);
-            let b = self.attachment(&given.b, &format!("{at}/b"), &given.name);
-            let (Some(a), Some(b)) = (a, b) else { continue };
-            if a.body == b.body {
-                let message = format!("spring \"{}\" has both ends on {}", given.name, self.body_name(a.body));
-                self.report(&at, Diagnostic::new(codes::BOTH_STATIC, message));
-                continue;
-            }
-            let length = self.at_rest(&a).distance(self.at_rest(&b));
-            let spring = Spring {
-                name: given.name.clone(),
-                kind: SpringKind::Linear { a, b },
-                rest: self.not_negative(given.rest_length.map_or(length, |l| l.0), &format!("{at}/rest_length")).into(),
-                stiffness: self.not_negative(given.stiffness.0, &format!("{at}/stiffness")).into(),
-                damping: self.not_negative(given.damping.map_or(0.0, |d| d.0), &format!("{at}/damping")).into(),
-                schedule: Schedule::default(),
-                breaking: None,
-            };
-            let of = format!("spring {}", given.name);
-            self.trace(
-                &of,
-                "rest_length",
-                format!("{} m", spring.rest.at(0.0).value),
-                &format!("{at}/rest_length"),
-                "derived: length at rest",
-            );
-            self.trace(
-                &of,
-                "stiffness",
-                format!("{} N/m", spring.stiffness.at(0.0).value),
-                &format!("{at}/stiffness"),
-                "",
-            );
-            self.trace(
-                &of,
-                "damping",
-                format!("{} N s/m", spring.damping.at(0.0).value),
-                &format!("{at}/damping"),
-                "default",
-            );
-            out.push(spring);
+    /// The free turn or way of the hinge or slider named `of`.
+    fn free_measure(&mut self, of: &str, at: &str, out: &Joints) -> Option<Measure> {
+        if let Some((_, measure)) = out.free.iter().find(|(name, _)| name == of) {
+            return Some(*measure);
         }
-        out
+        let names: Vec<&str> = out.free.iter().map(|(name, _)| name.as_str()).collect();
+        self.unknown_constraint(of, "hinge or slider", &names, at);
+        None
     }
 
-    /// The bodies and the world, joined by constraints, must form a forest, and no two rows between the same two
-    /// bodies may hold the same freedom: the tree factor of the solver has then full rank.
-    pub(super) fn check_topology(&mut self, constraints: &[Constraint]) {
-        let mut groups: Vec<(Pair, Vec<&Constraint>)> = Vec::new();
-        for constraint in constraints {
-            let (a, b) = ends(&constraint.kind);
-            let pair = (a.min(b), a.max(b));
-            match groups.iter_mut().find(|(other, _)| *other == pair) {
-                Some((_, members)) => members.push(constraint),
-                None => groups.push((pair, vec![constraint])),
-            }
-        }
-        // Kruskal: an edge whose ends are connected already closes a loop.
-        let mut tree: Vec<(Option<usize>, Option<usize>, &str)> = Vec::new();
-        for ((a, b), members) in &groups {
-            let name = &members[0].name;
-            if let Some(path) = path(&tree, *a, *b) {
-                let ring = path.into_iter().chain([name.as_str()]).collect::<Vec<_>>();
-                let message = format!("constraint \"{name}\" closes a loop: {}", ring.join(", "));
-                let help = "joints must form a tree; take one away, or hold the last one by a spring";
-                self.report(&self.place(name), Diagnostic::new(codes::LOOP, message).help(help));
-            } else {
-                tree.push((*a, *b, name));
-            }
-            self.check_rank(members);
-        }
+    fn unknown_constraint(&mut self, of: &str, what: &str, names: &[&str], at: &str) {
+        let likely = near(of, names.iter().copied());
+        let help = match (likely.is_empty(), names.is_empty()) {
+            (false, _) => format!("did you mean {}?", quoted(&likely)),
+            (true, false) => format!("there are {}", quoted(names)),
+            (true, true) => format!("there is no {what} in this file"),
+        };
+        let message = format!("no {what} named \"{of}\"");
+        self.report(at, Diagnostic::new(codes::UNKNOWN_CONSTRAINT, message).help(help));
     }
 
-    /// Reports the first constraint of a pair of bodies whose rows depend on those before it.
-    fn check_rank(&mut self, members: &[&Constraint]) {
-        /// Sine of the angle below which a row lies in the span of the others.
-        const DEPENDENT: f64 = 1e-6;
-        let center = members.iter().find_map(|c| match &c.kind {
-            ConstraintKind::PointToPoint { a, .. } => Some(self.at_rest(a)),
-            _ => None,
-        });
-        // Lengths against angles: scaled by the arms at hand, so that the test does not depend on the unit.
-        let mut arms = 0.0_f64;
-        for constraint in members {
-            if let (ConstraintKind::PointToPoint { a, .. }, Some(c)) = (&constraint.kind, center) {
-                arms = arms.max(self.at_rest(a).distance(c));
+    /// A constraint in words.
+    fn shown(&self, kind: &ConstraintKind) -> String {
+        let axis = |a: &Axis| format!("{} axis {}", self.body_name(a.body), a.direction);
+        match kind {
+            ConstraintKind::PointToPoint { a, b } => {
+                let (one, other) = (self.body_name(a.body), self.body_name(b.body));
+                format!("{one} at {} to {other} at {}", meters(a.point), meters(b.point))
             }
-        }
-        let scale = if arms > 0.0 { 1.0 / arms } else { 1.0 };
-        let mut basis: Vec<[DVec3; 2]> = Vec::new();
-        for constraint in members {
-            let rows: Vec<[DVec3; 2]> = match &constraint.kind {
-                ConstraintKind::PointToPoint { a, .. } => {
-                    let arm = center.map_or(DVec3::ZERO, |c| self.at_rest(a) - c) * scale;
-                    DVec3::AXES.map(|e| [e, arm.cross(e)]).to_vec()
-                }
-                ConstraintKind::Orientation { a, b, .. } => {
-                    let (t, n) = (self.pose_of(a.body).vector(a.direction), self.pose_of(b.body).vector(b.direction));
-                    vec![[DVec3::ZERO, t.cross(n)]]
-                }
-                _ => Vec::new(),
-            };
-            for row in rows {
-                let dot = |u: &[DVec3; 2], v: &[DVec3; 2]| u[0].dot(v[0]) + u[1].dot(v[1]);
-                let size = dot(&row, &row).sqrt();
-                let rest = basis.iter().fold(row, |r, e| {
-                    let along = dot(&r, e);
-                    [r[0] - e[0] * along, r[1] - e[1] * along]
-                });
-                let length = dot(&rest, &rest).sqrt();
-                if length <= DEPENDENT * size || size == 0.0 {
-                    let name = &constraint.name;
-                    let names: Vec<&str> = members.iter().map(|c| c.name.as_str()).collect();
-                    let message = format!("constraint \"{name}\" holds again what others hold already");
-                    let label = format!("between the same two bodies: {}", names.join(", "));
-                    let help = "a hinge is a nail and two orientations (5 freedoms); two points on one line share one";
-                    self.report(
-                        &self.place(name),
-                        Diagnostic::new(codes::OVER_CONSTRAINED, message).label(label).help(help),
-                    );
-                    return;
-                }
-                basis.push(rest.map(|part| part / length));
+            ConstraintKind::PointOnPlane { point, plane, normal, offset } => format!(
+                "{} at {} in the plane of {} through {} with normal {normal}, {} above it",
+                self.body_name(point.body),
+                meters(point.point),
+                self.body_name(plane.body),
+                meters(plane.point),
+                functions::shown(offset, "m")
+            ),
+            ConstraintKind::Orientation { a, b, angle } if angle.is_constant() && angle.at(0.0).value == 0.0 => {
+                format!("{} perpendicular to {}", axis(a), axis(b))
+            }
+            ConstraintKind::Orientation { a, b, angle } => {
+                format!("{}, {} from perpendicular to {}", axis(a), functions::shown(angle, "rad"), axis(b))
+            }
+            ConstraintKind::Coupling { terms } => {
+                let term =
+                    |t: &crate::articulation::Term| format!("{} · {}", t.coefficient, self.shown_measure(&t.measure));
+                format!("{} = const", terms.iter().map(term).collect::<Vec<_>>().join(" + "))
             }
         }
     }
 
-    /// Where a constraint of this name stands in the sidecar.
-    fn place(&self, name: &str) -> String {
+    /// A turn or way in words.
+    fn shown_measure(&self, measure: &Measure) -> String {
+        match measure {
+            Measure::Angle { axis, frame } => format!(
+                "turn of {} about {} against {}",
+                self.body_name(axis.body),
+                axis.direction,
+                self.body_name(*frame)
+            ),
+            Measure::Way { point, direction } => format!(
+                "way of {} along {} of {}",
+                self.body_name(point.body),
+                direction.direction,
+                self.body_name(direction.body)
+            ),
+        }
+    }
+
+    /// Where a constraint, or the combination it is a part of, stands in the sidecar.
+    pub(super) fn place(&self, name: &str) -> String {
+        let name = name.split('/').next().unwrap_or(name);
         let kinds = self.source.value.get("constraint").and_then(|c| c.as_object());
         for (kind, list) in kinds.into_iter().flatten() {
             let index = list
@@ -378,39 +244,23 @@ impl Context<'_> {
     }
 }
 
-/// The two bodies of a constraint.
-pub(super) fn ends(kind: &ConstraintKind) -> (Option<usize>, Option<usize>) {
+/// How many rows a constraint has.
+fn rows_of(kind: &ConstraintKind) -> usize {
     match kind {
-        ConstraintKind::PointToPoint { a, b } => (a.body, b.body),
-        ConstraintKind::Orientation { a, b, .. } => (a.body, b.body),
-        ConstraintKind::PointOnPlane { point, plane, .. } => (point.body, plane.body),
-        ConstraintKind::Coupling { .. } => (None, None),
+        ConstraintKind::PointToPoint { .. } => 3,
+        ConstraintKind::PointOnPlane { .. } | ConstraintKind::Orientation { .. } | ConstraintKind::Coupling { .. } => 1,
     }
 }
 
-/// Names of the edges between two ends in a forest; `None` where they are not connected.
-fn path<'n>(
-    tree: &[(Option<usize>, Option<usize>, &'n str)],
-    from: Option<usize>,
-    to: Option<usize>,
-) -> Option<Vec<&'n str>> {
-    let mut waiting = vec![(from, usize::MAX, Vec::new())];
-    while let Some((here, came_by, names)) = waiting.pop() {
-        if here == to {
-            return Some(names);
-        }
-        for (edge, &(a, b, name)) in tree.iter().enumerate() {
-            let next = if a == here {
-                b
-            } else if b == here {
-                a
-            } else {
-                continue;
-            };
-            if edge != came_by {
-                waiting.push((next, edge, names.iter().copied().chain([name]).collect()));
-            }
+/// The pairs of bodies that a constraint joins.
+pub(super) fn pairs(kind: &ConstraintKind) -> Vec<Pair> {
+    match kind {
+        ConstraintKind::PointToPoint { a, b } => vec![(a.body, b.body)],
+        ConstraintKind::Orientation { a, b, .. } => vec![(a.body, b.body)],
+        ConstraintKind::PointOnPlane { point, plane, .. } => vec![(point.body, plane.body)],
+        ConstraintKind::Coupling { terms } => {
+            let measured: Vec<_> = terms.iter().map(|term| term.measure.bodies().0).collect();
+            measured.windows(2).map(|pair| (pair[0], pair[1])).collect()
         }
     }
-    None
 }
