@@ -1,5 +1,6 @@
 //! Exhibits: good ones load with the numbers that formulas give; bad ones are refused with the right code and line.
 
+mod collection;
 mod constraints;
 mod example;
 mod glb;
