@@ -44,8 +44,8 @@ const MOST_SUBSTEPS: f64 = 64.0;
 /// it costs a microsecond or two.
 const FEW: usize = 8;
 /// Faster than this is not a sculpture but a fault, m/s and rad/s.
-const SPEED_LIMIT: f64 = 100.0;
-const SPIN_LIMIT: f64 = 5_000.0;
+const SPEED_LIMIT: f64 = 1_000.0;
+const SPIN_LIMIT: f64 = 1e5;
 
 /// How time is advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
