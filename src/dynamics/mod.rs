@@ -17,13 +17,14 @@ mod drive;
 pub mod forces;
 pub mod impulse;
 mod integrate;
+mod pace;
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::block::Vec6;
 use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
-use crate::math::{DMat3, DVec3, pow};
+use crate::math::{DMat3, DVec3};
 
 pub use contacts::{Contacts, Impact, ImpactKind, SurfacePair};
 pub use drive::{Drive, Instant, Motion};
@@ -35,9 +36,6 @@ use integrate::{Rate, State};
 const TENSION_PHASE: f64 = 3.2;
 /// Largest turn of a body in one substep, rad.
 const SPIN_PHASE: f64 = 0.25;
-/// Largest estimated error of a substep, as a share of the velocities in the norm of the kinetic energy. The estimate
-/// is that of a method one order lower, so the true error is some hundred times less.
-const TOLERANCE: f64 = 1e-6;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
@@ -126,8 +124,9 @@ pub struct Dynamics {
     stages: [Vec<Rate>; 3],
     before: Vec<RigidBody>,
     before_step: Vec<State>,
-    /// Seconds since reset.
+    /// Seconds since reset, and of the present step.
     time: f64,
+    dt: f64,
     /// Substep that the error allows, s.
     stride: f64,
     /// Do the system's accelerations belong to the present state?
@@ -180,6 +179,7 @@ impl Dynamics {
             fourth_step: None,
             stages: [stages(), stages(), stages()],
             time: 0.0,
+            dt: 0.0,
             stride: f64::INFINITY,
             fresh: false,
             breath: 0.0,
@@ -198,6 +198,7 @@ impl Dynamics {
             self.external.copy_from_slice(external);
             self.fresh = false;
         }
+        self.dt = dt;
         self.contacts.begin_step(dt);
         self.clear_happenings();
         self.substeps = 0;
@@ -278,8 +279,7 @@ impl Dynamics {
                 (settled, if settled { f64::INFINITY } else { 0.5 * h })
             } else {
                 let error = self.runge_kutta(t, h);
-                let factor = pow(TOLERANCE / error.max(1e-300), 0.2);
-                (error <= TOLERANCE, if error.is_finite() { h * (0.9 * factor).clamp(0.2, 4.0) } else { 0.2 * h })
+                pace::judge(h, self.dt, error)
             };
             self.fresh = true;
             self.stride = wish;
@@ -288,7 +288,7 @@ impl Dynamics {
             }
             self.back_to_start();
             self.fourth_step = None;
-            h = wish.max(least);
+            h = wish.min(0.5 * h).max(least);
         }
     }
 
