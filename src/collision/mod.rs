@@ -46,6 +46,36 @@ pub struct Proximity {
     pub point: DVec3,
 }
 
+/// Most points of a [`Manifold`]: enough to hold a face on a face.
+pub const MANIFOLD_POINTS: usize = 4;
+
+/// One point of a manifold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ManifoldPoint {
+    /// World, midway between the two surfaces, m.
+    pub point: DVec3,
+    /// Distance of the two surfaces along the manifold's normal there, m; negative where they overlap.
+    pub gap: f64,
+}
+
+/// Where two colliders that lie on each other touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Manifold {
+    /// Unit, from the second to the first.
+    pub normal: DVec3,
+    /// The points; those from `count` on mean nothing.
+    pub points: [ManifoldPoint; MANIFOLD_POINTS],
+    /// How many there are: one at least.
+    pub count: usize,
+}
+
+impl Manifold {
+    /// The points there are, in an order that stays while the features that touch stay.
+    pub fn points(&self) -> &[ManifoldPoint] {
+        &self.points[..self.count]
+    }
+}
+
 /// World corners of two cores, kept so that nothing allocates in the step.
 #[derive(Clone, Debug, Default)]
 pub struct Corners {
@@ -76,5 +106,13 @@ impl Corners {
         };
         let point = 0.5 * ((near_a - a.radius * normal) + (near_b + b.radius * normal));
         Proximity { gap: distance - a.radius - b.radius, normal, point }
+    }
+
+    /// Up to four points of contact of two colliders with their bodies at these poses.
+    pub fn manifold(&mut self, a: &Collider, pose_a: &Pose, b: &Collider, pose_b: &Pose) -> Manifold {
+        let Proximity { gap, normal, point } = self.proximity(a, pose_a, b, pose_b);
+        let mut manifold = Manifold { normal, count: 1, ..Manifold::default() };
+        manifold.points[0] = ManifoldPoint { point, gap };
+        manifold
     }
 }
