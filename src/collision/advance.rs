@@ -7,12 +7,14 @@
 //! −(Δx_a − Δx_b)·n + θ_a R_a + θ_b R_b        (per whole interval)
 //! ```
 //!
-//! with Δx the centres' ways, θ the turns and R the farthest point of a collider from its centre. Advancing by
-//! gap / (that bound) therefore never passes through, however thin the plates or fast the motion.
+//! with Δx the centres' ways, θ the turns and R the farthest point of a collider's core from its centre (its ball turns
+//! into itself). Advancing by gap / (that bound) therefore never passes through, however thin the plates or fast the
+//! motion. A plane has no farthest point, but only what lies near the other body counts: for it R is how far the
+//! other can be from the plane's centre. At rest it adds nothing, and the bound is exact but for the other's turn.
 
 use super::{Collider, Corners, Proximity};
 use crate::bodies::RigidBody;
-use crate::math::{DQuat, DVec3, Pose, asin};
+use crate::math::{DMat3, DQuat, DVec3, Pose, asin};
 
 /// Surfaces nearer than this touch, m. A hundredth of the thinnest sheet in use.
 pub const TOUCH: f64 = 2e-6;
@@ -67,6 +69,21 @@ impl Sweep {
         Pose { rotation, position: self.start + s * self.way - rotation * self.center }
     }
 
+    /// Poses at the two ends, with their axes.
+    pub(super) fn ends(&self) -> [(Pose, DMat3); 2] {
+        let at = |center: DVec3, rotation: DQuat| {
+            let axes = DMat3::from_quat(rotation);
+            (Pose { rotation, position: center - axes * self.center }, axes)
+        };
+        [at(self.start, self.from), at(self.start + self.way, self.to)]
+    }
+
+    /// Farthest that a point of a box (node frame, m) strays from the straight way between its two ends: twice the
+    /// height of its arc over the chord, as it may be before or behind by as much.
+    pub(super) fn sag(&self, middle: DVec3, half: DVec3) -> f64 {
+        0.25 * self.turn * self.turn * (middle.distance(self.center) + half.length())
+    }
+
     /// Farthest that a point at `reach` (m) from the centre of mass can travel, m.
     pub fn travel(&self, reach: f64) -> f64 {
         self.way.length() + self.turn * reach
@@ -82,14 +99,24 @@ pub struct TimeOfImpact {
     pub proximity: Proximity,
 }
 
+/// Farthest that turning takes the surfaces of two colliders along any direction, m.
+fn turning((a, sweep_a, reach_a): (&Collider, &Sweep, f64), (b, sweep_b, reach_b): (&Collider, &Sweep, f64)) -> f64 {
+    // Points of a plane count as far out as the other gets, its ball included.
+    let apart = || (sweep_a.start - sweep_b.start).length() + (sweep_a.way - sweep_b.way).length();
+    let arm = |own: &Collider, reach: f64, other: &Collider, others: f64| {
+        if own.shape.is_plane() { apart() + others + other.shape.radius } else { reach }
+    };
+    sweep_a.turn * arm(a, reach_a, b, reach_b) + sweep_b.turn * arm(b, reach_b, a, reach_a)
+}
+
 /// First time at which two moving colliders touch, if they do within the interval. `reach` is the farthest point of
-/// each collider from its body's centre of mass (ball included), m.
+/// each collider's core from its body's centre of mass, m (`Shape::reach`; for a plane it is not asked).
 pub fn time_of_impact(
     corners: &mut Corners,
     (a, sweep_a, reach_a): (&Collider, &Sweep, f64),
     (b, sweep_b, reach_b): (&Collider, &Sweep, f64),
 ) -> Option<TimeOfImpact> {
-    let turning = sweep_a.turn * reach_a + sweep_b.turn * reach_b;
+    let turning = turning((a, sweep_a, reach_a), (b, sweep_b, reach_b));
     let mut s = 0.0;
     for round in 0.. {
         let proximity = corners.proximity(a, &sweep_a.pose(s), b, &sweep_b.pose(s));

@@ -96,7 +96,7 @@ struct Run {
 #[derive(Clone, Debug)]
 pub struct Contacts {
     colliders: Vec<Collider>,
-    /// Farthest point of each collider from its body's centre of mass, and ball around it in the node frame.
+    /// Farthest point of each collider's core from its body's centre of mass, and ball around it in the node frame.
     reach: Vec<f64>,
     balls: Vec<(DVec3, f64)>,
     pairs: Vec<SurfacePair>,
@@ -120,11 +120,7 @@ impl Contacts {
         let balls: Vec<_> = colliders.iter().map(Collider::bounds).collect();
         let reach: Vec<f64> = colliders
             .iter()
-            .zip(&balls)
-            .map(|(c, (center, radius))| {
-                let origin = c.body.map_or(DVec3::ZERO, |b| bodies[b].properties.center);
-                center.distance(origin) + radius + c.radius
-            })
+            .map(|c| c.shape.reach(c.body.map_or(DVec3::ZERO, |b| bodies[b].properties.center)))
             .collect();
         let blank = vec![[0.0; 6]; bodies.len()];
         let own_reach = |body| {
@@ -366,7 +362,7 @@ impl Contacts {
     fn may_meet(&self, (a, sweep_a): (usize, &Sweep), (b, sweep_b): (usize, &Sweep)) -> bool {
         let ((center_a, radius_a), (center_b, radius_b)) = (self.balls[a], self.balls[b]);
         let apart = sweep_a.pose(0.0).point(center_a).distance(sweep_b.pose(0.0).point(center_b));
-        let skins = self.colliders[a].radius + self.colliders[b].radius + TOUCH;
+        let skins = self.colliders[a].shape.radius + self.colliders[b].shape.radius + TOUCH;
         apart <= radius_a + radius_b + skins + sweep_a.travel(self.reach[a]) + sweep_b.travel(self.reach[b])
     }
 }
@@ -390,7 +386,7 @@ fn ball_around(colliders: &[Collider], balls: &[(DVec3, f64)], body: usize) -> (
     let own = || colliders.iter().zip(balls).filter(|(c, _)| c.body == Some(body));
     let count = own().count().max(1) as f64;
     let center = own().map(|(_, ball)| ball.0).sum::<DVec3>() / count;
-    let radius = own().fold(0.0, |r: f64, (c, ball)| r.max(ball.0.distance(center) + ball.1 + c.radius));
+    let radius = own().fold(0.0, |r: f64, (c, ball)| r.max(ball.0.distance(center) + ball.1 + c.shape.radius));
     (center, radius)
 }
 

@@ -1,67 +1,52 @@
-//! Convex cores fitted to meshes: ball, capsule, box, hull, and sheet metal as convex pieces of its outline.
+//! Collision shapes fitted to meshes: ball, capsule, box, hull, and sheet metal as convex pieces of its outline.
 //!
-//! A collider is a convex core with a ball swept over it (`collision::Collider`). Sheet metal is the flat polygon of its
+//! A shape is a convex core with a ball swept over it (`collision::Shape`). Sheet metal is the flat polygon of its
 //! mid-surface with half its thickness as the ball: its outline is found as the rim of one face, simplified, cut into
 //! triangles by ear clipping (Meisters 1975) and merged again where the union stays convex (Hertel and Mehlhorn 1983:
 //! at most four times the least number of pieces). Holes are filled.
 
 use std::collections::BTreeMap;
 
+use crate::collision::Shape;
 use crate::geometry::{Extents, TriangleMesh};
-use crate::math::{DVec2, DVec3, PI, cos, sin};
+use crate::math::{DMat3, DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
-/// A convex core and the radius of its ball, m, in the frame of the mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Core {
-    /// Corners of the core.
-    pub corners: Vec<DVec3>,
-    /// Radius of the ball.
-    pub radius: f64,
-}
-
-/// Part of the smallest half extent that rounds the edges of boxes, cylinders and hulls: contact normals stay defined
-/// while cores do not touch.
-const ROUNDING: f64 = 0.1;
-/// Corners of a cylinder's or hull's support.
-const CYLINDER_CORNERS: usize = 16;
+/// Part of the smallest half extent that rounds the edges of boxes, cylinders and hulls, as real ones are: a hit on an
+/// edge has a direction of its own while the cores inside do not touch.
+const ROUNDING: f64 = 0.02;
+/// Directions in which a hull is supported.
 const HULL_DIRECTIONS: usize = 96;
 
 /// A box with faces where they should be and rounded edges.
-pub fn rounded_box(center: DVec3, axes: [DVec3; 3], half: DVec3) -> Core {
-    let radius = ROUNDING * half.min_element();
-    let inner = half - radius;
-    let corners = (0..8).map(|i| {
-        let sign = |bit: u32| if i & (1 << bit) == 0 { -1.0 } else { 1.0 };
-        center + axes[0] * (sign(0) * inner.x) + axes[1] * (sign(1) * inner.y) + axes[2] * (sign(2) * inner.z)
-    });
-    Core { corners: corners.collect(), radius }
+pub fn rounded_box(center: DVec3, [x, y, z]: [DVec3; 3], half: DVec3) -> Shape {
+    // A box is its own mirror image, a rotation is not.
+    let z = if x.cross(y).dot(z) < 0.0 { -z } else { z };
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(x, y, z)).normalize();
+    Shape::cuboid(Pose { rotation, position: center }, half, ROUNDING * half.min_element())
 }
 
-/// A cylinder along Y about the origin, of a prism's corners.
-pub fn cylinder(height: f64, radius: f64) -> Core {
-    let ball = ROUNDING * radius.min(0.5 * height);
-    let (h, r) = (0.5 * height - ball, radius - ball);
-    let ring = (0..CYLINDER_CORNERS).map(|i| 2.0 * PI * i as f64 / CYLINDER_CORNERS as f64);
-    let corners = ring.flat_map(|angle| [-h, h].map(|y| DVec3::new(r * cos(angle), y, r * sin(angle))));
-    Core { corners: corners.collect(), radius: ball }
+/// A cylinder about a centre along a unit axis.
+pub fn cylinder(center: DVec3, axis: DVec3, height: f64, radius: f64) -> Shape {
+    let half = 0.5 * height * axis;
+    Shape::cylinder(center - half, center + half, radius, ROUNDING * radius.min(0.5 * height))
 }
 
 /// The ball around the centre of the oriented box.
-pub fn sphere(mesh: &TriangleMesh, extents: &Extents) -> Core {
+pub fn sphere(mesh: &TriangleMesh, extents: &Extents) -> Shape {
     let far = mesh.corners().flatten().map(|p| p.distance(extents.center)).fold(0.0, f64::max);
-    Core { corners: vec![extents.center], radius: far }
+    Shape::sphere(extents.center, far)
 }
 
 /// The capsule along the longest axis.
-pub fn capsule(extents: &Extents) -> Core {
+pub fn capsule(extents: &Extents) -> Shape {
     let radius = extents.half.y;
     let along = extents.axes.x_axis * (extents.half.x - radius).max(0.0);
-    Core { corners: vec![extents.center - along, extents.center + along], radius }
+    Shape::capsule(extents.center - along, extents.center + along, radius)
 }
 
 /// Support points of the mesh in directions spread evenly over the sphere (a Fibonacci lattice), shrunk about their
 /// middle by the ball's radius.
-pub fn convex(mesh: &TriangleMesh) -> Option<Core> {
+pub fn convex(mesh: &TriangleMesh) -> Option<Shape> {
     let points: Vec<DVec3> = mesh.corners().flatten().collect();
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     let directions = (0..HULL_DIRECTIONS).map(|i| {
@@ -83,11 +68,11 @@ pub fn convex(mesh: &TriangleMesh) -> Option<Core> {
     let inner = directions.iter().map(reach).fold(f64::INFINITY, f64::min);
     let radius = ROUNDING * inner;
     corners.iter_mut().for_each(|p| *p = middle + (*p - middle) * (1.0 - ROUNDING));
-    (inner > 0.0).then_some(Core { corners, radius })
+    (inner > 0.0).then(|| Shape::hull(&corners, radius))
 }
 
 /// Sheet metal as convex pieces; `None` where the mesh has no outline.
-pub fn plate(mesh: &TriangleMesh, extents: &Extents) -> Option<Vec<Core>> {
+pub fn plate(mesh: &TriangleMesh, extents: &Extents) -> Option<Vec<Shape>> {
     let normal = extents.axes.z_axis;
     let (u, v) = (extents.axes.x_axis, extents.axes.y_axis);
     // An open sheet has no thickness of its own; it gets that of thin metal for its size.
@@ -100,7 +85,7 @@ pub fn plate(mesh: &TriangleMesh, extents: &Extents) -> Option<Vec<Core>> {
     }
     let lift = |p: &DVec2| extents.center + u * p.x + v * p.y;
     let pieces = convex_pieces(&outline);
-    Some(pieces.iter().map(|piece| Core { corners: piece.iter().map(lift).collect(), radius }).collect())
+    Some(pieces.iter().map(|piece| Shape::plate(&piece.iter().map(lift).collect::<Vec<_>>(), radius)).collect())
 }
 
 /// The triangles of a sheet that face one way, for the wind: one side of a closed plate, all of an open one.

@@ -5,8 +5,9 @@
 //! corners, each found by a support query: the farthest corner in a direction. The nearest point of a simplex is
 //! found by Voronoi regions (C. Ericson, Real-Time Collision Detection, 2005, section 5.1).
 //!
-//! Cores are corner lists in the world frame, so any linear map of them is the caller's.
+//! The walk needs nothing of a core but its support map, so round cores are as exact as angular ones.
 
+use super::support::Support;
 use crate::math::DVec3;
 
 /// Nearest points of two convex cores.
@@ -25,35 +26,53 @@ const GAIN: f64 = 1e-12;
 /// Below this squared distance (m²) cores are taken to overlap: 1e-9 m, far under any radius in use.
 const TOUCHING: f64 = 1e-18;
 /// GJK ends in fewer rounds than this on any input; the bound guards against rounding cycles.
-const ROUNDS: usize = 64;
+const ROUNDS: usize = 128;
 
-#[derive(Clone, Copy, Default)]
-struct Corner {
+/// A corner of the Minkowski difference and the points it came from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Corner {
     /// a − b.
-    w: DVec3,
-    a: DVec3,
-    b: DVec3,
+    pub w: DVec3,
+    pub a: DVec3,
+    pub b: DVec3,
 }
 
-/// Farthest corner along `d`; the first of equals, so that the answer does not depend on rounding order.
-fn support(core: &[DVec3], d: DVec3) -> DVec3 {
-    let mut best = core[0];
-    let mut far = best.dot(d);
-    for &p in &core[1..] {
-        let along = p.dot(d);
-        if along > far {
-            far = along;
-            best = p;
-        }
+impl Corner {
+    /// The farthest corner of A − B along `d`.
+    pub fn farthest(a: &(impl Support + ?Sized), b: &(impl Support + ?Sized), d: DVec3) -> Self {
+        let (a, b) = (a.support(d), b.support(-d));
+        Self { w: a - b, a, b }
     }
-    best
 }
 
-/// Closest points of the convex hulls of two corner lists (world frame, at least one corner each).
-pub fn closest(a: &[DVec3], b: &[DVec3]) -> Closest {
+/// Where the walk ended: the simplex whose nearest point to the origin is v = Σ weight · w.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Walk {
+    pub simplex: [Corner; 4],
+    pub weights: [f64; 4],
+    pub n: usize,
+    pub v: DVec3,
+}
+
+/// Closest points of two convex cores.
+pub fn closest(a: &(impl Support + ?Sized), b: &(impl Support + ?Sized)) -> Closest {
+    let walk = walk(a, b);
+    let Walk { simplex, weights, n, v } = &walk;
+    let (pa, pb) = (combine(simplex, weights, *n, |c| c.a), combine(simplex, weights, *n, |c| c.b));
+    Closest { distance: if walk.overlaps() { 0.0 } else { v.length() }, a: pa, b: pb }
+}
+
+impl Walk {
+    /// Do the cores overlap or touch?
+    pub fn overlaps(&self) -> bool {
+        self.v.length_squared() <= TOUCHING
+    }
+}
+
+pub(super) fn walk(a: &(impl Support + ?Sized), b: &(impl Support + ?Sized)) -> Walk {
     let mut simplex = [Corner::default(); 4];
     let mut weights = [0.0; 4];
-    simplex[0] = Corner { w: a[0] - b[0], a: a[0], b: b[0] };
+    simplex[0] = Corner::farthest(a, b, b.middle() - a.middle());
     weights[0] = 1.0;
     let mut n = 1;
     let mut v = simplex[0].w;
@@ -62,19 +81,28 @@ pub fn closest(a: &[DVec3], b: &[DVec3]) -> Closest {
         if distance2 <= TOUCHING {
             break;
         }
-        let (sa, sb) = (support(a, -v), support(b, v));
-        let w = sa - sb;
+        let corner = Corner::farthest(a, b, -v);
         // v·w is a lower bound of the squared distance: no corner lies nearer along v.
-        if distance2 - v.dot(w) <= GAIN * distance2 || simplex[..n].iter().any(|c| c.w == w) {
+        if distance2 - v.dot(corner.w) <= GAIN * distance2 || simplex[..n].iter().any(|c| c.w == corner.w) {
             break;
         }
         let (before, weights_before, n_before) = (simplex, weights, n);
-        simplex[n] = Corner { w, a: sa, b: sb };
+        simplex[n] = corner;
         n += 1;
         reduce(&mut simplex, &mut weights, &mut n);
-        let next = combine(&simplex, &weights, n, |c| c.w);
+        let mut next = combine(&simplex, &weights, n, |c| c.w);
         if next.length_squared() >= distance2 {
-            // Rounding: no progress. The former simplex is the better answer.
+            // Round bodies give corners so close together that rounding picks the wrong face. The way from v, a point
+            // of the difference itself, to the new corner always leads nearer.
+            let of = |of: fn(&Corner) -> DVec3| combine(&before, &weights_before, n_before, of);
+            simplex[0] = Corner { w: v, a: of(|c| c.a), b: of(|c| c.b) };
+            simplex[1] = corner;
+            n = 2;
+            reduce(&mut simplex, &mut weights, &mut n);
+            next = combine(&simplex, &weights, n, |c| c.w);
+        }
+        if next.length_squared() >= distance2 {
+            // No progress that rounding can tell. The former simplex is the better answer.
             (simplex, weights, n) = (before, weights_before, n_before);
             break;
         }
@@ -83,9 +111,7 @@ pub fn closest(a: &[DVec3], b: &[DVec3]) -> Closest {
             break;
         }
     }
-    let (pa, pb) = (combine(&simplex, &weights, n, |c| c.a), combine(&simplex, &weights, n, |c| c.b));
-    let distance2 = v.length_squared();
-    Closest { distance: if distance2 <= TOUCHING { 0.0 } else { distance2.sqrt() }, a: pa, b: pb }
+    Walk { simplex, weights, n, v }
 }
 
 fn combine(simplex: &[Corner; 4], weights: &[f64; 4], n: usize, of: impl Fn(&Corner) -> DVec3) -> DVec3 {
@@ -182,11 +208,16 @@ fn tetrahedron(w: &[DVec3; 4]) -> Face {
             count += 1;
         }
     }
-    match count {
-        0 => inside(w),
-        1 => candidates[0],
-        _ => candidates[1..count].iter().fold(candidates[0], |best, &next| nearest(w, [best, next])),
+    if count == 0 {
+        let within = inside(w);
+        if point(w, &within).length_squared() <= TOUCHING && within.2.iter().all(|&weight| weight >= 0.0) {
+            return within;
+        }
+        // A sliver whose sides rounding cannot tell: it is the weights that prove an inside.
+        candidates = faces.map(|face| triangle(w, face));
+        count = 4;
     }
+    candidates[1..count].iter().fold(candidates[0], |best, &next| nearest(w, [best, next]))
 }
 
 /// Weights of the origin inside a tetrahedron.
@@ -199,9 +230,13 @@ fn inside(w: &[DVec3; 4]) -> Face {
     ([0, 1, 2, 3], 4, [1.0 - u - v - t, u, v, t])
 }
 
+/// The point that a face's weights make.
+fn point(w: &[DVec3; 4], face: &Face) -> DVec3 {
+    (0..face.1).fold(DVec3::ZERO, |sum, k| sum + face.2[k] * w[face.0[k]])
+}
+
 fn nearest<const N: usize>(w: &[DVec3; 4], faces: [Face; N]) -> Face {
-    let distance2 =
-        |face: &Face| (0..face.1).fold(DVec3::ZERO, |sum, k| sum + face.2[k] * w[face.0[k]]).length_squared();
+    let distance2 = |face: &Face| point(w, face).length_squared();
     let mut best = faces[0];
     for face in &faces[1..] {
         if distance2(face) < distance2(&best) {
@@ -214,6 +249,7 @@ fn nearest<const N: usize>(w: &[DVec3; 4], faces: [Face; N]) -> Face {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::support::Support;
     use crate::noise::Random;
 
     /// GJK stops when a step gains under 1e-12 of the squared distance: the distance is good to about its root.
@@ -224,7 +260,7 @@ mod tests {
         let (mut p, mut q) = (a[0], b[0]);
         for _ in 0..20_000 {
             let v = p - q;
-            let (sa, sb) = (support(a, -v), support(b, v));
+            let (sa, sb) = (a.support(-v), b.support(v));
             let d = (sa - sb) - v;
             if d.length_squared() < 1e-30 {
                 break;
@@ -248,7 +284,7 @@ mod tests {
             let count = 1 + (seed % 7) as usize;
             let a = cloud(&mut random, count, DVec3::ZERO);
             let b = cloud(&mut random, 8 - count, DVec3::new(3.0, 0.5, -0.4));
-            let found = closest(&a, &b);
+            let found = closest(&a[..], &b[..]);
             let slow = reference(&a, &b);
             assert!(
                 found.distance <= slow * (1.0 + GJK_RELATIVE) && found.distance >= slow * (1.0 - SEARCH_RELATIVE),
@@ -263,10 +299,10 @@ mod tests {
     fn parallel_plates_and_crossing_rods_are_exact() {
         let square =
             |z: f64| [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]: [f64; 2]| DVec3::new(x, y, z));
-        assert!((closest(&square(0.0), &square(0.25)).distance - 0.25).abs() < 1e-15);
+        assert!((closest(&square(0.0)[..], &square(0.25)[..]).distance - 0.25).abs() < 1e-15);
         let rod_x = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0)];
         let rod_y = [DVec3::new(0.3, -1.0, 0.5), DVec3::new(0.3, 1.0, 0.5)];
-        let found = closest(&rod_x, &rod_y);
+        let found = closest(&rod_x[..], &rod_y[..]);
         assert!((found.distance - 0.5).abs() < 1e-15);
         assert!((found.a - DVec3::new(0.3, 0.0, 0.0)).length() < 1e-12);
     }
@@ -278,6 +314,6 @@ mod tests {
                 .map(|i| center + DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64) - DVec3::splat(0.5))
                 .collect()
         };
-        assert_eq!(closest(&cube(DVec3::ZERO), &cube(DVec3::new(0.3, 0.2, 0.1))).distance, 0.0);
+        assert_eq!(closest(&cube(DVec3::ZERO)[..], &cube(DVec3::new(0.3, 0.2, 0.1))[..]).distance, 0.0);
     }
 }

@@ -2,7 +2,7 @@
 
 use soffio::articulation::{Anchor, Constraint, ConstraintKind, PivotFriction};
 use soffio::bodies::{MassProperties, RigidBody};
-use soffio::collision::{Collider, pairs};
+use soffio::collision::{Collider, Shape, pairs};
 use soffio::dynamics::forces::Damping;
 use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Settings, Solver, SurfacePair};
 use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sqrt};
@@ -158,8 +158,7 @@ fn disc_collider(body: usize, radius: f64, thickness: f64) -> Collider {
     };
     Collider {
         body: Some(body),
-        core: (0..24).map(corner).collect(),
-        radius: 0.5 * thickness,
+        shape: Shape::plate(&(0..24).map(corner).collect::<Vec<_>>(), 0.5 * thickness),
         material: 0,
         node: String::new(),
     }
@@ -209,7 +208,7 @@ fn two_pendulums_trade_their_speed_as_newton_says() {
     let r = 0.02;
     let ball = |x: f64| body(0.1, DVec3::splat(0.4 * 0.1 * r * r), DVec3::new(x, 0.0, 0.0));
     let sphere =
-        |b: usize| Collider { body: Some(b), core: vec![DVec3::ZERO], radius: r, material: 0, node: "".into() };
+        |b: usize| Collider { body: Some(b), shape: Shape::sphere(DVec3::ZERO, r), material: 0, node: "".into() };
     let mut bodies = vec![ball(0.0), ball(2.0 * r)];
     let hang = |i: usize, x: f64| {
         joint(&format!("nail-{i}"), (Some(i), DVec3::new(0.0, 0.5, 0.0)), (None, DVec3::new(x, 0.5, 0.0)))
@@ -248,13 +247,12 @@ fn a_plate_that_leans_on_another_rests_without_jitter_or_sinking() {
     bodies[0].angular_velocity = DVec3::ZERO;
     let rod = Collider {
         body: Some(0),
-        core: vec![DVec3::new(0.0, -0.2, 0.0), DVec3::new(0.0, 0.2, 0.0)],
-        radius: 0.002,
+        shape: Shape::capsule(DVec3::new(0.0, -0.2, 0.0), DVec3::new(0.0, 0.2, 0.0), 0.002),
         material: 0,
         node: String::new(),
     };
     let ends = [-0.05, 0.05].map(|z| DVec3::new(0.06, -0.3, z));
-    let peg = Collider { body: None, core: ends.to_vec(), radius: 0.01, material: 0, node: "".into() };
+    let peg = Collider { body: None, shape: Shape::capsule(ends[0], ends[1], 0.01), material: 0, node: "".into() };
     let colliders = [rod, peg];
     let mut figure = figure(bodies, &constraints);
     figure.colliders = &colliders;

@@ -4,6 +4,7 @@ mod architecture;
 mod articulation;
 mod blow;
 mod cli;
+mod collision;
 mod dynamics;
 mod exhibit;
 mod forge;

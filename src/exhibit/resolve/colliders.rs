@@ -1,13 +1,13 @@
 //! Colliders, and who never collides with whom.
 
 use super::super::diagnostic::{Diagnostic, near, quoted};
-use super::super::fit::{self, Core};
-use super::super::sidecar::{self, ConstrainedPairs, Fit, Shape};
+use super::super::fit;
+use super::super::sidecar::{self, ConstrainedPairs, Fit};
 use super::super::source::join;
 use super::super::{Wire, codes};
 use super::{Context, joints};
 use crate::articulation::Constraint;
-use crate::collision::Collider;
+use crate::collision::{Collider, Shape};
 use crate::math::{DMat3, DVec3};
 
 /// Two bodies; `None` is the world.
@@ -28,22 +28,15 @@ impl Context<'_> {
             });
             let name = given.material.clone().or(of_body).unwrap_or_else(|| "steel".to_owned());
             let material = self.material(&name, &format!("{at}/material"));
-            let cores = self.cores(given, node, &at);
+            let shapes = self.shapes(given, node, &at);
             let of = format!("collider {}", given.node);
             let moves_with = self.body_name(body).to_owned();
             self.trace(&of, "body", moves_with, "/-", "glTF node tree");
             self.trace(&of, "material", name, &format!("{at}/material"), "the body's");
-            let shown = cores.iter().map(|c| format!("{} corners + {:.2} mm", c.corners.len(), c.radius * 1e3));
-            let shown = shown.collect::<Vec<_>>().join("; ");
+            let shown = shapes.iter().map(Shape::describe).collect::<Vec<_>>().join("; ");
             self.trace(&of, "shape", shown, &format!("{at}/shape"), "");
             let Some(material) = material else { continue };
-            out.extend(cores.into_iter().map(|core| Collider {
-                body,
-                core: core.corners,
-                radius: core.radius,
-                material,
-                node: given.node.clone(),
-            }));
+            out.extend(shapes.into_iter().map(|shape| Collider { body, shape, material, node: given.node.clone() }));
         }
         for wire in wires {
             let collides = sidecar.wire.iter().any(|given| given.name == wire.name && given.collide);
@@ -52,8 +45,7 @@ impl Context<'_> {
                 let line = fit::simplify(&wire.points, wire.radius);
                 out.extend(line.windows(2).map(|segment| Collider {
                     body: wire.body,
-                    core: segment.to_vec(),
-                    radius: wire.radius,
+                    shape: Shape::capsule(segment[0], segment[1], wire.radius),
                     material: wire.material,
                     node: wire.name.clone(),
                 }));
@@ -62,43 +54,39 @@ impl Context<'_> {
         out
     }
 
-    fn cores(&mut self, given: &sidecar::Collider, node: usize, at: &str) -> Vec<Core> {
+    fn shapes(&mut self, given: &sidecar::Collider, node: usize, at: &str) -> Vec<Shape> {
         let place = format!("{at}/shape");
         let frame = self.pose_of(self.owner[node]).matrix().inverse() * self.model.nodes[node].world;
         let axes = DMat3::from_mat4(frame);
         // Shapes of stated size keep it: the node gives place and direction, not scale.
         let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::normalize_or_zero);
         let origin = frame.w_axis.truncate();
-        let placed = |core: Core| {
-            let turned = |p: DVec3| origin + axes[0] * p.x + axes[1] * p.y + axes[2] * p.z;
-            Core { corners: core.corners.into_iter().map(turned).collect(), radius: core.radius }
-        };
         match given.shape {
-            Shape::Sphere(ball) => {
+            sidecar::Shape::Sphere(ball) => {
                 let radius = self.positive(ball.radius.0, &format!("{place}/sphere/radius"));
-                vec![Core { corners: vec![origin], radius }]
+                vec![Shape::sphere(origin, radius)]
             }
-            Shape::Capsule(capsule) => {
+            sidecar::Shape::Capsule(capsule) => {
                 let radius = self.positive(capsule.radius.0, &format!("{place}/capsule/radius"));
-                let half = DVec3::Y * (0.5 * self.not_negative(capsule.height.0, &format!("{place}/capsule/height")));
-                vec![placed(Core { corners: vec![-half, half], radius })]
+                let half = 0.5 * self.not_negative(capsule.height.0, &format!("{place}/capsule/height"));
+                vec![Shape::capsule(origin - axes[1] * half, origin + axes[1] * half, radius)]
             }
-            Shape::Box(shape) => {
+            sidecar::Shape::Box(shape) => {
                 let size = [0, 1, 2].map(|i| self.positive(shape.size[i].0, &format!("{place}/box/size/{i}")));
                 vec![fit::rounded_box(origin, axes, 0.5 * DVec3::from(size))]
             }
-            Shape::Cylinder(shape) => {
+            sidecar::Shape::Cylinder(shape) => {
                 let height = self.positive(shape.height.0, &format!("{place}/cylinder/height"));
                 let radius = self.positive(shape.radius.0, &format!("{place}/cylinder/radius"));
-                vec![placed(fit::cylinder(height, radius))]
+                vec![fit::cylinder(origin, axes[1], height, radius)]
             }
-            Shape::Fit(fit) => self.fitted(fit, node, &place),
+            sidecar::Shape::Fit(fit) => self.fitted(fit, node, &place),
         }
     }
 
-    fn fitted(&mut self, fit: Fit, node: usize, at: &str) -> Vec<Core> {
+    fn fitted(&mut self, fit: Fit, node: usize, at: &str) -> Vec<Shape> {
         let Some(mesh) = self.mesh_of(node, at, "a fitted collider") else { return Vec::new() };
-        let cores = mesh.extents().and_then(|extents| match fit {
+        let shapes = mesh.extents().and_then(|extents| match fit {
             Fit::Sphere => Some(vec![fit::sphere(&mesh, &extents)]),
             Fit::Capsule => Some(vec![fit::capsule(&extents)]),
             Fit::Box => {
@@ -106,9 +94,9 @@ impl Context<'_> {
                 Some(vec![fit::rounded_box(extents.center, axes, extents.half)])
             }
             Fit::Plate => fit::plate(&mesh, &extents),
-            Fit::Convex => fit::convex(&mesh).map(|core| vec![core]),
+            Fit::Convex => fit::convex(&mesh).map(|shape| vec![shape]),
         });
-        cores.unwrap_or_else(|| {
+        shapes.unwrap_or_else(|| {
             let message = format!("no {fit:?} can be fitted to \"{}\"", self.model.nodes[node].name);
             let help = "a plate needs a flat sheet, a hull a body with volume; try fit = \"box\"";
             self.report(at, Diagnostic::new(codes::NOT_FLAT, message).help(help));
