@@ -17,6 +17,7 @@ mod drive;
 pub mod forces;
 pub mod impulse;
 mod integrate;
+mod limits;
 
 use crate::articulation::block::Vec6;
 use crate::articulation::{Constraint, Limit, Spring, System};
@@ -24,7 +25,7 @@ use crate::bodies::RigidBody;
 use crate::collision::Collider;
 use crate::math::{DMat3, DVec3};
 
-pub use contacts::{Contacts, Impact, ImpactKind, SurfacePair};
+pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
 pub use drive::{Drive, Instant, Motion};
 use forces::Damping;
 use integrate::Rate;
@@ -105,8 +106,9 @@ pub struct Dynamics {
     damping: Vec<Damping>,
     springs: Vec<Spring>,
     system: System,
-    limits: Vec<Limit>,
     contacts: Contacts,
+    /// Wrenches from outside, and with those of resting contacts.
+    given: Vec<Vec6>,
     external: Vec<Vec6>,
     /// Force that each joint carried at the last solve, N.
     loads: Vec<f64>,
@@ -124,7 +126,7 @@ impl Dynamics {
         let rates = vec![Rate::default(); n];
         Self {
             loads: vec![0.0; system.joints().len()],
-            contacts: Contacts::new(figure.colliders, figure.pairs, &figure.bodies),
+            contacts: Contacts::new(figure.colliders, figure.pairs, figure.limits, &figure.bodies),
             start: figure.bodies.clone(),
             before_step: figure.bodies.clone(),
             bodies: figure.bodies,
@@ -132,7 +134,7 @@ impl Dynamics {
             damping: if settings.friction { figure.damping } else { vec![Damping::default(); n] },
             springs: figure.springs.to_vec(),
             system,
-            limits: figure.limits.to_vec(),
+            given: vec![[0.0; 6]; n],
             external: vec![[0.0; 6]; n],
             stages: [rates.clone(), rates.clone(), rates.clone(), rates],
             substeps: 1,
@@ -143,13 +145,15 @@ impl Dynamics {
     /// the way are appended to `impacts`. Returns the bodies that had to be restored from bad numbers.
     pub fn step(&mut self, dt: f64, external: &[Vec6], impacts: &mut Vec<Impact>) -> usize {
         self.before_step.copy_from_slice(&self.bodies);
-        self.external.copy_from_slice(external);
+        self.given.copy_from_slice(external);
         self.contacts.begin_step(dt);
         self.substeps = 0;
         let mut done = 0.0;
         while done < dt * (1.0 - 1e-12) {
             // Asked anew each time: a hit changes what there is to follow.
-            let h = (dt / f64::from(self.substep_count(dt))).min(dt - done);
+            let finest = dt / f64::from(2 * MOST_SUBSTEPS);
+            let slides = self.contacts.longest_substep().max(finest);
+            let h = (dt / f64::from(self.substep_count(dt))).min(slides).min(dt - done);
             done += self.substep(h, done, impacts);
             self.substeps += 1;
         }
@@ -162,24 +166,39 @@ impl Dynamics {
     /// Integrates `h` or up to the first impact, resolves it, and returns the time used.
     fn substep(&mut self, h: f64, now: f64, impacts: &mut Vec<Impact>) -> f64 {
         self.start.copy_from_slice(&self.bodies);
-        self.integrate(h);
+        self.hold(h);
         let mut used = h;
         if let Some(hit) = self.contacts.first_impact(&self.start, &self.bodies) {
             used = hit.s * h;
             self.bodies.copy_from_slice(&self.start);
-            self.integrate(used);
+            self.hold(used);
             self.prepare_impulses();
-            self.contacts.resolve_impact(&hit, now + used, &mut self.system, &mut self.bodies, impacts);
+            self.contacts.resolve_hit(&hit, (now + used, h), &mut self.system, &mut self.bodies, impacts);
         }
-        let at_limit = self.limits.iter().any(|limit| contacts::excess(limit, &self.bodies).is_some());
-        if self.contacts.has_resting() || at_limit {
-            self.prepare_impulses();
-            self.contacts.resolve_resting(&mut self.system, &mut self.bodies);
-            contacts::resolve_limits(&self.limits, &mut self.system, &mut self.bodies);
-            // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
-            self.project();
-        }
+        self.contacts.end_substep(&self.bodies);
         used
+    }
+
+    /// Integrates `h` under the forces that hold what rests, again where they prove wrong.
+    fn hold(&mut self, h: f64) {
+        if h <= 0.0 {
+            return;
+        }
+        for pass in 1.. {
+            self.external.copy_from_slice(&self.given);
+            self.contacts.press(&mut self.external);
+            self.integrate(h);
+            if !self.contacts.anything_rests() {
+                return;
+            }
+            self.prepare_impulses();
+            if self.contacts.settle((h, pass), &self.start, &mut self.system, &mut self.bodies) {
+                break;
+            }
+            self.bodies.copy_from_slice(&self.start);
+        }
+        // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
+        self.project();
     }
 
     /// Factors the joints at the present poses, for impulses.
@@ -220,6 +239,7 @@ impl Dynamics {
                 *body = RigidBody { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..*before };
             }
             self.loads.fill(0.0);
+            self.contacts.forget(&self.bodies);
         }
         bad
     }
