@@ -254,6 +254,11 @@ impl Dynamics {
         forces::energy(&self.bodies, self.settings.gravity, &self.springs)
     }
 
+    /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.
+    pub fn contact_work(&self) -> f64 {
+        self.contacts.work()
+    }
+
     /// Substeps of the last step.
     pub fn substeps(&self) -> u32 {
         self.substeps

@@ -108,6 +108,7 @@ impl Contacts {
             }
             self.problem.assemble(system, bodies);
             self.bounce(time, impacts);
+            self.work += self.problem.work();
             self.problem.apply(system, bodies);
             next = self.approaching(bodies);
         }

@@ -132,6 +132,8 @@ pub struct Contacts {
     former: Vec<Held>,
     /// Slip of the fastest touch that rests, m/s.
     slip: f64,
+    /// Work of all hits and resting contacts so far, J; losses make it negative.
+    work: f64,
     impacts_left: usize,
 }
 
@@ -170,6 +172,7 @@ impl Contacts {
             former: Vec::with_capacity(problem.touches.capacity()),
             problem,
             slip: 0.0,
+            work: 0.0,
             impacts_left: MOST_IMPACTS,
         }
     }
@@ -186,6 +189,11 @@ impl Contacts {
     /// Ends a substep: turns are counted on from where the bodies are now.
     pub(super) fn end_substep(&mut self, bodies: &[RigidBody]) {
         self.limits.follow(bodies);
+    }
+
+    /// Work of all hits and resting contacts so far, J.
+    pub(super) fn work(&self) -> f64 {
+        self.work
     }
 
     /// Forgets all rest, for bodies that were put elsewhere.

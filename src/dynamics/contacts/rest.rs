@@ -12,10 +12,10 @@
 use super::problem::{Source, Touch};
 use super::{Contacts, Held, Lever, RELEASE_GAP, point_rows};
 use crate::articulation::System;
-use crate::articulation::block::{Vec6, add_scaled, vec6};
+use crate::articulation::block::{Vec6, add_scaled, angular, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::collision::TOUCH;
-use crate::math::{DVec3, tangents};
+use crate::math::{DVec3, rotation_vector, tangents};
 
 /// Passes over one substep at most, but for one more where a rest proves false.
 const PASSES: usize = 3;
@@ -49,16 +49,20 @@ impl Contacts {
 
     /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
     pub(in crate::dynamics) fn press(&self, external: &mut [Vec6]) {
-        for held in &self.held {
-            for (lever, sign) in held.ends.iter().zip([1.0, -1.0]) {
-                let Some(lever) = lever else { continue };
-                let wrench = match held.source {
-                    Source::Pair(_) => vec6(sign * held.force, (lever.arm + 0.5 * lever.way).cross(sign * held.force)),
-                    Source::Bound(_) => lever.block.map(|x| x * held.force.x),
-                };
-                add_scaled(&mut external[lever.body], 1.0, &wrench);
-            }
+        for (body, wrench) in self.held.iter().flat_map(Held::wrenches) {
+            add_scaled(&mut external[body], 1.0, &wrench);
         }
+    }
+
+    /// Work of those forces between two states of the bodies, J.
+    fn pressed(&self, start: &[RigidBody], end: &[RigidBody]) -> f64 {
+        let work = |(body, wrench): (usize, Vec6)| {
+            let (from, to) = (&start[body], &end[body]);
+            let turn = to.rotation * from.rotation.conjugate();
+            let turn = rotation_vector(if turn.w < 0.0 { -turn } else { turn });
+            linear(&wrench).dot(to.position - from.position) + angular(&wrench).dot(turn)
+        };
+        self.held.iter().flat_map(Held::wrenches).map(work).sum()
     }
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
@@ -78,6 +82,7 @@ impl Contacts {
         let stands = pass > PASSES || ((pass == PASSES || !missed) && !self.releases_sunken());
         if stands {
             self.slip = self.problem.largest_slip();
+            self.work += self.pressed(start, bodies) + self.problem.work();
             self.problem.apply(system, bodies);
         }
         self.hold((h, settled, stands), start, bodies);
@@ -114,6 +119,7 @@ impl Contacts {
         self.problem.assemble(system, bodies);
         self.problem.solve();
         self.slip = self.problem.largest_slip();
+        self.work += self.problem.work();
         self.problem.apply(system, bodies);
     }
 
@@ -232,6 +238,20 @@ impl Contacts {
                 ends: [lever(0), lever(1)],
             });
         }
+    }
+}
+
+impl Held {
+    /// The bodies it acts on and its wrenches there, N and N m about their centres.
+    fn wrenches(&self) -> impl Iterator<Item = (usize, Vec6)> {
+        self.ends.iter().zip([1.0, -1.0]).filter_map(|(lever, sign)| {
+            let lever = lever.as_ref()?;
+            let wrench = match self.source {
+                Source::Pair(_) => vec6(sign * self.force, (lever.arm + 0.5 * lever.way).cross(sign * self.force)),
+                Source::Bound(_) => lever.block.map(|x| x * self.force.x),
+            };
+            Some((lever.body, wrench))
+        })
     }
 }
 
