@@ -3,15 +3,16 @@
 //! A body's six coordinates are its linear (x, y, z) and angular (x, y, z) parts, world axes. A joint has at most
 //! [`MAX_ROWS`] rows; blocks are stored at full size and used up to `rows`, so nothing here allocates.
 
-use crate::math::{DMat3, DVec3};
+use crate::math::DVec3;
 
 /// Linear part, then angular part.
 pub type Vec6 = [f64; 6];
 /// Six by six, row by row.
 pub type Mat6 = [[f64; 6]; 6];
 
-/// Most rows of one joint: six that can be held, and three of friction beside them.
-pub const MAX_ROWS: usize = 9;
+/// Most rows of one joint: six that can be held, three more that repeat some of them (while one set of rows takes
+/// over from another), and three of friction.
+pub const MAX_ROWS: usize = 12;
 /// One number per row of a joint.
 pub type RowVec = [f64; MAX_ROWS];
 /// One six-vector per row of a joint.
@@ -49,19 +50,6 @@ pub fn add_scaled(y: &mut Vec6, s: f64, x: &Vec6) {
 /// Matrix times vector.
 pub fn mul(m: &Mat6, v: &Vec6) -> Vec6 {
     [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v), dot(&m[3], v), dot(&m[4], v), dot(&m[5], v)]
-}
-
-/// diag(m E, I): the mass matrix of a body.
-pub fn mass_matrix(mass: f64, inertia_world: &DMat3) -> Mat6 {
-    let mut out = [[0.0; 6]; 6];
-    for k in 0..3 {
-        out[k][k] = mass;
-        for l in 0..3 {
-            // glam stores columns; the tensor is symmetric.
-            out[3 + k][3 + l] = inertia_world.col(l)[k];
-        }
-    }
-    out
 }
 
 /// Inverse of a symmetric positive definite 6×6 matrix by Cholesky: A = L Lᵀ, A⁻¹ = L⁻ᵀ L⁻¹.

@@ -1,123 +1,157 @@
-//! Closed loops: the rows that a tree cannot hold, by a small dense system (Baraff 1996, second half).
+//! Closed loops and couplings: the rows that a tree cannot hold, by a small dense system (Baraff 1996, second half).
 //!
 //! Let H be the tree's system and G the rows of the joints that close loops. Their multipliers μ obey
 //!
 //! ```text
-//! S μ = g − G a₀        S = G R + Γ        R = H⁻¹ Gᵀ (one tree solve per row)        a = a₀ + R μ
+//! S μ = g − G a₀        S = G R + Γ        R = H⁻¹ Gᵀ        a = a₀ + R μ
 //! ```
 //!
-//! with a₀ the tree's own answer. The cost is O(k n + k³) for k loop rows. Rows that repeat others (a planar
-//! four-bar of hinges has three) get the multiplier 0, as in the tree.
+//! with a₀ the tree's own answer. Only the *skeleton* matters for S and G a₀: the bodies on the ways from the loops'
+//! bodies to their roots. So a loop row costs a walk over the skeleton when factored, and a solve costs one way up
+//! and one way down over all bodies whatever the number of loops, plus walks over the skeleton.
+//!
+//! Rows that repeat others (a planar four-bar of hinges has three) get the multiplier 0, as in the tree.
 
-use super::block::{MAX_ROWS, RowVec, Vec6, add_scaled, dot};
-use super::tree::{JointRows, Link, Tree};
+use super::block::{Vec6, add_scaled, dot};
+use super::cholesky::Cholesky;
+use super::tree::Tree;
 
 /// A pivot below this share of its row's own stiffness says that the row repeats earlier ones. Loop rows pass
 /// through a whole tree solve, so more is rounded off than within one joint.
 const REDUNDANT: f64 = 1e-9;
 
+/// One row outside the tree, at the present configuration.
+#[derive(Clone, Debug)]
+pub struct LoopRow {
+    /// Where its numbers are in `g` and `lambda`.
+    pub at: usize,
+    /// Does it act now?
+    pub active: bool,
+    /// J: a block per body that it touches.
+    pub parts: Vec<(usize, Vec6)>,
+    /// Γ.
+    pub compliance: f64,
+    /// Share, 1 is whole.
+    pub share: f64,
+}
+
+impl LoopRow {
+    /// Row times the bodies' coordinates.
+    fn times(&self, a: &[Vec6]) -> f64 {
+        self.parts.iter().map(|(body, block)| dot(block, &a[*body])).sum()
+    }
+}
+
 /// The loop rows of a figure and their factor.
 #[derive(Clone, Debug)]
 pub struct Loops {
-    joints: Vec<(usize, Link)>,
-    /// (index into `joints`, row) of each loop row at the last factorisation.
-    rows: Vec<(usize, usize)>,
-    /// R, a column of body responses per loop row, and the tree multipliers that belong to it.
-    response: Vec<Vec<Vec6>>,
-    multipliers: Vec<Vec<RowVec>>,
-    /// Lower Cholesky factor of S with inverse pivots on the diagonal, row by row.
-    factor: Vec<f64>,
+    /// Every row that there may be.
+    pub rows: Vec<LoopRow>,
+    driven: Vec<bool>,
+    skeleton: Vec<usize>,
+    /// Indices of the active rows.
+    active: Vec<usize>,
+    factor: Cholesky,
     mu: Vec<f64>,
-    scratch: Vec<Vec6>,
-    no_motion: Vec<RowVec>,
+    b: Vec<Vec6>,
+    a: Vec<Vec6>,
+    h: Vec<f64>,
 }
 
 impl Loops {
-    /// Room for the loop joints of `tree`.
-    pub fn new(bodies: usize, links: &[Link], tree: &Tree) -> Self {
-        let most = tree.loops().len() * MAX_ROWS;
+    /// Room for these rows; `count` numbers are in `lambda`.
+    pub fn new(rows: Vec<LoopRow>, tree: &Tree, driven: &[bool], count: usize) -> Self {
+        let n = rows.len();
+        let room = if n > 0 { driven.len() } else { 0 };
         Self {
-            joints: tree.loops().iter().map(|&joint| (joint, links[joint])).collect(),
-            rows: Vec::with_capacity(most),
-            response: vec![vec![[0.0; 6]; bodies]; most],
-            multipliers: vec![vec![[0.0; MAX_ROWS]; links.len()]; most],
-            factor: vec![0.0; most * most],
-            mu: vec![0.0; most],
-            scratch: vec![[0.0; 6]; bodies],
-            no_motion: vec![[0.0; MAX_ROWS]; links.len()],
+            skeleton: tree.paths(rows.iter().flat_map(|row| row.parts.iter().map(|(body, _)| *body))),
+            driven: driven.to_vec(),
+            active: Vec::with_capacity(n),
+            factor: Cholesky::with_room(n, REDUNDANT),
+            mu: vec![0.0; n],
+            b: vec![[0.0; 6]; room],
+            a: vec![[0.0; 6]; room],
+            h: vec![0.0; if n > 0 { count } else { 0 }],
+            rows,
         }
     }
 
-    /// Factors S for the rows; the tree must have been factored with them.
-    pub fn factor(&mut self, tree: &Tree, rows: &[JointRows]) {
-        self.rows.clear();
-        for (index, &(joint, link)) in self.joints.iter().enumerate() {
-            for row in 0..rows[joint].rows {
-                let k = self.rows.len();
-                self.rows.push((index, row));
-                self.scratch.fill([0.0; 6]);
-                self.scratch[link.a] = rows[joint].a[row];
-                if let Some(b) = link.b {
-                    self.scratch[b] = rows[joint].b[row];
-                }
-                let (response, multipliers) = (&mut self.response[k], &mut self.multipliers[k]);
-                tree.solve(rows, &mut self.scratch, &self.no_motion, response, multipliers);
-            }
-        }
-        let n = self.rows.len();
-        for k in 0..n {
-            for l in 0..=k {
-                self.factor[k * n + l] = self.row_dot(rows, k, &self.response[l]);
-            }
-            let (index, row) = self.rows[k];
-            self.factor[k * n + k] += rows[self.joints[index].0].compliance[row];
-        }
-        for j in 0..n {
-            let diagonal = self.factor[j * n + j];
-            let d = (0..j).fold(diagonal, |d, k| d - self.factor[j * n + k] * self.factor[j * n + k]);
-            let pivot = if d > REDUNDANT * diagonal { 1.0 / d.sqrt() } else { 0.0 };
-            self.factor[j * n + j] = pivot;
-            for i in j + 1..n {
-                let s = (0..j).fold(self.factor[i * n + j], |s, k| s - self.factor[i * n + k] * self.factor[j * n + k]);
-                self.factor[i * n + j] = s * pivot;
-            }
-        }
+    /// Was this row found to repeat others at the last factorisation?
+    pub fn is_redundant(&self, row: usize) -> bool {
+        self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
     }
 
-    /// Corrects the tree's answer so that the loop rows hold too.
-    pub fn correct(&mut self, rows: &[JointRows], g: &[RowVec], a: &mut [Vec6], lambda: &mut [RowVec]) {
-        let n = self.rows.len();
-        for k in 0..n {
-            let (index, row) = self.rows[k];
-            self.mu[k] = g[self.joints[index].0][row] - self.row_dot(rows, k, a);
-        }
-        let (l, mu) = (&self.factor, &mut self.mu);
-        for i in 0..n {
-            mu[i] = (0..i).fold(mu[i], |s, k| s - l[i * n + k] * mu[k]) * l[i * n + i];
-        }
-        for i in (0..n).rev() {
-            mu[i] = (i + 1..n).fold(mu[i], |s, k| s - l[k * n + i] * mu[k]) * l[i * n + i];
-        }
-        for k in 0..n {
-            for (ai, response) in a.iter_mut().zip(&self.response[k]) {
-                add_scaled(ai, self.mu[k], response);
+    /// Factors S for the active rows; the tree must have been factored.
+    pub fn factor(&mut self, tree: &Tree) {
+        self.active.clear();
+        self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
+        let n = self.active.len();
+        self.factor.begin(n);
+        for l in 0..n {
+            for &body in &self.skeleton {
+                self.b[body] = [0.0; 6];
+                self.a[body] = [0.0; 6];
             }
-            for (li, response) in lambda.iter_mut().zip(&self.multipliers[k]) {
-                for row in 0..MAX_ROWS {
-                    li[row] += self.mu[k] * response[row];
-                }
+            for (body, block) in &self.rows[self.active[l]].parts {
+                add_scaled(&mut self.b[*body], 1.0, block);
+            }
+            for &body in self.skeleton.iter().rev() {
+                tree.up(body, &mut self.b, None, &mut self.h);
+            }
+            for &body in &self.skeleton {
+                tree.down(body, &self.b, None, &mut self.h, &mut self.a);
+            }
+            for k in l..n {
+                *self.factor.entry(k, l) = self.rows[self.active[k]].times(&self.a);
             }
         }
         for k in 0..n {
-            let (index, row) = self.rows[k];
-            lambda[self.joints[index].0][row] = self.mu[k];
+            let row = &self.rows[self.active[k]];
+            let own = self.factor.entry(k, k);
+            *own = *own / row.share + row.compliance;
         }
+        self.factor.factor();
     }
 
-    /// Loop row k times the bodies' coordinates.
-    fn row_dot(&self, rows: &[JointRows], k: usize, a: &[Vec6]) -> f64 {
-        let (index, row) = self.rows[k];
-        let (joint, link) = self.joints[index];
-        dot(&rows[joint].a[row], &a[link.a]) + link.b.map_or(0.0, |b| dot(&rows[joint].b[row], &a[b]))
+    /// Between the tree's way up (`b`, `lambda`) and its way down: finds μ and lays Gᵀ μ on `b` and `lambda`, so that
+    /// the way down gives the whole answer. `a` lends the given accelerations of driven bodies.
+    pub fn correct(&mut self, tree: &Tree, b: &mut [Vec6], g: &[f64], a: &[Vec6], lambda: &mut [f64]) {
+        let n = self.active.len();
+        if n == 0 {
+            return;
+        }
+        self.h.copy_from_slice(lambda);
+        for &body in &self.skeleton {
+            self.a[body] = if self.driven[body] { a[body] } else { [0.0; 6] };
+        }
+        for &body in &self.skeleton {
+            tree.down(body, b, Some(g), &mut self.h, &mut self.a);
+        }
+        for k in 0..n {
+            let row = &self.rows[self.active[k]];
+            self.mu[k] = g[row.at] - row.times(&self.a);
+        }
+        self.factor.solve(&mut self.mu[..n]);
+        for &body in &self.skeleton {
+            self.b[body] = [0.0; 6];
+        }
+        for k in 0..n {
+            for (body, block) in &self.rows[self.active[k]].parts {
+                add_scaled(&mut self.b[*body], self.mu[k], block);
+            }
+        }
+        self.h.fill(0.0);
+        for &body in self.skeleton.iter().rev() {
+            tree.up(body, &mut self.b, None, &mut self.h);
+        }
+        for &body in &self.skeleton {
+            add_scaled(&mut b[body], 1.0, &self.b[body]);
+        }
+        for (sum, h) in lambda.iter_mut().zip(&self.h) {
+            *sum += h;
+        }
+        for k in 0..n {
+            lambda[self.rows[self.active[k]].at] = self.mu[k];
+        }
     }
 }

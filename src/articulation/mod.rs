@@ -2,17 +2,23 @@
 
 use crate::math::DVec3;
 
+mod activity;
+pub mod ball;
 pub mod block;
+mod cholesky;
+mod dense;
 mod function;
 mod loops;
 pub mod rows;
 mod schedule;
+pub mod spatial;
 mod system;
 pub mod tree;
 
+pub use activity::{Activity, Break};
 pub use function::{Function, Interpolation, Jet3};
 pub use schedule::{Breaking, Schedule, Trigger, Window};
-pub use system::System;
+pub use system::{Joint, Method, RowState, System};
 
 /// A point fixed in a body's node frame, or in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]

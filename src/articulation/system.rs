@@ -3,151 +3,398 @@
 //! Used in this order: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
-use super::Constraint;
-use super::block::{MAX_ROWS, Mat6, RowVec, Vec6, add_scaled, dot, mass_matrix};
-use super::loops::Loops;
-use super::rows::{self, Joint};
-use super::tree::{JointRows, Tree};
+use std::collections::BTreeMap;
+
+use super::activity::Activity;
+use super::block::{MAX_ROWS, Vec6, add_scaled, angular, dot, linear, vec6};
+use super::dense::Dense;
+use super::loops::{LoopRow, Loops};
+use super::rows::coupling::{self, Gauge};
+use super::rows::{Row, Scene, friction, orientation, plane, point};
+use super::spatial::{Articulated, Sym3, matrix};
+use super::tree::{Form, JointRows, Link, Tree};
+use super::{Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
-use crate::math::DVec3;
+use crate::math::{DMat3, DVec3};
+
+/// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
+const PROJECTION_REACH: f64 = 1e-4;
+
+/// Most held rows of a pair of bodies, twice over; three of friction may come after them.
+const HELD: usize = MAX_ROWS - 3;
+
+/// Which linear solver finds the multipliers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// The tree factor, linear in the number of bodies.
+    #[default]
+    Sparse,
+    /// One dense matrix of all rows: the reference.
+    Dense,
+}
+
+/// All constraints between one pair of bodies.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// The pair.
+    pub link: Link,
+    /// Indices of its constraints.
+    pub constraints: Vec<usize>,
+    /// Where its numbers begin in `g`, `lambda` and the other lists of rows.
+    pub at: usize,
+    /// Most rows that it can have.
+    capacity: usize,
+    /// Rows at the last evaluation, friction included.
+    pub rows: usize,
+    /// Of those, rows that are held.
+    pub hard: usize,
+    /// Arms of the two bodies where it is one point, hard.
+    arms: Option<(DVec3, DVec3)>,
+    /// Its block rows, where it is ever more than a point.
+    block: Option<usize>,
+    /// First of its rows among the loops', where it closes one (or the solver is dense).
+    outside: Option<usize>,
+}
+
+/// A constraint that couples turns and ways.
+#[derive(Clone, Debug)]
+struct Coupling {
+    constraint: usize,
+    at: usize,
+    terms: Vec<(Gauge, f64)>,
+    /// Index among the loops' rows.
+    outside: usize,
+}
+
+/// Numbers of a row beside its blocks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RowState {
+    /// C, m or rad.
+    pub value: f64,
+    /// ḟ.
+    feed: f64,
+    /// J̇ẋ − f̈.
+    bias: f64,
+    /// Is C a length?
+    length: bool,
+    /// Constraint that it belongs to.
+    constraint: usize,
+    /// Is it so far from closed that the stabiliser draws it together?
+    gathers: bool,
+}
 
 /// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
 #[derive(Clone, Debug)]
 pub struct System {
     constraints: Vec<Constraint>,
+    /// What acts now.
+    pub activity: Activity,
     joints: Vec<Joint>,
-    rows: Vec<JointRows>,
+    couplings: Vec<Coupling>,
+    blocks: Vec<JointRows>,
+    states: Vec<RowState>,
     tree: Tree,
     loops: Loops,
-    masses: Vec<Mat6>,
+    dense: Option<Dense>,
+    inertia: Vec<Sym3>,
+    frames: Vec<DMat3>,
+    masses: Vec<Articulated>,
+    driven: Vec<bool>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
-    /// Wanted J a per joint row.
-    pub g: Vec<RowVec>,
-    /// Answer per body: acceleration, velocity change or displacement.
+    /// Wanted J a per row.
+    pub g: Vec<f64>,
+    /// Answer per body: acceleration, velocity change or displacement. Of driven bodies it is given.
     pub a: Vec<Vec6>,
-    /// Answer per joint row: force or impulse.
-    pub lambda: Vec<RowVec>,
+    /// Answer per row: force or impulse.
+    pub lambda: Vec<f64>,
 }
 
 impl System {
-    /// The figure of `bodies` bodies joined by `constraints`.
-    pub fn new(bodies: usize, constraints: &[Constraint]) -> Self {
-        let joints = rows::joints(constraints);
-        let links: Vec<_> = joints.iter().map(|joint| joint.link).collect();
-        let tree = Tree::new(bodies, &links);
-        let loops = Loops::new(bodies, &links, &tree);
+    /// The figure of `bodies` at its start, joined by `constraints`; `driven` says whose motion is given.
+    pub fn new(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
+        let (mut joints, mut count) = joints(constraints);
+        let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
+        let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
+        let points: Vec<bool> = joints
+            .iter()
+            .map(|joint| method == Method::Sparse && joint.constraints.iter().all(|&c| is_only_point(&constraints[c])))
+            .zip(&joints)
+            .map(|(all, joint)| all && joint.constraints.len() == 1)
+            .collect();
+        let tree = Tree::new(driven, &links, &at, &points);
+        let mut blocks = Vec::new();
+        let mut outside: Vec<LoopRow> = Vec::new();
+        for (index, joint) in joints.iter_mut().enumerate() {
+            let closes = tree.loops().contains(&index);
+            if closes || method == Method::Dense {
+                joint.outside = Some(outside.len());
+                let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
+                for k in 0..joint.capacity {
+                    outside.push(blank_row(joint.at + k, &parts));
+                }
+            }
+            if !points[index] || closes {
+                joint.block = Some(blocks.len());
+                blocks.push(JointRows::default());
+            }
+        }
+        let mut couplings = Vec::new();
+        for (index, constraint) in constraints.iter().enumerate() {
+            let ConstraintKind::Coupling { terms } = &constraint.kind else { continue };
+            let terms: Vec<_> = terms.iter().map(|t| (Gauge::new(t.measure, bodies), t.coefficient)).collect();
+            let mut parts: Vec<usize> = Vec::new();
+            for body in terms.iter().flat_map(|(gauge, _)| [gauge.bodies().0, gauge.bodies().1]).flatten() {
+                if !parts.contains(&body) {
+                    parts.push(body);
+                }
+            }
+            couplings.push(Coupling { constraint: index, at: count, terms, outside: outside.len() });
+            outside.push(blank_row(count, &parts));
+            count += 1;
+        }
+        let (loop_rows, dense) = match method {
+            Method::Sparse => (outside, None),
+            Method::Dense => (Vec::new(), Some(Dense::new(outside, driven))),
+        };
+        let inertia = bodies.iter().map(|body| Sym3::lower(&body.properties.inertia)).collect();
+        let n = bodies.len();
         Self {
+            activity: Activity::new(constraints),
+            loops: Loops::new(loop_rows, &tree, driven, count),
             constraints: constraints.to_vec(),
-            rows: vec![JointRows::default(); joints.len()],
-            tree,
-            loops,
-            masses: vec![[[0.0; 6]; 6]; bodies],
-            b: vec![[0.0; 6]; bodies],
-            g: vec![[0.0; MAX_ROWS]; joints.len()],
-            a: vec![[0.0; 6]; bodies],
-            lambda: vec![[0.0; MAX_ROWS]; joints.len()],
             joints,
+            couplings,
+            blocks,
+            states: vec![RowState::default(); count],
+            tree,
+            dense,
+            inertia,
+            frames: vec![DMat3::IDENTITY; n],
+            masses: vec![Articulated::ZERO; n],
+            driven: driven.to_vec(),
+            b: vec![[0.0; 6]; n],
+            g: vec![0.0; count],
+            a: vec![[0.0; 6]; n],
+            lambda: vec![0.0; count],
         }
     }
 
-    /// The joints, in the order of `g` and `lambda`.
+    /// The constraints, in the order given.
+    pub fn constraints(&self) -> &[Constraint] {
+        &self.constraints
+    }
+
+    /// The joints between pairs of bodies.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }
 
-    /// The rows at the configuration last evaluated.
-    pub fn rows(&self) -> &[JointRows] {
-        &self.rows
+    /// Numbers of all rows.
+    pub fn states(&self) -> &[RowState] {
+        &self.states
     }
 
-    /// The tree: its loops and redundant rows.
-    pub fn tree(&self) -> &Tree {
-        &self.tree
+    /// Whose motion is given?
+    pub fn driven(&self) -> &[bool] {
+        &self.driven
     }
 
-    /// Evaluates all rows and mass matrices for the bodies' state.
+    /// World inertia of a body at the last evaluation.
+    pub fn inertia_world(&self, body: usize) -> &Sym3 {
+        &self.masses[body].c
+    }
+
+    /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
-        for (joint, rows) in self.joints.iter_mut().zip(&mut self.rows) {
-            joint.evaluate(&self.constraints, bodies, rows);
+        for (index, body) in bodies.iter().enumerate() {
+            self.frames[index] = matrix(body.rotation);
+            self.masses[index] = Articulated {
+                a: Sym3::splat(body.properties.mass),
+                b: DMat3::ZERO,
+                c: self.inertia[index].rotated(&self.frames[index]),
+            };
         }
-        for (mass, body) in self.masses.iter_mut().zip(bodies) {
-            *mass = mass_matrix(body.properties.mass, &body.inertia_world());
+        let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        for joint in &mut self.joints {
+            joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
+            joint.write_outside(&self.blocks, outside);
+        }
+        for coupling in &mut self.couplings {
+            let share = self.activity.share(coupling.constraint);
+            let slot = &mut outside[coupling.outside];
+            slot.active = share > 0.0;
+            slot.share = share;
+            let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
+            self.states[coupling.at].set(&row, coupling.constraint);
         }
     }
 
     /// Adds the soft rows of pivot friction for a time `h` (s), with the loads (N) that the joints carry.
     pub fn add_friction(&mut self, bodies: &[RigidBody], loads: &[f64], h: f64) {
-        for ((joint, rows), &load) in self.joints.iter().zip(&mut self.rows).zip(loads) {
-            joint.add_friction(&self.constraints, bodies, load, h, rows);
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        for (joint, &load) in self.joints.iter_mut().zip(loads) {
+            joint.add_friction(&self.constraints, bodies, load, h, &mut self.blocks);
+            joint.write_outside(&self.blocks, outside);
         }
     }
 
     /// Factors the system at the configuration last evaluated.
     pub fn factor(&mut self) {
-        self.tree.factor(&self.masses, &self.rows);
-        self.loops.factor(&self.tree, &self.rows);
+        if let Some(dense) = &mut self.dense {
+            dense.factor(&self.masses);
+            return;
+        }
+        let (joints, blocks) = (&self.joints, &self.blocks);
+        self.tree.factor(&self.masses, |index| {
+            let joint = &joints[index];
+            match (joint.arms, joint.block) {
+                (Some((a, b)), _) => Form::Point(a, b),
+                (None, Some(block)) => Form::Rows(&blocks[block]),
+                (None, None) => unreachable!("a joint is a point or has a block"),
+            }
+        });
+        self.loops.factor(&self.tree);
     }
 
     /// Solves for `a` and `lambda` from `b` and `g`.
     pub fn solve(&mut self) {
-        self.tree.solve(&self.rows, &mut self.b, &self.g, &mut self.a, &mut self.lambda);
-        self.loops.correct(&self.rows, &self.g, &mut self.a, &mut self.lambda);
+        if let Some(dense) = &mut self.dense {
+            dense.solve(&mut self.b, &self.g, &mut self.a, &mut self.lambda);
+            return;
+        }
+        for &body in self.tree.order().iter().rev() {
+            self.tree.up(body, &mut self.b, Some(&self.g), &mut self.lambda);
+        }
+        self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
+        for &body in self.tree.order() {
+            self.tree.down(body, &self.b, Some(&self.g), &mut self.lambda, &mut self.a);
+        }
+    }
+
+    /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
+    /// The others are closed by projection: their errors at an integrator's inner stages belong to the method.
+    pub fn look_for_gaps(&mut self) {
+        for state in &mut self.states {
+            state.gathers = state.value.abs() > PROJECTION_REACH;
+        }
+    }
+
+    /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ, and − ω₀² C − 2 ω₀ Ċ where rows gather. The
+    /// accelerations of driven bodies stand in `a`.
+    pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
+        self.rates(bodies);
+        for (g, state) in self.g.iter_mut().zip(&self.states) {
+            let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
+            *g = -state.bias - drawn;
+        }
+        self.solve();
     }
 
     /// Solves for the displacement that closes the joints' position error: J δ = −C, least in kinetic energy.
     pub fn solve_displacement(&mut self) {
         self.b.fill([0.0; 6]);
-        for ((g, joint), rows) in self.g.iter_mut().zip(&self.joints).zip(&self.rows) {
-            for k in 0..rows.rows {
-                g[k] = -joint.value[k];
-            }
+        self.still();
+        for (g, state) in self.g.iter_mut().zip(&self.states) {
+            *g = if state.gathers { 0.0 } else { -state.value };
         }
+        self.clear_friction();
         self.solve();
     }
 
-    /// Solves for the velocity change that makes J (v + δ) + Γ λ = 0: joints hold, soft rows resist.
+    /// Solves for the velocity change that makes J (v + δ) + Γ λ = ḟ: joints hold, soft rows resist. What is still
+    /// being drawn together keeps its speed.
     pub fn solve_velocity(&mut self, bodies: &[RigidBody]) {
         self.b.fill([0.0; 6]);
-        for j in 0..self.joints.len() {
-            for k in 0..self.rows[j].rows {
-                self.g[j][k] = -self.rate(bodies, j, k);
-            }
+        self.still();
+        self.rates(bodies);
+        for (g, state) in self.g.iter_mut().zip(&self.states) {
+            *g = if state.gathers { 0.0 } else { -*g };
         }
         self.solve();
     }
 
     /// Solves for the velocity change after impulses `b`, joints held: J δ = 0.
     pub fn solve_impulse(&mut self) {
-        for g in &mut self.g {
-            g.fill(0.0);
-        }
+        self.g.fill(0.0);
+        self.still();
         self.solve();
     }
 
-    /// J v of one row.
-    pub fn rate(&self, bodies: &[RigidBody], joint: usize, row: usize) -> f64 {
-        let along = |block: &Vec6, body: usize| {
-            let body = &bodies[body];
-            dot(block, &super::block::vec6(body.velocity, body.angular_velocity))
-        };
-        let (rows, link) = (&self.rows[joint], self.joints[joint].link);
-        along(&rows.a[row], link.a) + link.b.map_or(0.0, |b| along(&rows.b[row], b))
+    /// Driven bodies do not give way.
+    fn still(&mut self) {
+        for (a, &driven) in self.a.iter_mut().zip(&self.driven) {
+            if driven {
+                *a = [0.0; 6];
+            }
+        }
+    }
+
+    /// Friction rows hold no place.
+    fn clear_friction(&mut self) {
+        for joint in &self.joints {
+            for k in joint.hard..joint.rows {
+                self.g[joint.at + k] = 0.0;
+            }
+        }
+    }
+
+    /// Ċ of every row into `g`.
+    fn rates(&mut self, bodies: &[RigidBody]) {
+        let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
+        for joint in &self.joints {
+            let at = joint.at;
+            match (joint.arms, joint.block) {
+                (Some((r, s)), _) => {
+                    let a = &bodies[joint.link.a];
+                    let mut rate = a.velocity + a.angular_velocity.cross(r);
+                    if let Some(b) = joint.link.b {
+                        rate -= bodies[b].velocity + bodies[b].angular_velocity.cross(s);
+                    }
+                    self.g[at..at + 3].copy_from_slice(&rate.to_array());
+                }
+                (None, Some(block)) => {
+                    let rows = &self.blocks[block];
+                    let a = coordinates(joint.link.a);
+                    let b = joint.link.b.map(coordinates);
+                    for k in 0..joint.rows {
+                        let against = b.as_ref().map_or(0.0, |b| dot(&rows.b[k], b));
+                        self.g[at + k] = dot(&rows.a[k], &a) + against - self.states[at + k].feed;
+                    }
+                }
+                (None, None) => {}
+            }
+        }
+        for coupling in &self.couplings {
+            let rows = self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows);
+            let parts = &rows[coupling.outside].parts;
+            let rate: f64 = parts.iter().map(|(body, block)| dot(block, &coordinates(*body))).sum();
+            self.g[coupling.at] = rate - self.states[coupling.at].feed;
+        }
     }
 
     /// Adds the answer `a` to the bodies' velocities.
     pub fn apply_velocity(&self, bodies: &mut [RigidBody]) {
         for (body, a) in bodies.iter_mut().zip(&self.a) {
-            body.velocity += super::block::linear(a);
-            body.angular_velocity += super::block::angular(a);
+            body.velocity += linear(a);
+            body.angular_velocity += angular(a);
         }
     }
 
-    /// Adds the answer `a` to the bodies' places.
-    pub fn apply_displacement(&self, bodies: &mut [RigidBody]) {
+    /// Closes the joints: adds the answer of [`System::solve_displacement`] to the bodies' places.
+    pub fn close(&mut self, bodies: &mut [RigidBody]) {
         for (body, a) in bodies.iter_mut().zip(&self.a) {
-            body.displace(super::block::linear(a), super::block::angular(a));
+            body.displace(linear(a), angular(a));
         }
+        for state in self.states.iter_mut().filter(|state| !state.gathers) {
+            state.value = 0.0;
+        }
+    }
+
+    /// Rows outside the tree.
+    fn outside_rows(&self) -> &[LoopRow] {
+        self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
     }
 
     /// Adds `s` times a row's transposed blocks to the right-hand side.
@@ -155,36 +402,341 @@ impl System {
         add_scaled(&mut self.b[body], s, block);
     }
 
-    /// Largest |C| of any held row of the last evaluation (m or rad).
-    pub fn largest_error(&self) -> f64 {
-        self.joints.iter().flat_map(|j| &j.value[..j.hard]).fold(0.0, |worst, c| worst.max(c.abs()))
+    /// Counts the turns of couplings up to this state; once a step.
+    pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+        for coupling in &mut self.couplings {
+            for (gauge, _) in &mut coupling.terms {
+                gauge.count(bodies);
+            }
+        }
     }
 
-    /// Largest distance between the two points of any point constraint now, m.
+    /// J of one row as blocks of the bodies it touches (for tests and reports).
+    pub fn jacobian(&self, row: usize) -> Vec<(usize, Vec6)> {
+        for joint in self.joints.iter().filter(|joint| (joint.at..joint.at + joint.rows).contains(&row)) {
+            let k = row - joint.at;
+            let (a, b) = match (joint.arms, joint.block) {
+                (Some((r, s)), _) => {
+                    let e = DVec3::AXES[k];
+                    (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)))
+                }
+                (None, Some(block)) => (self.blocks[block].a[k], self.blocks[block].b[k]),
+                (None, None) => continue,
+            };
+            return [Some((joint.link.a, a)), joint.link.b.map(|body| (body, b))].into_iter().flatten().collect();
+        }
+        let rows = self.outside_rows();
+        self.couplings
+            .iter()
+            .find(|coupling| coupling.at == row)
+            .map_or(Vec::new(), |coupling| rows[coupling.outside].parts.clone())
+    }
+
+    /// Γ and share of one row.
+    pub fn softness(&self, row: usize) -> (f64, f64) {
+        for joint in self.joints.iter().filter(|joint| (joint.at..joint.at + joint.rows).contains(&row)) {
+            return joint.block.filter(|_| joint.arms.is_none()).map_or((0.0, 1.0), |block| {
+                (self.blocks[block].compliance[row - joint.at], self.blocks[block].share[row - joint.at])
+            });
+        }
+        let rows = self.outside_rows();
+        let coupling = self.couplings.iter().find(|coupling| coupling.at == row);
+        coupling.map_or((0.0, 1.0), |c| (rows[c.outside].compliance, rows[c.outside].share))
+    }
+
+    /// Rows that act now, as indices into `g` and `lambda`.
+    pub fn acting_rows(&self) -> Vec<usize> {
+        let mut rows: Vec<usize> = self.joints.iter().flat_map(|joint| joint.at..joint.at + joint.rows).collect();
+        rows.extend(self.couplings.iter().filter(|c| self.activity.share(c.constraint) > 0.0).map(|c| c.at));
+        rows
+    }
+
+    /// Rows found to repeat others at the last factorisation: (constraint, row's index).
+    pub fn redundant_rows(&self) -> Vec<(usize, usize)> {
+        let mut out = Vec::new();
+        let outside = |index: usize| match &self.dense {
+            Some(dense) => dense.is_redundant(index),
+            None => self.loops.is_redundant(index),
+        };
+        let mut child_of = vec![None; self.joints.len()];
+        for &body in self.tree.order() {
+            if let Some(joint) = self.tree.joint_of(body) {
+                child_of[joint] = Some(body);
+            }
+        }
+        for (index, joint) in self.joints.iter().enumerate() {
+            for k in 0..joint.rows {
+                let repeats = match (joint.outside, child_of[index]) {
+                    (Some(first), _) => outside(first + k),
+                    (None, Some(body)) => self.tree.redundant(body) >> k & 1 == 1,
+                    (None, None) => false,
+                };
+                if repeats {
+                    out.push((self.states[joint.at + k].constraint, joint.at + k));
+                }
+            }
+        }
+        for coupling in self.couplings.iter().filter(|coupling| outside(coupling.outside)) {
+            out.push((coupling.constraint, coupling.at));
+        }
+        out
+    }
+
+    /// Largest |C| of any held row of the last evaluation (m or rad).
+    pub fn largest_error(&self) -> f64 {
+        let joints = self.joints.iter().flat_map(|joint| &self.states[joint.at..joint.at + joint.hard]);
+        joints.fold(0.0, |worst, state| worst.max(state.value.abs()))
+    }
+
+    /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,
+    /// slips of couplings.
     pub fn largest_gap(&self, bodies: &[RigidBody]) -> f64 {
-        self.constraints.iter().fold(0.0, |worst: f64, constraint| worst.max(rows::gap(constraint, bodies)))
+        let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
+        let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
+        let mut worst: f64 = 0.0;
+        for (index, constraint) in self.constraints.iter().enumerate() {
+            if self.activity.share(index) < 1.0 {
+                continue;
+            }
+            worst = worst.max(match &constraint.kind {
+                ConstraintKind::PointToPoint { a, b } => scene.point(a).position.distance(scene.point(b).position),
+                ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
+                    plane::row(&scene, point, plane, *normal, offset).value.abs()
+                }
+                ConstraintKind::Orientation { .. } | ConstraintKind::Coupling { .. } => 0.0,
+            });
+        }
+        for coupling in self.couplings.iter().filter(|c| self.activity.share(c.constraint) == 1.0) {
+            let mut parts = self.outside_rows()[coupling.outside].parts.clone();
+            worst = worst.max(coupling::row(&scene, &coupling.terms, &mut parts).value.abs());
+        }
+        worst
     }
 
     /// The force that a joint's length rows carried in the last solve of forces, N.
     pub fn load(&self, joint: usize) -> f64 {
         let j = &self.joints[joint];
         let mut sum = 0.0;
-        for k in (0..j.hard).filter(|k| j.lengths >> k & 1 == 1) {
-            sum += self.lambda[joint][k] * self.lambda[joint][k];
+        for row in (j.at..j.at + j.hard).filter(|&row| self.states[row].length) {
+            sum += self.lambda[row] * self.lambda[row];
         }
         sum.sqrt()
     }
 
-    /// World arms from each joint's bodies to its first point constraint, for stiffness estimates, m.
-    pub fn arms(&self, joint: usize, bodies: &[RigidBody]) -> (DVec3, DVec3) {
-        let link = self.joints[joint].link;
-        for &index in &self.joints[joint].constraints {
-            if let super::ConstraintKind::PointToPoint { a, b } = &self.constraints[index].kind {
-                let (mine, other) = if a.body == Some(link.a) { (a, b) } else { (b, a) };
-                let arm = |anchor: &super::Anchor| anchor.body.map_or(DVec3::ZERO, |i| bodies[i].arm(anchor.point));
-                return (arm(mine), arm(other));
+    /// World arms from a joint's bodies to its point at the last evaluation, for stiffness estimates, m.
+    pub fn arms(&self, joint: usize) -> (DVec3, DVec3) {
+        let joint = &self.joints[joint];
+        if let Some(arms) = joint.arms {
+            return arms;
+        }
+        // The arm of a length row (e, r × e) is at least |r × e|: three rows of a point give r.
+        let Some(block) = joint.block else { return (DVec3::ZERO, DVec3::ZERO) };
+        let rows = &self.blocks[block];
+        let longest = |blocks: &[Vec6]| {
+            let mut best = DVec3::ZERO;
+            for k in (0..joint.hard).filter(|&k| self.states[joint.at + k].length) {
+                let arm = linear(&blocks[k]).cross(angular(&blocks[k]));
+                if arm.length_squared() > best.length_squared() {
+                    best = arm;
+                }
+            }
+            best
+        };
+        (longest(&rows.a), longest(&rows.b))
+    }
+
+    /// What each constraint carried in the last solve: (constraint, of its lengths, of its angles).
+    pub fn carried(&self, constraint: usize) -> (f64, f64) {
+        let (mut force, mut torque) = (0.0, 0.0);
+        let joints = self.joints.iter().filter(|joint| joint.constraints.contains(&constraint));
+        let rows = joints.flat_map(|joint| joint.at..joint.at + joint.hard);
+        let couplings = self.couplings.iter().filter(|c| c.constraint == constraint).map(|c| c.at);
+        for row in rows.chain(couplings).filter(|&row| self.states[row].constraint == constraint) {
+            let square = self.lambda[row] * self.lambda[row];
+            if self.states[row].length { force += square } else { torque += square }
+        }
+        (force.sqrt(), torque.sqrt())
+    }
+}
+
+impl RowState {
+    /// Takes over a row's numbers.
+    fn set(&mut self, row: &Row, constraint: usize) {
+        let gathers = self.gathers;
+        *self = Self { value: row.value, feed: row.feed, bias: row.bias, length: row.length, constraint, gathers };
+    }
+}
+
+impl Joint {
+    /// Fills this joint's rows for the scene.
+    fn evaluate(
+        &mut self,
+        scene: &Scene,
+        constraints: &[Constraint],
+        activity: &Activity,
+        blocks: &mut [JointRows],
+        states: &mut [RowState],
+    ) {
+        self.arms = None;
+        if let ([index], None) = (&self.constraints[..], self.outside)
+            && let ConstraintKind::PointToPoint { a, b } = &constraints[*index].kind
+            && activity.share(*index) == 1.0
+        {
+            let (p, q) = point::ends(scene, a, b);
+            let own = a.body == Some(self.link.a);
+            let (p, q) = if own { (p, q) } else { (q, p) };
+            let (c, bias) = (p.position - q.position, p.centripetal - q.centripetal);
+            for k in 0..3 {
+                let state = &mut states[self.at + k];
+                (state.value, state.feed, state.bias) = (c[k], 0.0, bias[k]);
+                (state.length, state.constraint) = (true, *index);
+            }
+            (self.rows, self.hard) = (3, 3);
+            self.arms = Some((p.arm, q.arm));
+            return;
+        }
+        let Some(block) = self.block else { return };
+        let rows = &mut blocks[block];
+        rows.rows = 0;
+        for i in 0..self.constraints.len() {
+            let index = self.constraints[i];
+            let share = activity.share(index);
+            if share <= 0.0 {
+                continue;
+            }
+            let constraint = &constraints[index];
+            let own = constraint.link().is_some_and(|(a, _)| a == Some(self.link.a));
+            let mut push = |row: Row| {
+                let k = rows.rows;
+                if k == HELD {
+                    // Six rows hold all there is to hold: more can only repeat.
+                    return;
+                }
+                (rows.a[k], rows.b[k]) = if own { (row.a, row.b) } else { (row.b, row.a) };
+                rows.compliance[k] = 0.0;
+                rows.share[k] = share;
+                states[self.at + k].set(&row, index);
+                rows.rows = k + 1;
+            };
+            match &constraint.kind {
+                ConstraintKind::PointToPoint { a, b } => point::rows(scene, a, b).into_iter().for_each(&mut push),
+                ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
+                    push(plane::row(scene, point, plane, *normal, offset));
+                }
+                ConstraintKind::Orientation { a, b, angle } => push(orientation::row(scene, a, b, angle)),
+                ConstraintKind::Coupling { .. } => {}
             }
         }
-        (DVec3::ZERO, DVec3::ZERO)
+        (self.rows, self.hard) = (rows.rows, rows.rows);
     }
+
+    /// Adds friction rows after the hard ones.
+    fn add_friction(
+        &mut self,
+        constraints: &[Constraint],
+        bodies: &[RigidBody],
+        load: f64,
+        h: f64,
+        blocks: &mut [JointRows],
+    ) {
+        let Some(block) = self.block else { return };
+        if !self.constraints.iter().any(|&index| constraints[index].friction.is_some()) {
+            return;
+        }
+        let rows = &mut blocks[block];
+        if let Some((r, s)) = self.arms.take() {
+            rows.rows = 3;
+            for (k, e) in DVec3::AXES.into_iter().enumerate() {
+                (rows.a[k], rows.b[k]) = (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)));
+                (rows.compliance[k], rows.share[k]) = (0.0, 1.0);
+            }
+        }
+        let spin = |body: Option<usize>| body.map_or(DVec3::ZERO, |b| bodies[b].angular_velocity);
+        let rate = (spin(Some(self.link.a)) - spin(self.link.b)).length();
+        for &index in &self.constraints {
+            let Some(pivot) = constraints[index].friction else { continue };
+            for row in friction::rows() {
+                let k = rows.rows;
+                if k == self.capacity {
+                    break;
+                }
+                (rows.a[k], rows.b[k]) = (row.a, row.b);
+                rows.compliance[k] = friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
+                rows.share[k] = 1.0;
+                rows.rows = k + 1;
+            }
+        }
+        self.rows = rows.rows;
+    }
+
+    /// Copies the rows to where the loops' (or the dense) solver reads them.
+    fn write_outside(&self, blocks: &[JointRows], outside: &mut [LoopRow]) {
+        let (Some(block), Some(first)) = (self.block, self.outside) else { return };
+        let rows = &blocks[block];
+        for (k, row) in outside[first..first + self.capacity].iter_mut().enumerate() {
+            row.active = k < rows.rows;
+            row.parts[0].1 = rows.a[k];
+            if let Some(second) = row.parts.get_mut(1) {
+                second.1 = rows.b[k];
+            }
+            (row.compliance, row.share) = (rows.compliance[k], rows.share[k]);
+        }
+    }
+}
+
+/// Groups constraints by the pair of bodies they connect; also how many numbers their rows need.
+fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
+    let mut joints: Vec<Joint> = Vec::new();
+    let mut of_pair: BTreeMap<(usize, Option<usize>), usize> = BTreeMap::new();
+    for (index, constraint) in constraints.iter().enumerate() {
+        let link = match constraint.link() {
+            Some((Some(a), b)) => Link { a, b },
+            Some((None, Some(b))) => Link { a: b, b: None },
+            _ => continue,
+        };
+        let turned = link.b.map(|b| (b, Some(link.a)));
+        let known = of_pair.get(&(link.a, link.b)).or_else(|| turned.and_then(|pair| of_pair.get(&pair)));
+        if let Some(&joint) = known {
+            joints[joint].constraints.push(index);
+        } else {
+            of_pair.insert((link.a, link.b), joints.len());
+            joints.push(Joint {
+                link,
+                constraints: vec![index],
+                at: 0,
+                capacity: 0,
+                rows: 0,
+                hard: 0,
+                arms: None,
+                block: None,
+                outside: None,
+            });
+        }
+    }
+    let mut at = 0;
+    for joint in &mut joints {
+        joint.at = at;
+        joint.capacity = capacity(joint, constraints);
+        at += joint.capacity;
+    }
+    (joints, at)
+}
+
+/// Most rows that a joint can have at once.
+fn capacity(joint: &Joint, constraints: &[Constraint]) -> usize {
+    let each = |&index: &usize| constraints[index].row_count() + 3 * usize::from(constraints[index].friction.is_some());
+    joint.constraints.iter().map(each).sum::<usize>().min(MAX_ROWS)
+}
+
+/// Is it a point at all times, and nothing more?
+fn is_only_point(constraint: &Constraint) -> bool {
+    matches!(constraint.kind, ConstraintKind::PointToPoint { .. })
+        && constraint.schedule.is_always()
+        && constraint.breaking.is_none()
+        && constraint.friction.is_none()
+}
+
+fn blank_row(at: usize, bodies: &[usize]) -> LoopRow {
+    let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
+    LoopRow { at, active: false, parts, compliance: 0.0, share: 1.0 }
 }

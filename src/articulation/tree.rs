@@ -20,14 +20,20 @@
 //! λ = h − X a_p                X = K⁻¹ J_p           A_p += J_pᵀ X        b_p += J_pᵀ h
 //! ```
 //!
-//! then roots first, a_c = A⁻¹ b_c + W λ. The factor (A⁻¹, W, K, X) depends on poses and masses only, so one factor
-//! serves accelerations, position and velocity projection, friction and impacts.
+//! (the parent feels J_pᵀ λ = J_pᵀ h − J_pᵀ X a_p). Then, roots first, a_c = A⁻¹ b_c + W λ. The factor
+//! depends on poses and masses only, so one factor serves accelerations, position and velocity projection, friction
+//! and impacts. A body that hangs by one point only goes through `ball.rs`, the same elimination in 3×3 blocks.
+//!
+//! A driven body's a is given: it is ground that moves. A row of share s < 1 (`schedule.rs`) has its K divided by s.
 //!
 //! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
 
-use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, RowVec, Vec6, add_scaled, dot, inverse, mul, pseudo_inverse};
+use super::ball::Ball;
+use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, Vec6, add_scaled, dot, inverse, mul, pseudo_inverse};
+use super::spatial::Articulated;
+use crate::math::DVec3;
 
-/// Rows of one joint between two bodies, at one configuration.
+/// Rows of one joint at one configuration, for the general elimination.
 #[derive(Clone, Debug)]
 pub struct JointRows {
     /// Used rows, at most [`MAX_ROWS`].
@@ -37,13 +43,30 @@ pub struct JointRows {
     /// Blocks that multiply the coordinates of the second body; unused where it is the world.
     pub b: RowBlock,
     /// Γ: compliance of each row, 0 is hard.
-    pub compliance: RowVec,
+    pub compliance: [f64; MAX_ROWS],
+    /// Share of each row, 1 is whole.
+    pub share: [f64; MAX_ROWS],
 }
 
 impl Default for JointRows {
     fn default() -> Self {
-        Self { rows: 0, a: [[0.0; 6]; MAX_ROWS], b: [[0.0; 6]; MAX_ROWS], compliance: [0.0; MAX_ROWS] }
+        Self {
+            rows: 0,
+            a: [[0.0; 6]; MAX_ROWS],
+            b: [[0.0; 6]; MAX_ROWS],
+            compliance: [0.0; MAX_ROWS],
+            share: [1.0; MAX_ROWS],
+        }
     }
+}
+
+/// A joint as the tree needs it now.
+#[derive(Clone, Copy, Debug)]
+pub enum Form<'a> {
+    /// One point, hard: arms from the first and the second body's centre, world axes, m.
+    Point(DVec3, DVec3),
+    /// Any rows.
+    Rows(&'a JointRows),
 }
 
 /// Which bodies a joint connects: the first is always a body, the second may be the world.
@@ -55,34 +78,31 @@ pub struct Link {
     pub b: Option<usize>,
 }
 
-impl Link {
-    /// The body at the other end, if `body` is at one.
-    fn other(&self, body: usize) -> Option<usize> {
-        match self.b {
-            Some(b) if self.a == body => Some(b),
-            Some(b) if b == body => Some(self.a),
-            _ => None,
-        }
-    }
-}
-
 /// How a body hangs in the tree.
 #[derive(Clone, Copy, Debug)]
 struct Hang {
     /// Parent body; `None`: the world, or nothing.
     parent: Option<usize>,
-    /// Joint to the parent; `None` for the root of a piece that is not joined to the world.
+    /// Joint to the parent; `None` for the root of a piece that is not joined to the ground.
     joint: Option<usize>,
+    /// Where the joint's numbers begin in `g` and `lambda`.
+    at: usize,
     /// Is this body the joint's first one?
     first: bool,
+    /// Was the joint a point at the last factorisation?
+    ball: bool,
 }
 
-/// What is kept of a joint's elimination, in the letters of the file's head; `k` holds K⁻¹.
+/// What is kept of a body's general elimination, in the letters of the file's head; `k` holds K⁻¹.
 #[derive(Clone, Debug)]
-struct JointFactor {
+struct General {
+    rows: usize,
+    inverse: Mat6,
+    jp: RowBlock,
     w: RowBlock,
     k: RowSquare,
     x: RowBlock,
+    redundant: u32,
 }
 
 /// Elimination order and factor of an articulated figure.
@@ -91,133 +111,264 @@ pub struct Tree {
     /// Roots first; reversed it is the elimination order.
     order: Vec<usize>,
     hang: Vec<Hang>,
+    driven: Vec<bool>,
     loops: Vec<usize>,
-    articulated: Vec<Mat6>,
-    inverse: Vec<Mat6>,
-    joints: Vec<JointFactor>,
-    redundant: Vec<u32>,
+    articulated: Vec<Articulated>,
+    balls: Vec<Ball>,
+    /// Per body, where its joint is ever anything but a point.
+    general: Vec<Option<Box<General>>>,
 }
 
 impl Tree {
-    /// The elimination order of `bodies` bodies joined by `links`: breadth first from the world, then each piece that
-    /// floats from its first body. Links that would close a loop are left out, see [`Tree::loops`].
-    pub fn new(bodies: usize, links: &[Link]) -> Self {
+    /// The elimination order of bodies joined by `links`: breadth first from the ground (the world and what is
+    /// driven), then each piece that floats from its first body. `at` is where each link's numbers begin, `points`
+    /// whether it is never anything but a point. Links that would close a loop are left out, see [`Tree::loops`].
+    pub fn new(driven: &[bool], links: &[Link], at: &[usize], points: &[bool]) -> Self {
+        let bodies = driven.len();
+        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies];
+        for (joint, link) in links.iter().enumerate() {
+            beside[link.a].push(joint);
+            if let Some(b) = link.b {
+                beside[b].push(joint);
+            }
+        }
+        let root = |joint| Hang { parent: None, joint, at: joint.map_or(0, |j| at[j]), first: true, ball: false };
         let mut hang: Vec<Option<Hang>> = vec![None; bodies];
         let mut in_tree = vec![false; links.len()];
         let mut order = Vec::with_capacity(bodies);
+        for body in (0..bodies).filter(|&body| driven[body]) {
+            hang[body] = Some(root(None));
+            order.push(body);
+        }
         for (joint, link) in links.iter().enumerate() {
             if link.b.is_none() && hang[link.a].is_none() {
-                hang[link.a] = Some(Hang { parent: None, joint: Some(joint), first: true });
+                hang[link.a] = Some(root(Some(joint)));
                 in_tree[joint] = true;
                 order.push(link.a);
             }
         }
         let mut head = 0;
-        for root in 0..=bodies {
+        for piece in 0..=bodies {
             while head < order.len() {
                 let parent = order[head];
                 head += 1;
-                for (joint, link) in links.iter().enumerate() {
-                    let Some(child) = link.other(parent).filter(|&child| hang[child].is_none()) else { continue };
-                    hang[child] = Some(Hang { parent: Some(parent), joint: Some(joint), first: link.a == child });
+                for &joint in &beside[parent] {
+                    let link = links[joint];
+                    let child = if link.a == parent { link.b } else { Some(link.a) };
+                    let Some(child) = child.filter(|&child| hang[child].is_none()) else { continue };
+                    let first = link.a == child;
+                    hang[child] =
+                        Some(Hang { parent: Some(parent), joint: Some(joint), at: at[joint], first, ball: false });
                     in_tree[joint] = true;
                     order.push(child);
                 }
             }
-            if root < bodies && hang[root].is_none() {
-                hang[root] = Some(Hang { parent: None, joint: None, first: true });
-                order.push(root);
+            if piece < bodies && hang[piece].is_none() {
+                hang[piece] = Some(root(None));
+                order.push(piece);
             }
         }
-        let blank = JointFactor { w: [[0.0; 6]; MAX_ROWS], k: [[0.0; MAX_ROWS]; MAX_ROWS], x: [[0.0; 6]; MAX_ROWS] };
+        let hang: Vec<Hang> = hang.into_iter().flatten().collect();
+        let blank = || {
+            Box::new(General {
+                rows: 0,
+                inverse: [[0.0; 6]; 6],
+                jp: [[0.0; 6]; MAX_ROWS],
+                w: [[0.0; 6]; MAX_ROWS],
+                k: [[0.0; MAX_ROWS]; MAX_ROWS],
+                x: [[0.0; 6]; MAX_ROWS],
+                redundant: 0,
+            })
+        };
+        let always_point = |hang: &Hang| hang.joint.is_some_and(|joint| points[joint]);
         Self {
+            general: hang.iter().map(|hang| (!always_point(hang)).then(blank)).collect(),
             order,
-            hang: hang.into_iter().flatten().collect(),
+            hang,
+            driven: driven.to_vec(),
             loops: (0..links.len()).filter(|&joint| !in_tree[joint]).collect(),
-            articulated: vec![[[0.0; 6]; 6]; bodies],
-            inverse: vec![[[0.0; 6]; 6]; bodies],
-            joints: vec![blank; links.len()],
-            redundant: vec![0; links.len()],
+            articulated: vec![Articulated::ZERO; bodies],
+            balls: vec![Ball::default(); bodies],
         }
     }
 
-    /// Joints that close a loop and so are not in the tree.
+    /// Links that close a loop and so are not in the tree.
     pub fn loops(&self) -> &[usize] {
         &self.loops
     }
 
-    /// Rows that repeat others of their joint, as a bit set per joint: they carry no multiplier.
-    pub fn redundant(&self) -> &[u32] {
-        &self.redundant
+    /// Rows of a body's joint that repeat others at the last factorisation, as a bit set: they carry no multiplier.
+    pub fn redundant(&self, body: usize) -> u32 {
+        self.general[body].as_ref().filter(|_| !self.hang[body].ball).map_or(0, |f| f.redundant)
     }
 
-    /// Factors the system for these masses and rows.
-    pub fn factor(&mut self, masses: &[Mat6], rows: &[JointRows]) {
-        self.articulated.copy_from_slice(masses);
-        for &body in self.order.iter().rev() {
-            let hang = self.hang[body];
-            self.inverse[body] = inverse(&self.articulated[body]);
-            let Some(joint) = hang.joint else { continue };
-            let (r, f) = (&rows[joint], &mut self.joints[joint]);
-            let (jc, jp) = if hang.first { (&r.a, &r.b) } else { (&r.b, &r.a) };
-            let rows = r.rows.min(MAX_ROWS);
-            for k in 0..rows {
-                f.w[k] = mul(&self.inverse[body], &jc[k]);
-                for l in 0..=k {
-                    f.k[k][l] = dot(&jc[k], &f.w[l]);
+    /// Joint by which a body hangs.
+    pub fn joint_of(&self, body: usize) -> Option<usize> {
+        self.hang[body].joint
+    }
+
+    /// Bodies on the ways from these to their roots, roots first.
+    pub fn paths(&self, from: impl Iterator<Item = usize>) -> Vec<usize> {
+        let mut on = vec![false; self.hang.len()];
+        for mut body in from {
+            while !on[body] {
+                on[body] = true;
+                match self.hang[body].parent {
+                    Some(parent) => body = parent,
+                    None => break,
                 }
-                f.k[k][k] += r.compliance[k];
             }
-            self.redundant[joint] = pseudo_inverse(&mut f.k, rows);
-            let Some(parent) = hang.parent else { continue };
-            let a_parent = &mut self.articulated[parent];
-            for k in 0..rows {
-                f.x[k] = [0.0; 6];
-                for l in 0..rows {
-                    add_scaled(&mut f.x[k], f.k[k][l], &jp[l]);
+        }
+        self.order.iter().copied().filter(|&body| on[body]).collect()
+    }
+
+    /// Factors the system for these masses and the joints' present forms.
+    pub fn factor<'a>(&mut self, masses: &[Articulated], form: impl Fn(usize) -> Form<'a>) {
+        self.articulated.copy_from_slice(masses);
+        for index in (0..self.order.len()).rev() {
+            let body = self.order[index];
+            if self.driven[body] {
+                continue;
+            }
+            let hang = &mut self.hang[body];
+            let shape = hang.joint.map(&form);
+            if let Some(Form::Point(a, b)) = shape {
+                hang.ball = true;
+                let ball = &mut self.balls[body];
+                (ball.arm, ball.parent_arm) = if hang.first { (a, b) } else { (b, a) };
+                ball.factor(&self.articulated[body]);
+                if let Some(parent) = hang.parent {
+                    self.balls[body].load(&mut self.articulated[parent]);
                 }
-                for (row, &j) in a_parent.iter_mut().zip(&jp[k]) {
-                    add_scaled(row, j, &f.x[k]);
+                continue;
+            }
+            hang.ball = false;
+            let (first, parent) = (hang.first, hang.parent);
+            let Some(f) = &mut self.general[body] else { continue };
+            f.rows = 0;
+            f.inverse = inverse(&self.articulated[body].matrix());
+            let Some(Form::Rows(rows)) = shape else { continue };
+            f.eliminate(rows, first);
+            if let Some(parent) = parent {
+                for k in 0..f.rows {
+                    self.articulated[parent].add_outer(&f.jp[k], &f.x[k]);
                 }
             }
         }
     }
 
-    /// Solves for the bodies' `a` and the joints' `lambda`; `b` is used up.
-    pub fn solve(&self, rows: &[JointRows], b: &mut [Vec6], g: &[RowVec], a: &mut [Vec6], lambda: &mut [RowVec]) {
+    /// Solves for the bodies' `a` and the joints' `lambda`; `b` is used up. The `a` of driven bodies must be given.
+    pub fn solve(&self, b: &mut [Vec6], g: &[f64], a: &mut [Vec6], lambda: &mut [f64]) {
         for &body in self.order.iter().rev() {
-            let hang = self.hang[body];
-            let Some(joint) = hang.joint else { continue };
-            let (r, f) = (&rows[joint], &self.joints[joint]);
-            let rows = r.rows.min(MAX_ROWS);
-            let mut wanted = g[joint];
-            for k in 0..rows {
-                wanted[k] -= dot(&f.w[k], &b[body]);
-            }
-            let h = &mut lambda[joint];
-            for k in 0..rows {
-                h[k] = (0..rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
-            }
-            if let Some(parent) = hang.parent {
-                let jp = if hang.first { &r.b } else { &r.a };
-                for k in 0..rows {
-                    add_scaled(&mut b[parent], h[k], &jp[k]);
-                }
-            }
+            self.up(body, b, Some(g), lambda);
         }
         for &body in &self.order {
-            let hang = self.hang[body];
-            let mut out = mul(&self.inverse[body], &b[body]);
-            if let Some(joint) = hang.joint {
-                let (r, f) = (&rows[joint], &self.joints[joint]);
-                for k in 0..r.rows.min(MAX_ROWS) {
-                    if let Some(parent) = hang.parent {
-                        lambda[joint][k] -= dot(&f.x[k], &a[parent]);
-                    }
-                    add_scaled(&mut out, lambda[joint][k], &f.w[k]);
-                }
-            }
-            a[body] = out;
+            self.down(body, b, Some(g), lambda, a);
         }
     }
+
+    /// The way up for one body: h of its joint into `lambda`, its share of `b` to the parent. Without `g`, g is 0.
+    #[inline]
+    pub fn up(&self, body: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
+        let hang = &self.hang[body];
+        if hang.ball {
+            let ball = &self.balls[body];
+            let wanted = g.map_or(DVec3::ZERO, |g| hang.sign() * triple(g, hang.at));
+            let w = ball.up(&b[body], wanted);
+            put(lambda, hang.at, w);
+            if let Some(parent) = hang.parent {
+                let wrench = ball.wrench(w);
+                for k in 0..6 {
+                    b[parent][k] += wrench[k];
+                }
+            }
+            return;
+        }
+        let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
+        let mut wanted = [0.0; MAX_ROWS];
+        for k in 0..f.rows {
+            wanted[k] = g.map_or(0.0, |g| g[hang.at + k]) - dot(&f.w[k], &b[body]);
+        }
+        for k in 0..f.rows {
+            let h = (0..f.rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
+            lambda[hang.at + k] = h;
+            if let Some(parent) = hang.parent {
+                add_scaled(&mut b[parent], h, &f.jp[k]);
+            }
+        }
+    }
+
+    /// The way down for one body, after its parent.
+    #[inline]
+    pub fn down(&self, body: usize, b: &[Vec6], g: Option<&[f64]>, lambda: &mut [f64], a: &mut [Vec6]) {
+        let hang = &self.hang[body];
+        if hang.ball {
+            let wanted = g.map_or(DVec3::ZERO, |g| hang.sign() * triple(g, hang.at));
+            let parent = hang.parent.map(|parent| a[parent]);
+            let (own, l) = self.balls[body].down(&b[body], wanted, triple(lambda, hang.at), parent.as_ref());
+            a[body] = own;
+            put(lambda, hang.at, hang.sign() * l);
+            return;
+        }
+        let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
+        let mut out = mul(&f.inverse, &b[body]);
+        for k in 0..f.rows {
+            let slot = &mut lambda[hang.at + k];
+            if let Some(parent) = hang.parent {
+                *slot -= dot(&f.x[k], &a[parent]);
+            }
+            add_scaled(&mut out, *slot, &f.w[k]);
+        }
+        a[body] = out;
+    }
+
+    /// All bodies, roots first.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+}
+
+impl Hang {
+    /// Rows are written for the joint's first body: their sign as seen from this one.
+    #[inline]
+    fn sign(&self) -> f64 {
+        if self.first { 1.0 } else { -1.0 }
+    }
+}
+
+impl General {
+    fn eliminate(&mut self, r: &JointRows, first: bool) {
+        let (jc, jp) = if first { (&r.a, &r.b) } else { (&r.b, &r.a) };
+        let rows = r.rows.min(MAX_ROWS);
+        self.rows = rows;
+        for k in 0..rows {
+            self.jp[k] = jp[k];
+            self.w[k] = mul(&self.inverse, &jc[k]);
+            for l in 0..=k {
+                self.k[k][l] = dot(&jc[k], &self.w[l]);
+            }
+        }
+        for k in 0..rows {
+            self.k[k][k] = self.k[k][k] / r.share[k] + r.compliance[k];
+        }
+        self.redundant = pseudo_inverse(&mut self.k, rows);
+        for k in 0..rows {
+            self.x[k] = [0.0; 6];
+            for l in 0..rows {
+                add_scaled(&mut self.x[k], self.k[k][l], &jp[l]);
+            }
+        }
+    }
+}
+
+#[inline]
+fn triple(v: &[f64], at: usize) -> DVec3 {
+    DVec3::new(v[at], v[at + 1], v[at + 2])
+}
+
+#[inline]
+fn put(v: &mut [f64], at: usize, x: DVec3) {
+    v[at] = x.x;
+    v[at + 1] = x.y;
+    v[at + 2] = x.z;
 }

@@ -1,15 +1,19 @@
-//! Where bodies touch: convex colliders, the pairs that can meet, and the time at which they do.
+//! Where bodies touch: convex colliders, the pairs that can meet, when they do, and at which points.
 
 mod advance;
+mod broad;
 mod manifold;
 mod pairs;
 mod proximity;
+pub mod reach;
 mod shape;
 
 pub use advance::{Sweep, TOUCH, TimeOfImpact, time_of_impact};
+pub use broad::BroadPhase;
 pub use manifold::Corners;
-pub use pairs::{Pair, pairs};
+pub use pairs::{Excluded, Exclusion, Pair, Pairs, Reason, pairs};
 pub use proximity::proximity;
+pub use reach::Reach;
 pub use shape::{Collider, Shape};
 
 use crate::math::DVec3;

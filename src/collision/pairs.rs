@@ -1,6 +1,9 @@
-//! Which colliders can meet at all, in a stable order.
+//! Which colliders can meet at all, in a stable order, and why the others cannot.
 
-use super::Collider;
+use std::fmt;
+
+use super::reach::Reach;
+use super::shape::Collider;
 
 /// Two colliders of different bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,19 +14,81 @@ pub struct Pair {
     pub b: usize,
 }
 
-/// All pairs of colliders whose bodies differ, move, and are not excluded (joined bodies are). Pairs of the same two
-/// bodies stand together, so that whole bodies can be told apart before their colliders are.
-pub fn pairs(colliders: &[Collider], excluded: &[(Option<usize>, Option<usize>)]) -> Vec<Pair> {
-    let mut out = Vec::new();
+/// Two bodies that never collide; `None` is the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Exclusion {
+    /// The bodies.
+    pub bodies: (Option<usize>, Option<usize>),
+    /// Who says so.
+    pub why: Excluded,
+}
+
+/// Who says that two bodies never collide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Excluded {
+    /// A constraint joins them.
+    Joined,
+    /// The exhibit's sidecar.
+    ByCurator,
+}
+
+/// Why two colliders are not a pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// They belong to one body.
+    SameBody,
+    /// Neither moves.
+    BothStill,
+    /// Their bodies are excluded.
+    Excluded(Excluded),
+    /// Their joints keep them at least so far apart, m.
+    Unreachable(f64),
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::SameBody => write!(f, "parts of one body"),
+            Self::BothStill => write!(f, "both stand still"),
+            Self::Excluded(Excluded::Joined) => write!(f, "joined by a constraint"),
+            Self::Excluded(Excluded::ByCurator) => write!(f, "excluded by the curator"),
+            Self::Unreachable(apart) => write!(f, "out of reach by {:.1} mm", apart * 1e3),
+        }
+    }
+}
+
+/// All pairs of colliders.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pairs {
+    /// Those that may meet. Pairs of the same two bodies stand together.
+    pub meet: Vec<Pair>,
+    /// The others (the first index is the lesser), and why they cannot.
+    pub left_out: Vec<(Pair, Reason)>,
+}
+
+/// Sorts all pairs of colliders into those that may meet and those that cannot.
+pub fn pairs(colliders: &[Collider], excluded: &[Exclusion], reach: &Reach) -> Pairs {
+    let mut out = Pairs::default();
     for i in 0..colliders.len() {
         for j in i + 1..colliders.len() {
             let (x, y) = (colliders[i].body, colliders[j].body);
-            if x == y || excluded.contains(&(x, y)) || excluded.contains(&(y, x)) {
-                continue;
+            let between = |e: &&Exclusion| e.bodies == (x, y) || e.bodies == (y, x);
+            let reason = if x.is_none() && y.is_none() {
+                Some(Reason::BothStill)
+            } else if x == y {
+                Some(Reason::SameBody)
+            } else if let Some(exclusion) = excluded.iter().find(between) {
+                Some(Reason::Excluded(exclusion.why))
+            } else {
+                let apart = reach.clearance(i, j);
+                (apart > 0.0).then_some(Reason::Unreachable(apart))
+            };
+            match reason {
+                Some(reason) => out.left_out.push((Pair { a: i, b: j }, reason)),
+                None => out.meet.push(if x.is_some() { Pair { a: i, b: j } } else { Pair { a: j, b: i } }),
             }
-            out.push(if x.is_some() { Pair { a: i, b: j } } else { Pair { a: j, b: i } });
         }
     }
-    out.sort_by_key(|pair: &Pair| (colliders[pair.a].body, colliders[pair.b].body));
+    out.meet.sort_by_key(|pair: &Pair| (colliders[pair.a].body, colliders[pair.b].body));
     out
 }

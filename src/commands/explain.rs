@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{Failure, Outcome};
+use crate::collision::{Collider, Reason};
 use crate::exhibit::diagnostic::{near, quoted};
 use crate::exhibit::{self, Exhibit, Origin};
 
@@ -48,6 +49,7 @@ pub fn explain(exhibit: &Exhibit) -> String {
     for wire in &exhibit.wires {
         wire_line(&mut out, exhibit, wire);
     }
+    pair_lines(&mut out, exhibit, |_| true);
     out
 }
 
@@ -67,7 +69,34 @@ fn explain_body(exhibit: &Exhibit, body: usize) -> String {
     for wire in exhibit.wires.iter().filter(|wire| wire.body == Some(body)) {
         wire_line(&mut out, exhibit, wire);
     }
+    pair_lines(&mut out, exhibit, |collider| collider.body == Some(body));
     out
+}
+
+/// Which colliders never meet one of the chosen ones, and why. Parts of one body and what stands still go without
+/// saying.
+fn pair_lines(out: &mut String, exhibit: &Exhibit, chosen: impl Fn(&Collider) -> bool) {
+    let pairs = exhibit.pairs();
+    let colliders = |a: usize, b: usize| (&exhibit.colliders[a], &exhibit.colliders[b]);
+    let of = |(a, b): (&Collider, &Collider)| chosen(a) || chosen(b);
+    let meet = pairs.meet.iter().filter(|pair| of(colliders(pair.a, pair.b))).count();
+    let mut left_out: Vec<(String, usize)> = Vec::new();
+    for (pair, reason) in &pairs.left_out {
+        let (a, b) = colliders(pair.a, pair.b);
+        if !of((a, b)) || matches!(reason, Reason::SameBody | Reason::BothStill) {
+            continue;
+        }
+        let line = format!("{} – {}: {reason}", a.node, b.node);
+        match left_out.iter_mut().find(|(known, _)| *known == line) {
+            Some((_, count)) => *count += 1,
+            None => left_out.push((line, 1)),
+        }
+    }
+    let _ = writeln!(out, "\npairs\n  {meet} can meet");
+    for (line, count) in left_out {
+        let times = if count > 1 { format!(" ({count} pairs)") } else { String::new() };
+        let _ = writeln!(out, "  {line}{times}");
+    }
 }
 
 fn table<'a>(out: &mut String, origins: impl Iterator<Item = &'a Origin>) {

@@ -1,9 +1,17 @@
 //! Forces on the bodies: gravity, springs, damping, the gyroscopic torque, and what is handed in from outside.
+//!
+//! ```text
+//! body     f = m g − c m v            τ = −ω × I ω − c' I ω
+//! spring   F = k (l − l₀) + c l̇       along the line of its two points, or as a torque about the axis of a turn
+//! ```
 
-use crate::articulation::block::{Vec6, vec6};
-use crate::articulation::{Anchor, Spring, SpringKind};
+use crate::articulation::block::{Vec6, add_scaled, vec6};
+use crate::articulation::rows::Scene;
+use crate::articulation::rows::coupling::Gauge;
+use crate::articulation::spatial::{Sym3, matrix};
+use crate::articulation::{Activity, Anchor, Spring, SpringKind};
 use crate::bodies::RigidBody;
-use crate::math::DVec3;
+use crate::math::{DMat3, DVec3};
 
 /// Damping rates of a body, 1/s: force −c m v, torque −c I ω.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,63 +22,148 @@ pub struct Damping {
     pub angular: f64,
 }
 
-/// Sum of all forces on each body into `b`: linear part N, angular part N m about the centre of mass.
-pub fn collect(
-    bodies: &[RigidBody],
-    gravity: DVec3,
-    damping: &[Damping],
-    springs: &[Spring],
-    external: &[Vec6],
-    b: &mut [Vec6],
-) {
-    for (index, body) in bodies.iter().enumerate() {
-        let momentum = body.inertia_world() * body.angular_velocity;
-        let force = body.properties.mass * (gravity - damping[index].linear * body.velocity);
-        let torque = -body.angular_velocity.cross(momentum) - damping[index].angular * momentum;
-        b[index] = vec6(force, torque);
-        for k in 0..6 {
-            b[index][k] += external[index][k];
+/// Gravity, gyroscopic torque, damping and what comes from outside, on one body.
+#[inline]
+pub fn on_body(body: &RigidBody, inertia: &Sym3, gravity: DVec3, damping: Damping, external: &Vec6) -> Vec6 {
+    let momentum = inertia.mul(body.angular_velocity);
+    let force = body.properties.mass * (gravity - damping.linear * body.velocity);
+    let torque = -body.angular_velocity.cross(momentum) - damping.angular * momentum;
+    let mut b = vec6(force, torque);
+    add_scaled(&mut b, 1.0, external);
+    b
+}
+
+/// All springs of a figure.
+#[derive(Clone, Debug)]
+pub struct Springs {
+    springs: Vec<Spring>,
+    /// What each measures, for the angular ones.
+    gauges: Vec<Option<Gauge>>,
+    /// Which act now.
+    pub activity: Activity,
+    frames: Vec<DMat3>,
+}
+
+/// Where a spring is now: its length or angle, the rate of that, and the wrenches of a unit of force on its ends.
+struct Stretch {
+    value: f64,
+    rate: f64,
+    ends: [(Option<usize>, Vec6); 2],
+}
+
+impl Springs {
+    /// Springs of bodies at their start.
+    pub fn new(springs: &[Spring], bodies: &[RigidBody]) -> Self {
+        let gauge = |spring: &Spring| match &spring.kind {
+            SpringKind::Linear { .. } => None,
+            SpringKind::Angular { measure } => Some(Gauge::new(*measure, bodies)),
+        };
+        Self {
+            gauges: springs.iter().map(gauge).collect(),
+            activity: Activity::of_springs(springs),
+            springs: springs.to_vec(),
+            frames: vec![DMat3::IDENTITY; if springs.is_empty() { 0 } else { bodies.len() }],
         }
     }
-    for spring in springs {
-        let SpringKind::Linear { a, b: other } = &spring.kind else { continue };
-        let ((pa, va), (pb, vb)) = (end(a, bodies), end(other, bodies));
-        let (length, Some(along)) = ((pb - pa).length(), (pb - pa).try_normalize()) else { continue };
-        let pull = spring.stiffness.at(0.0).value * (length - spring.rest.at(0.0).value)
-            + spring.damping.at(0.0).value * (vb - va).dot(along);
-        push(a, pa, pull * along, bodies, b);
-        push(other, pb, -pull * along, bodies, b);
-    }
-}
 
-/// Kinetic energy, potential energy in gravity (zero at the world's origin) and in springs, J.
-pub fn energy(bodies: &[RigidBody], gravity: DVec3, springs: &[Spring]) -> f64 {
-    let moving: f64 = bodies.iter().map(|b| b.kinetic_energy() - b.properties.mass * gravity.dot(b.position)).sum();
-    let stretched: f64 = springs
-        .iter()
-        .map(|s| {
-            let SpringKind::Linear { a, b } = &s.kind else { return 0.0 };
-            let stretch = (end(b, bodies).0 - end(a, bodies).0).length() - s.rest.at(0.0).value;
-            0.5 * s.stiffness.at(0.0).value * stretch * stretch
-        })
-        .sum();
-    moving + stretched
-}
-
-fn end(anchor: &Anchor, bodies: &[RigidBody]) -> (DVec3, DVec3) {
-    match anchor.body {
-        Some(index) => {
-            let p = bodies[index].position + bodies[index].arm(anchor.point);
-            (p, bodies[index].velocity_at(p))
+    /// Adds their forces at the time `t` to `b`.
+    pub fn push(&mut self, bodies: &[RigidBody], t: f64, b: &mut [Vec6]) {
+        self.look(bodies);
+        for index in 0..self.springs.len() {
+            let (force, stretch) = self.force(index, bodies, t);
+            for (body, wrench) in &stretch.ends {
+                if let Some(body) = body {
+                    add_scaled(&mut b[*body], force, wrench);
+                }
+            }
         }
-        None => (anchor.point, DVec3::ZERO),
+    }
+
+    /// Breaks what is overloaded at the time `t`.
+    pub fn break_overloaded(&mut self, bodies: &[RigidBody], t: f64) {
+        if self.activity.fragile().is_empty() {
+            return;
+        }
+        self.look(bodies);
+        for k in 0..self.activity.fragile().len() {
+            let index = self.activity.fragile()[k];
+            let (force, _) = self.force(index, bodies, t);
+            let load = match self.springs[index].kind {
+                SpringKind::Linear { .. } => (force.abs(), 0.0),
+                SpringKind::Angular { .. } => (0.0, force.abs()),
+            };
+            if self.activity.overloaded(index, load, false) {
+                self.activity.break_at(index, t);
+            }
+        }
+    }
+
+    /// Counts turns up to this state; once a step.
+    pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+        self.gauges.iter_mut().flatten().for_each(|gauge| gauge.count(bodies));
+    }
+
+    /// Energy stored at the time `t`, J.
+    pub fn energy(&self, bodies: &[RigidBody], t: f64) -> f64 {
+        let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
+        (0..self.springs.len())
+            .map(|index| {
+                let spring = &self.springs[index];
+                let stretch = self.stretch(index, bodies, &frames).value - spring.rest.at(t).value;
+                0.5 * self.activity.share(index) * spring.stiffness.at(t).value * stretch * stretch
+            })
+            .sum()
+    }
+
+    fn look(&mut self, bodies: &[RigidBody]) {
+        for (frame, body) in self.frames.iter_mut().zip(bodies) {
+            *frame = matrix(body.rotation);
+        }
+    }
+
+    /// Force (N) or torque (N m) that shortens the spring.
+    fn force(&self, index: usize, bodies: &[RigidBody], t: f64) -> (f64, Stretch) {
+        let (spring, stretch) = (&self.springs[index], self.stretch(index, bodies, &self.frames));
+        let rest = spring.rest.at(t);
+        let pull = spring.stiffness.at(t).value * (stretch.value - rest.value)
+            + spring.damping.at(t).value * (stretch.rate - rest.rate);
+        (self.activity.share(index) * pull, stretch)
+    }
+
+    fn stretch(&self, index: usize, bodies: &[RigidBody], frames: &[DMat3]) -> Stretch {
+        let scene = Scene { bodies, frames, time: 0.0 };
+        match (&self.springs[index].kind, &self.gauges[index]) {
+            (SpringKind::Linear { a, b }, _) => {
+                let (p, q) = (scene.point(a), scene.point(b));
+                let way = q.position - p.position;
+                let along = way.try_normalize().unwrap_or(DVec3::ZERO);
+                let wrench = |anchor: &Anchor, arm: DVec3, e: DVec3| (anchor.body, vec6(e, arm.cross(e)));
+                Stretch {
+                    value: way.length(),
+                    rate: (q.velocity - p.velocity).dot(along),
+                    ends: [wrench(a, p.arm, along), wrench(b, q.arm, -along)],
+                }
+            }
+            (SpringKind::Angular { .. }, Some(gauge)) => {
+                let reading = gauge.read(&scene);
+                let (on, against) = gauge.bodies();
+                let rate = |body: Option<usize>, block: &Vec6| {
+                    body.map_or(0.0, |i| {
+                        crate::articulation::block::dot(block, &vec6(bodies[i].velocity, bodies[i].angular_velocity))
+                    })
+                };
+                Stretch {
+                    value: reading.total(),
+                    rate: rate(on, &reading.on) + rate(against, &reading.against),
+                    ends: [(on, reading.on.map(|x| -x)), (against, reading.against.map(|x| -x))],
+                }
+            }
+            (SpringKind::Angular { .. }, None) => Stretch { value: 0.0, rate: 0.0, ends: [(None, [0.0; 6]); 2] },
+        }
     }
 }
 
-fn push(anchor: &Anchor, at: DVec3, force: DVec3, bodies: &[RigidBody], b: &mut [Vec6]) {
-    let Some(index) = anchor.body else { return };
-    let wrench = vec6(force, (at - bodies[index].position).cross(force));
-    for k in 0..6 {
-        b[index][k] += wrench[k];
-    }
+/// Kinetic energy, and potential energy in gravity (zero at the world's origin), J.
+pub fn energy(bodies: &[RigidBody], gravity: DVec3) -> f64 {
+    bodies.iter().map(|b| b.kinetic_energy() - b.properties.mass * gravity.dot(b.position)).sum()
 }

@@ -21,19 +21,21 @@
 //! Along a straight piece of the path u is linear in P_z and the work quadratic, so the ends of the piece (slip stops,
 //! compression ends, restitution ends) are roots in closed form. Sticking and leaving are straight to the end; sliding
 //! is straight where K keeps its direction (no friction, central hits, plane motion). Else the slip turns, and its
-//! path is followed by chords that turn by [`TURN`] at most, each taking the slip's direction in its middle: friction
-//! then never does positive work, and the cone is convex, so energy and cone hold for the chords as for the path.
+//! path is followed by chords that turn little, each taking the slip's direction in its middle: friction then never
+//! does positive work, and the cone is convex, so energy and cone hold for the chords as for the path.
 
 use crate::math::{DMat3, DVec2, DVec3};
 
-/// Turn of the slip along one chord, rad.
-const TURN: f64 = 0.1;
+/// Turn of the slip along half a chord, rad.
+const TURN: f64 = 0.05;
+/// Halvings of a chord until it turns by no more, and of its direction's uncertainty.
+const HALVINGS: usize = 40;
 /// Pieces of one path at most; a slip that stops in a spiral takes some dozens.
-const MOST_PIECES: usize = 400;
+const MOST_PIECES: usize = 4000;
 /// Slip below this share of the approach speed, or of what it was, is no slip.
 const STILL: f64 = 1e-9;
 /// No chord is shorter than this share of the impulse so far.
-const SHORTEST: f64 = 1e-6;
+const SHORTEST: f64 = 1e-14;
 /// A direction that changes by less than this is kept, rad.
 const STRAIGHT: f64 = 1e-12;
 /// Eigenvalues of K_TT below this share of its trace are joints' doing: nothing slips that way.
@@ -72,6 +74,10 @@ impl Path {
     /// Goes on along dP/dP_z = `along` until the hit ends; at most `most` in P_z.
     fn go(&mut self, k: &DMat3, along: DVec3, e: f64, most: f64) {
         let rate = *k * along;
+        if most.is_infinite() && rate.z <= HELD * k.z_axis.z {
+            // Wedged: what could move has stopped.
+            self.done = true;
+        }
         let mut left = most;
         while left > 0.0 && !self.done {
             let end = self.phase(rate.z);
@@ -125,22 +131,40 @@ pub fn impulse(k: &DMat3, u: DVec3, mu: f64, e: f64) -> DVec3 {
     path.p
 }
 
-/// Direction of friction for the next piece of a slide, and how long it lasts in P_z.
+/// Direction of friction for the next piece of a slide, and how long it lasts in P_z. The direction m is that of the
+/// slip in the middle of the chord, m ∥ u_T + ½ x K_T(−μ m, 1), found as a root: where joints make K stiff, slip swings
+/// round to its ray at once, and only an implicit rule follows it with chords of sensible length.
 fn chord(k: &DMat3, d: DVec2, speed: f64, mu: f64, path: &Path) -> (DVec2, f64) {
     let rate = |d: DVec2| (*k * (-mu * d).extend(1.0)).truncate();
-    let across = |r: DVec2, d: DVec2| d.perp_dot(r);
     let first = rate(d);
-    let turning = across(first, d).abs();
+    let turning = d.perp_dot(first);
     let slows = -first.dot(d);
-    if turning <= STRAIGHT * first.length() {
-        return (d, if slows > 0.0 { speed / slows } else { f64::INFINITY });
+    let stops = if slows > 0.0 { speed / slows } else { f64::INFINITY };
+    if turning.abs() <= STRAIGHT * first.length() {
+        return (d, stops);
     }
-    // Half a chord ahead, with the slip as it will be there; a chord never brings the slip below half, nor leads into
-    // another phase.
-    let long = (TURN * speed / turning).min(if slows > 0.0 { 0.5 * speed / slows } else { f64::INFINITY });
-    let long = long.min(path.phase((*k * (-mu * d).extend(1.0)).z)).max(SHORTEST * path.p.z);
-    let middle = (d * speed + 0.5 * long * first).normalize_or(d);
-    (middle, long)
+    // A chord never brings the slip below half, nor leads into another phase.
+    let mut long = (0.5 * stops).min(path.phase((*k * (-mu * d).extend(1.0)).z)).max(SHORTEST * path.p.z);
+    if !long.is_finite() {
+        long = speed / turning.abs();
+    }
+    let middle = |turn: f64| (d + d.perp() * (turn * turning.signum())).normalize_or(d);
+    // Slip in the middle of the chord.
+    let there = |m: DVec2, long: f64| d * speed + 0.5 * long * rate(m);
+    let ahead = |m: DVec2, long: f64| m.perp_dot(there(m, long)) * turning.signum();
+    for _ in 0..HALVINGS {
+        let far = middle(TURN);
+        if ahead(far, long) <= 0.0 && far.dot(there(far, long)) > 0.5 * speed && there(far, 2.0 * long).dot(far) > 0.0 {
+            break;
+        }
+        long *= 0.5;
+    }
+    let (mut low, mut high) = (0.0, TURN);
+    for _ in 0..HALVINGS {
+        let half = 0.5 * (low + high);
+        if ahead(middle(half), long) > 0.0 { low = half } else { high = half }
+    }
+    (middle(high), long)
 }
 
 /// dP/dP_z of a contact whose slip has come to rest, and whether it stays at rest.

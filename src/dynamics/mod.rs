@@ -19,25 +19,39 @@ pub mod impulse;
 mod integrate;
 mod limits;
 
+pub use crate::articulation::Method as Solver;
 use crate::articulation::block::Vec6;
-use crate::articulation::{Constraint, Limit, Spring, System};
+use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
-use crate::math::{DMat3, DVec3};
+use crate::math::{DMat3, DVec3, pow};
 
+use contacts::Verdict;
 pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
 pub use drive::{Drive, Instant, Motion};
-use forces::Damping;
-use integrate::Rate;
+use forces::{Damping, Springs};
+use integrate::{Rate, State};
 
-/// Largest phase φ of the stiffest tension mode in one substep, rad. The fourth-order method loses the share φ⁶/72 of
-/// such a mode's energy a substep, 10⁻⁶ here; slower motion, which holds nearly all of it, loses next to nothing.
-const MODE_PHASE: f64 = 0.2;
-/// Most substeps of one step: beyond it a mode is followed less finely, not at all less stably.
-const MOST_SUBSTEPS: u32 = 32;
+/// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
+/// such a mode holds next to none of the energy, and at 1 it loses what little it has within some ten periods.
+const TENSION_PHASE: f64 = 2.6;
+/// Largest turn of a body in one substep, rad.
+const SPIN_PHASE: f64 = 0.5;
+/// Largest estimated error of a substep, as a share of the velocities in the norm of the kinetic energy. The estimate
+/// is that of a method one order lower, so the true error is some hundred times less.
+const TOLERANCE: f64 = 2e-7;
+/// Most substeps of one step: beyond it motion is followed less finely.
+const MOST_SUBSTEPS: f64 = 64.0;
+/// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
+/// it costs a microsecond or two.
+const FEW: usize = 8;
 /// Faster than this is not a sculpture but a fault, m/s and rad/s.
 const SPEED_LIMIT: f64 = 100.0;
 const SPIN_LIMIT: f64 = 5_000.0;
+
+/// A hit's time is aimed at this often, until it is right to this, s.
+const AIMS: usize = 3;
+const ON_TIME: f64 = 1e-6;
 
 /// How time is advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,16 +65,6 @@ pub enum Integrator {
     RungeKutta,
     /// The Gauss–Legendre method of sixth order: energy stays bounded over days.
     Precise,
-}
-
-/// Which linear solver finds the multipliers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Solver {
-    /// The tree factor, linear in the number of bodies.
-    #[default]
-    Sparse,
-    /// One dense matrix of all rows: the reference.
-    Dense,
 }
 
 /// What is constant over a run.
@@ -100,11 +104,15 @@ pub struct Figure<'a> {
 
 /// A figure in motion. Nothing here allocates after [`Dynamics::new`].
 pub struct Dynamics {
-    /// The bodies' present state.
+    /// The bodies' present state. Whoever changes it from outside calls [`Dynamics::disturb`].
     pub bodies: Vec<RigidBody>,
     settings: Settings,
+    precise: bool,
     damping: Vec<Damping>,
-    springs: Vec<Spring>,
+    springs: Springs,
+    drives: Vec<Drive>,
+    /// Body and acceleration of each drive at the time last asked for.
+    driven_accelerations: Vec<(usize, Vec6)>,
     system: System,
     contacts: Contacts,
     /// Wrenches from outside, and with those of resting contacts.
@@ -112,9 +120,26 @@ pub struct Dynamics {
     external: Vec<Vec6>,
     /// Force that each joint carried at the last solve, N.
     loads: Vec<f64>,
-    stages: [Vec<Rate>; 4],
-    start: Vec<RigidBody>,
-    before_step: Vec<RigidBody>,
+    /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
+    levers: Vec<f64>,
+    start: Vec<State>,
+    mean: Vec<Rate>,
+    /// σ of each body at the present stage.
+    turned: Vec<DVec3>,
+    last: Vec<Vec6>,
+    /// (k₅ − k₄)/h³ of the last substep, and its h; `None` where it says nothing of the next.
+    fourth: Vec<Vec6>,
+    fourth_step: Option<f64>,
+    stages: [Vec<Rate>; 3],
+    before: Vec<RigidBody>,
+    before_step: Vec<State>,
+    /// Seconds since reset.
+    time: f64,
+    /// Substep that the error allows, s.
+    stride: f64,
+    /// Do the system's accelerations belong to the present state?
+    fresh: bool,
+    breath: f64,
     substeps: u32,
 }
 
@@ -122,107 +147,280 @@ impl Dynamics {
     /// A figure at its start.
     pub fn new(figure: Figure, settings: Settings) -> Self {
         let n = figure.bodies.len();
-        let system = System::new(n, figure.constraints);
-        let rates = vec![Rate::default(); n];
+        let mut driven = vec![false; n];
+        for drive in figure.drives {
+            driven[drive.body] = true;
+        }
+        let mut bodies = figure.bodies;
+        for drive in figure.drives {
+            drive.motion.at(0.0).carry(&mut bodies[drive.body]);
+        }
+        let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
+        system.evaluate(&bodies);
+        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies);
+        let precise = match settings.integrator {
+            Integrator::Auto => n <= FEW && contacts.is_empty(),
+            Integrator::Precise => true,
+            Integrator::Fast | Integrator::RungeKutta => false,
+        };
+        let stages = || vec![Rate::default(); if precise { n } else { 0 }];
         Self {
             loads: vec![0.0; system.joints().len()],
-            contacts: Contacts::new(figure.colliders, figure.pairs, figure.limits, &figure.bodies),
-            start: figure.bodies.clone(),
-            before_step: figure.bodies.clone(),
-            bodies: figure.bodies,
-            settings,
+            levers: levers(&system, &bodies),
+            contacts,
+            precise,
+            start: bodies.iter().map(State::of).collect(),
+            before_step: bodies.iter().map(State::of).collect(),
+            before: bodies.clone(),
             damping: if settings.friction { figure.damping } else { vec![Damping::default(); n] },
-            springs: figure.springs.to_vec(),
+            springs: Springs::new(figure.springs, &bodies),
+            drives: figure.drives.to_vec(),
+            driven_accelerations: figure.drives.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
+            settings,
             system,
             given: vec![[0.0; 6]; n],
             external: vec![[0.0; 6]; n],
-            stages: [rates.clone(), rates.clone(), rates.clone(), rates],
-            substeps: 1,
+            mean: vec![Rate::default(); n],
+            turned: vec![DVec3::ZERO; n],
+            last: vec![[0.0; 6]; n],
+            fourth: vec![[0.0; 6]; n],
+            fourth_step: None,
+            stages: [stages(), stages(), stages()],
+            time: 0.0,
+            stride: f64::INFINITY,
+            fresh: false,
+            breath: 0.0,
+            substeps: 0,
+            bodies,
         }
     }
 
     /// Advances by `dt` seconds under constant external wrenches (N and N m about each centre of mass). Impacts on
     /// the way are appended to `impacts`. Returns the bodies that had to be restored from bad numbers.
     pub fn step(&mut self, dt: f64, external: &[Vec6], impacts: &mut Vec<Impact>) -> usize {
-        self.before_step.copy_from_slice(&self.bodies);
+        for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
+            *before = State::of(body);
+        }
         self.given.copy_from_slice(external);
         self.contacts.begin_step(dt);
+        self.clear_happenings();
         self.substeps = 0;
+        let already = impacts.len();
         let mut done = 0.0;
         while done < dt * (1.0 - 1e-12) {
+            let now = self.time + done;
+            let edge = self.system.activity.next_edge(now).min(self.springs.activity.next_edge(now));
             // Asked anew each time: a hit changes what there is to follow.
-            let finest = dt / f64::from(2 * MOST_SUBSTEPS);
-            let slides = self.contacts.longest_substep().max(finest);
-            let h = (dt / f64::from(self.substep_count(dt))).min(slides).min(dt - done);
-            done += self.substep(h, done, impacts);
+            let left = (dt - done).min(edge - now);
+            let count = (left / self.substep_length(dt)).ceil().max(1.0);
+            let h = left / count;
+            self.set_shares(now + 0.5 * h);
+            done += self.substep(h, dt, done, impacts);
             self.substeps += 1;
         }
         if self.settings.friction {
             self.rub(dt);
         }
+        for impact in &impacts[already..] {
+            for body in impact.bodies.into_iter().flatten() {
+                self.system.activity.hit(body, impact.impulse, self.time + impact.time);
+                self.springs.activity.hit(body, impact.impulse, self.time + impact.time);
+            }
+        }
+        self.time += dt;
+        self.system.count_turns(&self.bodies);
+        self.springs.count_turns(&self.bodies);
         self.restore_bad_bodies()
     }
 
-    /// Integrates `h` or up to the first impact, resolves it, and returns the time used.
-    fn substep(&mut self, h: f64, now: f64, impacts: &mut Vec<Impact>) -> f64 {
-        self.start.copy_from_slice(&self.bodies);
-        self.hold(h);
-        let mut used = h;
-        if let Some(hit) = self.contacts.first_impact(&self.start, &self.bodies) {
-            used = hit.s * h;
-            self.bodies.copy_from_slice(&self.start);
-            self.hold(used);
-            self.prepare_impulses();
-            self.contacts.resolve_hit(&hit, (now + used, h), &mut self.system, &mut self.bodies, impacts);
+    /// Integrates `h` or less (where the error asks for it) or up to the first impact, resolves it, and returns the
+    /// time used.
+    fn substep(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
+        for (start, body) in self.start.iter_mut().zip(&self.bodies) {
+            *start = State::of(body);
         }
-        self.contacts.end_substep(&self.bodies);
+        let collides = !self.contacts.is_empty();
+        if collides {
+            self.before.copy_from_slice(&self.bodies);
+        }
+        let now = self.time + done;
+        let least = dt / MOST_SUBSTEPS;
+        let mut used = self.hold(now, h, least);
+        if collides {
+            if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
+                let mut until = used * hit.s;
+                let whole = used;
+                for aim in 1..=AIMS {
+                    self.back_to_start();
+                    self.contacts.cut_substep();
+                    used = if until > 0.0 { self.hold(now, until, least.min(until)) } else { 0.0 };
+                    let early = self.contacts.early(&hit, &self.bodies);
+                    let better = (until + early).clamp(0.0, whole);
+                    if aim == AIMS || used < until || (better - until).abs() < ON_TIME {
+                        break;
+                    }
+                    until = better;
+                }
+                // A substep that had to be shorter still comes upon the hit again.
+                if used >= until {
+                    self.prepare_impulses();
+                    let at = (done + used, h);
+                    self.contacts.resolve_hit(&hit, at, &mut self.system, &mut self.bodies, impacts);
+                }
+            }
+            self.contacts.end_substep(&self.bodies);
+            // What the joints carry: the last solve was of impulses.
+            self.press();
+            self.ensure_rates(now + used);
+        }
+        for (joint, load) in self.loads.iter_mut().enumerate() {
+            *load = self.system.load(joint);
+        }
+        self.break_overloaded(now + used);
         used
     }
 
-    /// Integrates `h` under the forces that hold what rests, again where they prove wrong.
-    fn hold(&mut self, h: f64) {
-        if h <= 0.0 {
-            return;
-        }
-        for pass in 1.. {
-            self.external.copy_from_slice(&self.given);
-            self.contacts.press(&mut self.external);
-            self.integrate(h);
+    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong.
+    fn hold(&mut self, t: f64, mut h: f64, least: f64) -> f64 {
+        let mut pass = 1;
+        loop {
+            self.press();
+            h = self.integrate(t, h, if pass > 1 { h } else { least });
             if !self.contacts.anything_rests() {
-                return;
+                return h;
             }
             self.prepare_impulses();
-            if self.contacts.settle((h, pass), &self.start, &mut self.system, &mut self.bodies) {
-                break;
+            match self.contacts.settle((h, pass, h > 2.0 * least), &self.before, &mut self.system, &mut self.bodies) {
+                Verdict::Stands => break,
+                Verdict::Again => pass += 1,
+                Verdict::Shorter => (h, pass) = (0.5 * h, 1),
             }
-            self.bodies.copy_from_slice(&self.start);
+            self.back_to_start();
         }
         // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
         self.project();
+        h
+    }
+
+    /// All wrenches: those from outside, and those of what rests.
+    fn press(&mut self) {
+        self.last.copy_from_slice(&self.external);
+        self.external.copy_from_slice(&self.given);
+        self.contacts.press(&mut self.external);
+        if self.last != self.external {
+            self.fresh = false;
+        }
+    }
+
+    /// Integrates from the substep's start at the time `t` over `h`, or over less where the error asks for it, but
+    /// not less than `least`; returns the time used.
+    fn integrate(&mut self, t: f64, mut h: f64, least: f64) -> f64 {
+        loop {
+            let (good, wish) = if self.settings.integrator == Integrator::Fast {
+                self.euler(t, h);
+                (true, f64::INFINITY)
+            } else if self.precise {
+                let settled = self.gauss(t, h);
+                (settled, if settled { f64::INFINITY } else { 0.5 * h })
+            } else {
+                let error = self.runge_kutta(t, h);
+                let factor = pow(TOLERANCE / error.max(1e-300), 0.2);
+                (error <= TOLERANCE, if error.is_finite() { h * (0.9 * factor).clamp(0.2, 4.0) } else { 0.2 * h })
+            };
+            self.fresh = true;
+            self.stride = wish;
+            if good || h <= least {
+                return h;
+            }
+            self.back_to_start();
+            self.fourth_step = None;
+            h = wish.max(least);
+        }
+    }
+
+    fn back_to_start(&mut self) {
+        for (start, body) in self.start.iter().zip(&mut self.bodies) {
+            start.put(body);
+        }
+        self.fresh = false;
+    }
+
+    /// Longest substep that follows the fastest motion: the tension modes (a body that hangs by the arm r under the
+    /// load λ swings about it with ω² = |λ| |r| / I⊥), the free spin, and what the last error allowed.
+    fn substep_length(&self, dt: f64) -> f64 {
+        let stiffest = self.loads.iter().zip(&self.levers).fold(0.0, |most: f64, (load, lever)| most.max(load * lever));
+        let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
+        let spin = spins.fold(0.0, f64::max);
+        let longest = (TENSION_PHASE / stiffest.sqrt())
+            .min(SPIN_PHASE / spin.sqrt())
+            .min(self.stride)
+            .min(self.contacts.longest_substep());
+        longest.max(dt / MOST_SUBSTEPS)
+    }
+
+    fn set_shares(&mut self, t: f64) {
+        if self.system.activity.set_shares(t) | self.springs.activity.set_shares(t) {
+            self.fresh = false;
+        }
+    }
+
+    /// Breaks what carries too much at the time `t`.
+    fn break_overloaded(&mut self, t: f64) {
+        self.springs.break_overloaded(&self.bodies, t);
+        for k in 0..self.system.activity.fragile().len() {
+            let index = self.system.activity.fragile()[k];
+            let load = self.system.carried(index);
+            if self.system.activity.overloaded(index, load, false) {
+                self.system.activity.break_at(index, t);
+                self.fresh = false;
+            }
+        }
+    }
+
+    fn clear_happenings(&mut self) {
+        for activity in [&mut self.system.activity, &mut self.springs.activity] {
+            activity.breaks.clear();
+            activity.fired.clear();
+        }
+    }
+
+    /// Tells triggers of the breath's speed at the lips, m/s.
+    pub fn breathe(&mut self, speed: f64) {
+        self.system.activity.breathe(self.breath, speed, self.time);
+        self.springs.activity.breathe(self.breath, speed, self.time);
+        self.breath = speed;
+    }
+
+    /// Says that bodies were moved from outside.
+    pub fn disturb(&mut self) {
+        self.fresh = false;
+    }
+
+    /// Constraints that broke in the last step.
+    pub fn breaks(&self) -> &[Break] {
+        &self.system.activity.breaks
+    }
+
+    /// Springs that broke in the last step.
+    pub fn spring_breaks(&self) -> &[Break] {
+        &self.springs.activity.breaks
+    }
+
+    /// Constraints whose triggers fired in the last step, and when (seconds since reset).
+    pub fn fired(&self) -> &[(usize, f64)] {
+        &self.system.activity.fired
+    }
+
+    /// The joints' system, for reports.
+    pub fn system(&self) -> &System {
+        &self.system
     }
 
     /// Factors the joints at the present poses, for impulses.
     fn prepare_impulses(&mut self) {
         self.system.evaluate(&self.bodies);
         self.system.factor();
-    }
-
-    /// Substeps that follow the fastest motion: of the tension modes (a body that hangs by the arm r under the load λ
-    /// swings about it with ω² = |λ| |r| / I⊥), or of the free spin.
-    fn substep_count(&self, dt: f64) -> u32 {
-        let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
-        let mut stiffest = spins.fold(0.0, f64::max);
-        for (joint, &load) in self.loads.iter().enumerate() {
-            let link = self.system.joints()[joint].link;
-            let (arm_a, arm_b) = self.system.arms(joint, &self.bodies);
-            for (body, arm) in [(Some(link.a), arm_a), (link.b, arm_b)] {
-                let Some(body) = body else { continue };
-                let inertia = least_inertia_across(&self.bodies[body].inertia_world(), arm);
-                stiffest = stiffest.max(load * arm.length() / inertia);
-            }
-        }
-        let wanted = (dt * stiffest.sqrt() / MODE_PHASE).ceil();
-        if wanted.is_finite() { (wanted as u32).clamp(1, MOST_SUBSTEPS) } else { MOST_SUBSTEPS }
+        self.fresh = false;
     }
 
     /// Puts bodies with bad numbers back to where the step began, at rest. Returns how many.
@@ -236,10 +434,12 @@ impl Dynamics {
         if bad > 0 {
             // One bad body has already pulled at its neighbours: the whole figure goes back.
             for (body, before) in self.bodies.iter_mut().zip(&self.before_step) {
-                *body = RigidBody { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..*before };
+                before.put(body);
+                (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             }
             self.loads.fill(0.0);
             self.contacts.forget(&self.bodies);
+            self.fresh = false;
         }
         bad
     }
@@ -251,7 +451,7 @@ impl Dynamics {
 
     /// Kinetic and potential energy, J.
     pub fn energy(&self) -> f64 {
-        forces::energy(&self.bodies, self.settings.gravity, &self.springs)
+        forces::energy(&self.bodies, self.settings.gravity) + self.springs.energy(&self.bodies, self.time)
     }
 
     /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.
@@ -263,6 +463,19 @@ impl Dynamics {
     pub fn substeps(&self) -> u32 {
         self.substeps
     }
+}
+
+/// ω² per N of load of each joint's tension mode: the greatest |r| / I⊥ of its bodies at the start, 1/(kg m). Arms and
+/// inertias turn with their body, so it stays what it is.
+fn levers(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
+    let lever = |body: usize, arm: DVec3| arm.length() / least_inertia_across(&bodies[body].inertia_world(), arm);
+    let of_joint = |index: usize| {
+        let (arm_a, arm_b) = system.arms(index);
+        let link = system.joints()[index].link;
+        let own = |body: usize, arm| if system.driven()[body] { 0.0 } else { lever(body, arm) };
+        own(link.a, arm_a).max(link.b.map_or(0.0, |b| own(b, arm_b)))
+    };
+    (0..system.joints().len()).map(of_joint).collect()
 }
 
 /// Smallest moment of inertia about an axis across `arm`, kg m².

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use crate::articulation::{Constraint, Limit, Spring};
 use crate::bodies::MassProperties;
-use crate::collision::Collider;
+use crate::collision::{Collider, Exclusion};
 use crate::dynamics::{Drive, Integrator, Solver};
 use crate::math::{DVec3, Pose};
 use crate::sound::InstrumentSpec;
@@ -18,6 +18,7 @@ pub mod diagnostic;
 mod fit;
 mod materials;
 pub mod model;
+mod pairs;
 mod paths;
 pub mod quantity;
 mod resolve;
@@ -72,8 +73,8 @@ pub struct Exhibit {
     pub wires: Vec<Wire>,
     /// Collision shapes.
     pub colliders: Vec<Collider>,
-    /// Pairs of bodies that never collide (joined, or excluded by the curator); `None` is the world.
-    pub excluded_pairs: Vec<(Option<usize>, Option<usize>)>,
+    /// Pairs of bodies that never collide, sorted.
+    pub excluded_pairs: Vec<Exclusion>,
     /// What feels the wind.
     pub wind_surfaces: Vec<Surface>,
     /// Sounding bodies.

@@ -16,7 +16,6 @@ use std::sync::Arc;
 
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
-use crate::collision::pairs;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, ImpactKind, SurfacePair};
 use crate::exhibit::{Exhibit, View};
@@ -434,7 +433,9 @@ fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
         springs: &exhibit.springs,
         drives: &exhibit.drives,
         colliders: &exhibit.colliders,
-        pairs: pairs(&exhibit.colliders, &exhibit.excluded_pairs)
+        pairs: exhibit
+            .pairs()
+            .meet
             .into_iter()
             .map(|pair| {
                 let (restitution, friction) =

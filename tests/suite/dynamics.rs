@@ -2,7 +2,7 @@
 
 use soffio::articulation::{Anchor, Constraint, ConstraintKind, PivotFriction};
 use soffio::bodies::{MassProperties, RigidBody};
-use soffio::collision::{Collider, Shape, pairs};
+use soffio::collision::{Collider, Reach, Shape, pairs};
 use soffio::dynamics::forces::Damping;
 use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Settings, Solver, SurfacePair};
 use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sqrt};
@@ -165,7 +165,11 @@ fn disc_collider(body: usize, radius: f64, thickness: f64) -> Collider {
 }
 
 fn surfaces(colliders: &[Collider], restitution: f64, friction: f64) -> Vec<SurfacePair> {
-    pairs(colliders, &[]).into_iter().map(|pair| SurfacePair { pair, restitution, friction }).collect()
+    pairs(colliders, &[], &Reach::default())
+        .meet
+        .into_iter()
+        .map(|pair| SurfacePair { pair, restitution, friction })
+        .collect()
 }
 
 #[test]

@@ -17,7 +17,7 @@ use super::sweep::{Hit, Run};
 use super::{CHATTER_SPEED, CHATTER_TIME, Contacts, Impact, ImpactKind, REST_SPEED, point_rows};
 use crate::articulation::System;
 use crate::bodies::RigidBody;
-use crate::collision::TOUCH;
+use crate::collision::{ManifoldPoint, TOUCH};
 use crate::dynamics::impulse::impulse;
 use crate::math::{DMat3, DVec3};
 
@@ -115,6 +115,24 @@ impl Contacts {
         if self.anything_rests() {
             self.steady(h, system, bodies);
         }
+    }
+
+    /// Seconds until what is to be hit is half into the touching layer, at the bodies' present state: sweeps go straight,
+    /// bodies do not. Negative where they have passed it; 0 where it cannot be told.
+    pub(in crate::dynamics) fn early(&mut self, hit: &Hit, bodies: &[RigidBody]) -> f64 {
+        let (gap, speed) = match hit.source {
+            Source::Bound(bound) => {
+                let (gap, row, _) = self.limits.row(bound, bodies);
+                (gap, -row.rate(bodies))
+            }
+            Source::Pair(pair) => {
+                let manifold = self.manifold(pair, bodies);
+                let nearest = |a: ManifoldPoint, b: &ManifoldPoint| if b.gap < a.gap { *b } else { a };
+                let at = manifold.points()[1..].iter().fold(manifold.points[0], nearest);
+                (at.gap, -self.velocity_at(pair, at.point, bodies).dot(manifold.normal))
+            }
+        };
+        if speed > REST_SPEED { (gap - 0.5 * TOUCH) / speed } else { 0.0 }
     }
 
     /// All touches that approach between the two bodies of a source.
@@ -238,7 +256,7 @@ impl Contacts {
                     continue;
                 }
                 let manifold = self.manifold(pair, bodies);
-                let hits = |at: &crate::collision::ManifoldPoint| {
+                let hits = |at: &ManifoldPoint| {
                     at.gap <= TOUCH && self.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
                 };
                 if manifold.points().iter().any(hits) {

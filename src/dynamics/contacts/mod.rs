@@ -22,6 +22,7 @@ use sweep::{Run, ball_around, runs};
 
 pub use hit::{Strike, Struck, strike};
 pub(super) use problem::Row;
+pub(super) use rest::Verdict;
 
 /// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
 const REST_SPEED: f64 = 4e-3;
@@ -86,6 +87,9 @@ struct Held {
     point: DVec3,
     /// World force on the first body, N; a bound's along its row in x.
     force: DVec3,
+    /// Normal where it acted so, and the rotation vector of its turn in a substep of the same length, rad.
+    normal: DVec3,
+    turn: DVec3,
     /// How it acts on the one or two bodies.
     ends: [Option<Lever>; 2],
 }
@@ -94,8 +98,9 @@ struct Held {
 #[derive(Clone, Copy, Debug)]
 struct Lever {
     body: usize,
-    /// Wrench of a bound per unit force.
+    /// Wrench of a bound per unit force, and its change in a substep of the same length.
     block: Vec6,
+    block_change: Vec6,
     /// From the body's centre to the point of a contact, m, and its way in a substep of the same length.
     arm: DVec3,
     way: DVec3,
@@ -134,6 +139,8 @@ pub struct Contacts {
     slip: f64,
     /// Work of all hits and resting contacts so far, J; losses make it negative.
     work: f64,
+    /// Work of resting contacts over the present substep, J: it may yet be cut by a hit.
+    recent_work: f64,
     impacts_left: usize,
 }
 
@@ -173,6 +180,7 @@ impl Contacts {
             problem,
             slip: 0.0,
             work: 0.0,
+            recent_work: 0.0,
             impacts_left: MOST_IMPACTS,
         }
     }
@@ -189,6 +197,17 @@ impl Contacts {
     /// Ends a substep: turns are counted on from where the bodies are now.
     pub(super) fn end_substep(&mut self, bodies: &[RigidBody]) {
         self.limits.follow(bodies);
+        self.work += std::mem::take(&mut self.recent_work);
+    }
+
+    /// The present substep has not been: it is cut by a hit.
+    pub(super) fn cut_substep(&mut self) {
+        self.recent_work = 0.0;
+    }
+
+    /// Is there nothing that could meet or reach a bound?
+    pub(super) fn is_empty(&self) -> bool {
+        self.pairs.is_empty() && self.limits.count() == 0
     }
 
     /// Work of all hits and resting contacts so far, J.

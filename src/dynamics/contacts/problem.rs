@@ -18,7 +18,7 @@
 //! nearest to where the rounds began.
 
 use crate::articulation::System;
-use crate::articulation::block::{Vec6, dot};
+use crate::articulation::block::{Vec6, angular, dot, linear};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec2, DVec3};
 
@@ -28,15 +28,21 @@ pub(super) const MOST_TOUCHES: usize = 64;
 /// fall.
 const ROUNDS: usize = 5;
 const LEAPS: usize = 40;
+/// Where the rounds run out, they were good enough if none changed a velocity by more than this, m/s, or than this share
+/// of the velocities that the impulses make alone: heavy bodies on light ones leave no finer.
+const NEARLY: f64 = 1e-4;
+const NEARLY_SHARE: f64 = 1e-7;
 /// Share of the largest velocities that an impulse makes which is rounding.
 const ROUNDING: f64 = 1e-13;
 /// A leap that changes an impulse by more than this times the velocities it is to correct leads nowhere.
-const MOST_LEAP: f64 = 1e4;
+const MOST_LEAP: f64 = 1e10;
 /// Rounds end when none changes a velocity by more than this, m/s: a resting body creeps by less than a hundredth of
 /// a micrometre a minute.
 const SETTLED: f64 = 1e-11;
+/// What presses less than this share of the largest impulse does not hinder a leap.
+const SLIGHT: f64 = 1e-3;
 /// ε of the proximal step.
-const PROXIMAL: f64 = 1e-9;
+const PROXIMAL: f64 = 1e-12;
 /// A touch whose effective inverse mass is below this (1/kg) is held by joints and cannot move.
 pub(super) const LOCKED: f64 = 1e-9;
 
@@ -89,6 +95,8 @@ pub(super) struct Touch {
     pub before: DVec3,
     /// Impulse, (n, t, b), N s.
     pub impulse: DVec3,
+    /// Impulse that the rounds begin from.
+    pub begin: DVec3,
     /// Where the force that it began from acted.
     pub follows: Option<DVec3>,
     /// Its rows in the problem: `first` up to `first + rows`.
@@ -114,6 +122,7 @@ impl Touch {
             least: 0.0,
             before: DVec3::ZERO,
             impulse: DVec3::ZERO,
+            begin: DVec3::ZERO,
             follows: None,
             first: 0,
             rows: 0,
@@ -241,6 +250,16 @@ impl Problem {
         }
     }
 
+    /// Lets every touch begin from its own `begin` where that is not what acted before.
+    pub fn begin(&mut self) {
+        for index in 0..self.touches.len() {
+            let Touch { begin, before, .. } = self.touches[index];
+            if begin != before {
+                self.set(index, begin);
+            }
+        }
+    }
+
     /// Velocity of a touch (n, t, b), m/s.
     pub fn velocity(&self, touch: &Touch) -> DVec3 {
         let at = |i| if i < touch.rows { self.u[touch.first + i] } else { 0.0 };
@@ -264,26 +283,26 @@ impl Problem {
         (touch.k * change).abs().max_element()
     }
 
-    /// Solves for all impulses from where they stand. Answers by how much the last round still changed a velocity
-    /// beyond rounding, m/s.
-    pub fn solve(&mut self) -> f64 {
-        let mut rest = 0.0;
+    /// Solves for all impulses from where they stand. Answers whether they are good enough to begin from next time.
+    pub fn solve(&mut self) -> bool {
+        let (mut rest, mut scale) = (0.0, 0.0);
         for leap in 0..LEAPS {
             if leap > 0 {
                 self.leap();
             }
             for _ in 0..ROUNDS {
-                rest = self.round();
-                if rest <= SETTLED {
-                    return rest;
+                (rest, scale) = self.round();
+                if rest <= SETTLED + ROUNDING * scale {
+                    return true;
                 }
             }
         }
-        rest
+        rest <= NEARLY + NEARLY_SHARE * scale
     }
 
-    /// One round over all touches. Answers the largest velocity that it changed, less rounding, m/s.
-    fn round(&mut self) -> f64 {
+    /// One round over all touches. Answers the largest velocity that it changed, and the largest that any impulse alone
+    /// would make, m/s.
+    fn round(&mut self) -> (f64, f64) {
         let (mut largest, mut scale): (f64, f64) = (0.0, 0.0);
         for index in 0..self.touches.len() {
             let touch = &self.touches[index];
@@ -293,7 +312,7 @@ impl Problem {
                 largest = largest.max(self.set(index, impulse));
             }
         }
-        largest - ROUNDING * scale
+        (largest, scale)
     }
 
     /// Solves at once for all touches that press, each taken to go on sticking, or sliding the way it does.
@@ -306,7 +325,11 @@ impl Problem {
             }
             let most = touch.friction * touch.impulse.x;
             let rub = DVec2::new(touch.impulse.y, touch.impulse.z);
-            if touch.rows == 3 && most > 0.0 && rub.length() < most * (1.0 - ROUNDING) {
+            // Slides where friction is all there can be, and opposes the slip: else the cone only caught it by the way.
+            let u = self.velocity(touch);
+            let slip = DVec2::new(u.y, u.z);
+            let slides = rub.length() >= most * (1.0 - ROUNDING) && slip.dot(rub) < -0.5 * slip.length() * rub.length();
+            if touch.rows == 3 && most > 0.0 && !slides {
                 self.active.extend([DVec3::X, DVec3::Y, DVec3::Z].map(|along| Active {
                     touch: index,
                     along,
@@ -347,13 +370,19 @@ impl Problem {
             let Active { touch, along, .. } = self.active[i];
             self.touches[touch].leap += along * self.other[i];
         }
-        // As far as all keep to the laws: what stops it opens or slides from there on.
-        let far = self.touches.iter().fold(1.0, |far: f64, touch| far.min(touch.most_leap()));
+        // As far as all that press to speak of keep to the laws: what stops it opens or slides from there on.
+        let largest = self.touches.iter().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));
+        let far = self
+            .touches
+            .iter()
+            .filter(|touch| touch.impulse.x > SLIGHT * largest)
+            .fold(1.0, |far: f64, touch| far.min(touch.most_leap()));
         for index in 0..self.touches.len() {
             let touch = &self.touches[index];
-            let mut to = touch.impulse + far * touch.leap;
-            to.x = to.x.max(0.0);
-            self.set(index, to);
+            let to = touch.impulse + far * touch.leap;
+            let normal = to.x.max(0.0);
+            let rub = DVec2::new(to.y, to.z).clamp_length_max(touch.friction * normal);
+            self.set(index, DVec3::new(normal, rub.x, rub.y));
         }
     }
 
@@ -425,12 +454,14 @@ impl Problem {
         }
         system.solve_impulse();
         system.apply_velocity(bodies);
+        // What rounding has left to the joints where much is taken up by little.
+        system.solve_velocity(bodies);
+        system.apply_velocity(bodies);
     }
 
-    /// Least displacement, in kinetic energy, that opens every gap below zero to `layer`: pushes only, no friction.
-    pub fn push_out(&mut self, layer: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
+    /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
+    pub fn push_out(&mut self, depth: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
         let n = self.rows.len();
-        let wanted = |touch: &Touch| if touch.gap < 0.0 { (layer - touch.gap).min(most) } else { 0.0 };
         // `other` holds the opening of each row, `before.x` the push of each touch.
         self.other[..n].fill(0.0);
         for touch in &mut self.touches {
@@ -442,7 +473,7 @@ impl Problem {
                 if touch.k.x_axis.x <= LOCKED {
                     continue;
                 }
-                let goal = if touch.gap < 0.0 { wanted(touch) } else { -touch.gap };
+                let goal = (depth - touch.gap).min(most);
                 let push = (touch.before.x + (goal - self.other[touch.first]) / touch.k.x_axis.x).max(0.0);
                 let change = push - touch.before.x;
                 touch.before.x = push;
@@ -452,7 +483,7 @@ impl Problem {
                 }
                 largest = largest.max((change * touch.k.x_axis.x).abs());
             }
-            if largest < 0.01 * layer {
+            if largest < 0.01 * depth.abs() {
                 break;
             }
         }
@@ -463,7 +494,9 @@ impl Problem {
             }
         }
         system.solve_impulse();
-        system.apply_displacement(bodies);
+        for (body, a) in bodies.iter_mut().zip(&system.a) {
+            body.displace(linear(a), angular(a));
+        }
     }
 }
 

@@ -7,7 +7,9 @@
 //! is applied and P/h is where the next substep begins. A body at rest therefore feels exactly its support, does not
 //! move, and costs one pass.
 //!
-//! What has sunk in, by less than a micrometre in ordinary motion, is moved out through the same matrix.
+//! What has sunk into the touching layer, by less than a micrometre in ordinary motion, rises slowly; what lies deeper is
+//! moved out at once through the same matrix. Where surfaces curve so much that a substep sinks in, a shorter one is
+//! taken.
 
 use super::problem::{Source, Touch};
 use super::{Contacts, Held, Lever, RELEASE_GAP, point_rows};
@@ -15,7 +17,7 @@ use crate::articulation::System;
 use crate::articulation::block::{Vec6, add_scaled, angular, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::collision::TOUCH;
-use crate::math::{DVec3, rotation_vector, tangents};
+use crate::math::{DQuat, DVec3, rotation, rotation_vector, tangents};
 
 /// Passes over one substep at most, but for one more where a rest proves false.
 const PASSES: usize = 3;
@@ -25,16 +27,30 @@ const MISSED: f64 = 1e-6;
 const LAYER: f64 = TOUCH;
 /// What rests slides no farther than this in one substep, m.
 const SLIDE: f64 = 2e-3;
-/// Forces are remembered where the rounds came this near to the law, m/s.
-const SETTLED: f64 = 1e-6;
+/// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
+const FINE: f64 = 1e-6;
 /// What rests does not sink deeper than this in one substep, m.
 const SUNK: f64 = 2e-5;
 /// Points nearer than this are one, however slow their bodies, m.
 const NEAR: f64 = 1e-4;
 /// No approach is as fast as this, m/s.
 const FREE: f64 = 1e9;
+/// Time in which what rests rises to the middle of the touching layer, s: at micrometres a second, and its work is
+/// known.
+const RISE: f64 = 0.02;
 /// Farthest that sunken bodies are moved out in one substep, m.
 const MOST_PUSH: f64 = 1e-3;
+
+/// What is to be done about a pass over a substep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::dynamics) enum Verdict {
+    /// Nothing: it stands.
+    Stands,
+    /// Integrate it again, under better forces.
+    Again,
+    /// Integrate a shorter one: surfaces curve too much for the forces to stand still.
+    Shorter,
+}
 
 impl Contacts {
     /// Does anything rest, or has a force to be taken back?
@@ -66,30 +82,43 @@ impl Contacts {
     }
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
-    /// Answers whether the substep stands; then velocities and places are put right. The joints must be factored at
+    /// Where the substep stands, velocities and places are put right. The joints must be factored at
     /// the bodies' present state.
     pub(in crate::dynamics) fn settle(
         &mut self,
-        (h, pass): (f64, usize),
+        (h, pass, shortens): (f64, usize, bool),
         start: &[RigidBody],
         system: &mut System,
         bodies: &mut [RigidBody],
-    ) -> bool {
+    ) -> Verdict {
         let lost = self.gather(h, bodies);
         self.problem.assemble(system, bodies);
-        let settled = self.problem.solve() < SETTLED;
+        self.problem.begin();
+        let settled = self.problem.solve();
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
-        let stands = pass > PASSES || ((pass == PASSES || !missed) && !self.releases_sunken());
+        let last = pass >= PASSES || !missed;
+        if last && shortens && settled && self.sinks(FINE) {
+            return Verdict::Shorter;
+        }
+        let stands = pass > PASSES || (last && !self.releases_sunken());
         if stands {
             self.slip = self.problem.largest_slip();
-            self.work += self.pressed(start, bodies) + self.problem.work();
+            self.recent_work = self.pressed(start, bodies) + self.problem.work();
             self.problem.apply(system, bodies);
         }
         self.hold((h, settled, stands), start, bodies);
-        if stands && self.problem.touches.iter().any(|touch| touch.gap < 0.0) {
-            self.problem.push_out(0.5 * LAYER, MOST_PUSH, system, bodies);
+        if stands && self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
+            self.problem.push_out(-LAYER, MOST_PUSH, system, bodies);
         }
-        stands
+        if stands { Verdict::Stands } else { Verdict::Again }
+    }
+
+    /// Has anything that rests sunk in by more than this within the substep?
+    fn sinks(&self, most: f64) -> bool {
+        self.problem.touches.iter().any(|touch| match touch.source {
+            Source::Pair(pair) => touch.gap < self.depth[pair] - most,
+            Source::Bound(_) => false,
+        })
     }
 
     /// What was taken to rest and has sunk in within this substep met where nobody looked: it is apart, so that its
@@ -114,7 +143,7 @@ impl Contacts {
     pub(super) fn steady(&mut self, h: f64, system: &mut System, bodies: &mut [RigidBody]) {
         self.gather(h, bodies);
         for touch in &mut self.problem.touches {
-            (touch.before, touch.impulse) = (DVec3::ZERO, DVec3::ZERO);
+            (touch.before, touch.impulse, touch.begin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         }
         self.problem.assemble(system, bodies);
         self.problem.solve();
@@ -151,30 +180,38 @@ impl Contacts {
             }
         }
         for touch in &mut self.problem.touches {
-            touch.least = -(touch.gap - LAYER).max(0.0) / h;
+            // Gently to the middle of the layer; a wider gap may close within the substep.
+            let sunk = (0.5 * LAYER - touch.gap).clamp(-0.5 * LAYER, LAYER);
+            touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
         }
         self.warm_start(h, bodies)
     }
 
-    /// Gives each held force to the nearest touch of its pair. One that has none within the way that a point can go
-    /// is taken back where it acted; the answer is whether there are such.
+    /// Gives each held force to the nearest touch of its pair. Where that is farther than a point can go, the force is
+    /// taken back where it acted, and the rounds only begin from it; the answer is whether there are such.
     fn warm_start(&mut self, h: f64, bodies: &[RigidBody]) -> bool {
         let mut lost = false;
         let present = self.problem.touches.len();
         for index in 0..self.held.len() {
             let held = self.held[index];
             let near = NEAR + 2.0 * h * held.ends.iter().flatten().map(|lever| lever.speed(bodies)).sum::<f64>();
-            let mut best = (None, near);
+            let mut best = (None, f64::INFINITY);
             for touch in &mut self.problem.touches[..present] {
                 let far = touch.point.distance(held.point);
                 if touch.source == held.source && far <= best.1 {
                     best = (Some(touch), far);
                 }
             }
-            if let (Some(touch), _) = best {
-                touch.before += h * in_frame(touch, held.force);
-                touch.follows = Some(held.point);
-            } else {
+            let follows = best.1 <= near;
+            if let Some(touch) = best.0 {
+                let impulse = h * in_frame(touch, &held);
+                touch.begin += impulse;
+                if follows {
+                    touch.before += impulse;
+                    touch.follows = Some(held.point);
+                }
+            }
+            if !follows {
                 lost = true;
                 self.take_back(&held, h, bodies);
             }
@@ -189,7 +226,7 @@ impl Contacts {
     fn take_back(&mut self, held: &Held, h: f64, bodies: &[RigidBody]) {
         let size = held.force.length();
         let row = match held.source {
-            Source::Pair(pair) => point_rows(held.point, held.force / size, self.bodies_of(pair), bodies)[0],
+            Source::Pair(pair) => point_rows(held.point, held.acting() / size, self.bodies_of(pair), bodies)[0],
             Source::Bound(bound) => self.limits.row(bound, bodies).1,
         };
         let mut touch = Touch::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);
@@ -226,15 +263,23 @@ impl Contacts {
             // A new point goes with its bodies' centres.
             let mean = || ends().map(|(body, _)| gone(*body)).sum::<DVec3>() / ends().count() as f64;
             let along = former.map_or_else(mean, |held| touch.point - held.point);
+            // The normal turns as surfaces curve: forces and levers are kept as they are at the start of what comes.
+            let turn = former.map_or(DVec3::ZERO, |held| held.normal.cross(touch.normal));
             let lever = |end: usize| {
                 let (body, block) = row.ends[end]?;
                 let (arm, way) = (touch.point - bodies[body].position, along - gone(body));
-                Some(Lever { body, block, arm: if stands { arm } else { arm - way }, way })
+                let before = former.and_then(|held| held.ends[end]).map_or(block, |lever| lever.block);
+                let block_change = std::array::from_fn(|k| block[k] - before[k]);
+                let (arm, block) = if stands { (arm, block) } else { (arm - way, before) };
+                Some(Lever { body, block, block_change, arm, way })
             };
+            let back = if stands { DQuat::IDENTITY } else { rotation(-turn) };
             self.held.push(Held {
                 source: touch.source,
                 point: if stands { touch.point } else { touch.point - along },
-                force: world(touch) / h,
+                force: back * world(touch) / h,
+                normal: back * touch.normal,
+                turn,
                 ends: [lever(0), lever(1)],
             });
         }
@@ -244,14 +289,22 @@ impl Contacts {
 impl Held {
     /// The bodies it acts on and its wrenches there, N and N m about their centres.
     fn wrenches(&self) -> impl Iterator<Item = (usize, Vec6)> {
-        self.ends.iter().zip([1.0, -1.0]).filter_map(|(lever, sign)| {
+        let force = self.acting();
+        self.ends.iter().zip([1.0, -1.0]).filter_map(move |(lever, sign)| {
             let lever = lever.as_ref()?;
             let wrench = match self.source {
-                Source::Pair(_) => vec6(sign * self.force, (lever.arm + 0.5 * lever.way).cross(sign * self.force)),
-                Source::Bound(_) => lever.block.map(|x| x * self.force.x),
+                Source::Pair(_) => vec6(sign * force, (lever.arm + 0.5 * lever.way).cross(sign * force)),
+                Source::Bound(_) => {
+                    std::array::from_fn(|k| (lever.block[k] + 0.5 * lever.block_change[k]) * self.force.x)
+                }
             };
             Some((lever.body, wrench))
         })
+    }
+
+    /// Its force as the normal will stand in the middle of the substep, N.
+    fn acting(&self) -> DVec3 {
+        rotation(0.5 * self.turn) * self.force
     }
 }
 
@@ -274,13 +327,14 @@ fn world(touch: &Touch) -> DVec3 {
     }
 }
 
-/// A held force in a touch's own frame (n, t, b).
-fn in_frame(touch: &Touch, force: DVec3) -> DVec3 {
+/// A held force in a touch's own frame (n, t, b), turned with the normal.
+fn in_frame(touch: &Touch, held: &Held) -> DVec3 {
     match touch.source {
         Source::Pair(_) => {
             let (t, b) = tangents(touch.normal);
+            let force = rotation(held.normal.cross(touch.normal)) * held.force;
             DVec3::new(force.dot(touch.normal), force.dot(t), force.dot(b))
         }
-        Source::Bound(_) => DVec3::new(force.x, 0.0, 0.0),
+        Source::Bound(_) => DVec3::new(held.force.x, 0.0, 0.0),
     }
 }

@@ -7,7 +7,7 @@ use super::super::source::join;
 use super::super::{Wire, codes};
 use super::{Context, joints};
 use crate::articulation::Constraint;
-use crate::collision::{Collider, Shape};
+use crate::collision::{Collider, Excluded, Exclusion, Shape};
 use crate::math::{DMat3, DVec3};
 
 /// Two bodies; `None` is the world.
@@ -105,13 +105,14 @@ impl Context<'_> {
     }
 
     /// Pairs that never collide, sorted.
-    pub(super) fn excluded_pairs(&mut self, constraints: &[Constraint]) -> Vec<Pair> {
+    pub(super) fn excluded_pairs(&mut self, constraints: &[Constraint]) -> Vec<Exclusion> {
         let sidecar = self.sidecar;
-        let mut pairs: Vec<Pair> = Vec::new();
+        let mut pairs: Vec<Exclusion> = Vec::new();
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
             for constraint in constraints {
                 let (a, b) = joints::ends(&constraint.kind);
-                self.exclude(&mut pairs, a, b, &format!("joined by {}", constraint.name), "/-");
+                let reason = format!("joined by {}", constraint.name);
+                self.exclude(&mut pairs, (a, b), Excluded::Joined, (&reason, "/-"));
             }
         }
         for (i, [first, second]) in sidecar.collision.exclude.iter().enumerate() {
@@ -120,7 +121,7 @@ impl Context<'_> {
             let right = self.group(second, &format!("{at}/1"));
             for &a in &left {
                 for &b in &right {
-                    self.exclude(&mut pairs, a, b, "", &at);
+                    self.exclude(&mut pairs, (a, b), Excluded::ByCurator, ("", &at));
                 }
             }
         }
@@ -129,11 +130,11 @@ impl Context<'_> {
         pairs
     }
 
-    fn exclude(&mut self, pairs: &mut Vec<Pair>, a: Option<usize>, b: Option<usize>, reason: &str, at: &str) {
+    fn exclude(&mut self, pairs: &mut Vec<Exclusion>, (a, b): Pair, why: Excluded, (reason, at): (&str, &str)) {
         if a != b {
             let shown = format!("{} – {}", self.body_name(a), self.body_name(b));
             self.trace("collision", "excluded", shown, at, reason);
-            pairs.push((a.min(b), a.max(b)));
+            pairs.push(Exclusion { bodies: (a.min(b), a.max(b)), why });
         }
     }
 

@@ -133,14 +133,14 @@ fn what_leans_touches_where_it_is_lowest() {
 #[test]
 fn every_point_lies_on_both_surfaces() {
     let mut counts = [0; 5];
-    for seed in 0..3000 {
+    for seed in 0..3000_u64 {
         let random = &mut Random::new(seed);
         let (first, second) = ((random.word() % KINDS as u64) as usize, (random.word() % KINDS as u64) as usize);
         let (a, b) = (shape(first, random), shape(second, random));
         // Faces that lie on each other are rare by chance: half of the scenes turn the one by right angles nearly.
         let mut at_a = pose(random, 0.05);
         let mut at_b = pose(random, 0.05);
-        if seed % 2 == 0 {
+        if seed.is_multiple_of(2) {
             let (x, z) = ((random.word() % 4) as f64, (random.word() % 4) as f64);
             let right = rotation(DVec3::X * 0.5 * PI * x) * rotation(DVec3::Z * 0.5 * PI * z);
             let upright = |s: &Shape| s.place.rotation.inverse();

@@ -1,0 +1,65 @@
+//! Cholesky factor of a symmetric positive semi-definite matrix, A = L Lᵀ, with the rows that repeat others left out.
+//!
+//! A pivot that is a tiny share of its own diagonal says that the row depends on those before it: it gets 0, so that
+//! its unknown comes out 0 and the others share the work. Nothing allocates after [`Cholesky::with_room`].
+
+/// The factor; the inverse pivots stand on the diagonal.
+#[derive(Clone, Debug)]
+pub struct Cholesky {
+    n: usize,
+    entries: Vec<f64>,
+    redundant: Vec<bool>,
+    tolerance: f64,
+}
+
+impl Cholesky {
+    /// Room for `most` rows; `tolerance` is the share of a diagonal below which its pivot counts as 0.
+    pub fn with_room(most: usize, tolerance: f64) -> Self {
+        Self { n: 0, entries: vec![0.0; most * most], redundant: vec![false; most], tolerance }
+    }
+
+    /// Begins a matrix of `n` rows.
+    pub fn begin(&mut self, n: usize) {
+        self.n = n;
+    }
+
+    /// Entry of the lower triangle, j ≤ i, before [`Cholesky::factor`].
+    pub fn entry(&mut self, i: usize, j: usize) -> &mut f64 {
+        &mut self.entries[i * self.n + j]
+    }
+
+    /// Factors in place.
+    pub fn factor(&mut self) {
+        let n = self.n;
+        for j in 0..n {
+            let (done, rest) = self.entries.split_at_mut((j + 1) * n);
+            let row = &mut done[j * n..];
+            let diagonal = row[j];
+            let d = diagonal - row[..j].iter().map(|x| x * x).sum::<f64>();
+            let held = d > self.tolerance * diagonal;
+            let pivot = if held { 1.0 / d.sqrt() } else { 0.0 };
+            self.redundant[j] = !held;
+            row[j] = pivot;
+            for below in rest.chunks_exact_mut(n).take(n - j - 1) {
+                let s = below[j] - below[..j].iter().zip(&row[..j]).map(|(x, y)| x * y).sum::<f64>();
+                below[j] = s * pivot;
+            }
+        }
+    }
+
+    /// Was a row left out?
+    pub fn is_redundant(&self, row: usize) -> bool {
+        self.redundant[row]
+    }
+
+    /// Solves L Lᵀ x = x in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        let (n, l) = (self.n, &self.entries);
+        for i in 0..n {
+            x[i] = (0..i).fold(x[i], |s, k| s - l[i * n + k] * x[k]) * l[i * n + i];
+        }
+        for i in (0..n).rev() {
+            x[i] = (i + 1..n).fold(x[i], |s, k| s - l[k * n + i] * x[k]) * l[i * n + i];
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Couplings (1 row): C = Σ c q − const, q the turns and ways of bodies. Gears, drums with cords, racks, screws.
+//!
+//! **Turn** of body i about its axis n (fixed in it) against the frame k that carries the axle:
+//!
+//! ```text
+//! q̇ = (ω_i − ω_k)·n          J_i = (0, n), J_k = −(0, n)          ṅ = ω_i×n
+//! J̇ẋ = (ω_i − ω_k)·(ω_i×n) = −ω_k·(ω_i×n)
+//! ```
+//!
+//! Its value comes from the rotations themselves, so that phases never drift: with d = q₀⁻¹ q the relative rotation
+//! since the start, in the body's axes, the turn is 2 atan2(d_v·n, d_w) (the twist of d about n) plus whole turns,
+//! which are counted. Σ c (2π k) is summed from the counts: with tooth numbers for c the sum is exact over any time.
+//!
+//! **Way** of a point P along a direction u fixed in the frame k, from where P was at the start (S, fixed in k): the
+//! point-on-plane row with normal u.
+//!
+//! Signs: two external gears turn oppositely, r₁ q₁ + r₂ q₂ = const with axes alike; an internal one has −r₂. A weight
+//! on a drum: way − r q = const; compounded pulleys multiply the way.
+
+use super::plane;
+use super::{Row, Scene, negated};
+use crate::articulation::block::{Vec6, add_scaled, vec6};
+use crate::articulation::{Anchor, Function, Measure};
+use crate::bodies::RigidBody;
+use crate::math::{DQuat, DVec3, PI, atan2};
+
+/// A measure with what it must remember of the start, and its count of turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gauge {
+    /// What is measured.
+    pub measure: Measure,
+    /// Relative rotation at the start (turns).
+    start: DQuat,
+    /// S: where the point was at the start, in the frame's node axes (ways).
+    origin: Anchor,
+    /// Whole turns counted so far.
+    turns: i64,
+    /// Wrapped angle at the last count, rad.
+    last: f64,
+}
+
+/// A scalar coordinate and its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Wrapped angle (rad, beside `turns`) or way (m).
+    pub value: f64,
+    /// Whole turns.
+    pub turns: i64,
+    /// J on the measured body.
+    pub on: Vec6,
+    /// J on the body it is measured against.
+    pub against: Vec6,
+    /// J̇ẋ.
+    pub bias: f64,
+}
+
+impl Reading {
+    /// Angle with its turns (rad), or the way (m).
+    pub fn total(&self) -> f64 {
+        self.value + 2.0 * PI * self.turns as f64
+    }
+}
+
+impl Gauge {
+    /// Reads zero at these bodies' state.
+    pub fn new(measure: Measure, bodies: &[RigidBody]) -> Self {
+        let mut gauge = Self {
+            measure,
+            start: DQuat::IDENTITY,
+            origin: Anchor { body: None, point: DVec3::ZERO },
+            turns: 0,
+            last: 0.0,
+        };
+        match &measure {
+            Measure::Angle { axis, frame } => gauge.start = relative(axis.body, *frame, bodies),
+            Measure::Way { point, direction } => {
+                let p = point.body.map_or(point.point, |i| bodies[i].pose().point(point.point));
+                let local = direction.body.map_or(p, |i| bodies[i].pose().inverse_point(p));
+                gauge.origin = Anchor { body: direction.body, point: local };
+            }
+        }
+        gauge
+    }
+
+    /// The bodies it touches.
+    pub fn bodies(&self) -> (Option<usize>, Option<usize>) {
+        self.measure.bodies()
+    }
+
+    /// Its value and row at a scene.
+    pub fn read(&self, scene: &Scene) -> Reading {
+        match &self.measure {
+            Measure::Angle { axis, frame } => {
+                let n = scene.direction(axis);
+                let value = self.angle(scene.bodies);
+                // The nearest branch to the last count: a step turns by less than half a turn.
+                let mut turns = self.turns;
+                if value - self.last > PI {
+                    turns -= 1;
+                } else if value - self.last < -PI {
+                    turns += 1;
+                }
+                let bias = -scene.spin(*frame).dot(n.spin.cross(n.n));
+                let j = vec6(DVec3::ZERO, n.n);
+                Reading { value, turns, on: j, against: negated(j), bias }
+            }
+            Measure::Way { point, direction } => {
+                let row = plane::row(scene, point, &self.origin, direction.direction, &Function::Constant(0.0));
+                Reading { value: row.value, turns: 0, on: row.a, against: row.b, bias: row.bias }
+            }
+        }
+    }
+
+    /// Counts turns up to this state; once a step.
+    pub fn count(&mut self, bodies: &[RigidBody]) {
+        if let Measure::Angle { .. } = self.measure {
+            let value = self.angle(bodies);
+            if value - self.last > PI {
+                self.turns -= 1;
+            } else if value - self.last < -PI {
+                self.turns += 1;
+            }
+            self.last = value;
+        }
+    }
+
+    fn angle(&self, bodies: &[RigidBody]) -> f64 {
+        let Measure::Angle { axis, frame } = &self.measure else { return 0.0 };
+        let d = self.start.conjugate() * relative(axis.body, *frame, bodies);
+        let sine = DVec3::new(d.x, d.y, d.z).dot(axis.direction);
+        let angle = 2.0 * atan2(sine, d.w);
+        if angle > PI {
+            angle - 2.0 * PI
+        } else if angle <= -PI {
+            angle + 2.0 * PI
+        } else {
+            angle
+        }
+    }
+}
+
+/// Rotation of a body in the axes of another.
+fn relative(body: Option<usize>, frame: Option<usize>, bodies: &[RigidBody]) -> DQuat {
+    let q = |index: Option<usize>| index.map_or(DQuat::IDENTITY, |i| bodies[i].rotation);
+    q(frame).conjugate() * q(body)
+}
+
+/// A coupling's row: its value, and its blocks added to those of the bodies `parts` (every body that a term touches
+/// has a slot there).
+pub fn row(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> Row {
+    for (_, block) in parts.iter_mut() {
+        *block = [0.0; 6];
+    }
+    let mut out = Row { length: true, ..Row::default() };
+    let mut turned = 0.0;
+    for (gauge, coefficient) in terms {
+        let reading = gauge.read(scene);
+        out.value += coefficient * reading.value;
+        turned += coefficient * reading.turns as f64;
+        out.bias += coefficient * reading.bias;
+        let (on, against) = gauge.bodies();
+        for (body, block) in [(on, &reading.on), (against, &reading.against)] {
+            let slot = parts.iter_mut().find(|(index, _)| Some(*index) == body);
+            if let Some((_, sum)) = slot {
+                add_scaled(sum, *coefficient, block);
+            }
+        }
+    }
+    out.value += 2.0 * PI * turned;
+    out
+}

@@ -1,0 +1,232 @@
+//! Broad phase: which pairs can meet within an interval, by boxes around their swept colliders.
+//!
+//! Sort and sweep (D. Baraff 1992): the boxes of the bodies are sorted by their lower ends along the axis on which they
+//! spread most, and only boxes that overlap there are compared. The order of the last call is nearly that of the
+//! next, so insertion sort is linear. Bodies whose boxes overlap are then told apart collider by collider. What
+//! stands still has a box of its own for each collider.
+
+use super::advance::{Sweep, TOUCH};
+use super::pairs::Pair;
+use super::shape::{Collider, Shape};
+use crate::math::{DVec3, Pose};
+
+/// A box along the world's axes, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Bounds {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Bounds {
+    const NOTHING: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    fn about(middle: DVec3, half: DVec3) -> Self {
+        Self { low: middle - half, high: middle + half }
+    }
+
+    fn join(&self, other: &Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
+    }
+
+    fn middle_and_half(&self) -> (DVec3, DVec3) {
+        (0.5 * (self.low + self.high), 0.5 * (self.high - self.low))
+    }
+}
+
+/// Pairs of the colliders of two units: a range of `BroadPhase::sorted`.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    units: (usize, usize),
+    first: usize,
+    end: usize,
+}
+
+/// Finds the pairs that can meet. Nothing allocates after [`BroadPhase::new`] but what `out` lacks.
+#[derive(Clone, Debug)]
+pub struct BroadPhase {
+    shapes: Vec<(Option<usize>, Option<Plane>)>,
+    /// Middle and half extents of each collider's box, and of all of each body's, node frame.
+    colliders: Vec<(DVec3, DVec3)>,
+    bodies: Vec<(DVec3, DVec3)>,
+    pairs: Vec<Pair>,
+    /// Indices of pairs, runs of the same two units together.
+    sorted: Vec<usize>,
+    runs: Vec<Run>,
+    /// Swept boxes of the units (the bodies, then each collider that stands still), and units in order.
+    units: Vec<Bounds>,
+    order: Vec<usize>,
+    /// Swept boxes of the colliders whose turn it was to be looked at.
+    swept: Vec<Option<Bounds>>,
+}
+
+/// A half-space that stands still.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    normal: DVec3,
+    offset: f64,
+}
+
+impl Plane {
+    fn of(shape: &Shape) -> Option<Self> {
+        let normal = shape.place.vector(DVec3::Y);
+        shape.is_plane().then(|| Self { normal, offset: normal.dot(shape.place.position) })
+    }
+
+    fn meets(&self, bounds: &Bounds) -> bool {
+        let (middle, half) = bounds.middle_and_half();
+        middle.dot(self.normal) - half.dot(self.normal.abs()) <= self.offset + TOUCH
+    }
+}
+
+impl BroadPhase {
+    /// For these pairs of colliders.
+    pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
+        let boxes: Vec<_> = colliders.iter().map(|c| c.shape.extents()).collect();
+        let count = colliders.iter().filter_map(|c| c.body).max().map_or(0, |most| most + 1);
+        let own = |body: usize| colliders.iter().zip(&boxes).filter(move |(c, _)| c.body == Some(body));
+        let bodies = (0..count)
+            .map(|body| {
+                let all = own(body).map(|(_, &(middle, half))| Bounds::about(middle, half));
+                let whole = all.fold(Bounds::NOTHING, |whole, one| whole.join(&one));
+                // A body without colliders is in no pair.
+                if whole == Bounds::NOTHING { (DVec3::ZERO, DVec3::ZERO) } else { whole.middle_and_half() }
+            })
+            .collect();
+        let mut units = vec![Bounds::NOTHING; count];
+        let unit: Vec<usize> = colliders
+            .iter()
+            .zip(&boxes)
+            .map(|(collider, &(middle, half))| {
+                collider.body.unwrap_or_else(|| {
+                    units.push(Bounds::about(middle, half));
+                    units.len() - 1
+                })
+            })
+            .collect();
+        let key = |pair: &Pair| (unit[pair.a].min(unit[pair.b]), unit[pair.a].max(unit[pair.b]));
+        let mut sorted: Vec<usize> = (0..pairs.len()).collect();
+        sorted.sort_by_key(|&i| (key(&pairs[i]), i));
+        let mut runs: Vec<Run> = Vec::new();
+        for (at, &pair) in sorted.iter().enumerate() {
+            let units = key(&pairs[pair]);
+            match runs.last_mut() {
+                Some(run) if run.units == units => run.end = at + 1,
+                _ => runs.push(Run { units, first: at, end: at + 1 }),
+            }
+        }
+        // Units in no pair need not be sorted.
+        let order = (0..units.len()).filter(|u| runs.iter().any(|r| r.units.0 == *u || r.units.1 == *u)).collect();
+        Self {
+            shapes: colliders.iter().map(|c| (c.body, c.body.map_or_else(|| Plane::of(&c.shape), |_| None))).collect(),
+            swept: vec![None; colliders.len()],
+            colliders: boxes,
+            bodies,
+            pairs: pairs.to_vec(),
+            sorted,
+            runs,
+            units,
+            order,
+        }
+    }
+
+    /// Indices of the pairs whose swept boxes overlap, ascending, into `out`. One sweep for each body.
+    pub fn candidates(&mut self, sweeps: &[Sweep], out: &mut Vec<usize>) {
+        out.clear();
+        if self.runs.is_empty() {
+            return;
+        }
+        for &unit in &self.order {
+            if let Some(&(middle, half)) = self.bodies.get(unit) {
+                self.units[unit] = swept(&sweeps[unit], middle, half);
+            }
+        }
+        for (swept, (body, _)) in self.swept.iter_mut().zip(&self.shapes) {
+            if body.is_some() {
+                *swept = None;
+            }
+        }
+        let axis = self.widest_axis();
+        let units = &self.units;
+        let low = |unit: usize| units[unit].low[axis];
+        for i in 1..self.order.len() {
+            let mut at = i;
+            while at > 0 && low(self.order[at - 1]) > low(self.order[at]) {
+                self.order.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+        for i in 0..self.order.len() {
+            let one = self.order[i];
+            for j in i + 1..self.order.len() {
+                let other = self.order[j];
+                if self.units[other].low[axis] > self.units[one].high[axis] {
+                    break;
+                }
+                if self.units[one].meets(&self.units[other]) {
+                    self.tell_apart((one.min(other), one.max(other)), sweeps, out);
+                }
+            }
+        }
+        out.sort_unstable();
+    }
+
+    /// The axis along which the middles of the boxes spread most.
+    fn widest_axis(&self) -> usize {
+        let (mut count, mut sum, mut squares) = (0.0, DVec3::ZERO, DVec3::ZERO);
+        for &unit in &self.order {
+            let middle = self.units[unit].middle_and_half().0;
+            if middle.is_finite() {
+                count += 1.0;
+                sum += middle;
+                squares += middle * middle;
+            }
+        }
+        (count * squares - sum * sum).max_position()
+    }
+
+    /// Adds the pairs of two units' colliders whose own boxes overlap.
+    fn tell_apart(&mut self, units: (usize, usize), sweeps: &[Sweep], out: &mut Vec<usize>) {
+        let Ok(run) = self.runs.binary_search_by_key(&units, |run| run.units) else { return };
+        let Run { first, end, .. } = self.runs[run];
+        for at in first..end {
+            let index = self.sorted[at];
+            let Pair { a, b } = self.pairs[index];
+            let (of_a, of_b) = (self.bounds(a, sweeps), self.bounds(b, sweeps));
+            let meet = match (self.shapes[a].1, self.shapes[b].1) {
+                (Some(plane), None) => plane.meets(&of_b),
+                (None, Some(plane)) => plane.meets(&of_a),
+                _ => of_a.meets(&of_b),
+            };
+            if meet {
+                out.push(index);
+            }
+        }
+    }
+
+    fn bounds(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {
+        let ((middle, half), (body, _)) = (self.colliders[collider], self.shapes[collider]);
+        *self.swept[collider].get_or_insert_with(|| match body {
+            Some(body) => swept(&sweeps[body], middle, half),
+            None => Bounds::about(middle, half),
+        })
+    }
+}
+
+/// A box around a box of the node frame all along its way.
+///
+/// At either end it is the turned box. Between, a point with the arm ρ leaves its chord by ρ θ²/8 at most, and is as
+/// much before or behind its uniform pace; `TOUCH` is added once, for each pair's touching layer.
+fn swept(sweep: &Sweep, middle: DVec3, half: DVec3) -> Bounds {
+    let [from, to] = sweep.ends();
+    let at = |(pose, axes): (Pose, crate::math::DMat3)| {
+        let half = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
+        Bounds::about(pose.position + axes * middle, half)
+    };
+    let both = at(from).join(&at(to));
+    let margin = DVec3::splat(sweep.sag(middle, half) + TOUCH);
+    Bounds { low: both.low - margin, high: both.high + margin }
+}
