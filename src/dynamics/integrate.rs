@@ -258,7 +258,7 @@ impl Dynamics {
     }
 
     /// Accelerations of the present state into the system's `a`, unless they are there already.
-    fn ensure_rates(&mut self, t: f64) {
+    pub(super) fn ensure_rates(&mut self, t: f64) {
         if self.fresh {
             return;
         }

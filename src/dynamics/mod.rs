@@ -17,6 +17,7 @@ mod drive;
 pub mod forces;
 pub mod impulse;
 mod integrate;
+mod limits;
 mod pace;
 
 pub use crate::articulation::Method as Solver;
@@ -26,7 +27,8 @@ use crate::bodies::RigidBody;
 use crate::collision::Collider;
 use crate::math::{DMat3, DVec3};
 
-pub use contacts::{Contacts, Impact, ImpactKind, SurfacePair};
+use contacts::Verdict;
+pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
 pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
 use integrate::{Rate, State};
@@ -44,6 +46,10 @@ const FEW: usize = 8;
 /// Faster than this is not a sculpture but a fault, m/s and rad/s.
 const SPEED_LIMIT: f64 = 1_000.0;
 const SPIN_LIMIT: f64 = 1e5;
+
+/// A hit's time is aimed at this often, until it is right to this, s.
+const AIMS: usize = 3;
+const ON_TIME: f64 = 1e-6;
 
 /// How time is advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,8 +112,9 @@ pub struct Dynamics {
     /// Body and acceleration of each drive at the time last asked for.
     driven_accelerations: Vec<(usize, Vec6)>,
     system: System,
-    limits: Vec<Limit>,
     contacts: Contacts,
+    /// Wrenches from outside, and with those of resting contacts.
+    given: Vec<Vec6>,
     external: Vec<Vec6>,
     /// Force that each joint carried at the last solve, N.
     loads: Vec<f64>,
@@ -149,9 +156,9 @@ impl Dynamics {
         }
         let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
         system.evaluate(&bodies);
-        let contacts = Contacts::new(figure.colliders, figure.pairs, &bodies);
+        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies);
         let precise = match settings.integrator {
-            Integrator::Auto => n <= FEW && contacts.is_empty() && figure.limits.is_empty(),
+            Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,
             Integrator::Fast | Integrator::RungeKutta => false,
         };
@@ -170,7 +177,7 @@ impl Dynamics {
             driven_accelerations: figure.drives.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
             settings,
             system,
-            limits: figure.limits.to_vec(),
+            given: vec![[0.0; 6]; n],
             external: vec![[0.0; 6]; n],
             mean: vec![Rate::default(); n],
             turned: vec![DVec3::ZERO; n],
@@ -194,10 +201,7 @@ impl Dynamics {
         for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
             *before = State::of(body);
         }
-        if self.external != external {
-            self.external.copy_from_slice(external);
-            self.fresh = false;
-        }
+        self.given.copy_from_slice(external);
         self.dt = dt;
         self.contacts.begin_step(dt);
         self.clear_happenings();
@@ -219,7 +223,7 @@ impl Dynamics {
             self.rub(dt);
         }
         for impact in &impacts[already..] {
-            for body in impact.colliders.into_iter().filter_map(|collider| self.contacts.body_of(collider)) {
+            for body in impact.bodies.into_iter().flatten() {
                 self.system.activity.hit(body, impact.impulse, self.time + impact.time);
                 self.springs.activity.hit(body, impact.impulse, self.time + impact.time);
             }
@@ -241,30 +245,72 @@ impl Dynamics {
             self.before.copy_from_slice(&self.bodies);
         }
         let now = self.time + done;
-        let mut used = self.integrate(now, h, dt / MOST_SUBSTEPS);
-        if collides && let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
-            used *= hit.s;
-            self.back_to_start();
-            if used > 0.0 {
-                // Shorter than what went well: it goes well.
-                used = self.integrate(now, used, used);
+        let least = dt / MOST_SUBSTEPS;
+        let mut used = self.hold(now, h, least);
+        if collides {
+            if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
+                let mut until = used * hit.s;
+                let whole = used;
+                for aim in 1..=AIMS {
+                    self.back_to_start();
+                    self.contacts.cut_substep();
+                    used = if until > 0.0 { self.hold(now, until, least.min(until)) } else { 0.0 };
+                    let early = self.contacts.early(&hit, &self.bodies);
+                    let better = (until + early).clamp(0.0, whole);
+                    if aim == AIMS || used < until || (better - until).abs() < ON_TIME {
+                        break;
+                    }
+                    until = better;
+                }
+                // A substep that had to be shorter still comes upon the hit again.
+                if used >= until {
+                    self.prepare_impulses();
+                    let at = (done + used, h);
+                    self.contacts.resolve_hit(&hit, at, &mut self.system, &mut self.bodies, impacts);
+                }
             }
-            self.prepare_impulses();
-            self.contacts.resolve_impact(&hit, done + used, &mut self.system, &mut self.bodies, impacts);
-        }
-        let at_limit = self.limits.iter().any(|limit| contacts::excess(limit, &self.bodies).is_some());
-        if self.contacts.has_resting() || at_limit {
-            self.prepare_impulses();
-            self.contacts.resolve_resting(&mut self.system, &mut self.bodies);
-            contacts::resolve_limits(&self.limits, &mut self.system, &mut self.bodies);
-            // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
-            self.project();
+            self.contacts.end_substep(&self.bodies);
+            // What the joints carry: the last solve was of impulses.
+            self.press();
+            self.ensure_rates(now + used);
         }
         for (joint, load) in self.loads.iter_mut().enumerate() {
             *load = self.system.load(joint);
         }
         self.break_overloaded(now + used);
         used
+    }
+
+    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong.
+    fn hold(&mut self, t: f64, mut h: f64, least: f64) -> f64 {
+        let mut pass = 1;
+        loop {
+            self.press();
+            h = self.integrate(t, h, if pass > 1 { h } else { least });
+            if !self.contacts.anything_rests() {
+                return h;
+            }
+            self.prepare_impulses();
+            match self.contacts.settle((h, pass, h > 2.0 * least), &self.before, &mut self.system, &mut self.bodies) {
+                Verdict::Stands => break,
+                Verdict::Again => pass += 1,
+                Verdict::Shorter => (h, pass) = (0.5 * h, 1),
+            }
+            self.back_to_start();
+        }
+        // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
+        self.project();
+        h
+    }
+
+    /// All wrenches: those from outside, and those of what rests.
+    fn press(&mut self) {
+        self.last.copy_from_slice(&self.external);
+        self.external.copy_from_slice(&self.given);
+        self.contacts.press(&mut self.external);
+        if self.last != self.external {
+            self.fresh = false;
+        }
     }
 
     /// Integrates from the substep's start at the time `t` over `h`, or over less where the error asks for it, but
@@ -305,7 +351,10 @@ impl Dynamics {
         let stiffest = self.loads.iter().zip(&self.levers).fold(0.0, |most: f64, (load, lever)| most.max(load * lever));
         let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let spin = spins.fold(0.0, f64::max);
-        let longest = (TENSION_PHASE / stiffest.sqrt()).min(SPIN_PHASE / spin.sqrt()).min(self.stride);
+        let longest = (TENSION_PHASE / stiffest.sqrt())
+            .min(SPIN_PHASE / spin.sqrt())
+            .min(self.stride)
+            .min(self.contacts.longest_substep());
         longest.max(dt / MOST_SUBSTEPS)
     }
 
@@ -389,6 +438,7 @@ impl Dynamics {
                 (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             }
             self.loads.fill(0.0);
+            self.contacts.forget(&self.bodies);
             self.fresh = false;
         }
         bad
@@ -402,6 +452,11 @@ impl Dynamics {
     /// Kinetic and potential energy, J.
     pub fn energy(&self) -> f64 {
         forces::energy(&self.bodies, self.settings.gravity) + self.springs.energy(&self.bodies, self.time)
+    }
+
+    /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.
+    pub fn contact_work(&self) -> f64 {
+        self.contacts.work()
     }
 
     /// Substeps of the last step.

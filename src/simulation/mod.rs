@@ -286,15 +286,14 @@ impl Simulation {
         }
         for impact in &self.impacts {
             let t = began + impact.time;
-            let body = |collider: usize| self.exhibit.colliders[collider].body;
             let event = Event {
                 t,
                 sample: at(t),
                 kind: match impact.kind {
-                    ImpactKind::Impact => EventKind::Impact,
+                    ImpactKind::Impact | ImpactKind::Stop => EventKind::Impact,
                     ImpactKind::Rest => EventKind::Rest,
                 },
-                bodies: impact.colliders.map(body),
+                bodies: impact.bodies,
                 point: impact.point,
                 normal: impact.normal,
                 impulse: impact.impulse,

@@ -1,0 +1,574 @@
+//! The contact problem: impulses of all touching points and bounds at once, joints held.
+//!
+//! Symbols: J_c the rows of all touches (per point: normal n, then two tangents; per bound of a limit: one), H the
+//! joints' system, u = J_c v the velocities of the touches, P their impulses, t the least normal velocities allowed:
+//!
+//! ```text
+//! u = u₀ + W (P − P₀)        W = J_c H⁻¹ J_cᵀ       (one tree solve per row; P₀ has already acted)
+//! 0 ≤ P_n ⟂ u_n − t ≥ 0      no pull, no approach, no push where it opens          (Signorini)
+//! |P_T| ≤ μ P_n              u_T = 0 inside the cone, P_T = −μ P_n u_T/|u_T| on it  (Coulomb)
+//! ```
+//!
+//! Solved by block Gauss–Seidel (M. Jean, The non-smooth contact dynamics method, 1999): touch after touch, each exact
+//! for itself. Rounds find out which touches press, stick and slide long before they find the impulses, above all in
+//! stacks and where heavy bodies lie on light ones; so every few rounds a *leap* solves the linear system of the touches
+//! that press, as they stick or slide now (a step of Newton's method, P. Alart and A. Curnier 1991). W is only positive semi-definite (four feet of a box, bodies on hinges); each block's step is therefore
+//! a proximal one, (K + ε tr K) ΔP = −u, whose fixed points are the same and which adds nothing where K has nothing
+//! to give. The velocities that come out are unique where friction is; the split among redundant feet is the one
+//! nearest to where the rounds began.
+
+use crate::articulation::System;
+use crate::articulation::block::{Vec6, angular, dot, linear};
+use crate::bodies::RigidBody;
+use crate::math::{DMat3, DVec2, DVec3};
+
+/// Most touches of one problem; deeper ones come first where there are more.
+pub(super) const MOST_TOUCHES: usize = 64;
+/// Rounds over all touches between two leaps, and leaps. A warm start needs one round; the bound is for heaps that
+/// fall.
+const ROUNDS: usize = 5;
+const LEAPS: usize = 40;
+/// Where the rounds run out, they were good enough if none changed a velocity by more than this, m/s, or than this share
+/// of the velocities that the impulses make alone: heavy bodies on light ones leave no finer.
+const NEARLY: f64 = 1e-4;
+const NEARLY_SHARE: f64 = 1e-7;
+/// Share of the largest velocities that an impulse makes which is rounding.
+const ROUNDING: f64 = 1e-13;
+/// A leap that changes an impulse by more than this times the velocities it is to correct leads nowhere.
+const MOST_LEAP: f64 = 1e10;
+/// Rounds end when none changes a velocity by more than this, m/s: a resting body creeps by less than a hundredth of
+/// a micrometre a minute.
+const SETTLED: f64 = 1e-11;
+/// What presses less than this share of the largest impulse does not hinder a leap.
+const SLIGHT: f64 = 1e-3;
+/// ε of the proximal step.
+const PROXIMAL: f64 = 1e-12;
+/// A touch whose effective inverse mass is below this (1/kg) is held by joints and cannot move.
+pub(super) const LOCKED: f64 = 1e-9;
+
+/// What a touch belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    /// A pair of colliders.
+    Pair(usize),
+    /// A bound of a limit.
+    Bound(usize),
+}
+
+/// One row: the blocks of the one or two bodies it acts on.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::dynamics) struct Row {
+    pub ends: [Option<(usize, Vec6)>; 2],
+}
+
+impl Row {
+    /// Row times the bodies' coordinates.
+    fn along(&self, a: &[Vec6]) -> f64 {
+        self.ends.iter().flatten().fold(0.0, |sum, (body, block)| sum + dot(block, &a[*body]))
+    }
+
+    /// Row times the bodies' velocities.
+    pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
+        let along = |(body, block): &(usize, Vec6)| {
+            let body = &bodies[*body];
+            dot(block, &crate::articulation::block::vec6(body.velocity, body.angular_velocity))
+        };
+        self.ends.iter().flatten().map(along).sum()
+    }
+}
+
+/// A touching point or a reached bound.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    pub source: Source,
+    /// World point, m.
+    pub point: DVec3,
+    /// Unit, from the second collider to the first.
+    pub normal: DVec3,
+    /// Distance, m; or what is left to the bound, rad or m.
+    pub gap: f64,
+    /// Coulomb coefficient; a bound has none.
+    pub friction: f64,
+    /// Least normal velocity t, m/s.
+    pub least: f64,
+    /// Impulse that has acted already, (n, t, b), N s.
+    pub before: DVec3,
+    /// Impulse, (n, t, b), N s.
+    pub impulse: DVec3,
+    /// Impulse that the rounds begin from.
+    pub begin: DVec3,
+    /// Where the force that it began from acted.
+    pub follows: Option<DVec3>,
+    /// Its rows in the problem: `first` up to `first + rows`.
+    pub first: usize,
+    pub rows: usize,
+    /// Diagonal block of W, inverse of the proximal block, largest tangential stiffness.
+    k: DMat3,
+    step: DMat3,
+    tangential: f64,
+    /// Change that a leap asks for.
+    leap: DVec3,
+}
+
+impl Touch {
+    /// A touch without impulse.
+    pub fn new(source: Source, point: DVec3, normal: DVec3, gap: f64, friction: f64) -> Self {
+        Self {
+            source,
+            point,
+            normal,
+            gap,
+            friction,
+            least: 0.0,
+            before: DVec3::ZERO,
+            impulse: DVec3::ZERO,
+            begin: DVec3::ZERO,
+            follows: None,
+            first: 0,
+            rows: 0,
+            k: DMat3::ZERO,
+            step: DMat3::ZERO,
+            tangential: 0.0,
+            leap: DVec3::ZERO,
+        }
+    }
+
+    /// Share of its leap, up to 1, that keeps it pressing and within the cone.
+    fn most_leap(&self) -> f64 {
+        let (p, d) = (self.impulse, self.leap);
+        let open = if p.x + d.x < 0.0 { p.x / -d.x } else { 1.0 };
+        if self.rows == 1 || self.friction == 0.0 {
+            return open;
+        }
+        // |p_T + x d_T|² = μ² (p_n + x d_n)²: the root beyond which it is outside. Sliding ones stay on the cone.
+        let mu2 = self.friction * self.friction;
+        let a = d.y * d.y + d.z * d.z - mu2 * d.x * d.x;
+        let b = p.y * d.y + p.z * d.z - mu2 * p.x * d.x;
+        let c = p.y * p.y + p.z * p.z - mu2 * p.x * p.x;
+        if c >= -ROUNDING * mu2 * p.x * p.x || a + 2.0 * b + c <= 0.0 {
+            return open;
+        }
+        let root = (b * b - a * c).max(0.0).sqrt();
+        open.min(-c / (b + root))
+    }
+
+    /// Effective inverse mass block (n, t, b), 1/kg.
+    pub fn k(&self) -> &DMat3 {
+        &self.k
+    }
+}
+
+/// All touches of one moment.
+#[derive(Clone, Debug)]
+pub(super) struct Problem {
+    pub touches: Vec<Touch>,
+    pub rows: Vec<Row>,
+    /// W, row by row.
+    w: Vec<f64>,
+    /// Velocities of the rows under the present impulses, m/s.
+    pub u: Vec<f64>,
+    /// Scratch per row.
+    other: Vec<f64>,
+    /// Unknowns and matrix of a leap.
+    active: Vec<Active>,
+    matrix: Vec<f64>,
+}
+
+/// One unknown of a leap: how its touch's impulse changes with it, and which of its velocities it is to correct.
+#[derive(Clone, Copy, Debug)]
+struct Active {
+    touch: usize,
+    along: DVec3,
+    test: DVec3,
+}
+
+impl Problem {
+    /// Room for this many touches at a time.
+    pub fn new(touches: usize) -> Self {
+        let touches = touches.min(MOST_TOUCHES);
+        let rows = 3 * touches;
+        Self {
+            touches: Vec::with_capacity(touches),
+            rows: Vec::with_capacity(rows),
+            w: vec![0.0; rows * rows],
+            u: Vec::with_capacity(rows),
+            other: vec![0.0; rows],
+            active: Vec::with_capacity(rows),
+            matrix: vec![0.0; rows * rows],
+        }
+    }
+
+    /// Empties it.
+    pub fn clear(&mut self) {
+        self.touches.clear();
+        self.rows.clear();
+    }
+
+    /// Is there room for another touch?
+    pub fn has_room(&self) -> bool {
+        self.touches.len() < self.touches.capacity()
+    }
+
+    /// Adds a touch with its rows.
+    pub fn push(&mut self, mut touch: Touch, rows: &[Row]) {
+        if self.has_room() {
+            (touch.first, touch.rows) = (self.rows.len(), rows.len());
+            self.rows.extend_from_slice(rows);
+            self.touches.push(touch);
+        }
+    }
+
+    /// Finds W and the velocities at the bodies' present state; the joints must be factored there.
+    pub fn assemble(&mut self, system: &mut System, bodies: &[RigidBody]) {
+        let n = self.rows.len();
+        for column in 0..n {
+            system.b.fill([0.0; 6]);
+            for (body, block) in self.rows[column].ends.iter().flatten() {
+                system.push_impulse(*body, block, 1.0);
+            }
+            system.solve_impulse();
+            for row in column..n {
+                let value = self.rows[row].along(&system.a);
+                self.w[row * n + column] = value;
+                self.w[column * n + row] = value;
+            }
+        }
+        self.u.clear();
+        self.u.extend(self.rows.iter().map(|row| row.rate(bodies)));
+        for touch in &mut self.touches {
+            let at = |i: usize, j: usize| {
+                let inside = i < touch.rows && j < touch.rows;
+                if inside { self.w[(touch.first + i) * n + touch.first + j] } else { 0.0 }
+            };
+            let column = |j| DVec3::new(at(0, j), at(1, j), at(2, j));
+            touch.k = DMat3::from_cols(column(0), column(1), column(2));
+            let trace = touch.k.x_axis.x + touch.k.y_axis.y + touch.k.z_axis.z;
+            let proximal = touch.k + DMat3::from_diagonal(DVec3::splat(PROXIMAL * trace.max(LOCKED)));
+            touch.step = proximal.inverse();
+            let (a, d, b) = (touch.k.y_axis.y, touch.k.z_axis.z, touch.k.y_axis.z);
+            touch.tangential = 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt();
+        }
+    }
+
+    /// Lets every touch begin from its own `begin` where that is not what acted before.
+    pub fn begin(&mut self) {
+        for index in 0..self.touches.len() {
+            let Touch { begin, before, .. } = self.touches[index];
+            if begin != before {
+                self.set(index, begin);
+            }
+        }
+    }
+
+    /// Velocity of a touch (n, t, b), m/s.
+    pub fn velocity(&self, touch: &Touch) -> DVec3 {
+        let at = |i| if i < touch.rows { self.u[touch.first + i] } else { 0.0 };
+        DVec3::new(at(0), at(1), at(2))
+    }
+
+    /// Sets the impulse of a touch and lets all velocities follow. Answers the largest change of its own.
+    pub fn set(&mut self, index: usize, impulse: DVec3) -> f64 {
+        let touch = &mut self.touches[index];
+        let change = impulse - touch.impulse;
+        touch.impulse = impulse;
+        let n = self.rows.len();
+        for i in 0..touch.rows {
+            if change[i] != 0.0 {
+                let line = &self.w[(touch.first + i) * n..][..n];
+                for (u, w) in self.u.iter_mut().zip(line) {
+                    *u += w * change[i];
+                }
+            }
+        }
+        (touch.k * change).abs().max_element()
+    }
+
+    /// Solves for all impulses from where they stand. Answers whether they are good enough to begin from next time.
+    pub fn solve(&mut self) -> bool {
+        let (mut rest, mut scale) = (0.0, 0.0);
+        for leap in 0..LEAPS {
+            if leap > 0 {
+                self.leap();
+            }
+            for _ in 0..ROUNDS {
+                (rest, scale) = self.round();
+                if rest <= SETTLED + ROUNDING * scale {
+                    return true;
+                }
+            }
+        }
+        rest <= NEARLY + NEARLY_SHARE * scale
+    }
+
+    /// One round over all touches. Answers the largest velocity that it changed, and the largest that any impulse alone
+    /// would make, m/s.
+    fn round(&mut self) -> (f64, f64) {
+        let (mut largest, mut scale): (f64, f64) = (0.0, 0.0);
+        for index in 0..self.touches.len() {
+            let touch = &self.touches[index];
+            if touch.k.x_axis.x > LOCKED {
+                let impulse = step(touch, self.velocity(touch));
+                scale = scale.max(touch.k.x_axis.x * impulse.x);
+                largest = largest.max(self.set(index, impulse));
+            }
+        }
+        (largest, scale)
+    }
+
+    /// Solves at once for all touches that press, each taken to go on sticking, or sliding the way it does.
+    fn leap(&mut self) {
+        let n = self.rows.len();
+        self.active.clear();
+        for (index, touch) in self.touches.iter().enumerate() {
+            if touch.impulse.x <= 0.0 {
+                continue;
+            }
+            let most = touch.friction * touch.impulse.x;
+            let rub = DVec2::new(touch.impulse.y, touch.impulse.z);
+            // Slides where friction is all there can be, and opposes the slip: else the cone only caught it by the way.
+            let u = self.velocity(touch);
+            let slip = DVec2::new(u.y, u.z);
+            let slides = rub.length() >= most * (1.0 - ROUNDING) && slip.dot(rub) < -0.5 * slip.length() * rub.length();
+            if touch.rows == 3 && most > 0.0 && !slides {
+                self.active.extend([DVec3::X, DVec3::Y, DVec3::Z].map(|along| Active {
+                    touch: index,
+                    along,
+                    test: along,
+                }));
+            } else {
+                let along = if touch.rows == 3 { (touch.impulse / touch.impulse.x).with_x(1.0) } else { DVec3::X };
+                self.active.push(Active { touch: index, along, test: DVec3::X });
+            }
+        }
+        let count = self.active.len();
+        for (i, at) in self.active.iter().enumerate() {
+            let first = self.touches[at.touch].first + at.test.max_position();
+            let line = &self.w[first * n..][..n];
+            for (j, by) in self.active.iter().enumerate() {
+                let touch = &self.touches[by.touch];
+                let column = &line[touch.first..touch.first + touch.rows];
+                self.matrix[i * count + j] = column.iter().enumerate().map(|(k, w)| w * by.along[k]).sum();
+            }
+            let touch = &self.touches[at.touch];
+            self.matrix[i * count + i] += PROXIMAL * touch.k.x_axis.x.max(touch.tangential);
+            let least = if at.test == DVec3::X { touch.least } else { 0.0 };
+            self.other[i] = least - self.u[first];
+        }
+        let wanted = self.other[..count].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+        if !eliminate(&mut self.matrix[..count * count], &mut self.other[..count]) {
+            return;
+        }
+        // What no impulse can do asks for endless ones.
+        let sane = |(at, x): (&Active, &f64)| (x * self.touches[at.touch].k.x_axis.x).abs() < MOST_LEAP * wanted;
+        if !self.active.iter().zip(&self.other[..count]).all(sane) {
+            return;
+        }
+        for touch in &mut self.touches {
+            touch.leap = DVec3::ZERO;
+        }
+        for i in 0..count {
+            let Active { touch, along, .. } = self.active[i];
+            self.touches[touch].leap += along * self.other[i];
+        }
+        // As far as all that press to speak of keep to the laws: what stops it opens or slides from there on.
+        let largest = self.touches.iter().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));
+        let far = self
+            .touches
+            .iter()
+            .filter(|touch| touch.impulse.x > SLIGHT * largest)
+            .fold(1.0, |far: f64, touch| far.min(touch.most_leap()));
+        for index in 0..self.touches.len() {
+            let touch = &self.touches[index];
+            let to = touch.impulse + far * touch.leap;
+            let normal = to.x.max(0.0);
+            let rub = DVec2::new(to.y, to.z).clamp_length_max(touch.friction * normal);
+            self.set(index, DVec3::new(normal, rub.x, rub.y));
+        }
+    }
+
+    /// Solves for friction alone, the normal impulses given.
+    pub fn solve_friction(&mut self) -> bool {
+        for _ in 0..LEAPS * ROUNDS {
+            let mut largest: f64 = 0.0;
+            for index in 0..self.touches.len() {
+                let touch = &self.touches[index];
+                if touch.rows == 3 && touch.tangential > LOCKED {
+                    let rub = rub(touch, self.velocity(touch), touch.impulse.x);
+                    let impulse = DVec3::new(touch.impulse.x, rub.x, rub.y);
+                    largest = largest.max(self.set(index, impulse));
+                }
+            }
+            if largest <= SETTLED {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Change of kinetic energy by the impulses so far, of which `before` acted earlier, J: P·(u₀ + u)/2.
+    pub fn work(&self) -> f64 {
+        let n = self.rows.len();
+        let mut work = 0.0;
+        for touch in &self.touches {
+            for i in 0..touch.rows {
+                let row = touch.first + i;
+                let gained = self.change(n, row);
+                work += (touch.impulse[i] - touch.before[i]) * (self.u[row] - 0.5 * gained);
+            }
+        }
+        work
+    }
+
+    /// Row of W (P − P₀).
+    fn change(&self, n: usize, row: usize) -> f64 {
+        let line = &self.w[row * n..][..n];
+        let mut sum = 0.0;
+        for touch in &self.touches {
+            for i in 0..touch.rows {
+                sum += line[touch.first + i] * (touch.impulse[i] - touch.before[i]);
+            }
+        }
+        sum
+    }
+
+    /// Largest velocity that the impulses give any touch beyond what acted before, m/s.
+    pub fn largest_change(&self) -> f64 {
+        let n = self.rows.len();
+        (0..n).fold(0.0, |most: f64, row| most.max(self.change(n, row).abs()))
+    }
+
+    /// Slip of the fastest touch, m/s.
+    pub fn largest_slip(&self) -> f64 {
+        self.touches.iter().fold(0.0, |most: f64, touch| most.max(self.velocity(touch).with_x(0.0).length()))
+    }
+
+    /// Applies P − P₀ to the bodies' velocities.
+    pub fn apply(&self, system: &mut System, bodies: &mut [RigidBody]) {
+        system.b.fill([0.0; 6]);
+        for touch in &self.touches {
+            for i in 0..touch.rows {
+                for (body, block) in self.rows[touch.first + i].ends.iter().flatten() {
+                    system.push_impulse(*body, block, touch.impulse[i] - touch.before[i]);
+                }
+            }
+        }
+        system.solve_impulse();
+        system.apply_velocity(bodies);
+        // What rounding has left to the joints where much is taken up by little.
+        system.solve_velocity(bodies);
+        system.apply_velocity(bodies);
+    }
+
+    /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
+    pub fn push_out(&mut self, depth: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
+        let n = self.rows.len();
+        // `other` holds the opening of each row, `before.x` the push of each touch.
+        self.other[..n].fill(0.0);
+        for touch in &mut self.touches {
+            touch.before = DVec3::ZERO;
+        }
+        for _ in 0..LEAPS * ROUNDS {
+            let mut largest: f64 = 0.0;
+            for touch in &mut self.touches {
+                if touch.k.x_axis.x <= LOCKED {
+                    continue;
+                }
+                let goal = (depth - touch.gap).min(most);
+                let push = (touch.before.x + (goal - self.other[touch.first]) / touch.k.x_axis.x).max(0.0);
+                let change = push - touch.before.x;
+                touch.before.x = push;
+                let line = &self.w[touch.first * n..][..n];
+                for (opening, w) in self.other.iter_mut().zip(line) {
+                    *opening += w * change;
+                }
+                largest = largest.max((change * touch.k.x_axis.x).abs());
+            }
+            if largest < 0.01 * depth.abs() {
+                break;
+            }
+        }
+        system.b.fill([0.0; 6]);
+        for touch in &self.touches {
+            for (body, block) in self.rows[touch.first].ends.iter().flatten() {
+                system.push_impulse(*body, block, touch.before.x);
+            }
+        }
+        system.solve_impulse();
+        for (body, a) in bodies.iter_mut().zip(&system.a) {
+            body.displace(linear(a), angular(a));
+        }
+    }
+}
+
+/// Solves the system of a row-major square matrix in place by elimination with row pivots; false where it is singular.
+fn eliminate(matrix: &mut [f64], b: &mut [f64]) -> bool {
+    let n = b.len();
+    for column in 0..n {
+        let pivot = (column..n).fold(column, |best, row| {
+            if matrix[row * n + column].abs() > matrix[best * n + column].abs() { row } else { best }
+        });
+        if matrix[pivot * n + column] == 0.0 {
+            return false;
+        }
+        if pivot != column {
+            let (above, below) = matrix.split_at_mut(pivot * n);
+            above[column * n..][..n].swap_with_slice(&mut below[..n]);
+            b.swap(column, pivot);
+        }
+        let (above, below) = matrix.split_at_mut((column + 1) * n);
+        let line = &above[column * n..];
+        for (row, values) in below.chunks_exact_mut(n).enumerate() {
+            let share = values[column] / line[column];
+            if share != 0.0 {
+                for k in column + 1..n {
+                    values[k] -= share * line[k];
+                }
+                b[column + 1 + row] -= share * b[column];
+            }
+        }
+    }
+    for row in (0..n).rev() {
+        let line = &matrix[row * n..][..n];
+        let sum = (row + 1..n).fold(b[row], |sum, k| sum - line[k] * b[k]);
+        b[row] = sum / line[row];
+    }
+    b.iter().all(|x| x.is_finite())
+}
+
+/// The impulse that satisfies a touch's own laws, the others' impulses as they are.
+fn step(touch: &Touch, u: DVec3) -> DVec3 {
+    let (p, k) = (touch.impulse, &touch.k);
+    let u = DVec3::new(u.x - touch.least, u.y, u.z);
+    if touch.rows == 1 || touch.friction == 0.0 {
+        return DVec3::new((p.x - u.x / k.x_axis.x).max(0.0), 0.0, 0.0);
+    }
+    let stuck = p - touch.step * u;
+    if stuck.x >= 0.0
+        && DVec2::new(stuck.y, stuck.z).length_squared() <= (touch.friction * stuck.x) * (touch.friction * stuck.x)
+    {
+        return stuck;
+    }
+    // Slides: the direction that the slip asks for, then the normal impulse that goes with it.
+    let pull = if touch.tangential > LOCKED {
+        DVec2::new(p.y - u.y / touch.tangential, p.z - u.z / touch.tangential)
+    } else {
+        DVec2::new(-u.y, -u.z)
+    };
+    let along = touch.friction * pull.normalize_or_zero();
+    let column = DVec3::new(1.0, along.x, along.y);
+    let stiffness = (*k * column).x;
+    let normal = if stiffness > 0.1 * k.x_axis.x {
+        // u_n − K_n P is what the others do.
+        ((*k * p).x - u.x) / stiffness
+    } else {
+        p.x - u.x / k.x_axis.x
+    };
+    normal.max(0.0) * column
+}
+
+/// Friction of a touch under a given normal impulse.
+fn rub(touch: &Touch, u: DVec3, normal: f64) -> DVec2 {
+    let p = touch.impulse;
+    let pull = DVec2::new(p.y - u.y / touch.tangential, p.z - u.z / touch.tangential);
+    pull.clamp_length_max(touch.friction * normal.max(0.0))
+}

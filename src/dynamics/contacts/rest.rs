@@ -1,0 +1,340 @@
+//! Rest: the forces of all touches over a substep, found so that contact holds at its end.
+//!
+//! The bodies are integrated under the forces f that held them last; where that leaves them, the contact problem is
+//! solved for the impulses P = h f + ΔP that make the velocities right there (no approach, no pull, Coulomb's cone),
+//! with the touches as they lie *there*, so that rolling and curved surfaces need no terms of their own. If ΔP is so
+//! large that it should have moved the bodies during the substep, the substep is integrated again under P/h; else ΔP
+//! is applied and P/h is where the next substep begins. A body at rest therefore feels exactly its support, does not
+//! move, and costs one pass.
+//!
+//! What has sunk into the touching layer, by less than a micrometre in ordinary motion, rises slowly; what lies deeper is
+//! moved out at once through the same matrix. Where surfaces curve so much that a substep sinks in, a shorter one is
+//! taken.
+
+use super::problem::{Source, Touch};
+use super::{Contacts, Held, Lever, RELEASE_GAP, point_rows};
+use crate::articulation::System;
+use crate::articulation::block::{Vec6, add_scaled, angular, linear, vec6};
+use crate::bodies::RigidBody;
+use crate::collision::TOUCH;
+use crate::math::{DQuat, DVec3, rotation, rotation_vector, tangents};
+
+/// Passes over one substep at most, but for one more where a rest proves false.
+const PASSES: usize = 3;
+/// Displacement within a substep that another pass is worth, m.
+const MISSED: f64 = 1e-6;
+/// What rests may close a gap that is wider than the touching layer, within one substep.
+const LAYER: f64 = TOUCH;
+/// What rests slides no farther than this in one substep, m.
+const SLIDE: f64 = 2e-3;
+/// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
+const FINE: f64 = 1e-6;
+/// What rests does not sink deeper than this in one substep, m.
+const SUNK: f64 = 2e-5;
+/// Points nearer than this are one, however slow their bodies, m.
+const NEAR: f64 = 1e-4;
+/// No approach is as fast as this, m/s.
+const FREE: f64 = 1e9;
+/// Time in which what rests rises to the middle of the touching layer, s: at micrometres a second, and its work is
+/// known.
+const RISE: f64 = 0.02;
+/// Farthest that sunken bodies are moved out in one substep, m.
+const MOST_PUSH: f64 = 1e-3;
+
+/// What is to be done about a pass over a substep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::dynamics) enum Verdict {
+    /// Nothing: it stands.
+    Stands,
+    /// Integrate it again, under better forces.
+    Again,
+    /// Integrate a shorter one: surfaces curve too much for the forces to stand still.
+    Shorter,
+}
+
+impl Contacts {
+    /// Does anything rest, or has a force to be taken back?
+    pub(in crate::dynamics) fn anything_rests(&self) -> bool {
+        self.at_rest > 0 || !self.held.is_empty()
+    }
+
+    /// Longest substep in which what rests passes no feature of what it slides on, s.
+    pub(in crate::dynamics) fn longest_substep(&self) -> f64 {
+        if self.at_rest > 0 && self.slip > 0.0 { SLIDE / self.slip } else { f64::INFINITY }
+    }
+
+    /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
+    pub(in crate::dynamics) fn press(&self, external: &mut [Vec6]) {
+        for (body, wrench) in self.held.iter().flat_map(Held::wrenches) {
+            add_scaled(&mut external[body], 1.0, &wrench);
+        }
+    }
+
+    /// Work of those forces between two states of the bodies, J.
+    fn pressed(&self, start: &[RigidBody], end: &[RigidBody]) -> f64 {
+        let work = |(body, wrench): (usize, Vec6)| {
+            let (from, to) = (&start[body], &end[body]);
+            let turn = to.rotation * from.rotation.conjugate();
+            let turn = rotation_vector(if turn.w < 0.0 { -turn } else { turn });
+            linear(&wrench).dot(to.position - from.position) + angular(&wrench).dot(turn)
+        };
+        self.held.iter().flat_map(Held::wrenches).map(work).sum()
+    }
+
+    /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
+    /// Where the substep stands, velocities and places are put right. The joints must be factored at
+    /// the bodies' present state.
+    pub(in crate::dynamics) fn settle(
+        &mut self,
+        (h, pass, shortens): (f64, usize, bool),
+        start: &[RigidBody],
+        system: &mut System,
+        bodies: &mut [RigidBody],
+    ) -> Verdict {
+        let lost = self.gather(h, bodies);
+        self.problem.assemble(system, bodies);
+        self.problem.begin();
+        let settled = self.problem.solve();
+        let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
+        let last = pass >= PASSES || !missed;
+        if last && shortens && settled && self.sinks(FINE) {
+            return Verdict::Shorter;
+        }
+        let stands = pass > PASSES || (last && !self.releases_sunken());
+        if stands {
+            self.slip = self.problem.largest_slip();
+            self.recent_work = self.pressed(start, bodies) + self.problem.work();
+            self.problem.apply(system, bodies);
+        }
+        self.hold((h, settled, stands), start, bodies);
+        if stands && self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
+            self.problem.push_out(-LAYER, MOST_PUSH, system, bodies);
+        }
+        if stands { Verdict::Stands } else { Verdict::Again }
+    }
+
+    /// Has anything that rests sunk in by more than this within the substep?
+    fn sinks(&self, most: f64) -> bool {
+        self.problem.touches.iter().any(|touch| match touch.source {
+            Source::Pair(pair) => touch.gap < self.depth[pair] - most,
+            Source::Bound(_) => false,
+        })
+    }
+
+    /// What was taken to rest and has sunk in within this substep met where nobody looked: it is apart, so that its
+    /// hit is found. Answers whether there was such a pair.
+    fn releases_sunken(&mut self) -> bool {
+        let mut any = false;
+        for index in 0..self.problem.touches.len() {
+            let touch = &mut self.problem.touches[index];
+            let Source::Pair(pair) = touch.source else { continue };
+            // Once a step: a pair hit in this one has been looked at.
+            if touch.gap < self.depth[pair] - SUNK && self.since_hit[pair] > 0.0 {
+                touch.impulse = DVec3::ZERO;
+                any = true;
+                self.set_resting(pair, false);
+            }
+        }
+        any
+    }
+
+    /// Takes out what approach hits have left to what rests, without bounce and without memory. The joints must be
+    /// factored at the bodies' present state.
+    pub(super) fn steady(&mut self, h: f64, system: &mut System, bodies: &mut [RigidBody]) {
+        self.gather(h, bodies);
+        for touch in &mut self.problem.touches {
+            (touch.before, touch.impulse, touch.begin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        }
+        self.problem.assemble(system, bodies);
+        self.problem.solve();
+        self.slip = self.problem.largest_slip();
+        self.work += self.problem.work();
+        self.problem.apply(system, bodies);
+    }
+
+    /// Collects all touches of what rests into the problem, each with the impulse that held it; releases what has
+    /// opened. Answers whether a force that has acted belongs to no touch any more.
+    fn gather(&mut self, h: f64, bodies: &[RigidBody]) -> bool {
+        self.problem.clear();
+        for pair in 0..self.pairs.len() {
+            if !self.resting[pair] {
+                continue;
+            }
+            let manifold = self.manifold(pair, bodies);
+            let nearest = manifold.points().iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
+            if nearest > RELEASE_GAP {
+                self.set_resting(pair, false);
+                continue;
+            }
+            for at in manifold.points() {
+                self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
+            }
+        }
+        for bound in 0..self.limits.count() {
+            if self.limits.resting(bound) {
+                if self.limits.gap(bound, bodies) > RELEASE_GAP {
+                    self.set_bound_resting(bound, false);
+                } else {
+                    self.push_bound(bound, bodies);
+                }
+            }
+        }
+        for touch in &mut self.problem.touches {
+            // Gently to the middle of the layer; a wider gap may close within the substep.
+            let sunk = (0.5 * LAYER - touch.gap).clamp(-0.5 * LAYER, LAYER);
+            touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
+        }
+        self.warm_start(h, bodies)
+    }
+
+    /// Gives each held force to the nearest touch of its pair. Where that is farther than a point can go, the force is
+    /// taken back where it acted, and the rounds only begin from it; the answer is whether there are such.
+    fn warm_start(&mut self, h: f64, bodies: &[RigidBody]) -> bool {
+        let mut lost = false;
+        let present = self.problem.touches.len();
+        for index in 0..self.held.len() {
+            let held = self.held[index];
+            let near = NEAR + 2.0 * h * held.ends.iter().flatten().map(|lever| lever.speed(bodies)).sum::<f64>();
+            let mut best = (None, f64::INFINITY);
+            for touch in &mut self.problem.touches[..present] {
+                let far = touch.point.distance(held.point);
+                if touch.source == held.source && far <= best.1 {
+                    best = (Some(touch), far);
+                }
+            }
+            let follows = best.1 <= near;
+            if let Some(touch) = best.0 {
+                let impulse = h * in_frame(touch, &held);
+                touch.begin += impulse;
+                if follows {
+                    touch.before += impulse;
+                    touch.follows = Some(held.point);
+                }
+            }
+            if !follows {
+                lost = true;
+                self.take_back(&held, h, bodies);
+            }
+        }
+        for touch in &mut self.problem.touches {
+            touch.impulse = touch.before;
+        }
+        lost
+    }
+
+    /// Adds a touch that may approach at any speed, so that the rounds take its impulse away.
+    fn take_back(&mut self, held: &Held, h: f64, bodies: &[RigidBody]) {
+        let size = held.force.length();
+        let row = match held.source {
+            Source::Pair(pair) => point_rows(held.point, held.acting() / size, self.bodies_of(pair), bodies)[0],
+            Source::Bound(bound) => self.limits.row(bound, bodies).1,
+        };
+        let mut touch = Touch::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);
+        touch.before.x = h * size;
+        touch.least = -FREE;
+        self.problem.push(touch, &[row]);
+    }
+
+    /// Remembers the forces, to begin the next substep or this one anew; those of rounds that did not settle are no
+    /// place to begin from.
+    fn hold(&mut self, (h, settled, stands): (f64, bool, bool), start: &[RigidBody], bodies: &[RigidBody]) {
+        self.former.clear();
+        std::mem::swap(&mut self.former, &mut self.held);
+        if stands {
+            self.depth.fill(0.0);
+            for touch in &self.problem.touches {
+                if let Source::Pair(pair) = touch.source {
+                    self.depth[pair] = self.depth[pair].min(touch.gap);
+                }
+            }
+        }
+        if !settled {
+            return;
+        }
+        for touch in &self.problem.touches {
+            if touch.impulse == DVec3::ZERO {
+                continue;
+            }
+            let former =
+                self.former.iter().find(|held| held.source == touch.source && touch.follows == Some(held.point));
+            let row = &self.problem.rows[touch.first];
+            let gone = |body: usize| bodies[body].position - start[body].position;
+            let ends = || row.ends.iter().flatten();
+            // A new point goes with its bodies' centres.
+            let mean = || ends().map(|(body, _)| gone(*body)).sum::<DVec3>() / ends().count() as f64;
+            let along = former.map_or_else(mean, |held| touch.point - held.point);
+            // The normal turns as surfaces curve: forces and levers are kept as they are at the start of what comes.
+            let turn = former.map_or(DVec3::ZERO, |held| held.normal.cross(touch.normal));
+            let lever = |end: usize| {
+                let (body, block) = row.ends[end]?;
+                let (arm, way) = (touch.point - bodies[body].position, along - gone(body));
+                let before = former.and_then(|held| held.ends[end]).map_or(block, |lever| lever.block);
+                let block_change = std::array::from_fn(|k| block[k] - before[k]);
+                let (arm, block) = if stands { (arm, block) } else { (arm - way, before) };
+                Some(Lever { body, block, block_change, arm, way })
+            };
+            let back = if stands { DQuat::IDENTITY } else { rotation(-turn) };
+            self.held.push(Held {
+                source: touch.source,
+                point: if stands { touch.point } else { touch.point - along },
+                force: back * world(touch) / h,
+                normal: back * touch.normal,
+                turn,
+                ends: [lever(0), lever(1)],
+            });
+        }
+    }
+}
+
+impl Held {
+    /// The bodies it acts on and its wrenches there, N and N m about their centres.
+    fn wrenches(&self) -> impl Iterator<Item = (usize, Vec6)> {
+        let force = self.acting();
+        self.ends.iter().zip([1.0, -1.0]).filter_map(move |(lever, sign)| {
+            let lever = lever.as_ref()?;
+            let wrench = match self.source {
+                Source::Pair(_) => vec6(sign * force, (lever.arm + 0.5 * lever.way).cross(sign * force)),
+                Source::Bound(_) => {
+                    std::array::from_fn(|k| (lever.block[k] + 0.5 * lever.block_change[k]) * self.force.x)
+                }
+            };
+            Some((lever.body, wrench))
+        })
+    }
+
+    /// Its force as the normal will stand in the middle of the substep, N.
+    fn acting(&self) -> DVec3 {
+        rotation(0.5 * self.turn) * self.force
+    }
+}
+
+impl Lever {
+    /// How fast its point can move, m/s.
+    fn speed(&self, bodies: &[RigidBody]) -> f64 {
+        let body = &bodies[self.body];
+        body.velocity.length() + body.angular_velocity.length() * self.arm.length()
+    }
+}
+
+/// A touch's impulse in the world; a bound's along its row in x.
+fn world(touch: &Touch) -> DVec3 {
+    match touch.source {
+        Source::Pair(_) => {
+            let (t, b) = tangents(touch.normal);
+            touch.impulse.x * touch.normal + touch.impulse.y * t + touch.impulse.z * b
+        }
+        Source::Bound(_) => touch.impulse,
+    }
+}
+
+/// A held force in a touch's own frame (n, t, b), turned with the normal.
+fn in_frame(touch: &Touch, held: &Held) -> DVec3 {
+    match touch.source {
+        Source::Pair(_) => {
+            let (t, b) = tangents(touch.normal);
+            let force = rotation(held.normal.cross(touch.normal)) * held.force;
+            DVec3::new(force.dot(touch.normal), force.dot(t), force.dot(b))
+        }
+        Source::Bound(_) => DVec3::new(held.force.x, 0.0, 0.0),
+    }
+}
