@@ -63,7 +63,7 @@ pub fn inverse(a: &Mat6) -> Mat6 {
         for k in 0..j {
             d -= l[j][k] * l[j][k];
         }
-        debug_assert!(d > 0.0, "not positive definite at row {j}: {d}");
+        debug_assert!(d > 0.0 || d.is_nan(), "not positive definite at row {j}: {d}");
         let d = d.sqrt();
         l[j][j] = d;
         let inv = 1.0 / d;

@@ -245,6 +245,52 @@ impl System {
         }
     }
 
+    /// Adds the geometric stiffness of the joints' last forces, as an implicit midpoint rule over `h` seconds feels it,
+    /// to the bodies' inertia for the next factorisation.
+    ///
+    /// A force f = λ at the arm r turns its body by the torque r × f; turning by δ changes it by (δ × r) × f =
+    /// (r fᵀ − (f·r) E) δ. The rule's midpoint lies h²/4 ω̇ beyond what the velocity foretells, so that
+    ///
+    /// ```text
+    /// (I − h²/4 K) ω̇ = τ        K = ½ (r fᵀ + f rᵀ) − (f·r) E        where the joint pulls, f·r > 0
+    /// ```
+    ///
+    /// K belongs to one body, so the tree stays a tree. Pushed joints are left explicit: theirs would soften.
+    pub fn stiffen(&mut self, h: f64) {
+        let quarter = 0.25 * h * h;
+        for joint in &self.joints {
+            let (mut force, mut arm_a, mut arm_b) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+            let lambda = &self.lambda[joint.at..joint.at + joint.hard];
+            match (joint.arms, joint.block) {
+                (Some((r, s)), _) => {
+                    force = DVec3::new(lambda[0], lambda[1], lambda[2]);
+                    (arm_a, arm_b) = (r, s);
+                }
+                (None, Some(block)) => {
+                    // Σ e × (r × e) over three directions is 2 r; over fewer, what lies across them.
+                    let rows = &self.blocks[block];
+                    let lengths = (0..joint.hard).filter(|&k| self.states[joint.at + k].length);
+                    let share = if lengths.clone().count() >= 3 { 0.5 } else { 1.0 };
+                    for k in lengths {
+                        force += lambda[k] * linear(&rows.a[k]);
+                        arm_a += share * linear(&rows.a[k]).cross(angular(&rows.a[k]));
+                        arm_b += share * linear(&rows.b[k]).cross(angular(&rows.b[k]));
+                    }
+                }
+                (None, None) => {}
+            }
+            for (body, arm, f) in [(Some(joint.link.a), arm_a, force), (joint.link.b, arm_b, -force)] {
+                let (Some(body), pull) = (body, f.dot(arm)) else { continue };
+                if pull > 0.0 {
+                    let sum = DVec3::splat(pull) - arm * f;
+                    let off = -0.5
+                        * DVec3::new(arm.y * f.z + arm.z * f.y, arm.z * f.x + arm.x * f.z, arm.x * f.y + arm.y * f.x);
+                    self.inertia_world[body].add(&Sym3 { d: quarter * sum, o: quarter * off });
+                }
+            }
+        }
+    }
+
     /// Factors the system at the configuration last evaluated.
     pub fn factor(&mut self) {
         if let Some(dense) = &mut self.dense {
@@ -420,9 +466,14 @@ impl System {
         }
     }
 
+    /// The joint that a row belongs to.
+    fn joint_of(&self, row: usize) -> Option<&Joint> {
+        self.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&row))
+    }
+
     /// J of one row as blocks of the bodies it touches (for tests and reports).
     pub fn jacobian(&self, row: usize) -> Vec<(usize, Vec6)> {
-        for joint in self.joints.iter().filter(|joint| (joint.at..joint.at + joint.rows).contains(&row)) {
+        if let Some(joint) = self.joint_of(row) {
             let k = row - joint.at;
             let (a, b) = match (joint.arms, joint.block) {
                 (Some((r, s)), _) => {
@@ -430,27 +481,22 @@ impl System {
                     (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)))
                 }
                 (None, Some(block)) => (self.blocks[block].a[k], self.blocks[block].b[k]),
-                (None, None) => continue,
+                (None, None) => return Vec::new(),
             };
             return [Some((joint.link.a, a)), joint.link.b.map(|body| (body, b))].into_iter().flatten().collect();
         }
-        let rows = self.outside_rows();
-        self.couplings
-            .iter()
-            .find(|coupling| coupling.at == row)
-            .map_or(Vec::new(), |coupling| rows[coupling.outside].parts.clone())
+        let coupling = self.couplings.iter().find(|coupling| coupling.at == row);
+        coupling.map_or(Vec::new(), |coupling| self.outside_rows()[coupling.outside].parts.clone())
     }
 
     /// Γ and share of one row.
     pub fn softness(&self, row: usize) -> (f64, f64) {
-        for joint in self.joints.iter().filter(|joint| (joint.at..joint.at + joint.rows).contains(&row)) {
-            return joint.block.filter(|_| joint.arms.is_none()).map_or((0.0, 1.0), |block| {
-                (self.blocks[block].compliance[row - joint.at], self.blocks[block].share[row - joint.at])
-            });
+        if let Some(joint) = self.joint_of(row) {
+            let block = joint.block.filter(|_| joint.arms.is_none()).map(|block| &self.blocks[block]);
+            return block.map_or((0.0, 1.0), |rows| (rows.compliance[row - joint.at], rows.share[row - joint.at]));
         }
-        let rows = self.outside_rows();
         let coupling = self.couplings.iter().find(|coupling| coupling.at == row);
-        coupling.map_or((0.0, 1.0), |c| (rows[c.outside].compliance, rows[c.outside].share))
+        coupling.map(|c| &self.outside_rows()[c.outside]).map_or((0.0, 1.0), |row| (row.compliance, row.share))
     }
 
     /// Rows that act now, as indices into `g` and `lambda`.

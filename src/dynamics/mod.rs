@@ -40,6 +40,8 @@ const TENSION_PHASE: f64 = 3.2;
 const SPIN_PHASE: f64 = 0.25;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
+/// Where tension modes are faster than that, they are not followed but held implicitly, in this many substeps.
+const STIFF_SUBSTEPS: f64 = 16.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
 /// it costs a microsecond or two.
 const FEW: usize = 8;
@@ -138,6 +140,8 @@ pub struct Dynamics {
     stride: f64,
     /// Do the system's accelerations belong to the present state?
     fresh: bool,
+    /// Is the stiffest tension mode too fast to be followed?
+    stiff: bool,
     breath: f64,
     substeps: u32,
 }
@@ -189,6 +193,7 @@ impl Dynamics {
             dt: 0.0,
             stride: f64::INFINITY,
             fresh: false,
+            stiff: false,
             breath: 0.0,
             substeps: 0,
             bodies,
@@ -210,6 +215,12 @@ impl Dynamics {
         let mut done = 0.0;
         while done < dt * (1.0 - 1e-12) {
             let now = self.time + done;
+            if !self.fresh {
+                // What the joints carry says how long a substep may be; the rate is its first stage.
+                self.press();
+                self.ensure_rates(now);
+                self.weigh();
+            }
             let edge = self.system.activity.next_edge(now).min(self.springs.activity.next_edge(now));
             // Asked anew each time: a hit changes what there is to follow.
             let left = (dt - done).min(edge - now);
@@ -274,11 +285,16 @@ impl Dynamics {
             self.press();
             self.ensure_rates(now + used);
         }
+        self.weigh();
+        self.break_overloaded(now + used);
+        used
+    }
+
+    /// Notes what the joints carry.
+    fn weigh(&mut self) {
         for (joint, load) in self.loads.iter_mut().enumerate() {
             *load = self.system.load(joint);
         }
-        self.break_overloaded(now + used);
-        used
     }
 
     /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong.
@@ -323,6 +339,9 @@ impl Dynamics {
             } else if self.precise {
                 let settled = self.gauss(t, h);
                 (settled, if settled { f64::INFINITY } else { 0.5 * h })
+            } else if self.stiff {
+                self.midpoint(t, h);
+                (true, f64::INFINITY)
             } else {
                 let error = self.runge_kutta(t, h);
                 pace::judge(h, self.dt, error)
@@ -347,11 +366,13 @@ impl Dynamics {
 
     /// Longest substep that follows the fastest motion: the tension modes (a body that hangs by the arm r under the
     /// load λ swings about it with ω² = |λ| |r| / I⊥), the free spin, and what the last error allowed.
-    fn substep_length(&self, dt: f64) -> f64 {
+    fn substep_length(&mut self, dt: f64) -> f64 {
         let stiffest = self.loads.iter().zip(&self.levers).fold(0.0, |most: f64, (load, lever)| most.max(load * lever));
         let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let spin = spins.fold(0.0, f64::max);
-        let longest = (TENSION_PHASE / stiffest.sqrt())
+        let tension = TENSION_PHASE / stiffest.sqrt();
+        self.stiff = tension < dt / MOST_SUBSTEPS;
+        let longest = (if self.stiff { dt / STIFF_SUBSTEPS } else { tension })
             .min(SPIN_PHASE / spin.sqrt())
             .min(self.stride)
             .min(self.contacts.longest_substep());
