@@ -3,7 +3,7 @@
 //! The *node frame* of a body is the frame of its glTF node: model geometry, anchors and sample points are given in
 //! it. The state is kept at the centre of mass, where the equations of motion are simplest.
 
-use crate::math::{DMat3, DQuat, DVec3, Pose, StateHash, rotation};
+use crate::math::{DMat3, DQuat, DVec3, Pose, StateHash, product, renormalized, rotation};
 
 /// Mass, centre and inertia of a rigid body, constant for its life.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +91,7 @@ impl RigidBody {
     /// Moves by a displacement of the centre (m) and a rotation vector (rad, world axes).
     pub fn displace(&mut self, translation: DVec3, turn: DVec3) {
         self.position += translation;
-        self.rotation = (rotation(turn) * self.rotation).normalize();
+        self.rotation = renormalized(product(rotation(turn), self.rotation));
     }
 
     /// Mixes the state into a hash.

@@ -33,8 +33,10 @@ fn main() -> ExitCode {
             println!("wrote  {} ({} bytes)", artifact.path, artifact.bytes.len());
         }
     }
-    let (work, _) = forge::steel_fish::glb();
-    report(&work);
+    for (name, work) in [("steel-fish", forge::steel_fish::glb().0), ("plates", forge::plates::glb().0)] {
+        println!("\n{name}");
+        report(&work);
+    }
     if stale == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 

@@ -3,13 +3,21 @@
 //! `exhibits/` never holds geometry that nobody can remake: each `.glb` and each recorded breath there comes from
 //! this code, byte for byte. Invariant: no clock, no randomness without a stated seed, software transcendentals.
 
+pub mod axis_wheel;
+pub mod breaking_chain;
 pub mod breaths;
+pub mod gear_train;
 pub mod glb;
+pub mod hung;
 pub mod mobile;
 pub mod outline;
+pub mod pendulum;
 pub mod piece;
+pub mod plates;
 pub mod solid;
 pub mod steel_fish;
+pub mod stock;
+pub mod windmill;
 
 /// A file that the forge makes.
 #[derive(Debug)]
@@ -25,6 +33,12 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
     let (_, model) = steel_fish::glb();
     // Speeds at the lips of a gentle, a normal and a strong breath; the seeds only tell them apart.
     Ok(vec![
+        Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
+        Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
+        Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
+        Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
+        Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
+        Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },
         Artifact { path: "steel-fish/breaths/gentle.wav", bytes: breaths::wav(3.8, 2.4, 1)? },
         Artifact { path: "steel-fish/breaths/normal.wav", bytes: breaths::wav(8.9, 1.8, 2)? },

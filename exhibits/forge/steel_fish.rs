@@ -18,6 +18,7 @@
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::glb::{Finish, Scene};
+use super::hung::{self, HOLE_RADIUS, hung_plate};
 use super::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
 use super::outline::{Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring};
 use super::piece::{Bend, Part, Piece, load, yaw};
@@ -103,8 +104,9 @@ pub fn glb() -> (Mobile, Vec<u8>) {
 }
 
 fn draw(finishes: &Finishes) -> Mobile {
-    let orange = disc("OrangeDisc", "OrangeHook", "OrangeStem", 35.4 * MM, 67.0 * MM, finishes.orange);
-    let white = disc("WhiteDisc", "WhiteHook", "WhiteStem", 25.8 * MM, 76.0 * MM, finishes.white);
+    let disc = |names, diameter, length, finish| hung::disc(names, (diameter, SHEET), length, (ALUMINIUM, finish));
+    let orange = disc(["OrangeDisc", "OrangeHook", "OrangeStem"], 35.4 * MM, 67.0 * MM, finishes.orange);
+    let white = disc(["WhiteDisc", "WhiteHook", "WhiteStem"], 25.8 * MM, 76.0 * MM, finishes.white);
     let b4 = branch(&Branch {
         names: ["B4", "B4Loop", "B4Wire", "B4White", "B4Orange"],
         radius: 0.5 * MM,
@@ -300,50 +302,6 @@ fn to_mass(outline: Vec<DVec2>, holes: Vec<Vec<DVec2>>, density: f64, mass: f64)
     cut(scale)
 }
 
-/// A stem hung by its eye from the origin, straight down to `length` m; it ends in a small eye through a plate.
-fn stem(name: &'static str, length: f64) -> Bend {
-    let (radius, eye, foot) = (0.3 * MM, 1.6 * MM, 1.2 * MM);
-    let mut points = ring(DVec3::new(0.0, radius - eye, 0.0), eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
-    points.push(DVec3::new(0.0, 2.0 * foot - length, 0.0));
-    points.extend(ring(DVec3::new(0.0, foot - length, 0.0), foot, DVec3::Y, DVec3::Z, EYE_STEPS).split_off(1));
-    Bend { name, points, radius, density: STEEL }
-}
-
-/// A plate on a stem: the hole of the plate at the stem's foot, `length` m below the hook.
-fn hung_plate(
-    name: &'static str,
-    hook: &'static str,
-    stem_name: &'static str,
-    plate: (Solid, f64, usize),
-    length: f64,
-) -> Piece {
-    let (solid, density, finish) = plate;
-    Piece {
-        name,
-        parts: vec![Part { name, solid: solid.moved(-length * DVec3::Y), place: Pose::IDENTITY, density, finish }],
-        bends: vec![stem(stem_name, length)],
-        marks: vec![(hook, DVec3::ZERO)],
-    }
-}
-
-/// Distance of a plate's hole from its rim, and the hole's radius, mm.
-const HOLE_INSET: f64 = 2.4;
-const HOLE_RADIUS: f64 = 1.0;
-
-fn disc(
-    name: &'static str,
-    hook: &'static str,
-    stem: &'static str,
-    diameter: f64,
-    length: f64,
-    finish: usize,
-) -> Piece {
-    let radius = 0.5 * diameter;
-    let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS * MM), 0.0, ROUND / 4);
-    let outline = ellipse(DVec2::new(0.0, HOLE_INSET * MM - radius), DVec2::splat(radius), 0.5 * PI, ROUND);
-    hung_plate(name, hook, stem, (sheet(&outline, &[hole], SHEET, BEVEL), ALUMINIUM, finish), length)
-}
-
 /// The red plate: a wing, its long end towards the discs. The hole sits above the centre, so it hangs level.
 fn red_plate(finish: usize) -> Piece {
     #[rustfmt::skip] // rows of a drawing
@@ -363,5 +321,5 @@ fn red_plate(finish: usize) -> Piece {
         let x = solid.mass(STEEL).center.x;
         solid.moved(DVec3::new(-x, 0.0, 0.0))
     };
-    hung_plate("RedPlate", "RedHook", "RedStem", (solid, STEEL, finish), 84.0 * MM)
+    hung_plate(["RedPlate", "RedHook", "RedStem"], (solid, STEEL, finish), 84.0 * MM)
 }

@@ -136,8 +136,11 @@ impl Activity {
             let period = member.schedule.period;
             let round = period.map_or(0.0, |period| period * ((t - origin) / period).floor());
             for window in &member.schedule.windows {
-                offer(origin + round + window.start);
-                offer(origin + round + window.end);
+                // Windows may reach over the period's end.
+                for shift in [0.0, -period.unwrap_or(0.0)] {
+                    offer(origin + round + shift + window.start);
+                    offer(origin + round + shift + window.end);
+                }
             }
             if let Some(period) = period {
                 offer(origin + round + period);

@@ -9,7 +9,7 @@
 use super::block::{Mat6, Vec6, add_scaled, dot, inverse, mul};
 use super::cholesky::Cholesky;
 use super::loops::LoopRow;
-use super::spatial::Articulated;
+use super::spatial::{Articulated, Sym3};
 
 /// A pivot below this share of its row's own stiffness says that the row repeats earlier ones.
 const REDUNDANT: f64 = 1e-11;
@@ -46,9 +46,9 @@ impl Dense {
     }
 
     /// Factors J M⁻¹ Jᵀ + Γ for the active rows.
-    pub fn factor(&mut self, masses: &[Articulated]) {
-        for (inverted, mass) in self.inverse.iter_mut().zip(masses) {
-            *inverted = inverse(&mass.matrix());
+    pub fn factor(&mut self, masses: &[f64], inertias: &[Sym3]) {
+        for ((inverted, &mass), inertia) in self.inverse.iter_mut().zip(masses).zip(inertias) {
+            *inverted = inverse(&Articulated::alone(mass, inertia).matrix());
         }
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));

@@ -5,8 +5,19 @@
 //! ```text
 //! linear   f = a + (b − a) s,                    s = (t − t₀)/(t₁ − t₀)
 //! smooth   f = a + (b − a) (10 s³ − 15 s⁴ + 6 s⁵)     ḟ and f̈ vanish at both keys: a follower feels no jerk there
+//! spline   the quintic with f, ḟ, f̈ given at both keys; ḟ and f̈ of a key are those of the parabola through it and
+//!          its two neighbours, and 0 at the first and the last key: f̈ has no jumps
 //! wave     f = mean + amplitude · sin(2π t/period + phase)
 //! ```
+//!
+//! The quintic over a span h with s = (t − t₀)/h, from (p, v, a) to (q, w, b), d = q − p − v h − a h²/2,
+//! e = (w − v) h − a h², g = (b − a) h²:
+//!
+//! ```text
+//! f = p + v h s + a h² s²/2 + (10 d − 4 e + g/2) s³ + (−15 d + 7 e − g) s⁴ + (6 d − 3 e + g/2) s⁵
+//! ```
+
+use std::ops::{Add, Mul, Sub};
 
 use crate::math::{PI, sincos};
 
@@ -47,6 +58,8 @@ pub enum Interpolation {
     /// A straight line's ends joined without jerk (quintic).
     #[default]
     Smooth,
+    /// Through the keys without stopping, the second derivative continuous (quintic).
+    Spline,
 }
 
 /// A function's value and derivatives at one time.
@@ -96,28 +109,114 @@ impl From<f64> for Function {
     }
 }
 
-fn between(keys: &[(f64, f64)], interpolation: Interpolation, repeat: bool, t: f64) -> Jet3 {
-    let Some((&(first, start), &(last, end))) = keys.first().zip(keys.last()) else { return Jet3::default() };
-    let still = |value| Jet3 { value, ..Jet3::default() };
+/// The span between two keys that holds a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Index of the earlier key; the next one ends the span.
+    pub key: usize,
+    /// Seconds since the earlier key.
+    pub since: f64,
+}
+
+/// Where `t` falls among `count` (at least one) keys of rising times. Before the first key and from the last one on it
+/// is in no span: the error is the key that it stays at.
+pub fn span(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> Result<Span, usize> {
+    let (first, last) = (time(0), time(count - 1));
     let length = last - first;
     let t = if repeat && length > 0.0 { first + (t - first) - length * ((t - first) / length).floor() } else { t };
     if t < first {
-        return still(start);
+        return Err(0);
     }
-    let after = keys.partition_point(|&(time, _)| time <= t);
-    if after == keys.len() {
-        return still(end);
+    let (mut low, mut high) = (0, count);
+    while low < high {
+        let middle = (low + high) / 2;
+        if time(middle) <= t {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
     }
-    let ((t0, a), (t1, b)) = (keys[after - 1], keys[after]);
-    let (span, rise) = (t1 - t0, b - a);
-    let s = (t - t0) / span;
+    if low == count { Err(count - 1) } else { Ok(Span { key: low - 1, since: t - time(low - 1) }) }
+}
+
+/// First and second derivative at a key: of the parabola through it and its neighbours, given the means of the rates
+/// before and after it and the two spans.
+pub fn knot<V>(before: V, after: V, span_before: f64, span_after: f64) -> (V, V)
+where
+    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+{
+    let whole = span_before + span_after;
+    (before * (span_after / whole) + after * (span_before / whole), (after - before) * (2.0 / whole))
+}
+
+/// Value and two derivatives of the quintic of the file's head, `since` s after its start; ends are (f, ḟ, f̈).
+pub fn quintic<V>(from: (V, V, V), to: (V, V, V), h: f64, since: f64) -> (V, V, V)
+where
+    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+{
+    let ((p, v, a), (q, w, b)) = (from, to);
+    let d = q - p - v * h - a * (0.5 * h * h);
+    let e = (w - v) * h - a * (h * h);
+    let g = (b - a) * (h * h);
+    let c3 = d * 10.0 - e * 4.0 + g * 0.5;
+    let c4 = e * 7.0 - d * 15.0 - g;
+    let c5 = d * 6.0 - e * 3.0 + g * 0.5;
+    let s = since / h;
+    (
+        p + v * since + a * (0.5 * since * since) + (c3 + (c4 + c5 * s) * s) * (s * s * s),
+        v + a * since + (c3 * 3.0 + (c4 * 4.0 + c5 * (5.0 * s)) * s) * (s * s / h),
+        a + (c3 * 6.0 + (c4 * 12.0 + c5 * (20.0 * s)) * s) * (s / (h * h)),
+    )
+}
+
+/// The way from 0 to 1 in `h` seconds, `since` s after its start; a spline is not one way but knows its neighbours.
+pub fn ease(interpolation: Interpolation, h: f64, since: f64) -> Jet3 {
+    let s = since / h;
     match interpolation {
-        Interpolation::Step => still(a),
-        Interpolation::Linear => Jet3 { value: a + rise * s, rate: rise / span, acceleration: 0.0 },
-        Interpolation::Smooth => Jet3 {
-            value: a + rise * s * s * s * (10.0 + s * (6.0 * s - 15.0)),
-            rate: rise / span * 30.0 * s * s * (1.0 - s) * (1.0 - s),
-            acceleration: rise / (span * span) * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s),
+        Interpolation::Step => Jet3::default(),
+        Interpolation::Linear => Jet3 { value: s, rate: 1.0 / h, acceleration: 0.0 },
+        Interpolation::Smooth | Interpolation::Spline => Jet3 {
+            value: s * s * s * (10.0 + s * (6.0 * s - 15.0)),
+            rate: 30.0 * s * s * (1.0 - s) * (1.0 - s) / h,
+            acceleration: 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (h * h),
         },
+    }
+}
+
+fn between(keys: &[(f64, f64)], interpolation: Interpolation, repeat: bool, t: f64) -> Jet3 {
+    let still = |value| Jet3 { value, ..Jet3::default() };
+    if keys.is_empty() {
+        return Jet3::default();
+    }
+    let Span { key, since } = match span(keys.len(), |i| keys[i].0, repeat, t) {
+        Ok(span) => span,
+        Err(key) => return still(keys[key].1),
+    };
+    let ((t0, a), (t1, b)) = (keys[key], keys[key + 1]);
+    if interpolation == Interpolation::Spline {
+        let slope = |i: usize| (keys[i + 1].1 - keys[i].1) / (keys[i + 1].0 - keys[i].0);
+        let derivatives = |i: usize| match neighbours(i, keys.len(), repeat) {
+            Some((before, after)) => {
+                let length = |i: usize| keys[i + 1].0 - keys[i].0;
+                knot(slope(before), slope(after), length(before), length(after))
+            }
+            None => (0.0, 0.0),
+        };
+        let ((v, c), (w, d)) = (derivatives(key), derivatives(key + 1));
+        let (value, rate, acceleration) = quintic((a, v, c), (b, w, d), t1 - t0, since);
+        return Jet3 { value, rate, acceleration };
+    }
+    let share = ease(interpolation, t1 - t0, since);
+    Jet3 { value: a + (b - a) * share.value, rate: (b - a) * share.rate, acceleration: (b - a) * share.acceleration }
+}
+
+/// The spans before and after key `i` of `count`, by their earlier keys; `None` where it ends the row of keys.
+pub fn neighbours(i: usize, count: usize, repeat: bool) -> Option<(usize, usize)> {
+    let last = count - 1;
+    match i {
+        _ if last == 0 => None,
+        i if i > 0 && i < last => Some((i - 1, i)),
+        _ if repeat => Some((last - 1, 0)),
+        _ => None,
     }
 }

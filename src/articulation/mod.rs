@@ -7,7 +7,7 @@ pub mod ball;
 pub mod block;
 mod cholesky;
 mod dense;
-mod function;
+pub mod function;
 mod loops;
 pub mod rows;
 mod schedule;
@@ -249,6 +249,18 @@ impl ConstraintKind {
             Self::Orientation { a, b, .. } => either((a.body, b.body)),
             Self::Coupling { terms } => terms.iter().any(|term| either(term.measure.bodies())),
         }
+    }
+}
+
+impl LimitKind {
+    /// Does it act on this body?
+    pub fn touches(&self, body: usize) -> bool {
+        let (a, b) = match self {
+            Self::Tilt { a, b, .. } => (a.body, b.body),
+            Self::Range { measure, .. } | Self::Ratchet { measure, .. } => measure.bodies(),
+            Self::Distance { a, b, .. } => (a.body, b.body),
+        };
+        a == Some(body) || b == Some(body)
     }
 }
 

@@ -8,7 +8,8 @@
 /// When a constraint acts. The default is always.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schedule {
-    /// Times during which it acts, in order, apart from each other; none at all is always.
+    /// Times during which it acts, in order, apart from each other; none at all is always. The first may begin before
+    /// time 0, and the last reach over the period: it does not ramp there.
     pub windows: Vec<Window>,
     /// The windows repeat after this time, s.
     pub period: Option<f64>,
@@ -88,32 +89,40 @@ impl Schedule {
         rise.min(fall).clamp(0.0, 1.0)
     }
 
-    /// The windows without the times of `other` (its ramps become this one's).
+    /// This schedule without the windows of `other`: what it lets go fades as `other` grows, so that where it was hard
+    /// its share is 1 less the share of `other`. Where this one is always there and `other` repeats, so does the answer.
     pub fn without(&self, other: &Self) -> Self {
-        let own = if self.windows.is_empty() {
-            vec![Window { start: 0.0, end: f64::INFINITY }]
-        } else {
-            self.windows.clone()
+        let always = |period: Option<f64>| match period {
+            // A window reaches round the period's end, so that nothing ramps there.
+            Some(period) => Window { start: -period, end: 2.0 * period },
+            None => Window { start: f64::NEG_INFINITY, end: f64::INFINITY },
         };
-        let holes = if other.windows.is_empty() {
-            vec![Window { start: 0.0, end: f64::INFINITY }]
-        } else {
-            other.windows.clone()
+        let period = self.period.or(if self.windows.is_empty() { other.period } else { None });
+        let own = if self.windows.is_empty() { vec![always(period)] } else { self.windows.clone() };
+        let holes = if other.windows.is_empty() { vec![always(None)] } else { other.windows.clone() };
+        let shifts = match period {
+            Some(period) => vec![-period, 0.0, period],
+            None => vec![0.0],
         };
         let mut left = own;
-        for hole in &holes {
+        for (hole, shift) in shifts.iter().flat_map(|shift| holes.iter().map(move |hole| (hole, shift))) {
+            // The ramps of both cross inside the window of `other`.
+            let end = period.map_or(hole.end, |period| hole.end.min(period));
+            let hole = Window { start: hole.start + other.ramp_in, end: end - other.ramp_out };
             let mut rest = Vec::new();
             for window in left {
-                let before = Window { start: window.start, end: window.end.min(hole.start) };
-                let after = Window { start: window.start.max(hole.end), end: window.end };
+                let before = Window { start: window.start, end: window.end.min(hole.start + shift) };
+                let after = Window { start: window.start.max(hole.end + shift), end: window.end };
                 rest.extend([before, after].into_iter().filter(|w| w.start < w.end));
             }
             left = rest;
         }
+        // What lies outside the period is never looked up.
+        left.retain(|window| window.end > 0.0 && period.is_none_or(|period| window.start < period));
         if left.is_empty() {
             // Never: a window that is over before it begins.
             left.push(Window { start: 0.0, end: 0.0 });
         }
-        Self { windows: left, ramp_in: other.ramp_out, ramp_out: other.ramp_in, ..self.clone() }
+        Self { windows: left, period, ramp_in: other.ramp_out, ramp_out: other.ramp_in, trigger: self.trigger }
     }
 }

@@ -112,6 +112,12 @@ impl Articulated {
     pub const ZERO: Self =
         Self { a: Sym3 { d: DVec3::ZERO, o: DVec3::ZERO }, b: DMat3::ZERO, c: Sym3 { d: DVec3::ZERO, o: DVec3::ZERO } };
 
+    /// A body on which nothing hangs: mass (kg) and world inertia (kg m²).
+    #[inline]
+    pub fn alone(mass: f64, inertia: &Sym3) -> Self {
+        Self { a: Sym3::splat(mass), b: DMat3::ZERO, c: *inertia }
+    }
+
     /// As one matrix.
     pub fn matrix(&self) -> Mat6 {
         let (a, c) = (self.a.full(), self.c.full());

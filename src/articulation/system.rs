@@ -11,7 +11,7 @@ use super::dense::Dense;
 use super::loops::{LoopRow, Loops};
 use super::rows::coupling::{self, Gauge};
 use super::rows::{Row, Scene, friction, orientation, plane, point};
-use super::spatial::{Articulated, Sym3, matrix};
+use super::spatial::{Sym3, matrix};
 use super::tree::{Form, JointRows, Link, Tree};
 use super::{Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
@@ -48,7 +48,10 @@ pub struct Joint {
     pub rows: usize,
     /// Of those, rows that are held.
     pub hard: usize,
-    /// Arms of the two bodies where it is one point, hard.
+    /// Where it is one point: that point from the two bodies' centres of mass in their node axes (in the world for
+    /// the world), m.
+    point: Option<(DVec3, DVec3)>,
+    /// World arms of the two bodies where it is one point, hard, at the last evaluation.
     arms: Option<(DVec3, DVec3)>,
     /// Its block rows, where it is ever more than a point.
     block: Option<usize>,
@@ -87,6 +90,8 @@ pub struct RowState {
 #[derive(Clone, Debug)]
 pub struct System {
     constraints: Vec<Constraint>,
+    /// Is any row being drawn together?
+    gathering: bool,
     /// What acts now.
     pub activity: Activity,
     joints: Vec<Joint>,
@@ -98,7 +103,8 @@ pub struct System {
     dense: Option<Dense>,
     inertia: Vec<Sym3>,
     frames: Vec<DMat3>,
-    masses: Vec<Articulated>,
+    masses: Vec<f64>,
+    inertia_world: Vec<Sym3>,
     driven: Vec<bool>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
@@ -126,6 +132,7 @@ impl System {
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
+            joint.point = lone_point(joint, constraints, bodies);
             let closes = tree.loops().contains(&index);
             if closes || method == Method::Dense {
                 joint.outside = Some(outside.len());
@@ -160,6 +167,7 @@ impl System {
         let inertia = bodies.iter().map(|body| Sym3::lower(&body.properties.inertia)).collect();
         let n = bodies.len();
         Self {
+            gathering: false,
             activity: Activity::new(constraints),
             loops: Loops::new(loop_rows, &tree, driven, count),
             constraints: constraints.to_vec(),
@@ -171,7 +179,8 @@ impl System {
             dense,
             inertia,
             frames: vec![DMat3::IDENTITY; n],
-            masses: vec![Articulated::ZERO; n],
+            masses: bodies.iter().map(|body| body.properties.mass).collect(),
+            inertia_world: vec![Sym3::default(); n],
             driven: driven.to_vec(),
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
@@ -202,18 +211,14 @@ impl System {
 
     /// World inertia of a body at the last evaluation.
     pub fn inertia_world(&self, body: usize) -> &Sym3 {
-        &self.masses[body].c
+        &self.inertia_world[body]
     }
 
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
         for (index, body) in bodies.iter().enumerate() {
             self.frames[index] = matrix(body.rotation);
-            self.masses[index] = Articulated {
-                a: Sym3::splat(body.properties.mass),
-                b: DMat3::ZERO,
-                c: self.inertia[index].rotated(&self.frames[index]),
-            };
+            self.inertia_world[index] = self.inertia[index].rotated(&self.frames[index]);
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
@@ -243,11 +248,11 @@ impl System {
     /// Factors the system at the configuration last evaluated.
     pub fn factor(&mut self) {
         if let Some(dense) = &mut self.dense {
-            dense.factor(&self.masses);
+            dense.factor(&self.masses, &self.inertia_world);
             return;
         }
         let (joints, blocks) = (&self.joints, &self.blocks);
-        self.tree.factor(&self.masses, |index| {
+        self.tree.factor(&self.masses, &self.inertia_world, |index| {
             let joint = &joints[index];
             match (joint.arms, joint.block) {
                 (Some((a, b)), _) => Form::Point(a, b),
@@ -276,15 +281,19 @@ impl System {
     /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
     /// The others are closed by projection: their errors at an integrator's inner stages belong to the method.
     pub fn look_for_gaps(&mut self) {
+        self.gathering = false;
         for state in &mut self.states {
             state.gathers = state.value.abs() > PROJECTION_REACH;
+            self.gathering |= state.gathers;
         }
     }
 
     /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ, and − ω₀² C − 2 ω₀ Ċ where rows gather. The
     /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
-        self.rates(bodies);
+        if self.gathering {
+            self.rates(bodies);
+        }
         for (g, state) in self.g.iter_mut().zip(&self.states) {
             let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
             *g = -state.bias - drawn;
@@ -578,21 +587,29 @@ impl Joint {
         states: &mut [RowState],
     ) {
         self.arms = None;
-        if let ([index], None) = (&self.constraints[..], self.outside)
-            && let ConstraintKind::PointToPoint { a, b } = &constraints[*index].kind
-            && activity.share(*index) == 1.0
+        if let (Some((p, q)), None) = (self.point, self.outside)
+            && activity.share(self.constraints[0]) == 1.0
         {
-            let (p, q) = point::ends(scene, a, b);
-            let own = a.body == Some(self.link.a);
-            let (p, q) = if own { (p, q) } else { (q, p) };
-            let (c, bias) = (p.position - q.position, p.centripetal - q.centripetal);
+            let a = &scene.bodies[self.link.a];
+            let r = scene.frames[self.link.a] * p;
+            let turn = a.angular_velocity.cross(r);
+            let (mut c, mut bias) = (a.position + r, a.angular_velocity.cross(turn));
+            let mut s = DVec3::ZERO;
+            if let Some(index) = self.link.b {
+                let b = &scene.bodies[index];
+                s = scene.frames[index] * q;
+                c -= b.position + s;
+                bias -= b.angular_velocity.cross(b.angular_velocity.cross(s));
+            } else {
+                c -= q;
+            }
             for k in 0..3 {
                 let state = &mut states[self.at + k];
                 (state.value, state.feed, state.bias) = (c[k], 0.0, bias[k]);
-                (state.length, state.constraint) = (true, *index);
+                (state.length, state.constraint) = (true, self.constraints[0]);
             }
             (self.rows, self.hard) = (3, 3);
-            self.arms = Some((p.arm, q.arm));
+            self.arms = Some((r, s));
             return;
         }
         let Some(block) = self.block else { return };
@@ -707,6 +724,7 @@ fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
                 capacity: 0,
                 rows: 0,
                 hard: 0,
+                point: None,
                 arms: None,
                 block: None,
                 outside: None,
@@ -720,6 +738,16 @@ fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
         at += joint.capacity;
     }
     (joints, at)
+}
+
+/// Both ends of a joint that is one point, as [`Joint::point`] has them.
+fn lone_point(joint: &Joint, constraints: &[Constraint], bodies: &[RigidBody]) -> Option<(DVec3, DVec3)> {
+    let [index] = joint.constraints[..] else { return None };
+    let ConstraintKind::PointToPoint { a, b } = &constraints[index].kind else { return None };
+    let local =
+        |anchor: &super::Anchor| anchor.point - anchor.body.map_or(DVec3::ZERO, |i| bodies[i].properties.center);
+    let own = a.body == Some(joint.link.a);
+    Some(if own { (local(a), local(b)) } else { (local(b), local(a)) })
 }
 
 /// Most rows that a joint can have at once.

@@ -30,7 +30,7 @@
 
 use super::ball::Ball;
 use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, Vec6, add_scaled, dot, inverse, mul, pseudo_inverse};
-use super::spatial::Articulated;
+use super::spatial::{Articulated, Sym3};
 use crate::math::DVec3;
 
 /// Rows of one joint at one configuration, for the general elimination.
@@ -222,9 +222,11 @@ impl Tree {
         self.order.iter().copied().filter(|&body| on[body]).collect()
     }
 
-    /// Factors the system for these masses and the joints' present forms.
-    pub fn factor<'a>(&mut self, masses: &[Articulated], form: impl Fn(usize) -> Form<'a>) {
-        self.articulated.copy_from_slice(masses);
+    /// Factors the system for these masses, world inertias and the joints' present forms.
+    pub fn factor<'a>(&mut self, masses: &[f64], inertias: &[Sym3], form: impl Fn(usize) -> Form<'a>) {
+        for ((articulated, &mass), inertia) in self.articulated.iter_mut().zip(masses).zip(inertias) {
+            *articulated = Articulated::alone(mass, inertia);
+        }
         for index in (0..self.order.len()).rev() {
             let body = self.order[index];
             if self.driven[body] {

@@ -57,7 +57,11 @@ pub fn explain(exhibit: &Exhibit) -> String {
 fn explain_body(exhibit: &Exhibit, body: usize) -> String {
     let name = &exhibit.bodies[body].name;
     let mut of = vec![format!("body {name}")];
-    of.extend(exhibit.constraints.iter().filter(|c| c.kind.touches(body)).map(|c| format!("constraint {}", c.name)));
+    for constraint in exhibit.constraints.iter().filter(|c| c.kind.touches(body)) {
+        of.extend([constraint.group(), &constraint.name].map(|name| format!("constraint {name}")));
+    }
+    let limits = exhibit.limits.iter().filter(|l| l.kind.touches(body));
+    of.extend(limits.flat_map(|l| [format!("constraint {}", l.name), format!("limit {}", l.name)]));
     let springs = exhibit.springs.iter().filter(|s| s.kind.touches(body));
     of.extend(springs.map(|s| format!("spring {}", s.name)));
     of.extend(exhibit.colliders.iter().filter(|c| c.body == Some(body)).map(|c| format!("collider {}", c.node)));

@@ -34,7 +34,7 @@
 use super::{Dynamics, forces};
 use crate::articulation::block::{Vec6, angular, linear, vec6};
 use crate::bodies::RigidBody;
-use crate::math::{DQuat, DVec3, rotation};
+use crate::math::{DQuat, DVec3, product, renormalized, rotation};
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
 const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
@@ -86,7 +86,7 @@ impl State {
     fn advance(&self, h: f64, rate: &Rate, body: &mut RigidBody) -> DVec3 {
         let turn = h * rate.turn;
         body.position = self.position + h * rate.velocity;
-        body.rotation = rotation(turn) * self.rotation;
+        body.rotation = renormalized(product(rotation(turn), self.rotation));
         body.velocity = self.velocity + h * rate.acceleration;
         body.angular_velocity = self.angular_velocity + h * rate.angular_acceleration;
         turn
@@ -158,17 +158,19 @@ impl Dynamics {
     /// The error of a Runge–Kutta substep of `h` that has just arrived, as a share of the velocities.
     fn estimate(&mut self, h: f64) -> f64 {
         let cube = h * h * h;
-        let spread = self.fourth_step.map_or(h, |before| h * h / before);
+        let per_cube = 1.0 / cube;
+        // h⁵/(6 h'), or a share of the estimate itself where there is no substep before.
+        let spread = cube * self.fourth_step.map_or(h * UNKNOWN, |before| h * h / before) / 6.0;
         let (mut error, mut scale) = (0.0, 0.0);
         for (index, body) in self.bodies.iter().enumerate() {
             let (mass, inertia) = (body.properties.mass, self.system.inertia_world(index));
             let norm = |v: &Vec6| mass * linear(v).length_squared() + angular(v).dot(inertia.mul(angular(v)));
             let (a, last) = (&self.system.a[index], &self.last[index]);
-            let fourth: Vec6 = std::array::from_fn(|k| (a[k] - last[k]) / cube);
+            let fourth: Vec6 = std::array::from_fn(|k| (a[k] - last[k]) * per_cube);
             let before = std::mem::replace(&mut self.fourth[index], fourth);
             let change: Vec6 = match self.fourth_step {
-                Some(_) => std::array::from_fn(|k| (fourth[k] - before[k]) * cube * spread / 6.0),
-                None => fourth.map(|x| x * cube * h / 6.0 * UNKNOWN),
+                Some(_) => std::array::from_fn(|k| (fourth[k] - before[k]) * spread),
+                None => fourth.map(|x| x * spread),
             };
             error += norm(&change);
             scale += norm(&vec6(body.velocity, body.angular_velocity)) + mass * SLOWEST * SLOWEST;

@@ -18,13 +18,14 @@ pub mod forces;
 pub mod impulse;
 mod integrate;
 mod limits;
+mod pace;
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::block::Vec6;
 use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
-use crate::math::{DMat3, DVec3, pow};
+use crate::math::{DMat3, DVec3};
 
 use contacts::Verdict;
 pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
@@ -34,20 +35,17 @@ use integrate::{Rate, State};
 
 /// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
 /// such a mode holds next to none of the energy, and at 1 it loses what little it has within some ten periods.
-const TENSION_PHASE: f64 = 2.6;
+const TENSION_PHASE: f64 = 3.2;
 /// Largest turn of a body in one substep, rad.
-const SPIN_PHASE: f64 = 0.5;
-/// Largest estimated error of a substep, as a share of the velocities in the norm of the kinetic energy. The estimate
-/// is that of a method one order lower, so the true error is some hundred times less.
-const TOLERANCE: f64 = 2e-7;
+const SPIN_PHASE: f64 = 0.25;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
 /// it costs a microsecond or two.
 const FEW: usize = 8;
 /// Faster than this is not a sculpture but a fault, m/s and rad/s.
-const SPEED_LIMIT: f64 = 100.0;
-const SPIN_LIMIT: f64 = 5_000.0;
+const SPEED_LIMIT: f64 = 1_000.0;
+const SPIN_LIMIT: f64 = 1e5;
 
 /// A hit's time is aimed at this often, until it is right to this, s.
 const AIMS: usize = 3;
@@ -133,8 +131,9 @@ pub struct Dynamics {
     stages: [Vec<Rate>; 3],
     before: Vec<RigidBody>,
     before_step: Vec<State>,
-    /// Seconds since reset.
+    /// Seconds since reset, and of the present step.
     time: f64,
+    dt: f64,
     /// Substep that the error allows, s.
     stride: f64,
     /// Do the system's accelerations belong to the present state?
@@ -187,6 +186,7 @@ impl Dynamics {
             fourth_step: None,
             stages: [stages(), stages(), stages()],
             time: 0.0,
+            dt: 0.0,
             stride: f64::INFINITY,
             fresh: false,
             breath: 0.0,
@@ -202,6 +202,7 @@ impl Dynamics {
             *before = State::of(body);
         }
         self.given.copy_from_slice(external);
+        self.dt = dt;
         self.contacts.begin_step(dt);
         self.clear_happenings();
         self.substeps = 0;
@@ -245,7 +246,7 @@ impl Dynamics {
         }
         let now = self.time + done;
         let least = dt / MOST_SUBSTEPS;
-        let mut used = self.hold(now, h, least);
+        let mut used = self.hold(now, h, least, false);
         if collides {
             if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
                 let mut until = used * hit.s;
@@ -253,7 +254,8 @@ impl Dynamics {
                 for aim in 1..=AIMS {
                     self.back_to_start();
                     self.contacts.cut_substep();
-                    used = if until > 0.0 { self.hold(now, until, least.min(until)) } else { 0.0 };
+                    // Shorter than what went well: it goes well.
+                    used = if until > 0.0 { self.hold(now, until, least.min(until), true) } else { 0.0 };
                     let early = self.contacts.early(&hit, &self.bodies);
                     let better = (until + early).clamp(0.0, whole);
                     if aim == AIMS || used < until || (better - until).abs() < ON_TIME {
@@ -280,12 +282,13 @@ impl Dynamics {
         used
     }
 
-    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong.
-    fn hold(&mut self, t: f64, mut h: f64, least: f64) -> f64 {
+    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong; `sure`
+    /// says that the error need not be asked.
+    fn hold(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
         let mut pass = 1;
         loop {
             self.press();
-            h = self.integrate(t, h, if pass > 1 { h } else { least });
+            h = self.integrate(t, h, if sure || pass > 1 { h } else { least });
             if !self.contacts.anything_rests() {
                 return h;
             }
@@ -324,8 +327,7 @@ impl Dynamics {
                 (settled, if settled { f64::INFINITY } else { 0.5 * h })
             } else {
                 let error = self.runge_kutta(t, h);
-                let factor = pow(TOLERANCE / error.max(1e-300), 0.2);
-                (error <= TOLERANCE, if error.is_finite() { h * (0.9 * factor).clamp(0.2, 4.0) } else { 0.2 * h })
+                pace::judge(h, self.dt, error)
             };
             self.fresh = true;
             self.stride = wish;
@@ -334,7 +336,7 @@ impl Dynamics {
             }
             self.back_to_start();
             self.fourth_step = None;
-            h = wish.max(least);
+            h = wish.min(0.5 * h).max(least);
         }
     }
 

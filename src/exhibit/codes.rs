@@ -1,5 +1,6 @@
 //! Codes of all diagnostics. A code keeps its meaning for ever; a retired one is not given again.
 //!
+//! E0232 (a closed loop) and E0233 (the same freedom held twice) are retired: loops are solved, and W0407 warns.
 //! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, E05xx the site's configuration, W0xxx
 //! warnings.
 
@@ -46,13 +47,20 @@ codes! {
     RANGE = "E0226", "a number is out of its range";
     BOTH_STATIC = "E0230", "a constraint joins two static things, or a body to itself";
     APART = "E0231", "the two points of a constraint are apart at rest";
-    LOOP = "E0232", "constraints close a loop";
-    OVER_CONSTRAINED = "E0233", "constraints between two bodies remove the same freedom twice";
-    NOT_PERPENDICULAR = "E0234", "the two axes of an orientation are not perpendicular at rest";
+    NOT_PERPENDICULAR = "E0234", "the two axes of an orientation are not at their angle at rest";
     NO_AXIS = "E0235", "a direction has no length";
+    CONTRADICTORY = "E0236", "a constraint asks for what others forbid";
+    GEAR_RING = "E0237", "a ring of gears cannot turn";
+    WINDOW = "E0238", "a window of time does not hold";
+    UNKNOWN_CONSTRAINT = "E0239", "no constraint of this name";
+    NOT_HELD = "E0242", "an element frees what its constraint does not hold by a row of its own";
+    NO_BREAK = "E0243", "a constraint breaks at no load";
+    KEYS = "E0244", "the keys of a function or path are not in the order of time";
+    NO_MOTION = "E0245", "a kinematic body has no motion to follow";
     NO_MESH = "E0240", "a node has no mesh to take a shape from";
     NOT_FLAT = "E0241", "a mesh has no outline to fit a plate to";
     NO_COLLIDER = "E0250", "an impact sound needs a collider on its body";
+    TRIGGER = "E0251", "a trigger waits for hits on a body without a collider";
     NO_TEXT = "E0260", "a label text is missing";
     BREATH = "E0261", "a recorded breath cannot be read";
     ATTRACT_ORDER = "E0262", "the attract script is out of order";
@@ -68,4 +76,7 @@ codes! {
     NO_ALT = "W0403", "a label has no description for those who cannot see";
     SKIPPED = "W0404", "a part of the model is not drawn";
     DUPLICATE_NODE = "W0406", "two nodes of the model have the same name";
+    REDUNDANT = "W0407", "constraints hold the same freedom twice";
+    GEAR_DISTANCE = "W0408", "the axles of two gears are not as far apart as their radii say";
+    MASS_RATIO = "W0409", "two joined bodies differ in mass by more than a million";
 }

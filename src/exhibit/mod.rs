@@ -63,6 +63,8 @@ pub struct Exhibit {
     pub springs: Vec<Spring>,
     /// Bodies that follow key frames or a path.
     pub drives: Vec<Drive>,
+    /// Length of one run, s; may be infinite.
+    pub duration: f64,
     /// How time is advanced.
     pub integrator: Integrator,
     /// Which linear solver finds the multipliers.

@@ -3,9 +3,11 @@
 use crate::math::{DMat4, DVec3};
 
 mod accessor;
+mod animation;
 mod import;
 mod look;
 
+pub use animation::{Animation, Channel, Curve, Track};
 pub use import::{Imported, import, load};
 
 /// A glTF model.
@@ -25,6 +27,8 @@ pub struct Model {
     pub cameras: Vec<Camera>,
     /// Punctual lights, by index.
     pub lights: Vec<Light>,
+    /// Key frames.
+    pub animations: Vec<Animation>,
 }
 
 /// A node of the scene graph.

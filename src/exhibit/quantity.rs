@@ -53,6 +53,12 @@ fn schema(kind: &str, units: &[(&str, f64)]) -> Schema {
     })
 }
 
+/// A number in SI units.
+pub trait Quantity: Copy {
+    /// The number.
+    fn si(self) -> f64;
+}
+
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident, $kind:literal, [$(($unit:literal, $factor:expr)),+];)*) => {$(
         $(#[$doc])*
@@ -61,6 +67,12 @@ macro_rules! quantities {
 
         impl $name {
             const UNITS: &[(&'static str, f64)] = &[$(($unit, $factor)),+];
+        }
+
+        impl Quantity for $name {
+            fn si(self) -> f64 {
+                self.0
+            }
         }
 
         impl<'de> Deserialize<'de> for $name {
@@ -111,6 +123,16 @@ quantities! {
     Stiffness, "stiffness", [("N/m", 1.0), ("N/mm", 1e3), ("N/cm", 1e2)];
     /// N s/m.
     Damping, "damping", [("Ns/m", 1.0), ("N s/m", 1.0), ("kg/s", 1.0)];
+    /// N m/rad.
+    AngularStiffness, "angular stiffness", [("N m/rad", 1.0), ("Nm/rad", 1.0), ("N mm/rad", 1e-3), ("N m/deg", 1.0 / DEGREE)];
+    /// N m s/rad.
+    AngularDamping, "angular damping", [("N m s/rad", 1.0), ("Nms/rad", 1.0), ("N mm s/rad", 1e-3)];
+    /// N.
+    Force, "force", [("N", 1.0), ("mN", 1e-3), ("kN", 1e3)];
+    /// N m.
+    Torque, "torque", [("N m", 1.0), ("Nm", 1.0), ("N mm", 1e-3), ("mN m", 1e-3)];
+    /// N s.
+    Impulse, "impulse", [("N s", 1.0), ("Ns", 1.0), ("mN s", 1e-3)];
     /// kg m².
     Inertia, "moment of inertia", [("kg m2", 1.0), ("g cm2", 1e-7)];
 }

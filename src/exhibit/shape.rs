@@ -70,10 +70,11 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
             found.push(diagnostic);
         }
         ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context }
-            if let Some(inner) = deepest(context)
-                && depth(inner) > depth(error) =>
+            if let Some(branch) = meant(context, depth(error)) =>
         {
-            explain(source, schema, inner, found);
+            for inner in branch {
+                explain(source, schema, inner, found);
+            }
         }
         kind => {
             let (code, message, help) = value_problem(kind, error.instance(), &readable(&at));
@@ -85,9 +86,50 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
     }
 }
 
-/// Of a choice, the problem that lies deepest inside: its branch is the one that was meant.
-fn deepest<'a>(context: &'a [Vec<ValidationError<'static>>]) -> Option<&'a ValidationError<'static>> {
-    context.iter().flatten().max_by_key(|error| depth(error))
+/// Of a choice, the branch that was meant: not one for another type of value or with another tag, and of the rest the
+/// one with the fewest problems.
+fn meant<'a>(context: &'a [Vec<ValidationError<'static>>], here: usize) -> Option<&'a [ValidationError<'static>]> {
+    let other = |error: &ValidationError| match error.kind() {
+        ValidationErrorKind::Constant { .. } => depth(error) > here,
+        ValidationErrorKind::Required { .. } | ValidationErrorKind::AdditionalProperties { .. } => false,
+        _ => depth(error) == here,
+    };
+    let problems = |error: &ValidationError| match error.kind() {
+        ValidationErrorKind::AdditionalProperties { unexpected } => unexpected.len(),
+        _ => 1,
+    };
+    let mut all = Vec::new();
+    branches(context, &mut all);
+    all.into_iter()
+        .filter(|branch| !branch.is_empty() && !branch.iter().any(other))
+        .min_by_key(|branch| branch.iter().map(problems).sum::<usize>())
+}
+
+/// The branches of a choice; one that is itself a choice (an optional one is) stands for its own branches.
+fn branches<'a>(context: &'a [Vec<ValidationError<'static>>], out: &mut Vec<&'a [ValidationError<'static>]>) {
+    for branch in context {
+        match branch.as_slice() {
+            [one] => match one.kind() {
+                ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
+                    branches(context, out);
+                }
+                _ => out.push(branch),
+            },
+            _ => out.push(branch),
+        }
+    }
+}
+
+/// All problems of a choice with the value itself, choices within it included.
+fn flat<'a>(context: &'a [Vec<ValidationError<'static>>], out: &mut Vec<&'a ValidationError<'static>>) {
+    for error in context.iter().flatten() {
+        match error.kind() {
+            ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
+                flat(context, out);
+            }
+            _ => out.push(error),
+        }
+    }
 }
 
 fn depth(error: &ValidationError) -> usize {
@@ -105,10 +147,11 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
             (codes::WRONG_TYPE, format!("{place} is {shown}, which is not of type {wanted}"), None)
         }
         ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
-            // A choice of words: each branch is one of them.
-            let words: Vec<&str> = context
+            // A choice of words or quantities: each branch is one of them.
+            let mut problems = Vec::new();
+            flat(context, &mut problems);
+            let mut words: Vec<&str> = problems
                 .iter()
-                .flatten()
                 .flat_map(|e| match e.kind() {
                     ValidationErrorKind::Constant { expected_value } => vec![expected_value.as_str()],
                     ValidationErrorKind::Enum { options } => {
@@ -118,27 +161,24 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
                 })
                 .flatten()
                 .collect();
-            if !words.is_empty() {
-                let help = format!("allowed are {}", quoted(&words));
-                return (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(help));
-            }
-            let units = context.iter().flatten().find_map(|e| match e.kind() {
-                ValidationErrorKind::Pattern { pattern } if e.instance().is_string() => Some(pattern.as_str()),
+            words.dedup();
+            let units = problems.iter().find_map(|e| match e.kind() {
+                ValidationErrorKind::Pattern { pattern } if e.instance().is_string() => units_of(pattern.as_str()),
                 _ => None,
             });
-            match (units.and_then(units_of), deepest(context)) {
-                (Some(units), _) => (
-                    codes::WRONG_TYPE,
-                    format!("{place} is {shown}, which has no unit that fits"),
-                    Some(format!("write a number, or a text with one of these units: {units}")),
-                ),
-                (None, Some(inner)) => (
-                    codes::WRONG_TYPE,
-                    format!("{place} is {shown}, which has not the shape of this key"),
-                    Some(inner.to_string()),
-                ),
-                (None, None) => {
-                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has not the shape of this key"), None)
+            match (units, words.is_empty()) {
+                (Some(units), no_words) => {
+                    let words = if no_words { String::new() } else { format!("; or {}", quoted(&words)) };
+                    let help = format!("write a number, or a text with one of these units: {units}{words}");
+                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has no unit that fits"), Some(help))
+                }
+                (None, false) => {
+                    let help = format!("allowed are {}", quoted(&words));
+                    (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(help))
+                }
+                (None, true) => {
+                    let help = problems.iter().max_by_key(|error| depth(error)).map(|error| error.to_string());
+                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has not the shape of this key"), help)
                 }
             }
         }

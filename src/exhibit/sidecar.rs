@@ -5,8 +5,12 @@
 //! are closed; keys that begin with `x_` are ignored.
 
 mod bodies;
+mod combinations;
+mod forces;
+mod function;
 mod joints;
 mod surfaces;
+mod timing;
 mod words;
 
 use std::collections::BTreeMap;
@@ -17,8 +21,12 @@ use serde::Deserialize;
 use super::quantity::*;
 
 pub use bodies::*;
+pub use combinations::*;
+pub use forces::*;
+pub use function::*;
 pub use joints::*;
 pub use surfaces::*;
+pub use timing::*;
 pub use words::*;
 
 /// A name: lower-case letters, digits and hyphens.
@@ -37,6 +45,9 @@ pub struct Sidecar {
     /// The world around the sculpture.
     #[serde(default)]
     pub scene: Scene,
+    /// How motion is computed.
+    #[serde(default)]
+    pub solver: Solver,
     /// Physical materials by name. A built-in name (steel, aluminium, lead, brass, copper, glass, beech, cherry, oak …)
     /// changes only the keys that stand here.
     #[serde(default)]
@@ -84,6 +95,84 @@ pub struct Scene {
     pub gravity: Option<[Acceleration; 3]>,
     /// A glTF camera node; without it the bounds are framed.
     pub camera: Option<String>,
+    /// Length of one run: the exhibit then starts again; by default "inf".
+    pub duration: Option<Until>,
+}
+
+/// How motion is computed.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Solver {
+    /// How time is advanced.
+    pub integrator: Integrator,
+    /// Which linear solver finds the constraint forces.
+    pub method: Method,
+    /// How constraints that are open draw themselves together.
+    pub stabilize: Stabilize,
+    /// Lets constraints be open at the start: the figure assembles itself.
+    pub assemble: bool,
+}
+
+/// How time is advanced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Precise where that costs next to nothing, else Runge–Kutta.
+    #[default]
+    Auto,
+    /// First order, one solve a step.
+    Fast,
+    /// Classical, fourth order.
+    RungeKutta,
+    /// Gauss–Legendre, sixth order: for clocks.
+    Precise,
+}
+
+/// Which linear solver finds the constraint forces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Linear in the number of bodies.
+    #[default]
+    Sparse,
+    /// One dense matrix: the reference.
+    Dense,
+}
+
+/// How constraints that are open draw themselves together: always critically damped.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Stabilize {
+    /// Time constant; by default 40 ms.
+    pub time_constant: Option<Time>,
+}
+
+/// A time that may never come.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Until {
+    /// Seconds, or a text with a unit.
+    Time(Time),
+    /// "inf".
+    Never(Never),
+}
+
+/// No end.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Never {
+    /// Never.
+    Inf,
+}
+
+impl Until {
+    /// s; may be infinite.
+    pub fn seconds(self) -> f64 {
+        match self {
+            Self::Time(time) => time.0,
+            Self::Never(Never::Inf) => f64::INFINITY,
+        }
+    }
 }
 
 /// A physical material.

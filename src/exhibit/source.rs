@@ -96,8 +96,12 @@ impl Source {
         match value {
             toml_edit::Value::String(text) => Value::String(text.value().clone()),
             toml_edit::Value::Integer(number) => Value::Number((*number.value()).into()),
-            // A number that JSON cannot hold (inf, nan) becomes null and fails the shape check where it stands.
-            toml_edit::Value::Float(number) => Number::from_f64(*number.value()).map_or(Value::Null, Value::Number),
+            // A number that JSON cannot hold (inf, nan) becomes a text: it fails the shape check where it stands, or is
+            // the word for a time that never comes.
+            toml_edit::Value::Float(number) => {
+                let number = *number.value();
+                Number::from_f64(number).map_or_else(|| Value::String(number.to_string()), Value::Number)
+            }
             toml_edit::Value::Boolean(flag) => Value::Bool(*flag.value()),
             toml_edit::Value::Datetime(time) => Value::String(time.value().to_string()),
             toml_edit::Value::Array(array) => {

@@ -6,6 +6,7 @@ pub mod feed;
 #[cfg(feature = "kiosk")]
 pub mod pictures;
 pub mod play;
+pub mod scene;
 pub mod soundtrack;
 pub mod trace;
 pub mod wav;

@@ -152,6 +152,8 @@ pub struct Simulation {
     exhibit: Arc<Exhibit>,
     settings: Settings,
     step: u64,
+    /// Step at which the exhibit last started.
+    start_step: u64,
     source: BreathSource,
     aim: Aim,
     aim_targets: Vec<AimTarget>,
@@ -184,6 +186,7 @@ impl Simulation {
             exhibit,
             settings,
             step: 0,
+            start_step: 0,
             source: BreathSource::default(),
             aim: Aim::default(),
             aim_targets: Vec::new(),
@@ -203,6 +206,9 @@ impl Simulation {
     pub fn step(&mut self, input: &StepInput) {
         self.events.clear();
         self.sounds.clear();
+        if (self.step - self.start_step) as f64 * DT >= self.exhibit.duration {
+            self.carry_out(&[Command::Reset]);
+        }
         self.carry_out(input.commands);
         (self.speed, self.estimate) = self.source.advance(input.microphone, input.hold, DT);
         self.take_aim(input);
@@ -219,6 +225,7 @@ impl Simulation {
             match *command {
                 Command::Reset => {
                     self.dynamics = start_dynamics(&self.exhibit, &self.settings);
+                    self.start_step = self.step;
                     self.front.clear();
                     self.sounds.push(SoundCommand::Silence { sample: self.step * SAMPLES_PER_STEP });
                 }
@@ -344,6 +351,7 @@ impl Simulation {
 
     /// The bodies' state, for tests that push a sculpture by hand.
     pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
+        self.dynamics.disturb();
         &mut self.dynamics.bodies
     }
 

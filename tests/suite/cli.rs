@@ -402,3 +402,50 @@ fn a_run_is_summed_up_in_the_promised_fields_and_leaves_what_was_asked() {
     let trace = std::fs::read_to_string(desk.path("t.csv")).expect("written");
     assert!(trace.starts_with("t,body,x,y,z,qw,qx,qy,qz\n"), "{}", trace.lines().next().unwrap_or_default());
 }
+
+#[test]
+fn a_scene_is_measured_with_every_field() {
+    let desk = Desk::new();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/scenes/pendulum.json");
+    let run = desk.soffio(&["bench", "--scene", text(&scene), "--seconds", "3", "--json"]);
+    let row = run.json();
+    let is = |key: &str| row.get(key).unwrap_or_else(|| panic!("no {key} in {row}"));
+    assert_eq!(
+        (is("engine"), is("config"), is("scene")),
+        (&"soffio".into(), &"auto/sparse".into(), &"pendulum".into())
+    );
+    assert_eq!((is("n"), is("sim_s"), is("diverged_at_s")), (&1.into(), &3.0.into(), &Value::Null));
+    assert_eq!(is("repeat_bitwise"), &Value::Bool(true));
+    assert!(is("version").is_string());
+    for key in ["dt", "us_per_step", "us_per_sim_s", "timed_steps", "substeps"] {
+        assert!(is(key).as_f64().is_some_and(|value| value > 0.0), "{key}: {row}");
+    }
+    for (key, most) in [
+        ("max_joint_err_m", 1e-9),
+        ("max_energy_drift_rel", 1e-5),
+        ("final_energy_drift_rel", 1e-5),
+        ("s5_period_err_ppm", 1.0),
+        ("s5_period_err_hermite_ppm", 1.0),
+    ] {
+        assert!(is(key).as_f64().is_some_and(|value| value.abs() < most), "{key}: {row}");
+    }
+    assert!(is("s5_amplitude_ratio").as_f64().is_some_and(|ratio| (ratio - 1.0).abs() < 1e-3), "{row}");
+    assert!(row.get("s4_speed_rel_err").is_none(), "{row}");
+    let table = desk.soffio(&["bench", "--scene", text(&scene), "--seconds", "3", "--dt", "0.01"]);
+    assert!(table.done().contains("0.010000"), "{}", table.out);
+    assert!(desk.files().is_empty());
+}
+
+#[test]
+fn a_scene_that_is_none_is_refused() {
+    let desk = Desk::new();
+    desk.write("words.json", "not a scene");
+    desk.write("other.json", "{\"format\": 3}");
+    desk.soffio(&["bench", "--scene", "missing.json"]).refused(1, &["missing.json", "Check the path"]);
+    desk.soffio(&["bench", "--scene", "words.json"]).refused(1, &["words.json:1:"]);
+    desk.soffio(&["bench", "--scene", "other.json"]).refused(1, &["other.json:1:", "string"]);
+    desk.soffio(&["bench", "steel-fish", "--scene", "words.json"]).refused(2, &["--scene"]);
+    desk.soffio(&["bench", "--linear", "--scene", "words.json"]).refused(2, &["--linear"]);
+    desk.soffio(&["bench", "--dt", "0.1"]).refused(2, &["--scene"]);
+    desk.soffio(&["bench", "--scene", "words.json", "--dt", "0"]).refused(2, &["--dt"]);
+}

@@ -15,6 +15,7 @@ mod kiosk;
 #[cfg(feature = "kiosk")]
 mod pictures;
 mod realtime;
+mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;

@@ -102,7 +102,7 @@ fn energy_is_kept_for_a_minute_without_wind_and_friction() {
     let mut simulation =
         Simulation::new(steel_fish(), Settings { wind: false, friction: false, ..Settings::default() });
     // A slow turn of the whole figure about the post: no part hits another, every joint works.
-    let spin = DVec3::Y * 0.8;
+    let spin = DVec3::Y * 0.6;
     let pivot = simulation.bodies()[BOOM].pose().position;
     for body in simulation.bodies_mut() {
         body.velocity = spin.cross(body.position - pivot);

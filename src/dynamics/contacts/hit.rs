@@ -104,6 +104,10 @@ impl Contacts {
             if self.problem.touches.is_empty() {
                 // It touches, but nothing approaches: what little there is belongs to rest.
                 self.set_rest(source, true);
+                self.collect_all(source, bodies);
+                self.problem.assemble(system, bodies);
+                let touches = self.problem.touches.len();
+                impacts.extend((touches > 0).then(|| self.tell(source, time, (0, touches), 0.0, true)));
                 break;
             }
             self.problem.assemble(system, bodies);
@@ -147,6 +151,19 @@ impl Contacts {
                     if other == pair || self.may_touch(other, bodies) {
                         self.collect_pair(other, other == pair, bodies);
                     }
+                }
+            }
+        }
+    }
+
+    /// All touches of a source, however they move.
+    fn collect_all(&mut self, source: Source, bodies: &[RigidBody]) {
+        match source {
+            Source::Bound(bound) => self.push_bound(bound, bodies),
+            Source::Pair(pair) => {
+                let manifold = self.manifold(pair, bodies);
+                for at in manifold.points() {
+                    self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
                 }
             }
         }

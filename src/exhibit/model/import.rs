@@ -11,7 +11,7 @@ use gltf::mesh::Mode;
 use super::super::codes::{self, Code};
 use super::super::diagnostic::{Diagnostic, Report};
 use super::super::paths;
-use super::{Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, accessor, look};
+use super::{Animation, Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, accessor, animation, look};
 use crate::math::{DMat4, DQuat, DVec3};
 
 /// Most bytes of a model file or of a buffer beside it.
@@ -144,6 +144,7 @@ impl Reader {
             images: self.images(&document, &buffers)?,
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
+            animations: self.animations(&document, &buffers)?,
         })
     }
 
@@ -288,6 +289,24 @@ impl Reader {
             images.push(Image { width, height, rgba: decoded.into_rgba8().into_raw() });
         }
         Ok(images)
+    }
+
+    fn animations(&mut self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Animation>> {
+        let mut animations = Vec::new();
+        for source in document.animations() {
+            let name = source.name().map_or_else(|| format!("#{}", source.index()), str::to_owned);
+            let mut channels = Vec::new();
+            for channel in source.channels() {
+                let decoded = animation::channel(&channel, buffers)
+                    .map_err(|what| self.broken(format_args!("animation \"{name}\": {what}")))?;
+                match decoded {
+                    Some(channel) => channels.push(channel),
+                    None => self.warn(format_args!("animation \"{name}\" scales or morphs, which bodies do not")),
+                }
+            }
+            animations.push(Animation { name, channels });
+        }
+        Ok(animations)
     }
 
     fn camera(&mut self, camera: &gltf::Camera) -> Camera {

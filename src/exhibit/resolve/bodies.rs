@@ -3,8 +3,8 @@
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Motion};
 use super::super::{Body, Wire, codes};
-use super::Context;
 use super::nodes::rigid;
+use super::{Context, path_node};
 use crate::bodies::MassProperties;
 use crate::geometry::Moments;
 use crate::geometry::mass::principal_axes;
@@ -13,10 +13,16 @@ use crate::math::{DMat3, DQuat, DVec3, Pose};
 /// Most moving bodies of an exhibit.
 const MAX_BODIES: usize = 1024;
 
-/// A body of the sidecar that could be resolved: its place in the file.
-pub(super) struct Declared {
-    entry: usize,
+/// Where a body comes from.
+pub(super) enum Declared {
+    /// The `[[body]]` of this number.
+    Entry(usize),
+    /// The path of a nail.
+    Path,
 }
+
+/// A body that follows a given motion is moved by nothing, whatever it weighs.
+const NOMINAL: MassProperties = MassProperties { mass: 1.0, center: DVec3::ZERO, inertia: DMat3::IDENTITY };
 
 /// A point for the reader: micrometres are enough.
 pub(super) fn meters(p: DVec3) -> String {
@@ -41,6 +47,15 @@ impl Context<'_> {
                 continue;
             }
             seen.push(node);
+            if body.motion != Motion::Kinematic {
+                for (key, given) in [("path", body.path.is_some()), ("animation", body.animation.is_some())] {
+                    if given {
+                        let message = format!("body \"{}\" has a {key} and does not follow it", body.node);
+                        let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
+                        self.report(&format!("/body/{entry}/{key}"), problem.help("add motion = \"kinematic\""));
+                    }
+                }
+            }
             if body.motion == Motion::Static {
                 fixed.push(node);
                 continue;
@@ -56,7 +71,24 @@ impl Context<'_> {
             });
             self.body_nodes.push(node);
             self.poses.push(pose);
-            declared.push(Declared { entry });
+            let start = if body.motion == Motion::Kinematic {
+                self.drive(body, node, &format!("/body/{entry}"))
+            } else {
+                self.start(body, pose, &format!("/body/{entry}/initial"))
+            };
+            self.starts.push(start);
+            declared.push(Declared::Entry(entry));
+        }
+        for (name, path) in sidecar.constraint.paths() {
+            // The loader has put these nodes at the end of the model, one for each path.
+            let Some(&node) = self.nodes_named(&path_node(name)).first() else { continue };
+            self.body_nodes.push(node);
+            let place = format!("{}/to/path", self.place(name));
+            let start = self.drive_along(path, Pose::IDENTITY, &place);
+            self.poses.push(start);
+            self.starts.push(start);
+            seen.push(node);
+            declared.push(Declared::Path);
         }
         if declared.len() > MAX_BODIES {
             let message = format!("{} moving bodies; the limit is {MAX_BODIES}", declared.len());
@@ -75,21 +107,28 @@ impl Context<'_> {
         let sidecar = self.sidecar;
         let mut bodies = Vec::new();
         for (index, entry) in declared.iter().enumerate() {
-            let given = &sidecar.body[entry.entry];
-            let at = format!("/body/{}", entry.entry);
+            let Declared::Entry(entry) = *entry else {
+                bodies.push(self.path_body(index));
+                continue;
+            };
+            let given = &sidecar.body[entry];
+            let at = format!("/body/{entry}");
             let of = format!("body {}", given.node);
             let named = given.material.as_deref();
             let material = self.material(named.unwrap_or("steel"), &format!("{at}/material"));
-            if named.is_none() && given.mass.is_none() {
+            let weightless = given.motion == Motion::Kinematic && named.is_none() && given.mass.is_none();
+            if named.is_none() && given.mass.is_none() && !weightless {
                 let message = format!("body \"{}\" has neither material nor mass", given.node);
                 let help = "add material = \"steel\" (mass from the mesh), or mass = \"85 g\"";
                 self.report(&at, Diagnostic::new(codes::NO_MASS, message).help(help));
             }
             self.trace(&of, "material", named.unwrap_or("steel").into(), &format!("{at}/material"), "default");
-            let properties = self.weigh(given, index, material, wires, &at, &of);
-            let pose = self.poses[index];
-            self.trace(&of, "position", meters(pose.position), "/-", "glTF node");
-            self.trace(&of, "rotation", format!("{} (x y z w)", pose.rotation), "/-", "glTF node");
+            let properties = if weightless { NOMINAL } else { self.weigh(given, index, material, wires, &at, &of) };
+            let pose = self.starts[index];
+            let source = if self.is_driven(index) { "its motion at 0 s" } else { "glTF node" };
+            self.trace(&of, "position", meters(pose.position), &format!("{at}/initial/position"), source);
+            let rotation = format!("{} (x y z w)", pose.rotation);
+            self.trace(&of, "rotation", rotation, &format!("{at}/initial/rotation"), source);
             let velocity = given.initial.velocity.map_or(DVec3::ZERO, |v| DVec3::from(v.map(|x| x.0)));
             let angular_velocity = given.initial.angular_velocity.map_or(DVec3::ZERO, |v| DVec3::from(v.map(|x| x.0)));
             let linear_damping =
@@ -117,6 +156,22 @@ impl Context<'_> {
             });
         }
         bodies
+    }
+
+    /// The body of a path: a point that moves.
+    fn path_body(&mut self, index: usize) -> Body {
+        let material = self.material("steel", "/-").unwrap_or(0);
+        Body {
+            name: self.model.nodes[self.body_nodes[index]].name.clone(),
+            node: self.body_nodes[index],
+            properties: NOMINAL,
+            pose: self.starts[index],
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            linear_damping: 0.0,
+            angular_damping: 0.0,
+            material,
+        }
     }
 
     /// A number that must not be below zero.

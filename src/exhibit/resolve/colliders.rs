@@ -110,9 +110,13 @@ impl Context<'_> {
         let mut pairs: Vec<Exclusion> = Vec::new();
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
             for constraint in constraints {
-                let (a, b) = joints::ends(&constraint.kind);
-                let reason = format!("joined by {}", constraint.name);
-                self.exclude(&mut pairs, (a, b), Excluded::Joined, (&reason, "/-"));
+                for (a, b) in joints::pairs(&constraint.kind) {
+                    let known = pairs.iter().any(|e| e.bodies == (a.min(b), a.max(b)));
+                    if !known {
+                        let reason = format!("joined by {}", constraint.group());
+                        self.exclude(&mut pairs, (a, b), Excluded::Joined, (&reason, "/-"));
+                    }
+                }
             }
         }
         for (i, [first, second]) in sidecar.collision.exclude.iter().enumerate() {

@@ -8,6 +8,7 @@ mod bodies;
 mod colliders;
 mod joints;
 mod materials;
+mod motion;
 mod nodes;
 mod surfaces;
 mod wires;
@@ -16,12 +17,12 @@ mod words;
 use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostic, Report, quoted};
-use super::model::{Imported, Model, import};
-use super::sidecar::Sidecar;
+use super::model::{Imported, Model, Node, import};
+use super::sidecar::{self, Sidecar, Target};
 use super::source::Source;
 use super::{Exhibit, Material, Origin, SIDECAR, codes, paths, shape};
-use crate::dynamics::{Integrator, Solver};
-use crate::math::{DVec3, Pose};
+use crate::dynamics::{Drive, Integrator, Solver};
+use crate::math::{DMat4, DVec3, Pose};
 
 /// Most bytes of a sidecar.
 const MAX_SIDECAR_BYTES: u64 = 4 << 20;
@@ -46,8 +47,9 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
         problem
     };
     let model_path = paths::inside(folder, &sidecar.model).map_err(|problem| alone(vec![placed(problem)]))?;
-    let Imported { model, warnings } =
+    let Imported { mut model, warnings } =
         import(&model_path).map_err(|report| alone(report.diagnostics.into_iter().map(placed).collect()))?;
+    add_path_nodes(&mut model, &sidecar);
     let mut context = Context::new(&source, &sidecar, &model, folder);
     context.problems.extend(warnings.into_iter().map(placed));
     let exhibit = context.resolve();
@@ -56,6 +58,48 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
         return Err(report);
     }
     Ok(Exhibit { warnings: report.diagnostics, ..exhibit })
+}
+
+/// Name of the node that carries the path of a nail.
+fn path_node(nail: &str) -> String {
+    format!("{nail}/path")
+}
+
+/// The paths that nails move on: each is an empty node of the model at its first point, made a kinematic body.
+fn add_path_nodes(model: &mut Model, sidecar: &Sidecar) {
+    for (name, path) in sidecar.constraint.paths() {
+        let [_, x, y, z] = path.points.first().copied().unwrap_or_default();
+        let place = DMat4::from_translation(DVec3::new(x, y, z));
+        model.roots.push(model.nodes.len());
+        model.nodes.push(Node {
+            name: path_node(name),
+            parent: None,
+            children: Vec::new(),
+            local: place,
+            world: place,
+            mesh: None,
+            camera: None,
+            light: None,
+        });
+    }
+}
+
+impl sidecar::Constraints {
+    /// Names and paths of the constraints that hold a body to a path.
+    fn paths(&self) -> Vec<(&str, &sidecar::Path)> {
+        let required = self.nail.iter().map(|c| (&c.name, Some(&c.to)));
+        let hinges = self.hinge.iter().chain(&self.windmill).map(|c| (&c.name, c.to.as_ref()));
+        let others = self.universal.iter().map(|c| (&c.name, c.to.as_ref()));
+        let sliders = self.slider.iter().map(|c| (&c.name, c.to.as_ref()));
+        let lines = self.line.iter().map(|c| (&c.name, c.to.as_ref()));
+        let welds = self.weld.iter().map(|c| (&c.name, c.to.as_ref()));
+        let all = required.chain(hinges).chain(others).chain(sliders).chain(lines).chain(welds);
+        all.filter_map(|(name, to)| match to {
+            Some(Target::Path { path }) => Some((name.as_str(), path)),
+            _ => None,
+        })
+        .collect()
+    }
 }
 
 /// A plain model as an exhibit in which nothing moves.
@@ -89,6 +133,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         limits: Vec::new(),
         springs: Vec::new(),
         drives: Vec::new(),
+        duration: f64::INFINITY,
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
         stabilization_time: STABILIZATION_TIME,
@@ -138,8 +183,12 @@ struct Context<'a> {
     materials: Vec<Material>,
     /// Node of each moving body.
     body_nodes: Vec<usize>,
-    /// Rest pose of each moving body.
+    /// Pose of each moving body in the model.
     poses: Vec<Pose>,
+    /// Pose of each moving body at the start: that of the model, or another that the sidecar or a path gives.
+    starts: Vec<Pose>,
+    /// Bodies that follow a given motion.
+    drives: Vec<Drive>,
     /// Moving body that each node belongs to.
     owner: Vec<Option<usize>>,
 }
@@ -156,6 +205,8 @@ impl<'a> Context<'a> {
             materials: Vec::new(),
             body_nodes: Vec::new(),
             poses: Vec::new(),
+            starts: Vec::new(),
+            drives: Vec::new(),
             owner: vec![None; model.nodes.len()],
         }
     }
@@ -174,13 +225,17 @@ impl<'a> Context<'a> {
         let declared = self.declare_bodies();
         let wires = self.wires();
         let bodies = self.weigh_bodies(&declared, &wires);
-        let (constraints, limits) = self.constraints();
-        let springs = self.springs();
-        self.check_topology(&constraints);
+        let joints::Joints { constraints, limits, springs, .. } = self.joints();
+        let drives = std::mem::take(&mut self.drives);
+        self.check_gear_rings(&constraints);
+        self.check_rank(&constraints, &drives);
+        self.check_mass_ratios(&constraints, &bodies, &drives);
         let excluded_pairs = self.excluded_pairs(&constraints);
         let colliders = self.colliders(&wires);
+        self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
         let (instruments, sounds) = self.sounds(&bodies, &colliders);
+        let (integrator, solver, stabilization_time) = self.solver();
         let labels = self.labels();
         let attract = self.attract(&labels);
         Exhibit {
@@ -193,6 +248,11 @@ impl<'a> Context<'a> {
             constraints,
             limits,
             springs,
+            drives,
+            duration: self.duration(),
+            integrator,
+            solver,
+            stabilization_time,
             wires,
             colliders,
             excluded_pairs,
@@ -205,6 +265,42 @@ impl<'a> Context<'a> {
             origins: std::mem::take(&mut self.origins),
             ..empty(self.model.clone(), self.folder.to_path_buf())
         }
+    }
+
+    /// Length of one run, s.
+    fn duration(&mut self) -> f64 {
+        let Some(given) = self.sidecar.scene.duration else { return f64::INFINITY };
+        let duration = self.positive(given.seconds(), "/scene/duration");
+        self.trace("scene", "duration", format!("{duration} s"), "/scene/duration", "");
+        duration
+    }
+
+    /// How motion is computed.
+    fn solver(&mut self) -> (Integrator, Solver, f64) {
+        let sidecar = self.sidecar;
+        let given = &sidecar.solver;
+        let integrator = match given.integrator {
+            sidecar::Integrator::Auto => Integrator::Auto,
+            sidecar::Integrator::Fast => Integrator::Fast,
+            sidecar::Integrator::RungeKutta => Integrator::RungeKutta,
+            sidecar::Integrator::Precise => Integrator::Precise,
+        };
+        let solver = match given.method {
+            sidecar::Method::Sparse => Solver::Sparse,
+            sidecar::Method::Dense => Solver::Dense,
+        };
+        let place = "/solver/stabilize/time_constant";
+        let time = given.stabilize.time_constant.map_or(STABILIZATION_TIME, |t| t.0);
+        let time = self.positive(time, place);
+        self.trace("solver", "integrator", format!("{integrator:?}"), "/solver/integrator", "default");
+        self.trace("solver", "method", format!("{solver:?}"), "/solver/method", "default");
+        self.trace("solver", "time_constant", format!("{time} s"), place, "default");
+        (integrator, solver, time)
+    }
+
+    /// May constraints be open at the start?
+    fn assembles(&self) -> bool {
+        self.sidecar.solver.assemble
     }
 
     /// Adds a problem at a place of the sidecar.

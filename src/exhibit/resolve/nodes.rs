@@ -130,6 +130,16 @@ impl Context<'_> {
         body.map_or(Pose::IDENTITY, |b| self.poses[b])
     }
 
+    /// Pose of a body (or the world) where it starts.
+    pub(super) fn start_of(&self, body: Option<usize>) -> Pose {
+        body.map_or(Pose::IDENTITY, |b| self.starts[b])
+    }
+
+    /// Does this body follow a given motion?
+    pub(super) fn is_driven(&self, body: usize) -> bool {
+        self.drives.iter().any(|drive| drive.body == body)
+    }
+
     /// A point of a node's space as an anchor of the body that the node belongs to.
     pub(super) fn anchor(&self, node: usize, point: DVec3) -> Anchor {
         let body = self.owner[node];
@@ -178,6 +188,11 @@ impl Context<'_> {
     /// World position of an anchor at rest.
     pub(super) fn at_rest(&self, anchor: &Anchor) -> DVec3 {
         self.pose_of(anchor.body).point(anchor.point)
+    }
+
+    /// World position of an anchor where its body starts.
+    pub(super) fn at_start(&self, anchor: &Anchor) -> DVec3 {
+        self.start_of(anchor.body).point(anchor.point)
     }
 
     /// Nodes at and below `root` that belong to the same body, without the subtrees in `except`.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::quantity::*;
-use super::{Name, Point};
+use super::{Name, Path, Point};
 
 /// A node that moves as one rigid body with all nodes below it that are not bodies themselves.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -32,6 +32,10 @@ pub struct Body {
     /// Does it move?
     #[serde(default)]
     pub motion: Motion,
+    /// Of a kinematic body: the world path of the node's origin.
+    pub path: Option<Path>,
+    /// Of a kinematic body: how it follows the model's animation of its node.
+    pub animation: Option<Animation>,
     /// Nodes below it that are made of something else.
     #[serde(default)]
     pub part: Vec<Part>,
@@ -47,10 +51,15 @@ pub struct PrincipalInertia {
     pub orientation: Option<[f64; 4]>,
 }
 
-/// Motion at the start.
+/// Place and motion at the start.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
+    /// World position of the node at the start; by default where the model has it. Needs `[solver] assemble = true`
+    /// where that opens a constraint.
+    pub position: Option<[Length; 3]>,
+    /// World rotation of the node at the start, quaternion [x, y, z, w]; by default as in the model.
+    pub rotation: Option<[f64; 4]>,
     /// Velocity of the centre of mass, world axes.
     pub velocity: Option<[Speed; 3]>,
     /// Angular velocity, world axes.
@@ -64,8 +73,27 @@ pub enum Motion {
     /// Moved by forces.
     #[default]
     Dynamic,
+    /// Follows the animation of its node, or its path, whatever pulls at it.
+    Kinematic,
     /// Stands still.
     Static,
+}
+
+/// How a kinematic body follows the model's animation.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Animation {
+    /// Name of the animation; by default the first that moves the node.
+    pub name: Option<String>,
+    /// Begins anew after its last key.
+    #[serde(rename = "loop")]
+    pub repeat: bool,
+}
+
+impl Default for Animation {
+    fn default() -> Self {
+        Self { name: None, repeat: true }
+    }
 }
 
 /// A node below a body, with what is below it, of another material.

@@ -1,33 +1,65 @@
-//! Joints: one array of tables per kind, named as the field names them.
+//! Constraints: one array of tables per kind, named as the field names them. Here are the basic kinds; combinations,
+//! forces, and the times that all kinds share have files of their own.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::quantity::*;
-use super::{Attachment, Name, Point};
+use super::*;
 
-/// Where a nail is driven in.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum NailTarget {
-    /// A fixed point of the world.
-    World([Length; 3]),
-    /// A node, or a point of it.
-    Node(Attachment),
-}
-
-/// Joints, one array per kind.
+/// Constraints, one array per kind.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct Constraints {
     /// Two points coincide.
     pub point_to_point: Vec<PointToPoint>,
-    /// A point of a body stays at a point of the world or of a node.
+    /// A point of a body stays at a point of the world, of a node, or of a path.
     pub nail: Vec<Nail>,
-    /// An axis of a body stays perpendicular to another.
+    /// An axis of a body stays at a right (or given) angle to another.
     pub orientation: Vec<Orientation>,
+    /// A point of a body stays in a plane, or at a height above it.
+    pub point_on_plane: Vec<PointOnPlane>,
+    /// Two wheels mesh.
+    pub gear: Vec<Gear>,
+    /// A weight hangs by a cord on a drum.
+    pub gear_weight: Vec<GearWeight>,
+    /// A wheel turns one way only.
+    pub ratchet: Vec<Ratchet>,
+    /// Adds one degree of freedom to what is held, or takes one away.
+    pub element: Vec<Element>,
     /// A spring and damper between two points.
     pub spring: Vec<Spring>,
+    /// A spring and damper about an axis.
+    pub torsion_spring: Vec<TorsionSpring>,
+    /// Stops: of a turn, a way, a distance, a tilt.
+    pub limit: Vec<Bounds>,
+    /// Turns about one axis: a point and two orientations.
+    pub hinge: Vec<Hinge>,
+    /// Two crossed axes: a point and one orientation.
+    pub universal: Vec<Universal>,
+    /// Slides along one axis and does not turn: two planes and three orientations.
+    pub slider: Vec<Slider>,
+    /// A point slides along a line: two planes.
+    pub line: Vec<Line>,
+    /// Nothing moves: a point and three orientations.
+    pub weld: Vec<Weld>,
+    /// A rotor on its shaft: a point and two orientations.
+    pub windmill: Vec<Hinge>,
+}
+
+/// Where a nail is driven in.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Target {
+    /// A fixed point of the world.
+    World([Length; 3]),
+    /// A node, or a point of it; a kinematic body makes it a moving nail.
+    Node(Attachment),
+    /// A path of its own.
+    Path {
+        /// The path of the nail.
+        path: Path,
+    },
 }
 
 /// Friction of a pivot: a torque up to coefficient · load · radius.
@@ -41,10 +73,20 @@ pub struct Friction {
     pub radius: Length,
 }
 
+/// An axis of a body.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyAxis {
+    /// Node of the body.
+    pub body: String,
+    /// Node space.
+    pub axis: [f64; 3],
+}
+
 /// Largest tilt of an axis of the first body away from an axis of the other, or of the world.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Limit {
+pub struct Tilt {
     /// Axis of the first body, node space.
     pub axis: [f64; 3],
     /// Axis of the world; the default is `axis` where it points at rest.
@@ -59,19 +101,9 @@ pub struct Limit {
     pub restitution: f64,
 }
 
-/// An axis of a body.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BodyAxis {
-    /// Node of the body.
-    pub body: String,
-    /// Node space.
-    pub axis: [f64; 3],
-}
-
 /// Two points coincide (3 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[schemars(deny_unknown_fields)]
 pub struct PointToPoint {
     /// Unique name.
     pub name: Name,
@@ -82,12 +114,15 @@ pub struct PointToPoint {
     /// Friction of the pivot.
     pub friction: Option<Friction>,
     /// Tilt limit.
-    pub limit: Option<Limit>,
+    pub limit: Option<Tilt>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
 }
 
-/// A point of a body stays at a point of the world or of a node (3 rows).
+/// A point of a body stays at a point of the world, of a node, or of a path (3 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[schemars(deny_unknown_fields)]
 pub struct Nail {
     /// Unique name.
     pub name: Name,
@@ -95,17 +130,20 @@ pub struct Nail {
     pub body: String,
     /// A node below it, or [x, y, z] in node space; by default its origin.
     pub at: Option<Point>,
-    /// [x, y, z] in the world, or { node, at }.
-    pub to: NailTarget,
+    /// [x, y, z] in the world, { node, at }, or { path = { points } }.
+    pub to: Target,
     /// Friction of the pivot.
     pub friction: Option<Friction>,
     /// Tilt limit.
-    pub limit: Option<Limit>,
+    pub limit: Option<Tilt>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
 }
 
-/// Two axes stay perpendicular (1 row). Give `world_axis` or `other`.
+/// Two axes stay at a right angle, or at a given one from it (1 row). Give `world_axis` or `other`.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[schemars(deny_unknown_fields)]
 pub struct Orientation {
     /// Unique name.
     pub name: Name,
@@ -117,26 +155,127 @@ pub struct Orientation {
     pub world_axis: Option<[f64; 3]>,
     /// Axis of another body.
     pub other: Option<BodyAxis>,
+    /// How far the first axis leans from the right angle towards the second; by default 0.
+    pub angle: Option<Function<Angle>>,
     /// Friction of the pivot.
     pub friction: Option<Friction>,
     /// Tilt limit.
-    pub limit: Option<Limit>,
+    pub limit: Option<Tilt>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
 }
 
-/// A spring and damper between two points.
+/// A point of a body stays in a plane, or at a height above it (1 row).
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Spring {
+#[schemars(deny_unknown_fields)]
+pub struct PointOnPlane {
     /// Unique name.
     pub name: Name,
-    /// One end.
-    pub a: Attachment,
-    /// The other end.
-    pub b: Attachment,
-    /// Length without force; by default the length at rest.
-    pub rest_length: Option<Length>,
-    /// Force per length.
-    pub stiffness: Stiffness,
-    /// Force per speed.
-    pub damping: Option<Damping>,
+    /// Node of the body.
+    pub body: String,
+    /// A node below it, or [x, y, z] in node space; by default its origin.
+    pub at: Option<Point>,
+    /// The plane.
+    pub plane: Plane,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
+}
+
+/// A plane of a node or of the world.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Plane {
+    /// glTF node that carries it; without it the world does.
+    pub node: Option<String>,
+    /// A point of the plane: a node below, or [x, y, z]; by default the node's origin.
+    pub at: Option<Point>,
+    /// Normal in node space (world axes without a node).
+    pub normal: [f64; 3],
+    /// Height of the point above the plane; by default its height at rest.
+    pub offset: Option<Function<Length>>,
+}
+
+/// Adds one degree of freedom to what is held (`op = "add"`), or frees one of a named constraint (`"remove"`).
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Element {
+    /// Unique name.
+    pub name: Name,
+    /// A constraint: the one to be freed, or whose two bodies are to be held further.
+    pub of: Option<String>,
+    /// To add: node of the body to be held, where no constraint is named.
+    pub body: Option<String>,
+    /// To add: the point that is held, a node below the body, or [x, y, z]; by default its origin.
+    pub at: Option<Point>,
+    /// Adds a freedom to those held, or takes one away from them.
+    pub op: Op,
+    /// Which degree of freedom: way along, or turn about, an axis of the frame.
+    pub dof: Dof,
+    /// "world" (the default), "body", or { node = "…" }.
+    #[serde(default)]
+    pub frame: Frame,
+    /// To add: way or turn from where it is at rest, m or rad; by default 0.
+    pub value: Option<Function<Travel>>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
+}
+
+/// What an element does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Op {
+    /// Holds one more degree of freedom.
+    Add,
+    /// Frees one.
+    Remove,
+}
+
+/// A degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Dof {
+    /// Way along x.
+    Tx,
+    /// Way along y.
+    Ty,
+    /// Way along z.
+    Tz,
+    /// Turn about x.
+    Rx,
+    /// Turn about y.
+    Ry,
+    /// Turn about z.
+    Rz,
+}
+
+/// Whose axes a degree of freedom is counted in.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Frame {
+    /// "world" or "body".
+    Word(FrameWord),
+    /// A node's.
+    Node {
+        /// glTF node.
+        node: String,
+    },
+}
+
+/// Whose axes a degree of freedom is counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FrameWord {
+    /// The world's.
+    World,
+    /// The body's own.
+    Body,
+}
+
+impl Default for Frame {
+    fn default() -> Self {
+        Self::Word(FrameWord::World)
+    }
 }

@@ -54,6 +54,7 @@ pub struct Scene {
     accessors: Vec<Value>,
     views: Vec<Value>,
     binary: Vec<u8>,
+    animations: Vec<Value>,
     /// Put into the document's top level as they are.
     pub extra: Vec<(&'static str, Value)>,
 }
@@ -95,6 +96,26 @@ impl Scene {
         self.meshes.len() - 1
     }
 
+    /// Adds an animation named `name` of one channel: `path` is "translation" or "rotation", `keys` hold a time and its
+    /// numbers (three times as many where `interpolation` is "CUBICSPLINE").
+    pub fn animate(&mut self, name: &str, node: usize, path: &str, interpolation: &str, keys: &[(f32, Vec<f32>)]) {
+        let times: Vec<u8> = keys.iter().flat_map(|(t, _)| t.to_le_bytes()).collect();
+        let (first, last) = (keys[0].0, keys[keys.len() - 1].0);
+        let scalar = json!({
+            "componentType": 5126, "type": "SCALAR", "count": keys.len(), "min": [first], "max": [last],
+        });
+        let input = self.accessor(&times, scalar);
+        let values: Vec<u8> = keys.iter().flat_map(|(_, v)| v.iter().flat_map(|x| x.to_le_bytes())).collect();
+        let (shape, lanes) = if path == "rotation" { ("VEC4", 4) } else { ("VEC3", 3) };
+        let count = keys.len() * keys[0].1.len() / lanes;
+        let output = self.accessor(&values, json!({ "componentType": 5126, "type": shape, "count": count }));
+        self.animations.push(json!({
+            "name": name,
+            "samplers": [{ "input": input, "output": output, "interpolation": interpolation }],
+            "channels": [{ "sampler": 0, "target": { "node": node, "path": path } }],
+        }));
+    }
+
     fn accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
         self.views.push(json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() }));
         self.binary.extend_from_slice(bytes);
@@ -120,6 +141,11 @@ impl Scene {
         });
         if !self.meshes.is_empty() {
             root["meshes"] = json!(self.meshes);
+        }
+        if !self.animations.is_empty() {
+            root["animations"] = json!(self.animations);
+        }
+        if !self.accessors.is_empty() {
             root["accessors"] = json!(self.accessors);
             root["bufferViews"] = json!(self.views);
             root["buffers"] = json!([{ "byteLength": self.binary.len() }]);

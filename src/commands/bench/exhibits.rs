@@ -1,4 +1,4 @@
-//! `soffio bench`.
+//! What a step of an exhibit costs: motion, wind, a hard breath, sound.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
-use super::{Failure, Outcome};
+use crate::commands::{Failure, Outcome, open};
 use crate::exhibit::Exhibit;
 use crate::simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use crate::sound::{SoundCommand, Synth};
@@ -15,20 +15,6 @@ use crate::sound::{SoundCommand, Synth};
 const ROUNDS: usize = 3;
 /// A hard breath, m/s at the lips.
 const HARD: f64 = 17.0;
-
-/// Measures what a step of an exhibit costs: still air, motion without wind, a hard breath, and its sound.
-#[derive(clap::Args, Debug)]
-#[command(after_help = "Example:\n  soffio bench steel-fish --json")]
-pub struct Args {
-    /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
-    exhibits: Vec<String>,
-    /// Simulated seconds of each measurement.
-    #[arg(long, default_value_t = 10.0, value_parser = super::play::parse_seconds, allow_negative_numbers = true)]
-    seconds: f64,
-    /// One JSON object a line.
-    #[arg(long)]
-    json: bool,
-}
 
 /// Costs of one exhibit, thread CPU time, best of three.
 #[derive(Serialize)]
@@ -50,21 +36,21 @@ struct Row {
     real_time_factor: f64,
 }
 
-/// Runs the command.
-pub fn run(args: Args) -> Outcome {
-    let names = if args.exhibits.is_empty() { crate::exhibit::ids() } else { args.exhibits };
+/// Measures the named exhibits, or all that are shipped.
+pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
+    let names = if names.is_empty() { crate::exhibit::ids() } else { names.to_vec() };
     if names.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
     }
-    if !args.json {
+    if !json {
         println!(
             "{:<16} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9}",
             "exhibit", "bodies", "colliders", "motion", "still", "breath", "sound", "substeps", "x real"
         );
     }
     for name in names {
-        let row = measure(&super::open(&name)?, args.seconds)?;
-        if args.json {
+        let row = measure(&open(&name)?, seconds)?;
+        if json {
             println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
         } else {
             println!(

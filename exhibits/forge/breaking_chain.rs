@@ -1,0 +1,55 @@
+//! A chain of steel links with a disc at its end; one of its joints is weak.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+
+use super::glb::Scene;
+use super::hung::disc;
+use super::mobile::EYE_STEPS;
+use super::outline::ring;
+use super::piece::{Bend, Piece};
+use super::stock::{ALUMINIUM, MM, STEEL, finishes, gallows, part, rod, slab, write};
+
+/// From eye to eye of a link.
+const PITCH: f64 = 44.0 * MM;
+/// Where the chain hangs.
+const HOOK: f64 = 470.0 * MM;
+const LINKS: [&str; 6] = ["Link1", "Link2", "Link3", "Link4", "Link5", "Link6"];
+const EYES: [&str; 6] = ["Eye1", "Eye2", "Eye3", "Eye4", "Eye5", "Eye6"];
+const ENDS: [&str; 6] = ["End1", "End2", "End3", "End4", "End5", "End6"];
+
+/// The wire of a link: an eye around its hook, one around its end, each across the other, and the core between.
+fn eyes(name: &'static str) -> Bend {
+    let (wire, eye) = (0.6 * MM, 2.6 * MM);
+    let top = ring((wire - eye) * DVec3::Y, eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
+    let bottom = ring((eye - wire - PITCH) * DVec3::Y, eye, DVec3::Y, DVec3::Z, EYE_STEPS);
+    Bend { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
+}
+
+/// The model: each link hangs by its origin, its end is marked.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let along = DQuat::IDENTITY;
+    let hook = HOOK * DVec3::Y;
+    let mut stand = gallows(hook, DVec2::new(0.0, -90.0 * MM), finishes.black);
+    let flat = rotation(0.5 * PI * DVec3::X);
+    let tray = slab(210.0 * MM, 150.0 * MM, 6.0 * MM);
+    stand.parts.push(part("Tray", tray, DVec3::new(0.0, 15.0 * MM, 20.0 * MM), flat, STEEL, finishes.black));
+    let mut pieces = vec![(stand, DVec3::ZERO)];
+    for (i, name) in LINKS.into_iter().enumerate() {
+        // The weak joint is the one under the third link: what hangs on it is red.
+        let finish = if i < 3 { finishes.steel } else { finishes.red };
+        let bar = rod(2.2 * MM, -PITCH + 5.0 * MM, -5.0 * MM);
+        let link = Piece {
+            name,
+            parts: vec![part(name, bar, DVec3::ZERO, along, STEEL, finish)],
+            bends: vec![eyes(EYES[i])],
+            marks: vec![(ENDS[i], -PITCH * DVec3::Y)],
+        };
+        pieces.push((link, hook - PITCH * i as f64 * DVec3::Y));
+    }
+    let plate = disc(["Disc", "DiscHook", "DiscStem"], (80.0 * MM, 0.8 * MM), 12.0 * MM, (ALUMINIUM, finishes.white));
+    pieces.push((plate, hook - PITCH * LINKS.len() as f64 * DVec3::Y));
+    let (eye, target) = (DVec3::new(0.35, 0.36, 1.10), DVec3::new(0.0, 0.25, 0.0));
+    write(scene, "Breaking chain", &pieces, eye, target)
+}

@@ -1,0 +1,48 @@
+//! Plates that hang on stems from hooks: discs, and any sheet with a hole.
+
+use soffio::math::{DVec2, DVec3, PI, Pose};
+
+use super::mobile::{EYE_STEPS, STEEL};
+use super::outline::{ellipse, ring};
+use super::piece::{Bend, Part, Piece};
+use super::solid::{Solid, sheet};
+
+/// m.
+const MM: f64 = 1e-3;
+/// Corners of a circle that is seen close.
+const ROUND: usize = 64;
+/// How far the edges of a sheet are broken.
+const BEVEL: f64 = 0.12 * MM;
+/// Distance of a plate's hole from its rim, and the hole's radius, mm.
+const HOLE_INSET: f64 = 2.4;
+pub const HOLE_RADIUS: f64 = 1.0;
+
+/// A stem hung by its eye from the origin, straight down to `length` m; it ends in a small eye through a plate.
+fn stem(name: &'static str, length: f64) -> Bend {
+    let (radius, eye, foot) = (0.3 * MM, 1.6 * MM, 1.2 * MM);
+    let mut points = ring(DVec3::new(0.0, radius - eye, 0.0), eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
+    points.push(DVec3::new(0.0, 2.0 * foot - length, 0.0));
+    points.extend(ring(DVec3::new(0.0, foot - length, 0.0), foot, DVec3::Y, DVec3::Z, EYE_STEPS).split_off(1));
+    Bend { name, points, radius, density: STEEL }
+}
+
+/// A plate (solid, density, finish) on a stem: the hole of the plate at the stem's foot, `length` m below the hook.
+/// `names` are those of the piece, its hook and its stem.
+pub fn hung_plate(names: [&'static str; 3], plate: (Solid, f64, usize), length: f64) -> Piece {
+    let [name, hook, stem_name] = names;
+    let (solid, density, finish) = plate;
+    Piece {
+        name,
+        parts: vec![Part { name, solid: solid.moved(-length * DVec3::Y), place: Pose::IDENTITY, density, finish }],
+        bends: vec![stem(stem_name, length)],
+        marks: vec![(hook, DVec3::ZERO)],
+    }
+}
+
+/// A disc of sheet (diameter, thickness) on a stem of `length`; `stuff` is its density and finish.
+pub fn disc(names: [&'static str; 3], (diameter, thickness): (f64, f64), length: f64, stuff: (f64, usize)) -> Piece {
+    let radius = 0.5 * diameter;
+    let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS * MM), 0.0, ROUND / 4);
+    let outline = ellipse(DVec2::new(0.0, HOLE_INSET * MM - radius), DVec2::splat(radius), 0.5 * PI, ROUND);
+    hung_plate(names, (sheet(&outline, &[hole], thickness, BEVEL), stuff.0, stuff.1), length)
+}

@@ -1,0 +1,58 @@
+//! A windmill: a rotor with four vanes on the shaft of a head, which turns on its mast and carries a tail.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+
+use super::glb::Scene;
+use super::piece::Piece;
+use super::solid::turned;
+use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, vane, write};
+
+/// Height of the shaft above the floor.
+const SHAFT: f64 = 330.0 * MM;
+/// From the mast's axis to the rotor.
+const OVERHANG: f64 = 42.0 * MM;
+const VANES: [&str; 4] = ["Vane1", "Vane2", "Vane3", "Vane4"];
+
+/// The model: the shaft is the z axis of head and rotor, the mast the y axis.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
+    let mast =
+        [(0.0, 0.0), (66.0, 0.0), (68.0, 3.0), (22.0, 16.0), (9.0, 60.0), (5.5, 300.0), (5.5, 319.0), (0.0, 319.0)];
+    let mast = turned(&mast.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let stand = Piece {
+        name: "Mast",
+        parts: vec![part("Tower", mast, none, upright, WOOD, finishes.white)],
+        bends: Vec::new(),
+        marks: Vec::new(),
+    };
+    // Bored along z, its frame at the crossing of mast and shaft; the tail keeps the rotor's weight in balance.
+    let sideways = rotation(0.5 * PI * DVec3::Y);
+    let head = Piece {
+        name: "Head",
+        parts: vec![
+            part("Nacelle", rod(9.0 * MM, -34.0 * MM, 34.0 * MM), none, facing(), WOOD, finishes.wood),
+            part("Boom", rod(1.6 * MM, -150.0 * MM, -34.0 * MM), none, facing(), STEEL, finishes.steel),
+            part(
+                "TailVane",
+                slab(56.0 * MM, 66.0 * MM, 1.0 * MM),
+                -150.0 * MM * DVec3::Z,
+                sideways,
+                WOOD,
+                finishes.red,
+            ),
+        ],
+        bends: Vec::new(),
+        marks: vec![("HeadShaft", OVERHANG * DVec3::Z)],
+    };
+    let mut parts = vec![part("Hub", rod(8.0 * MM, -6.0 * MM, 8.0 * MM), none, facing(), BRASS, finishes.brass)];
+    parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
+        let size = [82.0 * MM, 30.0 * MM, 1.0 * MM];
+        vane(name, size, 49.0 * MM, 0.5 * PI * k as f64, 0.6, (WOOD, finishes.blue))
+    }));
+    let rotor = Piece { name: "Rotor", parts, bends: Vec::new(), marks: Vec::new() };
+    let top = SHAFT * DVec3::Y;
+    let pieces = [(stand, none), (head, top), (rotor, top + OVERHANG * DVec3::Z)];
+    write(scene, "Windmill", &pieces, DVec3::new(0.42, 0.36, 0.95), DVec3::new(0.0, 0.23, 0.0))
+}

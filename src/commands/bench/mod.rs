@@ -1,0 +1,89 @@
+//! `soffio bench`.
+
+mod exhibits;
+mod scenes;
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::Outcome;
+use super::play::parse_seconds;
+use crate::dynamics::{Integrator, Solver};
+use crate::offline::scene::Limits;
+
+/// Simulated seconds of an exhibit where nothing else is said.
+const EXHIBIT_SECONDS: f64 = 10.0;
+
+/// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, and its sound), of an
+/// articulated scene beside how well it keeps energy and joints, or of a body as figures grow.
+#[derive(clap::Args, Debug)]
+#[command(
+    after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
+                        soffio bench --linear"
+)]
+pub struct Args {
+    /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
+    #[arg(conflicts_with_all = ["scene", "linear"])]
+    exhibits: Vec<String>,
+    /// An articulated scene, JSON of the format `isaac-bench-scene/1`; more than one may be given.
+    #[arg(long, value_name = "FILE.json")]
+    scene: Vec<PathBuf>,
+    /// What a body costs in chains and binary trees of 10, 100, 1,000 and 10,000.
+    #[arg(long, conflicts_with = "scene")]
+    linear: bool,
+    /// Step of a scene, s; default are those that it names.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
+    dt: Option<f64>,
+    /// How time is advanced in a scene.
+    #[arg(long, value_enum, default_value_t = IntegratorArg::Auto)]
+    integrator: IntegratorArg,
+    /// Which linear solver a scene uses.
+    #[arg(long, value_enum, default_value_t = SolverArg::Sparse)]
+    solver: SolverArg,
+    /// Simulated seconds: of each measurement of an exhibit (10 if not given), at most of a scene.
+    #[arg(long, value_parser = parse_seconds, allow_negative_numbers = true)]
+    seconds: Option<f64>,
+    /// Processor time after which the pass that measures a scene's accuracy ends, s.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, default_value_t = 60.0)]
+    budget: f64,
+    /// One JSON object a line.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum IntegratorArg {
+    Auto,
+    Fast,
+    RungeKutta,
+    Precise,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SolverArg {
+    Sparse,
+    Dense,
+}
+
+/// Runs the command.
+pub fn run(args: Args) -> Outcome {
+    if args.linear {
+        return scenes::linear(args.json);
+    }
+    if args.scene.is_empty() {
+        return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);
+    }
+    let integrator = match args.integrator {
+        IntegratorArg::Auto => Integrator::Auto,
+        IntegratorArg::Fast => Integrator::Fast,
+        IntegratorArg::RungeKutta => Integrator::RungeKutta,
+        IntegratorArg::Precise => Integrator::Precise,
+    };
+    let solver = match args.solver {
+        SolverArg::Sparse => Solver::Sparse,
+        SolverArg::Dense => Solver::Dense,
+    };
+    let limits = Limits { seconds: args.seconds.unwrap_or(f64::INFINITY), budget: args.budget };
+    scenes::run(&args.scene, args.dt, integrator, solver, limits, args.json)
+}

@@ -1,0 +1,216 @@
+//! Gears, drums with cords, and whether trains of gears can turn.
+//!
+//! Two wheels on parallel axles obey r₁ φ₁ ± r₂ φ₂ = const, + where they turn oppositely (external teeth, axes that
+//! point the same way). Going round a ring of gears, the turns of one wheel bring about its own turn again: the product
+//! of the ratios must be 1.
+
+use super::super::super::codes;
+use super::super::super::diagnostic::Diagnostic;
+use super::super::super::sidecar::{self, Wheel};
+use super::super::Context;
+use super::Joints;
+use crate::articulation::{Axis, Constraint, ConstraintKind, Measure, Term};
+use crate::math::DVec3;
+
+/// Axles that are further than this from parallel (cosine) are bevel gears: their turns are taken as they are given.
+const PARALLEL: f64 = 0.99;
+/// Radii may differ by this share of the axles' distance: gears have some play.
+const PLAY: f64 = 0.02;
+/// A component below this is rounding of a single-precision file.
+const UPRIGHT: f64 = 1e-3;
+/// Ratios around a ring may differ by this from 1: tooth counts are exact, radii are typed with a few digits.
+const RATIO: f64 = 1e-6;
+
+impl Context<'_> {
+    pub(super) fn gear(&mut self, given: &sidecar::Gear, at: &str, out: &mut Joints) {
+        let header = self.header(&given.name, &given.timing, at, out);
+        let frame = self.carrier(given.frame.as_ref(), at, &given.name);
+        let a = self.wheel(&given.a, &format!("{at}/a"), &given.name);
+        let b = self.wheel(&given.b, &format!("{at}/b"), &given.name);
+        let (Some(frame), Some((a, size_a, teeth_a)), Some((b, size_b, teeth_b))) = (frame, a, b) else { return };
+        if teeth_a != teeth_b {
+            let message = format!("gear \"{}\" has teeth on one side and a radius on the other", given.name);
+            let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
+            self.report(at, problem.help("give both by teeth, or both by radius"));
+            return;
+        }
+        if !self.joinable(a.body, b.body, &given.name, at) {
+            return;
+        }
+        let (u, v) = (self.pose_of(a.body).vector(a.direction), self.pose_of(b.body).vector(b.direction));
+        let cosine = u.dot(v);
+        let opposed = if cosine < -PARALLEL { -1.0 } else { 1.0 };
+        let sense = if given.internal { -opposed } else { opposed };
+        let term = |axis, coefficient| Term { measure: Measure::Angle { axis, frame }, coefficient };
+        let kind = ConstraintKind::Coupling { terms: vec![term(a, size_a), term(b, sense * size_b)] };
+        let first = out.constraints.len();
+        self.push(out, &header, "", kind, None);
+        self.trace_header(&header, "", out, first);
+        if !teeth_a && cosine.abs() > PARALLEL {
+            let wanted = if given.internal { (size_a - size_b).abs() } else { size_a + size_b };
+            self.check_distance((a.body, b.body), u, wanted, &given.name, at, out);
+        }
+    }
+
+    /// The axle of a wheel, its size, and whether that is a number of teeth.
+    fn wheel(&mut self, given: &Wheel, at: &str, name: &str) -> Option<(Axis, f64, bool)> {
+        let axis = self.body_axis(&given.body, given.axis, &format!("{at}/body"), &format!("{at}/axis"), name)?;
+        match (given.teeth, given.radius) {
+            (Some(teeth), None) => Some((axis, f64::from(teeth), true)),
+            (None, Some(radius)) => Some((axis, self.positive(radius.0, &format!("{at}/radius")), false)),
+            _ => {
+                let message = format!("a wheel of \"{name}\" needs teeth or a radius, one of them");
+                self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help("add teeth = 42"));
+                None
+            }
+        }
+    }
+
+    /// Warns where two wheels whose axles point along `along` are not as far apart as their radii say.
+    fn check_distance(
+        &mut self,
+        (a, b): (Option<usize>, Option<usize>),
+        along: DVec3,
+        wanted: f64,
+        name: &str,
+        at: &str,
+        out: &Joints,
+    ) {
+        // Where a wheel turns is where a point of it is held; one that nothing holds turns about its own origin.
+        let place = |body: Option<usize>| {
+            let held = out.constraints.iter().find_map(|c| match &c.kind {
+                ConstraintKind::PointToPoint { a, .. } if a.body == body => Some(*a),
+                ConstraintKind::PointToPoint { b, .. } if b.body == body => Some(*b),
+                _ => None,
+            });
+            held.map_or(self.pose_of(body).position, |anchor| self.at_rest(&anchor))
+        };
+        let distance = (place(a) - place(b)).reject_from_normalized(along).length();
+        if (distance - wanted).abs() > PLAY * wanted.max(distance) {
+            let (is, should) = (distance * 1e3, wanted * 1e3);
+            let message = format!("the axles of \"{name}\" are {is:.2} mm apart, and its radii say {should:.2} mm");
+            let help = "the wheels overlap or do not touch; they turn together all the same";
+            self.report(at, Diagnostic::new(codes::GEAR_DISTANCE, message).help(help));
+        }
+    }
+
+    pub(super) fn gear_weight(&mut self, given: &sidecar::GearWeight, at: &str, out: &mut Joints) {
+        let header = self.header(&given.name, &given.timing, at, out);
+        let frame = self.carrier(given.frame.as_ref(), at, &given.name);
+        let places = (format!("{at}/gear/body"), format!("{at}/gear/axis"));
+        let axis = self.body_axis(&given.gear.body, given.gear.axis, &places.0, &places.1, &given.name);
+        let point = self.point_of(&given.weight.body, given.weight.at.as_ref(), &format!("{at}/weight"), &given.name);
+        let place = format!("{at}/weight/direction");
+        let direction = match given.frame.as_ref() {
+            None => self.unit(DVec3::from(given.weight.direction), &place).map(|d| Axis { body: None, direction: d }),
+            Some(node) => self.body_axis(node, given.weight.direction, &format!("{at}/frame"), &place, &given.name),
+        };
+        let radius = self.positive(given.gear.radius.0, &format!("{at}/gear/radius"));
+        let (Some(frame), Some(axis), Some(point), Some(direction)) = (frame, axis, point, direction) else { return };
+        if !self.joinable(axis.body, point.body, &given.name, at) {
+            return;
+        }
+        let terms = vec![
+            Term { measure: Measure::Way { point, direction }, coefficient: f64::from(given.pulleys) },
+            Term { measure: Measure::Angle { axis, frame }, coefficient: -radius },
+        ];
+        let first = out.constraints.len();
+        self.push(out, &header, "", ConstraintKind::Coupling { terms }, None);
+        self.trace_header(&header, "", out, first);
+    }
+
+    /// Reports rings of gears that cannot turn.
+    pub(in super::super) fn check_gear_rings(&mut self, constraints: &[Constraint]) {
+        // A wheel is a body about an axis: one on two crossed axes is two wheels.
+        let mut wheels: Vec<(usize, DVec3)> = Vec::new();
+        let gears: Vec<Mesh> = constraints.iter().filter_map(|c| self.mesh(c, &mut wheels)).collect();
+        // The trains so far, without rings: a gear whose wheels are in one train already closes a ring.
+        let mut train: Vec<&Mesh> = Vec::new();
+        for gear in &gears {
+            let Some(way) = route(&train, gear.a, gear.b) else {
+                train.push(gear);
+                continue;
+            };
+            let turns = way.iter().map(|(_, ratio)| ratio).product::<f64>();
+            let product = gear.ratio / turns;
+            if (product - 1.0).abs() <= RATIO {
+                continue;
+            }
+            let names: Vec<&str> = way.iter().map(|(gear, _)| gear.name.as_str()).chain([gear.name.as_str()]).collect();
+            let message = format!("gear \"{}\" closes a ring that cannot turn: {}", gear.name, names.join(", "));
+            let label = format!("going round, one turn becomes {product:.6} turns");
+            let help = "the product of all ratios must be 1; an odd ring of external gears always jams";
+            let place = self.place(&gear.name);
+            self.report(&place, Diagnostic::new(codes::GEAR_RING, message).label(label).help(help));
+        }
+    }
+
+    /// A constraint as two wheels that mesh, if it is that.
+    fn mesh(&self, constraint: &Constraint, wheels: &mut Vec<(usize, DVec3)>) -> Option<Mesh> {
+        let ConstraintKind::Coupling { terms } = &constraint.kind else { return None };
+        let [a, b] = terms.as_slice() else { return None };
+        let (Measure::Angle { axis: u, frame: f }, Measure::Angle { axis: v, frame: g }) = (&a.measure, &b.measure)
+        else {
+            return None;
+        };
+        // Turns can be compared where both wheels of every gear turn about parallel axles of one frame.
+        let way = |axis: &Axis| self.pose_of(axis.body).vector(axis.direction);
+        let sense = way(u).dot(way(v));
+        if f != g || sense.abs() < PARALLEL {
+            return None;
+        }
+        // Right-handed about one direction for all: a·dφ_a + b·dφ_b = 0.
+        let upright = |axis: &Axis| {
+            let w = way(axis);
+            w.to_array().into_iter().find(|x| x.abs() > UPRIGHT).unwrap_or(1.0).signum()
+        };
+        let ratio = -(a.coefficient * upright(u)) / (b.coefficient * upright(v));
+        let mut wheel = |axis: &Axis| {
+            let (body, along) = (axis.body?, way(axis));
+            let known = wheels.iter().position(|(b, w)| *b == body && w.dot(along).abs() > PARALLEL);
+            Some(known.unwrap_or_else(|| {
+                wheels.push((body, along));
+                wheels.len() - 1
+            }))
+        };
+        Some(Mesh { name: constraint.name.clone(), a: wheel(u)?, b: wheel(v)?, ratio })
+    }
+}
+
+/// The gears from one wheel to another, each with the turns that it makes of one.
+fn route<'m>(train: &[&'m Mesh], from: usize, to: usize) -> Option<Vec<(&'m Mesh, f64)>> {
+    let mut waiting = vec![(from, Vec::<(&Mesh, f64)>::new())];
+    while let Some((here, way)) = waiting.pop() {
+        if here == to {
+            return Some(way);
+        }
+        for &gear in train {
+            let back = way.last().is_some_and(|(last, _)| std::ptr::eq(*last, gear));
+            if let Some((there, ratio)) = gear.across(here).filter(|_| !back) {
+                waiting.push((there, way.iter().copied().chain([(gear, ratio)]).collect()));
+            }
+        }
+    }
+    None
+}
+
+/// Two wheels (by their numbers) that mesh: `ratio` turns of b for one of a.
+struct Mesh {
+    name: String,
+    a: usize,
+    b: usize,
+    ratio: f64,
+}
+
+impl Mesh {
+    /// The wheel on the other side of one, and its turns for one turn of that one.
+    fn across(&self, from: usize) -> Option<(usize, f64)> {
+        if from == self.a {
+            Some((self.b, self.ratio))
+        } else if from == self.b {
+            Some((self.a, 1.0 / self.ratio))
+        } else {
+            None
+        }
+    }
+}

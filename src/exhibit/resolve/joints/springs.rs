@@ -1,0 +1,72 @@
+//! Springs and dampers, along a line and about an axis.
+
+use super::super::super::codes;
+use super::super::super::diagnostic::Diagnostic;
+use super::super::super::sidecar;
+use super::super::Context;
+use super::{Header, Joints, functions};
+use crate::articulation::{Function, Spring, SpringKind};
+
+impl Context<'_> {
+    pub(super) fn spring(&mut self, given: &sidecar::Spring, at: &str, out: &mut Joints) {
+        let header = self.header(&given.name, &given.timing, at, out);
+        let a = self.attachment(&given.a, &format!("{at}/a"), &given.name);
+        let b = self.attachment(&given.b, &format!("{at}/b"), &given.name);
+        let (Some(a), Some(b)) = (a, b) else { return };
+        if !self.joinable(a.body, b.body, &given.name, at) {
+            return;
+        }
+        let rest = match &given.rest_length {
+            Some(rest) => self.function_from_zero(rest, &format!("{at}/rest_length")),
+            None => self.at_rest(&a).distance(self.at_rest(&b)).into(),
+        };
+        let stiffness = self.function_from_zero(&given.stiffness, &format!("{at}/stiffness"));
+        let damping = given.damping.as_ref();
+        let damping = damping.map_or(Function::default(), |d| self.function_from_zero(d, &format!("{at}/damping")));
+        let units = [("rest_length", "m"), ("stiffness", "N/m"), ("damping", "N s/m")];
+        self.push_spring(out, &header, SpringKind::Linear { a, b }, [rest, stiffness, damping], units);
+    }
+
+    pub(super) fn torsion_spring(&mut self, given: &sidecar::TorsionSpring, at: &str, out: &mut Joints) {
+        let header = self.header(&given.name, &given.timing, at, out);
+        let Some(measure) = self.turn(&given.axle, &given.name, at, out) else { return };
+        if let crate::articulation::Measure::Way { .. } = measure {
+            let problem = Diagnostic::new(codes::WRONG_TYPE, format!("\"{}\" twists a slider", given.name));
+            self.report(&format!("{at}/of"), problem.help("a torsion spring acts on a hinge; a slider takes a spring"));
+            return;
+        }
+        let rest = given.rest_angle.as_ref();
+        let rest = rest.map_or(Function::default(), |r| self.function(r, &format!("{at}/rest_angle")));
+        let stiffness = self.function_from_zero(&given.stiffness, &format!("{at}/stiffness"));
+        let damping = given.damping.as_ref();
+        let damping = damping.map_or(Function::default(), |d| self.function_from_zero(d, &format!("{at}/damping")));
+        let units = [("rest_angle", "rad"), ("stiffness", "N m/rad"), ("damping", "N m s/rad")];
+        self.push_spring(out, &header, SpringKind::Angular { measure }, [rest, stiffness, damping], units);
+    }
+
+    fn push_spring(
+        &mut self,
+        out: &mut Joints,
+        header: &Header,
+        kind: SpringKind,
+        functions: [Function; 3],
+        units: [(&str, &str); 3],
+    ) {
+        let of = format!("spring {}", header.name);
+        for (function, (key, unit)) in functions.iter().zip(units) {
+            let otherwise = if key == "rest_length" { "derived: length at rest" } else { "default" };
+            self.trace(&of, key, functions::shown(function, unit), &format!("{}/{key}", header.at), otherwise);
+        }
+        self.trace_timing(&of, header);
+        let [rest, stiffness, damping] = functions;
+        out.springs.push(Spring {
+            name: header.name.to_owned(),
+            kind,
+            rest,
+            stiffness,
+            damping,
+            schedule: header.schedule.clone(),
+            breaking: header.breaking,
+        });
+    }
+}

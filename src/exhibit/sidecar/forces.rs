@@ -1,0 +1,216 @@
+//! Gears, ratchets, stops and springs.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::super::quantity::*;
+use super::*;
+
+/// Two wheels mesh: their turns stay in proportion (1 row).
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Gear {
+    /// Unique name.
+    pub name: Name,
+    /// One wheel.
+    pub a: Wheel,
+    /// The other; both by teeth, or both by radius.
+    pub b: Wheel,
+    /// Teeth inside a rim keep the sense of rotation.
+    #[serde(default)]
+    pub internal: bool,
+    /// Node of the body that carries both axles; by default the world.
+    pub frame: Option<String>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
+}
+
+/// A toothed wheel.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wheel {
+    /// Node of the body.
+    pub body: String,
+    /// Its axle in node space.
+    pub axis: [f64; 3],
+    /// Number of teeth.
+    #[schemars(range(min = 1))]
+    pub teeth: Option<u32>,
+    /// Radius of the pitch circle.
+    pub radius: Option<Length>,
+}
+
+/// A weight hangs by a cord on a drum: its way follows the drum's turn (1 row).
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct GearWeight {
+    /// Unique name.
+    pub name: Name,
+    /// The drum.
+    pub gear: Drum,
+    /// The weight.
+    pub weight: CordWeight,
+    /// Cords that carry the weight: 1 hangs directly, 2 in a pulley (half the way, twice the pull).
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 64))]
+    pub pulleys: u32,
+    /// Node of the body that carries the drum's axle; by default the world.
+    pub frame: Option<String>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
+}
+
+fn one() -> u32 {
+    1
+}
+
+/// A drum.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Drum {
+    /// Node of the body.
+    pub body: String,
+    /// Its axle in node space; a right-handed turn about it pays the cord out.
+    pub axis: [f64; 3],
+    /// Radius to the middle of the cord.
+    pub radius: Length,
+}
+
+/// A weight on a cord.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CordWeight {
+    /// Node of the body.
+    pub body: String,
+    /// Where the cord holds it; by default its origin.
+    pub at: Option<Point>,
+    /// The way it goes as the cord pays out; world axes, or those of `frame`.
+    pub direction: [f64; 3],
+}
+
+/// A turn about an axis: that of a named hinge, or of a body against another.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct Axle {
+    /// A hinge (for a ratchet also a slider).
+    pub of: Option<String>,
+    /// Instead of `of`: node of the body that turns.
+    pub body: Option<String>,
+    /// With `body`: its axle in node space.
+    pub axis: Option<[f64; 3]>,
+    /// With `body`: node of the body that it turns against; by default the world.
+    pub frame: Option<String>,
+}
+
+/// A wheel turns one way only: a pawl on its teeth.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Ratchet {
+    /// Unique name.
+    pub name: Name,
+    /// What turns, freely where the turn (or way) grows.
+    #[serde(flatten)]
+    pub axle: Axle,
+    /// Free the other way round.
+    #[serde(default)]
+    pub reverse: bool,
+    /// Number of teeth.
+    #[schemars(range(min = 1))]
+    pub teeth: Option<u32>,
+    /// Instead of `teeth`: way from tooth to tooth; without either it catches anywhere.
+    pub pitch: Option<Travel>,
+}
+
+/// Stops. Give `of`; or `a`, `b` and an `axis` or `direction`; or `a` and `b` alone for their distance.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Bounds {
+    /// Unique name.
+    pub name: Name,
+    /// A hinge or slider whose turn or way, counted from the start, is bounded.
+    pub of: Option<String>,
+    /// Instead of `of`: a point of the body that moves.
+    pub a: Option<Attachment>,
+    /// A point of the other body, or of what stands still; by default the world.
+    pub b: Option<Attachment>,
+    /// The turn of `a` about this axis of its node space is bounded, counted from the start.
+    pub axis: Option<[f64; 3]>,
+    /// The way of `a` along this direction in the space of `b` is bounded, counted from the start.
+    pub direction: Option<[f64; 3]>,
+    /// With `axis`: instead of its turn, the tilt of the axis from where it points at rest is bounded by `max`.
+    #[serde(default)]
+    pub tilt: bool,
+    /// Least value.
+    pub min: Option<Travel>,
+    /// Greatest value.
+    pub max: Option<Travel>,
+    /// Coefficient of restitution at the bound, 0 … 1.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: f64,
+}
+
+/// A way or a turn, whichever fits: a bare number is m or rad.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Travel {
+    /// m.
+    Bare(f64),
+    /// A text with a unit of length.
+    Way(Length),
+    /// A text with a unit of angle.
+    Turn(Angle),
+}
+
+impl Quantity for Travel {
+    fn si(self) -> f64 {
+        match self {
+            Self::Bare(number) => number,
+            Self::Way(way) => way.0,
+            Self::Turn(turn) => turn.0,
+        }
+    }
+}
+
+/// A spring and damper between two points.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Spring {
+    /// Unique name.
+    pub name: Name,
+    /// One end.
+    pub a: Attachment,
+    /// The other end.
+    pub b: Attachment,
+    /// Length without force; by default the length at rest.
+    pub rest_length: Option<Function<Length>>,
+    /// Force per length.
+    pub stiffness: Function<Stiffness>,
+    /// Force per speed.
+    pub damping: Option<Function<Damping>>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
+}
+
+/// A spring and damper about an axis.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct TorsionSpring {
+    /// Unique name.
+    pub name: Name,
+    /// What turns.
+    #[serde(flatten)]
+    pub axle: Axle,
+    /// Angle without torque, counted from the start; by default 0.
+    pub rest_angle: Option<Function<Angle>>,
+    /// Torque per angle.
+    pub stiffness: Function<AngularStiffness>,
+    /// Torque per angular velocity.
+    pub damping: Option<Function<AngularDamping>>,
+    /// When it acts.
+    #[serde(flatten)]
+    pub timing: Timing,
+}

@@ -1,0 +1,354 @@
+//! What a run is judged by, from the scene file and the bodies' states alone.
+//!
+//! ```text
+//! E   = Σ ½ m v² + ½ ω·(R I Rᵀ ω) − m g·x                        energy, J
+//! gap = |xₐ + Rₐ pₐ − x_b − R_b p_b|                              joint error, m; a slider's without its part along the axis
+//! q   = right-handed angle of b against a about the axis          hinge, not wrapped, rad
+//! q   = (x_b + R_b p_b − xₐ − Rₐ pₐ) · axis                       slider, m
+//! θ   = atan2(axis·(g × r), g·r), r from the hinge to the centre  pendulum, rad
+//! ```
+//!
+//! A pendulum's period is the mean over all zero crossings of θ, two a period. A crossing between two samples is found
+//! on the straight line through them, and on the cubic through both angles and rates (Hermite).
+
+use super::format::{Coupling, Joint, JointKind, Scene};
+use crate::bodies::RigidBody;
+use crate::math::{DQuat, DVec3, PI, StateHash, atan2, tangents};
+
+/// Relative energy error beyond which a run has diverged.
+const DIVERGED: f64 = 10.0;
+/// Span at the end of a pendulum's run in which its amplitude is sampled, s.
+const AMPLITUDE_SPAN: f64 = 4.0;
+/// Halvings that bring an interval of one step to the rounding of f64.
+const HALVINGS: usize = 60;
+
+/// Pose and velocities of a body, as any engine has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Centre of mass in the world, m.
+    pub position: DVec3,
+    /// Body axes to world axes.
+    pub rotation: DQuat,
+    /// Of the centre of mass, m/s.
+    pub velocity: DVec3,
+    /// World axes, rad/s.
+    pub angular_velocity: DVec3,
+}
+
+impl State {
+    /// The world itself.
+    pub const WORLD: Self =
+        Self { position: DVec3::ZERO, rotation: DQuat::IDENTITY, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
+
+    /// World position of a point of the body.
+    pub fn point(&self, local: [f64; 3]) -> DVec3 {
+        self.position + self.rotation * DVec3::from_array(local)
+    }
+}
+
+impl From<&RigidBody> for State {
+    fn from(body: &RigidBody) -> Self {
+        Self {
+            position: body.pose().point(body.properties.center),
+            rotation: body.rotation,
+            velocity: body.velocity,
+            angular_velocity: body.angular_velocity,
+        }
+    }
+}
+
+/// Kinetic and potential energy with the masses of the file, J; zero height is the world's origin.
+pub fn energy(scene: &Scene, states: &[State]) -> f64 {
+    let gravity = DVec3::from_array(scene.gravity);
+    let one = |(body, state): (&super::Body, &State)| {
+        let spin = state.rotation.conjugate() * state.angular_velocity;
+        let turning = 0.5 * spin.dot(DVec3::from_array(body.inertia) * spin);
+        0.5 * body.mass * state.velocity.length_squared() + turning - body.mass * gravity.dot(state.position)
+    };
+    scene.bodies.iter().zip(states).map(one).sum()
+}
+
+/// Distance between the two anchors of a joint, m; of a slider, without its way.
+pub fn gap(joint: &Joint, a: &State, b: &State) -> f64 {
+    let apart = b.point(joint.anchor_b) - a.point(joint.anchor_a);
+    match joint.axes() {
+        Some((axis, _)) if joint.kind == JointKind::Slider => apart.reject_from_normalized(a.rotation * axis).length(),
+        _ => apart.length(),
+    }
+}
+
+/// Largest [`gap`] of any joint, m.
+pub fn joint_error(scene: &Scene, states: &[State]) -> f64 {
+    scene.joints.iter().map(|joint| gap(joint, parent(joint, states), &states[joint.b])).fold(0.0, larger)
+}
+
+/// The larger of two numbers, and the one that is none.
+fn larger(a: f64, b: f64) -> f64 {
+    if b.is_nan() || b > a { b } else { a }
+}
+
+fn parent<'a>(joint: &Joint, states: &'a [State]) -> &'a State {
+    joint.parent().map_or(&State::WORLD, |body| &states[body])
+}
+
+/// The coordinate of a hinge or slider since the start.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    joint: Joint,
+    /// A direction across the axis in the parent, and the same at the start as the child sees it.
+    across: (DVec3, DVec3),
+    start: f64,
+    value: f64,
+}
+
+impl Coordinate {
+    /// The coordinate of a joint that has one, at zero.
+    pub fn new(scene: &Scene, joint: usize) -> Option<Self> {
+        let joint = scene.joints[joint].clone();
+        let (axis, _) = joint.axes()?;
+        let states: Vec<_> = scene.bodies.iter().map(super::Body::state).collect();
+        let (a, b) = (parent(&joint, &states), &states[joint.b]);
+        let (t, _) = tangents(axis);
+        let across = (t, b.rotation.conjugate() * (a.rotation * t));
+        let mut coordinate = Self { joint, across, start: 0.0, value: 0.0 };
+        coordinate.start = coordinate.raw(&states);
+        Some(coordinate)
+    }
+
+    /// Angle within ±π, or way.
+    fn raw(&self, states: &[State]) -> f64 {
+        let (a, b) = (parent(&self.joint, states), &states[self.joint.b]);
+        let axis = a.rotation * self.joint.axes().expect("checked in `new`").0;
+        if self.joint.kind == JointKind::Slider {
+            return (b.point(self.joint.anchor_b) - a.point(self.joint.anchor_a)).dot(axis);
+        }
+        let (t, u) = (a.rotation * self.across.0, b.rotation * self.across.1);
+        atan2(axis.dot(t.cross(u)), t.dot(u))
+    }
+
+    /// Follows the bodies; between two calls a hinge turns by less than π. Returns the coordinate since the start.
+    pub fn follow(&mut self, states: &[State]) -> f64 {
+        let moved = self.raw(states) - self.start - self.value;
+        let turns = if self.joint.kind == JointKind::Hinge { (moved / (2.0 * PI)).round() } else { 0.0 };
+        self.value += moved - 2.0 * PI * turns;
+        self.value
+    }
+}
+
+/// Zero crossings of a pendulum on a hinge of the world.
+#[derive(Clone, Debug)]
+struct Pendulum {
+    axis: DVec3,
+    hinge: DVec3,
+    gravity: DVec3,
+    before: Sample,
+    crossings: usize,
+    /// First and last crossing on the straight line and on the cubic, s.
+    first: [f64; 2],
+    last: [f64; 2],
+    /// Sampled |θ| of the last seconds: (t, |θ|).
+    recent: std::collections::VecDeque<(f64, f64)>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    t: f64,
+    angle: f64,
+    rate: f64,
+}
+
+impl Pendulum {
+    fn new(scene: &Scene) -> Option<Self> {
+        let joint = scene.joints.first().filter(|j| j.kind == JointKind::Hinge && j.parent().is_none())?;
+        let mut pendulum = Self {
+            axis: joint.axes()?.0,
+            hinge: DVec3::from_array(joint.anchor_a),
+            gravity: DVec3::from_array(scene.gravity).normalize(),
+            before: Sample { t: 0.0, angle: 0.0, rate: 0.0 },
+            crossings: 0,
+            first: [0.0; 2],
+            last: [0.0; 2],
+            recent: std::collections::VecDeque::new(),
+        };
+        pendulum.before = pendulum.sample(0.0, &scene.bodies[joint.b].state());
+        Some(pendulum)
+    }
+
+    fn sample(&self, t: f64, state: &State) -> Sample {
+        let r = state.position - self.hinge;
+        let angle = atan2(self.axis.dot(self.gravity.cross(r)), self.gravity.dot(r));
+        Sample { t, angle, rate: self.axis.dot(state.angular_velocity) }
+    }
+
+    fn follow(&mut self, t: f64, state: &State) {
+        let (a, b) = (self.before, self.sample(t, state));
+        self.before = b;
+        self.recent.push_back((t, b.angle.abs()));
+        while self.recent.front().is_some_and(|&(then, _)| then < t - AMPLITUDE_SPAN) {
+            self.recent.pop_front();
+        }
+        if (a.angle < 0.0) != (b.angle < 0.0) {
+            let h = b.t - a.t;
+            self.last = [a.t + h * a.angle / (a.angle - b.angle), a.t + h * hermite_root(&a, &b)];
+            if self.crossings == 0 {
+                self.first = self.last;
+            }
+            self.crossings += 1;
+        }
+    }
+
+    /// Mean period on the straight line and on the cubic, s.
+    fn periods(&self) -> Option<[f64; 2]> {
+        let halves = self.crossings.checked_sub(1).filter(|&n| n > 0)? as f64;
+        Some(std::array::from_fn(|k| 2.0 * (self.last[k] - self.first[k]) / halves))
+    }
+
+    fn amplitude(&self) -> f64 {
+        self.recent.iter().map(|&(_, angle)| angle).fold(0.0, larger)
+    }
+}
+
+/// Share of the step at which the cubic through both angles and rates is zero; the angles differ in sign.
+fn hermite_root(a: &Sample, b: &Sample) -> f64 {
+    let h = b.t - a.t;
+    let cubic = |s: f64| {
+        let r = 1.0 - s;
+        r * r * (1.0 + 2.0 * s) * a.angle + s * s * (3.0 - 2.0 * s) * b.angle + s * r * h * (r * a.rate - s * b.rate)
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if (cubic(middle) < 0.0) == (a.angle < 0.0) { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// One word for the bits of all states.
+pub fn hash(states: &[State]) -> u64 {
+    let mut hash = StateHash::default();
+    for state in states {
+        hash.add_vector(state.position);
+        state.rotation.to_array().into_iter().for_each(|q| hash.add(q));
+        hash.add_vector(state.velocity);
+        hash.add_vector(state.angular_velocity);
+    }
+    hash.0
+}
+
+/// Watches a run step by step.
+#[derive(Clone, Debug)]
+pub struct Observer<'a> {
+    scene: &'a Scene,
+    start: f64,
+    couplings: Vec<(&'a Coupling, Vec<Coordinate>)>,
+    pendulum: Option<Pendulum>,
+    coupling_error: f64,
+    report: Report,
+    time: f64,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Largest gap of any joint, m.
+    pub max_joint_err_m: f64,
+    /// Largest |E − E₀| over the scene's energy.
+    pub max_energy_drift_rel: f64,
+    /// The last E − E₀ over the scene's energy.
+    pub final_energy_drift_rel: f64,
+    /// When the energy error passed 10 or the engine gave up, s.
+    pub diverged_at_s: Option<f64>,
+    /// Falling weight, where the scene knows its acceleration.
+    pub weight: Option<WeightReport>,
+    /// Pendulum, where the scene knows its period.
+    pub pendulum: Option<PendulumReport>,
+}
+
+/// How a weight on gears fell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WeightReport {
+    /// Its speed at the end against a t.
+    pub speed_rel_err: f64,
+    /// Its way at the end against a t²/2.
+    pub drop_rel_err: f64,
+    /// Largest |Σ coefficient · (q − q₀)| of any coupling, m.
+    pub max_coupling_err_m: f64,
+}
+
+/// How a pendulum kept time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PendulumReport {
+    /// Period by straight lines against the exact one, 10⁻⁶.
+    pub period_err_ppm: f64,
+    /// Period by cubics against the exact one, 10⁻⁶.
+    pub period_err_hermite_ppm: f64,
+    /// Largest sampled angle of the last four seconds over the first one.
+    pub amplitude_ratio: f64,
+}
+
+impl<'a> Observer<'a> {
+    /// Watches `scene` from its start.
+    pub fn new(scene: &'a Scene) -> Self {
+        let states: Vec<_> = scene.bodies.iter().map(super::Body::state).collect();
+        let coordinates = |coupling: &'a Coupling| {
+            (coupling, coupling.terms.iter().filter_map(|&(joint, _)| Coordinate::new(scene, joint)).collect())
+        };
+        Self {
+            start: energy(scene, &states),
+            couplings: scene.couplings.iter().map(coordinates).collect(),
+            pendulum: scene.meta.period.and_then(|_| Pendulum::new(scene)),
+            coupling_error: 0.0,
+            report: Report { max_joint_err_m: joint_error(scene, &states), ..Report::default() },
+            time: 0.0,
+            scene,
+        }
+    }
+
+    /// Sees the states at `t` seconds; false once the run has diverged.
+    pub fn see(&mut self, t: f64, states: &[State]) -> bool {
+        self.time = t;
+        let drift = (energy(self.scene, states) - self.start) / self.scene.energy_scale;
+        let report = &mut self.report;
+        report.final_energy_drift_rel = drift;
+        report.max_energy_drift_rel = larger(report.max_energy_drift_rel, drift.abs());
+        report.max_joint_err_m = larger(report.max_joint_err_m, joint_error(self.scene, states));
+        for (coupling, coordinates) in &mut self.couplings {
+            let terms = coupling.terms.iter().zip(coordinates);
+            let error: f64 = terms.map(|(&(_, coefficient), q)| coefficient * q.follow(states)).sum();
+            self.coupling_error = larger(self.coupling_error, error.abs());
+        }
+        if let Some(pendulum) = &mut self.pendulum {
+            pendulum.follow(t, &states[0]);
+        }
+        if drift.is_nan() || drift.abs() > DIVERGED {
+            self.gave_up(t);
+        }
+        self.report.diverged_at_s.is_none()
+    }
+
+    /// The engine could not go on at `t` seconds.
+    pub fn gave_up(&mut self, t: f64) {
+        self.report.diverged_at_s.get_or_insert(t);
+    }
+
+    /// What the run came to; `states` are the last ones seen.
+    pub fn report(&self, states: &[State]) -> Report {
+        let meta = &self.scene.meta;
+        let weight = meta.accel.zip(meta.weight_body).map(|(a, body)| {
+            let (state, t) = (&states[body], self.time);
+            let start = meta.weight_y0.unwrap_or(self.scene.bodies[body].pos[1]);
+            WeightReport {
+                speed_rel_err: (-state.velocity.y / (a * t) - 1.0).abs(),
+                drop_rel_err: ((start - state.position.y) / (0.5 * a * t * t) - 1.0).abs(),
+                max_coupling_err_m: self.coupling_error,
+            }
+        });
+        let pendulum = meta.period.zip(self.pendulum.as_ref()).and_then(|(period, pendulum)| {
+            let [line, cubic] = pendulum.periods()?.map(|found| 1e6 * (found / period - 1.0));
+            let start = self.scene.meta.theta0.unwrap_or(f64::NAN);
+            let amplitude_ratio = pendulum.amplitude() / start;
+            Some(PendulumReport { period_err_ppm: line, period_err_hermite_ppm: cubic, amplitude_ratio })
+        });
+        Report { weight, pendulum, ..self.report.clone() }
+    }
+}

@@ -1,0 +1,111 @@
+//! The small exhibits: what their labels and sidecars say of them follows from what the loader weighs and measures.
+
+use soffio::articulation::{ConstraintKind, Measure};
+use soffio::exhibit::{self, Exhibit, SoundTrigger};
+use soffio::math::{DVec3, PI};
+
+fn shipped(id: &str) -> Exhibit {
+    let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
+    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false)))
+}
+
+fn body(exhibit: &Exhibit, name: &str) -> usize {
+    exhibit.bodies.iter().position(|body| body.name == name).unwrap_or_else(|| panic!("no body {name}"))
+}
+
+#[test]
+fn the_pendulum_beats_6720_times_an_hour() {
+    /// Corners are stored as 32-bit floats: micrometres on 285 mm.
+    const FILE: f64 = 1e-5;
+    let exhibit = shipped("pendulum");
+    let properties = exhibit.bodies[0].properties;
+    let about_pivot = properties.inertia_about(DVec3::ZERO).z_axis.z;
+    let period = 2.0 * PI * (about_pivot / (properties.mass * 9.81 * -properties.center.y)).sqrt();
+    assert!((period - 2.0 * 3600.0 / 6720.0).abs() < 10.0 * FILE, "{period} s");
+    assert!((properties.mass - 0.1).abs() < 0.03, "a bob of some 100 g: {} kg", properties.mass);
+    // Quality ω/c, c the rate at which the energy fades.
+    let quality = 2.0 * PI / period / exhibit.bodies[0].linear_damping;
+    assert!((quality - 150.0).abs() < 1.0, "Q = {quality}");
+    let tilt = 2.0 * soffio::math::asin(exhibit.bodies[0].pose.rotation.z);
+    assert!((tilt - 4.0 * PI / 180.0).abs() < FILE, "drawn aside by {tilt} rad");
+}
+
+#[test]
+fn the_wheel_is_held_about_one_axis_at_a_time() {
+    let exhibit = shipped("axis-wheel");
+    for (t, held) in [(1.0, "facing"), (3.0, "upright"), (6.0, "facing"), (9.9, "upright")] {
+        let active: Vec<&str> = exhibit
+            .constraints
+            .iter()
+            .filter(|c| matches!(c.kind, ConstraintKind::Orientation { .. }) && c.schedule.share(t, None) > 0.0)
+            .map(|c| c.name.as_str())
+            .collect();
+        assert!(active.len() == 2 && active.iter().all(|name| name.starts_with(held)), "{active:?} at {t} s");
+    }
+}
+
+#[test]
+fn the_gears_stand_where_their_teeth_mesh_and_the_last_makes_five_turns() {
+    const MODULE: f64 = 2e-3;
+    let exhibit = shipped("gear-train");
+    let mut ratio = 1.0;
+    for constraint in exhibit.constraints.iter().filter(|c| c.name.starts_with("mesh")) {
+        let ConstraintKind::Coupling { terms } = &constraint.kind else { panic!("not a gear") };
+        let [Measure::Angle { axis: a, .. }, Measure::Angle { axis: b, .. }] = [terms[0].measure, terms[1].measure]
+        else {
+            panic!("not two turns")
+        };
+        let place = |body: Option<usize>| exhibit.bodies[body.expect("a wheel")].pose.position;
+        let apart = place(a.body).distance(place(b.body));
+        let teeth = terms[0].coefficient + terms[1].coefficient;
+        assert!((apart - 0.5 * MODULE * teeth).abs() < 1e-6, "{}: {apart} m apart", constraint.name);
+        ratio *= -terms[0].coefficient / terms[1].coefficient;
+    }
+    assert!((ratio + 5.0).abs() < 1e-12, "{ratio} turns");
+    // The cord leaves the drum on the side that goes down: its line is under the drum's left rim.
+    let (wheel, weight) = (body(&exhibit, "Wheel1"), body(&exhibit, "Weight"));
+    let side = exhibit.bodies[weight].pose.position.x - exhibit.bodies[wheel].pose.position.x;
+    assert!((side + 6e-3).abs() < 1e-6, "{side} m");
+}
+
+#[test]
+fn the_weak_joint_bears_the_weight_below_it_and_little_more() {
+    let exhibit = shipped("breaking-chain");
+    let below = ["Link4", "Link5", "Link6", "Disc"];
+    let mass: f64 = below.iter().map(|name| exhibit.bodies[body(&exhibit, name)].properties.mass).sum();
+    let weak = exhibit.constraints.iter().find(|c| c.name == "weak").and_then(|c| c.breaking).expect("a weak joint");
+    let share = weak.force / (9.81 * mass);
+    assert!((1.08..1.2).contains(&share), "it bears {share} of the weight of {mass} kg");
+    assert_eq!(weak.restore, 6.0);
+    // At rest nothing else can break.
+    assert!(exhibit.constraints.iter().filter(|c| c.breaking.is_some()).count() == 1);
+}
+
+#[test]
+fn the_windmill_turns_about_its_shaft_and_the_shaft_about_the_mast() {
+    let exhibit = shipped("windmill");
+    let (head, rotor) = (body(&exhibit, "Head"), body(&exhibit, "Rotor"));
+    let of = |body: usize| exhibit.constraints.iter().filter(|c| c.kind.touches(body)).count();
+    assert_eq!((of(head), of(rotor)), (6, 3), "point and two orientations each");
+    assert_eq!(exhibit.wind_surfaces.iter().filter(|s| s.body == rotor).count(), 4);
+    // Balanced on its mast to within the radius of the bearing, or it would tip.
+    let bodies = [head, rotor].map(|b| &exhibit.bodies[b]);
+    let mass: f64 = bodies.iter().map(|b| b.properties.mass).sum();
+    let moment: f64 = bodies.iter().map(|b| b.properties.mass * b.pose.point(b.properties.center).z).sum();
+    assert!((moment / mass).abs() < 20e-3, "{} m off the mast", moment / mass);
+}
+
+#[test]
+fn the_plates_hang_level_and_near_and_all_can_ring() {
+    let exhibit = shipped("plates");
+    let discs = ["LargeDisc", "MiddleDisc", "SmallDisc"].map(|name| body(&exhibit, name));
+    let ring = |body: usize| exhibit.sounds.iter().any(|s| s.body == body && s.on == SoundTrigger::Impact);
+    assert!(discs.iter().all(|&body| ring(body)));
+    let circle =
+        |body: usize, radius: f64| (exhibit.bodies[body].pose.point(exhibit.bodies[body].properties.center), radius);
+    let [large, middle, small] = [circle(discs[0], 31e-3), circle(discs[1], 23e-3), circle(discs[2], 18e-3)];
+    for (a, b) in [(large, middle), (middle, small)] {
+        let gap = a.0.distance(b.0) - a.1 - b.1;
+        assert!((2e-3..15e-3).contains(&gap), "{gap} m apart");
+    }
+}

@@ -1,0 +1,90 @@
+//! A sidecar that uses every part of the format loads without a word, and runs.
+
+use std::sync::Arc;
+
+use soffio::articulation::ConstraintKind;
+use soffio::exhibit::{self, Exhibit};
+use soffio::math::DVec3;
+use soffio::simulation::{Simulation, StepInput};
+
+use super::glb::{Folder, Scene, cuboid};
+
+const SIDECAR: &str = include_str!("../../cases/exhibit-full/exhibit.toml");
+
+fn load() -> Exhibit {
+    let mut scene = Scene::default();
+    scene.node("Tube1", [-0.2, 0.49, 0.1], Some(&cuboid([0.032, 0.62, 0.032])), &[]);
+    let hook = scene.node("StrikerHook", [0.0, 0.4, 0.0], None, &[]);
+    scene.node("Striker", [-0.2, 0.4, 0.1], Some(&cuboid([0.05; 3])), &[hook]);
+    scene.node("EscapeWheel", [0.0, 0.42, 0.03], Some(&cuboid([0.04, 0.04, 0.004])), &[]);
+    let pivot = scene.node("PalletPivot", [0.0, 0.01, 0.0], None, &[]);
+    scene.node("Pallet", [0.0, 0.47, 0.03], Some(&cuboid([0.03, 0.01, 0.004])), &[pivot]);
+    scene.node("Weight", [0.1, 0.3, 0.0], Some(&cuboid([0.04; 3])), &[]);
+    scene.node("Rail", [0.1, 0.5, 0.0], Some(&cuboid([0.02, 1.0, 0.02])), &[]);
+    let hang = scene.node("HangPoint", [-0.2, 0.8, 0.1], None, &[]);
+    let sway = |x: f32| vec![x, 0.8, 0.1];
+    scene.animate("Sway", hang, "translation", "LINEAR", &[(0.0, sway(-0.2)), (2.0, sway(-0.19)), (4.0, sway(-0.2))]);
+    let camera = scene.node("CamFront", [0.0, 0.5, 2.0], None, &[]);
+    scene.set(camera, "camera", serde_json::json!(0));
+    scene.extra = vec![(
+        "cameras",
+        serde_json::json!([{ "type": "perspective", "perspective": { "yfov": 0.6, "znear": 0.01 } }]),
+    )];
+    let folder = Folder::exhibit(&scene.glb(), "");
+    folder.write("clock-and-chime.glb", &scene.glb());
+    folder.write("exhibit.toml", SIDECAR.as_bytes());
+    exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+#[test]
+fn the_full_example_loads_with_everything_it_says() {
+    let exhibit = load();
+    assert!(exhibit.warnings.is_empty(), "{:#?}", exhibit.warnings);
+    let bodies: Vec<&str> = exhibit.bodies.iter().map(|body| body.name.as_str()).collect();
+    assert_eq!(bodies, ["Tube1", "Striker", "EscapeWheel", "Pallet", "Weight", "HangPoint"]);
+    assert_eq!(exhibit.drives.iter().map(|drive| drive.body).collect::<Vec<_>>(), [5]);
+    let names: Vec<&str> = exhibit.constraints.iter().map(|c| c.name.as_str()).collect();
+    #[rustfmt::skip] // one kind a row
+    let expected = [
+        "wire", "tube-hang", "wheel-axle/tx", "wheel-axle/ty", "wheel-axle/tz", "wheel-axis-x", "wheel-axis-y",
+        "retainer-plane-1", "retainer-plane-2", "pallet-arbor/nail", "pallet-arbor/across-1", "pallet-arbor/across-2",
+        "wheel-to-pallet", "cord", "hold-the-weight",
+    ];
+    assert_eq!(names, expected);
+    let freed = exhibit.constraints.iter().find(|c| c.name == "wheel-axle/tz").expect("the freed row");
+    assert_eq!((freed.schedule.share(11.0, None), freed.schedule.share(15.0, None)), (1.0, 0.0));
+    let ConstraintKind::Coupling { terms } = &exhibit.constraints[13].kind else { panic!("not a cord") };
+    assert!(terms[0].coefficient == 2.0 && (terms[1].coefficient + 0.018).abs() < 1e-12, "{terms:?}");
+    assert_eq!(exhibit.springs.len(), 2);
+    let limits: Vec<&str> = exhibit.limits.iter().map(|l| l.name.as_str()).collect();
+    assert_eq!(limits, ["pallet-arbor", "click", "floor"]);
+}
+
+#[test]
+fn the_full_example_runs() {
+    let exhibit = Arc::new(load());
+    let mut simulation = Simulation::new(exhibit, soffio::simulation::Settings::default());
+    for step in 0..240 {
+        simulation.step(&StepInput { hold: step < 120, ..StepInput::default() });
+        let bodies = simulation.bodies();
+        assert!(bodies.iter().all(|body| body.is_finite() && body.position.distance(DVec3::ZERO) < 100.0), "{step}");
+    }
+}
+
+#[test]
+fn an_exhibit_of_some_length_starts_again_at_its_end() {
+    let mut scene = Scene::default();
+    scene.node("Box", [0.0; 3], Some(&cuboid([0.1; 3])), &[]);
+    let text = "[scene]\nduration = \"500 ms\"\n[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n";
+    let folder = Folder::exhibit(&scene.glb(), text);
+    let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let mut simulation = Simulation::new(Arc::new(exhibit), soffio::simulation::Settings::default());
+    let height = |simulation: &Simulation| simulation.bodies()[0].position.y;
+    for _ in 0..120 {
+        simulation.step(&StepInput::default());
+    }
+    // Free fall for half a second, g t²/2.
+    assert!((height(&simulation) + 1.226).abs() < 0.02, "{}", height(&simulation));
+    simulation.step(&StepInput::default());
+    assert!(height(&simulation).abs() < 1e-3, "{}", height(&simulation));
+}
