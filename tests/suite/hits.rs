@@ -72,7 +72,8 @@ fn assert_hits_keep_the_laws(count: u64) {
     const MOMENTUM: f64 = 1e-12;
     const ENERGY: f64 = 1e-12;
     const CONE: f64 = 1e-12;
-    /// An inverse of what joints have made nearly singular decides no finer.
+    /// Worse conditioned effective masses have no inverse to speak of; those that have decide to this.
+    const CONDITION: f64 = 1e6;
     const ROUNDED: f64 = 1e-6;
     let (mut worst, mut stuck, mut slid) = ([0f64; 4], 0, 0);
     let mut seconds = 0.0;
@@ -131,9 +132,10 @@ fn assert_hits_keep_the_laws(count: u64) {
         let after = struck.velocity + struck.k * p;
         let inverse = struck.k.inverse();
         let holds = inverse.z_axis.truncate().length() <= friction * inverse.z_axis.z;
-        // Joints may leave K singular: then there is no inverse to ask.
-        let left = struck.k * inverse - DMat3::IDENTITY;
-        if left.to_cols_array().iter().all(|x| x.abs() < 1e-9) {
+        // Joints may leave K all but singular: then there is no inverse to ask.
+        let size = |m: &DMat3| m.to_cols_array().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let undone = size(&(struck.k * inverse - DMat3::IDENTITY));
+        if inverse.is_finite() && undone < ROUNDED && size(&struck.k) * size(&inverse) < CONDITION {
             let margin = inverse.z_axis.truncate().length() / (friction * inverse.z_axis.z) - 1.0;
             let says = from_rest(&struck.k, friction).1;
             assert!(says == holds || margin.abs() < ROUNDED, "seed {seed}: {says}, by a margin of {margin}");
