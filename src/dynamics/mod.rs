@@ -257,7 +257,7 @@ impl Dynamics {
         }
         let now = self.time + done;
         let least = dt / MOST_SUBSTEPS;
-        let mut used = self.hold(now, h, least);
+        let mut used = self.hold(now, h, least, false);
         if collides {
             if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
                 let mut until = used * hit.s;
@@ -265,7 +265,8 @@ impl Dynamics {
                 for aim in 1..=AIMS {
                     self.back_to_start();
                     self.contacts.cut_substep();
-                    used = if until > 0.0 { self.hold(now, until, least.min(until)) } else { 0.0 };
+                    // Shorter than what went well: it goes well.
+                    used = if until > 0.0 { self.hold(now, until, least.min(until), true) } else { 0.0 };
                     let early = self.contacts.early(&hit, &self.bodies);
                     let better = (until + early).clamp(0.0, whole);
                     if aim == AIMS || used < until || (better - until).abs() < ON_TIME {
@@ -297,12 +298,13 @@ impl Dynamics {
         }
     }
 
-    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong.
-    fn hold(&mut self, t: f64, mut h: f64, least: f64) -> f64 {
+    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong; `sure`
+    /// says that the error need not be asked.
+    fn hold(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
         let mut pass = 1;
         loop {
             self.press();
-            h = self.integrate(t, h, if pass > 1 { h } else { least });
+            h = self.integrate(t, h, if sure || pass > 1 { h } else { least });
             if !self.contacts.anything_rests() {
                 return h;
             }

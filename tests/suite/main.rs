@@ -10,6 +10,7 @@ mod dynamics;
 mod escapement;
 mod exhibit;
 mod forge;
+mod hits;
 mod kiosk;
 #[cfg(feature = "kiosk")]
 mod pictures;

@@ -104,7 +104,10 @@ impl Contacts {
             if self.problem.touches.is_empty() {
                 // It touches, but nothing approaches: what little there is belongs to rest.
                 self.set_rest(source, true);
-                impacts.extend(self.lies_down(source, time, bodies));
+                self.collect_all(source, bodies);
+                self.problem.assemble(system, bodies);
+                let touches = self.problem.touches.len();
+                impacts.extend((touches > 0).then(|| self.tell(source, time, (0, touches), 0.0, true)));
                 break;
             }
             self.problem.assemble(system, bodies);
@@ -148,6 +151,19 @@ impl Contacts {
                     if other == pair || self.may_touch(other, bodies) {
                         self.collect_pair(other, other == pair, bodies);
                     }
+                }
+            }
+        }
+    }
+
+    /// All touches of a source, however they move.
+    fn collect_all(&mut self, source: Source, bodies: &[RigidBody]) {
+        match source {
+            Source::Bound(bound) => self.push_bound(bound, bodies),
+            Source::Pair(pair) => {
+                let manifold = self.manifold(pair, bodies);
+                for at in manifold.points() {
+                    self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
                 }
             }
         }
@@ -246,24 +262,6 @@ impl Contacts {
             speed,
             mass: 1.0 / touches[0].k().x_axis.x.max(LOCKED),
         }
-    }
-
-    /// The event of a pair that comes to rest without a push.
-    fn lies_down(&mut self, source: Source, time: f64, bodies: &[RigidBody]) -> Option<Impact> {
-        let Source::Pair(pair) = source else { return None };
-        let manifold = self.manifold(pair, bodies);
-        let at = self.pairs[pair].pair;
-        Some(Impact {
-            time,
-            kind: ImpactKind::Rest,
-            bodies: self.bodies_of(pair),
-            colliders: Some([at.a, at.b]),
-            point: manifold.points()[0].point,
-            normal: manifold.normal,
-            impulse: 0.0,
-            speed: 0.0,
-            mass: 0.0,
-        })
     }
 
     /// What touches now and approaches too fast to be taken out without bounce.

@@ -6,6 +6,7 @@
 //! forces over the whole substep (`rest`) until it has opened by more than [`RELEASE_GAP`].
 
 mod hit;
+mod leap;
 mod problem;
 mod rest;
 mod sweep;
