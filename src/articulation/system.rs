@@ -245,52 +245,6 @@ impl System {
         }
     }
 
-    /// Adds the geometric stiffness of the joints' last forces, as an implicit midpoint rule over `h` seconds feels it,
-    /// to the bodies' inertia for the next factorisation.
-    ///
-    /// A force f = λ at the arm r turns its body by the torque r × f; turning by δ changes it by (δ × r) × f =
-    /// (r fᵀ − (f·r) E) δ. The rule's midpoint lies h²/4 ω̇ beyond what the velocity foretells, so that
-    ///
-    /// ```text
-    /// (I − h²/4 K) ω̇ = τ        K = ½ (r fᵀ + f rᵀ) − (f·r) E        where the joint pulls, f·r > 0
-    /// ```
-    ///
-    /// K belongs to one body, so the tree stays a tree. Pushed joints are left explicit: theirs would soften.
-    pub fn stiffen(&mut self, h: f64) {
-        let quarter = 0.25 * h * h;
-        for joint in &self.joints {
-            let (mut force, mut arm_a, mut arm_b) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
-            let lambda = &self.lambda[joint.at..joint.at + joint.hard];
-            match (joint.arms, joint.block) {
-                (Some((r, s)), _) => {
-                    force = DVec3::new(lambda[0], lambda[1], lambda[2]);
-                    (arm_a, arm_b) = (r, s);
-                }
-                (None, Some(block)) => {
-                    // Σ e × (r × e) over three directions is 2 r; over fewer, what lies across them.
-                    let rows = &self.blocks[block];
-                    let lengths = (0..joint.hard).filter(|&k| self.states[joint.at + k].length);
-                    let share = if lengths.clone().count() >= 3 { 0.5 } else { 1.0 };
-                    for k in lengths {
-                        force += lambda[k] * linear(&rows.a[k]);
-                        arm_a += share * linear(&rows.a[k]).cross(angular(&rows.a[k]));
-                        arm_b += share * linear(&rows.b[k]).cross(angular(&rows.b[k]));
-                    }
-                }
-                (None, None) => {}
-            }
-            for (body, arm, f) in [(Some(joint.link.a), arm_a, force), (joint.link.b, arm_b, -force)] {
-                let (Some(body), pull) = (body, f.dot(arm)) else { continue };
-                if pull > 0.0 {
-                    let sum = DVec3::splat(pull) - arm * f;
-                    let off = -0.5
-                        * DVec3::new(arm.y * f.z + arm.z * f.y, arm.z * f.x + arm.x * f.z, arm.x * f.y + arm.y * f.x);
-                    self.inertia_world[body].add(&Sym3 { d: quarter * sum, o: quarter * off });
-                }
-            }
-        }
-    }
-
     /// Factors the system at the configuration last evaluated.
     pub fn factor(&mut self) {
         if let Some(dense) = &mut self.dense {

@@ -30,9 +30,6 @@
 //!
 //! solved by simple iteration from the rate at the start (Hairer, Lubich, Wanner, Geometric Numerical Integration,
 //! II.1.3). **Fast**: semi-implicit Euler.
-//!
-//! **Stiff**: the implicit midpoint rule with the geometric stiffness of the joints' pull in the matrix
-//! (`System::stiffen`), linearised once: any tension mode is stable at any step and keeps its energy.
 
 use super::{Dynamics, forces};
 use crate::articulation::block::{Vec6, angular, linear, vec6};
@@ -182,31 +179,6 @@ impl Dynamics {
         (error / scale).sqrt()
     }
 
-    /// Moves the bodies by the linearly implicit midpoint rule.
-    pub(super) fn midpoint(&mut self, t: f64, h: f64) {
-        self.ensure_rates(t);
-        for (index, body) in self.bodies.iter_mut().enumerate() {
-            let rate = Rate::of(body, DVec3::ZERO, &self.system.a[index]);
-            self.start[index].advance(0.5 * h, &rate, body);
-        }
-        self.carry_driven(t + 0.5 * h);
-        self.system.evaluate(&self.bodies);
-        self.collect_forces(t + 0.5 * h);
-        self.system.stiffen(h);
-        self.system.factor();
-        self.solve_collected();
-        for (index, body) in self.bodies.iter_mut().enumerate() {
-            let a = &self.system.a[index];
-            let mut rate = Rate::of(body, DVec3::ZERO, a);
-            // The midpoint's velocity, by the acceleration that holds over the whole substep.
-            self.start[index].put(body);
-            rate.velocity = body.velocity + 0.5 * h * linear(a);
-            rate.turn = body.angular_velocity + 0.5 * h * angular(a);
-            self.start[index].advance(h, &rate, body);
-        }
-        self.arrive(t + h);
-    }
-
     /// Moves the bodies by semi-implicit Euler.
     pub(super) fn euler(&mut self, t: f64, h: f64) {
         self.ensure_rates(t);
@@ -308,12 +280,6 @@ impl Dynamics {
 
     /// Accelerations by the rows and the factor at hand.
     fn solve_forces(&mut self, t: f64) {
-        self.collect_forces(t);
-        self.solve_collected();
-    }
-
-    /// All forces at the present state into the system's right-hand side.
-    fn collect_forces(&mut self, t: f64) {
         let gravity = self.settings.gravity;
         for (index, body) in self.bodies.iter().enumerate() {
             self.system.b[index] = forces::on_body(
@@ -325,10 +291,6 @@ impl Dynamics {
             );
         }
         self.springs.push(&self.bodies, t, &mut self.system.b);
-    }
-
-    /// Accelerations under the forces collected.
-    fn solve_collected(&mut self) {
         for (body, a) in &self.driven_accelerations {
             self.system.a[*body] = *a;
         }

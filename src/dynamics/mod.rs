@@ -40,8 +40,6 @@ const TENSION_PHASE: f64 = 3.2;
 const SPIN_PHASE: f64 = 0.25;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
-/// Where tension modes are faster than that, they are not followed but held implicitly, in this many substeps.
-const STIFF_SUBSTEPS: f64 = 16.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
 /// it costs a microsecond or two.
 const FEW: usize = 8;
@@ -140,8 +138,6 @@ pub struct Dynamics {
     stride: f64,
     /// Do the system's accelerations belong to the present state?
     fresh: bool,
-    /// Is the stiffest tension mode too fast to be followed?
-    stiff: bool,
     breath: f64,
     substeps: u32,
 }
@@ -193,7 +189,6 @@ impl Dynamics {
             dt: 0.0,
             stride: f64::INFINITY,
             fresh: false,
-            stiff: false,
             breath: 0.0,
             substeps: 0,
             bodies,
@@ -341,9 +336,6 @@ impl Dynamics {
             } else if self.precise {
                 let settled = self.gauss(t, h);
                 (settled, if settled { f64::INFINITY } else { 0.5 * h })
-            } else if self.stiff {
-                self.midpoint(t, h);
-                (true, f64::INFINITY)
             } else {
                 let error = self.runge_kutta(t, h);
                 pace::judge(h, self.dt, error)
@@ -368,13 +360,11 @@ impl Dynamics {
 
     /// Longest substep that follows the fastest motion: the tension modes (a body that hangs by the arm r under the
     /// load λ swings about it with ω² = |λ| |r| / I⊥), the free spin, and what the last error allowed.
-    fn substep_length(&mut self, dt: f64) -> f64 {
+    fn substep_length(&self, dt: f64) -> f64 {
         let stiffest = self.loads.iter().zip(&self.levers).fold(0.0, |most: f64, (load, lever)| most.max(load * lever));
         let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let spin = spins.fold(0.0, f64::max);
-        let tension = TENSION_PHASE / stiffest.sqrt();
-        self.stiff = tension < dt / MOST_SUBSTEPS;
-        let longest = (if self.stiff { dt / STIFF_SUBSTEPS } else { tension })
+        let longest = (TENSION_PHASE / stiffest.sqrt())
             .min(SPIN_PHASE / spin.sqrt())
             .min(self.stride)
             .min(self.contacts.longest_substep());
