@@ -7,11 +7,14 @@ mod cli;
 mod collision;
 mod dynamics;
 mod exhibit;
+mod exhibits_in_motion;
 mod forge;
 mod kiosk;
 #[cfg(feature = "kiosk")]
 mod pictures;
 mod realtime;
+mod repeatable;
+mod robust;
 mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;
