@@ -7,6 +7,19 @@ format()   { cargo fmt --all -- --check; }
 lints()    { cargo clippy --locked --quiet --all-targets -- -D warnings; }
 headless() { cargo clippy --locked --quiet --all-targets --no-default-features -- -D warnings; }
 suite()    { cargo test --locked --quiet; }
+# The release build ends every exhibit's run in the states that the suite stores; devices have no part in it.
+states() {
+    local id word found
+    cargo build --release --locked --quiet --no-default-features
+    while read -r id _ word; do
+        [[ $id == [a-z]* ]] || continue
+        found=$("${CARGO_TARGET_DIR:-target}/release/soffio" play "$id" --script tests/cases/gusts.jsonl --seconds 41.6667)
+        if [[ $found != *"\"state_hash\":$word"* ]]; then
+            echo "$id: $word is stored in tests/cases/hashes.toml, the release build ends in ${found##*state_hash}" >&2
+            return 1
+        fi
+    done <tests/cases/hashes.toml
+}
 exhibits() { cargo run --locked --quiet -- check exhibits kiosk-config/kiosk.toml; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
 live()     { cargo build --locked --quiet && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
@@ -33,7 +46,7 @@ long() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(format lints headless docs suite exhibits live)
+[ ${#parts[@]} -gt 0 ] || parts=(format lints headless docs suite states exhibits live)
 [ "${parts[0]}" = --long ] && parts=(long)
 for part in "${parts[@]}"; do
     echo "== $part"

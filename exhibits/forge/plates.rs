@@ -11,6 +11,8 @@ use super::stock::{MM, STEEL, finishes, gallows};
 /// Where the mobile hangs.
 const HOOK: f64 = 330.0 * MM;
 const SHEET: f64 = 0.6 * MM;
+/// The lower branch against the upper one, rad.
+const LOWER_YAW: f64 = 0.6;
 
 /// Draws, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
@@ -24,7 +26,7 @@ pub fn glb() -> (Mobile, Vec<u8>) {
         names: ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"],
         radius: 0.6 * MM,
         eye: 1.8 * MM,
-        chord: 47.0 * MM,
+        chord: 98.0 * MM,
         droop: 5.0 * MM,
         loads: [small.mass().mass, middle.mass().mass],
     });
@@ -40,7 +42,8 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let top = Pose { rotation: DQuat::IDENTITY, position: HOOK * DVec3::Y };
     let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
     let large_pose = hung(top, &upper, "UpperLeft");
-    let lower_pose = hung(top, &upper, "UpperRight");
+    // Turned, so that the middle disc hangs before the large one's rim: a breath that drives it back makes them meet.
+    let lower_pose = Pose { rotation: yaw(LOWER_YAW), ..hung(top, &upper, "UpperRight") };
     let small_pose = hung(lower_pose, &lower, "LowerRight");
     let middle_pose = hung(lower_pose, &lower, "LowerLeft");
     let work = Mobile {

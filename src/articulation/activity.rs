@@ -15,6 +15,8 @@ struct Member {
     group: usize,
     triggered: Option<f64>,
     broken: Option<f64>,
+    /// Closed again, but not yet drawn together.
+    mends: bool,
     share: f64,
 }
 
@@ -63,6 +65,7 @@ impl Activity {
                 group,
                 triggered: None,
                 broken: None,
+                mends: false,
                 share: 1.0,
             })
             .collect();
@@ -101,6 +104,7 @@ impl Activity {
                 && t - since >= breaking.restore
             {
                 member.broken = None;
+                member.mends = true;
             }
             let whole = member.schedule.share(t, member.triggered);
             let share = if member.broken.is_some() { 0.0 } else { whole };
@@ -154,10 +158,21 @@ impl Activity {
         &self.fragile
     }
 
+    /// Says that a member that has closed again is drawn together, or not yet: until then no load breaks it, as the
+    /// force that draws it is none of the figure's own.
+    pub fn mended(&mut self, index: usize, together: bool) {
+        self.members[index].mends &= !together;
+    }
+
+    /// Has it closed again, and is still being drawn together?
+    pub fn mends(&self, index: usize) -> bool {
+        self.members[index].mends
+    }
+
     /// Does this load break it? `load` is (of lengths, of angles): N and N m, or with `impulse` N s and N m s.
     pub fn overloaded(&self, index: usize, load: (f64, f64), impulse: bool) -> bool {
         let member = &self.members[index];
-        let Some(limit) = member.breaking.filter(|_| member.share > 0.0) else { return false };
+        let Some(limit) = member.breaking.filter(|_| member.share > 0.0 && !member.mends) else { return false };
         if impulse { load.0.max(load.1) > limit.impulse } else { load.0 > limit.force || load.1 > limit.torque }
     }
 
@@ -166,6 +181,7 @@ impl Activity {
         let (group, breaking) = (self.members[index].group, self.members[index].breaking);
         for member in self.members.iter_mut().filter(|member| member.group == group) {
             member.broken = Some(time);
+            member.mends = false;
             member.breaking = member.breaking.or(breaking);
             member.share = 0.0;
         }

@@ -504,7 +504,7 @@ impl System {
         let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
         let mut worst: f64 = 0.0;
         for (index, constraint) in self.constraints.iter().enumerate() {
-            if self.activity.share(index) < 1.0 {
+            if self.activity.share(index) < 1.0 || self.activity.mends(index) {
                 continue;
             }
             worst = worst.max(match &constraint.kind {
@@ -552,6 +552,13 @@ impl System {
             best
         };
         (longest(&rows.a), longest(&rows.b))
+    }
+
+    /// Is a constraint closed, or so nearly that projection keeps it so?
+    pub fn is_together(&self, constraint: usize) -> bool {
+        let apart = |state: &RowState| state.constraint == constraint && state.gathers;
+        let held = self.joints.iter().flat_map(|joint| &self.states[joint.at..joint.at + joint.hard]);
+        !held.chain(self.couplings.iter().map(|c| &self.states[c.at])).any(apart)
     }
 
     /// What each constraint carried in the last solve: (constraint, of its lengths, of its angles).

@@ -88,6 +88,7 @@ impl Springs {
         for k in 0..self.activity.fragile().len() {
             let index = self.activity.fragile()[k];
             let (force, _) = self.force(index, bodies, t);
+            self.activity.mended(index, true);
             let load = match self.springs[index].kind {
                 SpringKind::Linear { .. } => (force.abs(), 0.0),
                 SpringKind::Angular { .. } => (0.0, force.abs()),

@@ -40,12 +40,16 @@ const TENSION_PHASE: f64 = 3.2;
 const SPIN_PHASE: f64 = 0.25;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
+/// Most edges of windows that one step stops at; those nearer to each other are stepped over.
+const MOST_EDGES: f64 = 1024.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
 /// it costs a microsecond or two.
 const FEW: usize = 8;
-/// Faster than this is not a sculpture but a fault, m/s and rad/s.
+/// Faster than this is not a sculpture but a fault, m/s and rad/s. Numbers that run away grow manifold in each step and
+/// are past any bound within a few; what really moves stays below: the tip of a whip that has all the energy of its fall
+/// is of a few hundred m/s, and a part of a millimetre that goes at 100 m/s turns at 10⁵ rad/s.
 const SPEED_LIMIT: f64 = 1_000.0;
-const SPIN_LIMIT: f64 = 1e5;
+const SPIN_LIMIT: f64 = 100_000.0;
 
 /// A hit's time is aimed at this often, until it is right to this, s.
 const AIMS: usize = 3;
@@ -138,7 +142,10 @@ pub struct Dynamics {
     stride: f64,
     /// Do the system's accelerations belong to the present state?
     fresh: bool,
-    breath: f64,
+    /// Breath of the step before, and of this one, m/s.
+    breath: [f64; 2],
+    /// First body with bad numbers in the last step.
+    fault: Option<usize>,
     substeps: u32,
 }
 
@@ -189,7 +196,8 @@ impl Dynamics {
             dt: 0.0,
             stride: f64::INFINITY,
             fresh: false,
-            breath: 0.0,
+            breath: [0.0; 2],
+            fault: None,
             substeps: 0,
             bodies,
         }
@@ -198,13 +206,16 @@ impl Dynamics {
     /// Advances by `dt` seconds under constant external wrenches (N and N m about each centre of mass). Impacts on
     /// the way are appended to `impacts`. Returns the bodies that had to be restored from bad numbers.
     pub fn step(&mut self, dt: f64, external: &[Vec6], impacts: &mut Vec<Impact>) -> usize {
+        // Whoever sets bodies from outside may have set them wrong.
+        self.fault = None;
+        let bad = self.restore_bad_bodies();
         for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
             *before = State::of(body);
         }
         self.given.copy_from_slice(external);
         self.dt = dt;
         self.contacts.begin_step(dt);
-        self.clear_happenings();
+        self.begin_happenings();
         self.substeps = 0;
         let already = impacts.len();
         let mut done = 0.0;
@@ -218,14 +229,17 @@ impl Dynamics {
             }
             let edge = self.system.activity.next_edge(now).min(self.springs.activity.next_edge(now));
             // Asked anew each time: a hit changes what there is to follow.
-            let left = (dt - done).min(edge - now);
+            let left = (dt - done).min((edge - now).max(dt / MOST_EDGES));
             let count = (left / self.substep_length(dt)).ceil().max(1.0);
             let h = left / count;
             self.set_shares(now + 0.5 * h);
             done += self.substep(h, dt, done, impacts);
             self.substeps += 1;
+            if !self.bodies.iter().all(RigidBody::is_finite) {
+                break;
+            }
         }
-        if self.settings.friction {
+        if self.settings.friction && self.bodies.iter().all(RigidBody::is_finite) {
             self.rub(dt);
         }
         for impact in &impacts[already..] {
@@ -235,9 +249,14 @@ impl Dynamics {
             }
         }
         self.time += dt;
+        let lost = self.restore_bad_bodies();
+        if lost > 0 {
+            // What went wrong did not happen.
+            impacts.truncate(already);
+        }
         self.system.count_turns(&self.bodies);
         self.springs.count_turns(&self.bodies);
-        self.restore_bad_bodies()
+        bad + lost
     }
 
     /// Integrates `h` or less (where the error asks for it) or up to the first impact, resolves it, and returns the
@@ -383,6 +402,8 @@ impl Dynamics {
         for k in 0..self.system.activity.fragile().len() {
             let index = self.system.activity.fragile()[k];
             let load = self.system.carried(index);
+            let together = self.system.is_together(index);
+            self.system.activity.mended(index, together);
             if self.system.activity.overloaded(index, load, false) {
                 self.system.activity.break_at(index, t);
                 self.fresh = false;
@@ -390,18 +411,20 @@ impl Dynamics {
         }
     }
 
-    fn clear_happenings(&mut self) {
+    /// Forgets what happened in the last step, and fires the triggers that waited for this step's breath.
+    fn begin_happenings(&mut self) {
+        let [before, speed] = self.breath;
         for activity in [&mut self.system.activity, &mut self.springs.activity] {
             activity.breaks.clear();
             activity.fired.clear();
+            activity.breathe(before, speed, self.time);
         }
+        self.breath[0] = speed;
     }
 
-    /// Tells triggers of the breath's speed at the lips, m/s.
+    /// Sets the breath's speed at the lips from the next step on, m/s; triggers wait for it.
     pub fn breathe(&mut self, speed: f64) {
-        self.system.activity.breathe(self.breath, speed, self.time);
-        self.springs.activity.breathe(self.breath, speed, self.time);
-        self.breath = speed;
+        self.breath[1] = speed;
     }
 
     /// Says that bodies were moved from outside.
@@ -424,6 +447,21 @@ impl Dynamics {
         &self.system.activity.fired
     }
 
+    /// The same of springs.
+    pub fn springs_fired(&self) -> &[(usize, f64)] {
+        &self.springs.activity.fired
+    }
+
+    /// The first body that had bad numbers in the last step, so that the figure was put back.
+    pub fn fault(&self) -> Option<usize> {
+        self.fault
+    }
+
+    /// Seconds since reset.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// The joints' system, for reports.
     pub fn system(&self) -> &System {
         &self.system
@@ -436,6 +474,14 @@ impl Dynamics {
         self.fresh = false;
     }
 
+    /// Puts the figure back to where the last step began if a body has bad numbers; says which one was the first. A step
+    /// begins with it: whoever looks at the bodies before that, and may have set them, calls it himself.
+    pub fn mend(&mut self) -> Option<usize> {
+        self.fault = None;
+        self.restore_bad_bodies();
+        self.fault
+    }
+
     /// Puts bodies with bad numbers back to where the step began, at rest. Returns how many.
     fn restore_bad_bodies(&mut self) -> usize {
         let sane = |body: &RigidBody| {
@@ -445,6 +491,7 @@ impl Dynamics {
         };
         let bad = self.bodies.iter().filter(|body| !sane(body)).count();
         if bad > 0 {
+            self.fault = self.fault.or(self.bodies.iter().position(|body| !sane(body)));
             // One bad body has already pulled at its neighbours: the whole figure goes back.
             for (body, before) in self.bodies.iter_mut().zip(&self.before_step) {
                 before.put(body);
@@ -452,6 +499,7 @@ impl Dynamics {
             }
             self.loads.fill(0.0);
             self.contacts.forget(&self.bodies);
+            (self.fourth_step, self.stride) = (None, f64::INFINITY);
             self.fresh = false;
         }
         bad

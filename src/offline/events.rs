@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -19,19 +20,21 @@ struct Line<'a> {
     normal: [f64; 3],
     impulse: f64,
     speed: f64,
+    /// Name of the constraint or spring that broke or was triggered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<&'a str>,
 }
 
 /// Writes an event log while a run goes on.
 pub struct EventWriter {
     file: WholeFile,
-    names: Vec<String>,
+    exhibit: Arc<Exhibit>,
 }
 
 impl EventWriter {
     /// Begins a log of the exhibit's events.
-    pub fn create(path: &Path, exhibit: &Exhibit) -> io::Result<Self> {
-        let names = exhibit.bodies.iter().map(|body| body.name.clone()).collect();
-        Ok(Self { file: WholeFile::create(path)?, names })
+    pub fn create(path: &Path, exhibit: &Arc<Exhibit>) -> io::Result<Self> {
+        Ok(Self { file: WholeFile::create(path)?, exhibit: exhibit.clone() })
     }
 
     /// Adds the events of a step.
@@ -41,11 +44,12 @@ impl EventWriter {
                 t: event.t,
                 sample: event.sample,
                 kind: event.kind.name(),
-                bodies: event.bodies.map(|body| body.map(|index| self.names[index].as_str())),
+                bodies: event.bodies.map(|body| body.map(|index| self.exhibit.bodies[index].name.as_str())),
                 point: event.point.to_array(),
                 normal: event.normal.to_array(),
                 impulse: event.impulse,
                 speed: event.speed,
+                part: event.part.map(|part| part.name(&self.exhibit)),
             };
             serde_json::to_writer(&mut self.file, &line)?;
             self.file.write_all(b"\n")?;

@@ -1,5 +1,10 @@
 //! Events: what happened at a moment, for logs, sounds and triggers.
 
+use super::SAMPLE_RATE;
+use crate::articulation::{Anchor, ConstraintKind, Measure, SpringKind};
+use crate::bodies::RigidBody;
+use crate::dynamics::{Impact, ImpactKind};
+use crate::exhibit::Exhibit;
 use crate::math::DVec3;
 
 /// Kind of an event.
@@ -9,6 +14,10 @@ pub enum EventKind {
     Impact,
     /// Two bodies come to lie against each other.
     Rest,
+    /// A constraint or spring gave way.
+    Break,
+    /// A breath or a hit set off a constraint or spring that waited for it.
+    Trigger,
     /// Bad numbers were found and the figure restored.
     Fault,
 }
@@ -19,7 +28,62 @@ impl EventKind {
         match self {
             Self::Impact => "impact",
             Self::Rest => "rest",
+            Self::Break => "break",
+            Self::Trigger => "trigger",
             Self::Fault => "fault",
+        }
+    }
+}
+
+/// A part of an exhibit that is no body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// By index.
+    Constraint(usize),
+    /// By index.
+    Spring(usize),
+}
+
+impl Part {
+    /// Its name in the sidecar: parts of a combination go by the combination's.
+    pub fn name(self, exhibit: &Exhibit) -> &str {
+        match self {
+            Self::Constraint(index) => exhibit.constraints[index].group(),
+            Self::Spring(index) => &exhibit.springs[index].name,
+        }
+    }
+
+    /// The bodies that it acts on, the world's place being `None`, and a point of it in the world now, m: its own
+    /// where it has one, else the centre of mass of the body that it turns.
+    fn place(self, exhibit: &Exhibit, bodies: &[RigidBody]) -> ([Option<usize>; 2], DVec3) {
+        let center = |body: Option<usize>| body.map_or(DVec3::ZERO, |body| bodies[body].position);
+        let at = |anchor: &Anchor| anchor.body.map_or(anchor.point, |body| bodies[body].pose().point(anchor.point));
+        let of = |measure: &Measure| {
+            let (on, against) = measure.bodies();
+            let point = match measure {
+                Measure::Angle { .. } => center(on),
+                Measure::Way { point, .. } => at(point),
+            };
+            ([on, against], point)
+        };
+        match self {
+            Self::Constraint(index) => match &exhibit.constraints[index].kind {
+                ConstraintKind::PointToPoint { a, b } => ([a.body, b.body], at(a)),
+                ConstraintKind::PointOnPlane { point, plane, .. } => ([point.body, plane.body], at(point)),
+                ConstraintKind::Orientation { a, b, .. } => ([a.body, b.body], center(a.body.or(b.body))),
+                ConstraintKind::Coupling { terms } => match &terms[..] {
+                    [first, second, ..] => {
+                        let ([one, _], point) = of(&first.measure);
+                        ([one, of(&second.measure).0[0]], point)
+                    }
+                    [only] => of(&only.measure),
+                    [] => ([None; 2], DVec3::ZERO),
+                },
+            },
+            Self::Spring(index) => match &exhibit.springs[index].kind {
+                SpringKind::Linear { a, b } => ([a.body, b.body], at(a)),
+                SpringKind::Angular { measure } => of(measure),
+            },
         }
     }
 }
@@ -43,4 +107,47 @@ pub struct Event {
     pub impulse: f64,
     /// Approach speed, m/s.
     pub speed: f64,
+    /// What broke or was triggered.
+    pub part: Option<Part>,
+}
+
+impl Event {
+    /// Something that happened to bodies without a hit, `t` seconds into the run.
+    fn quiet(t: f64, kind: EventKind, bodies: [Option<usize>; 2], point: DVec3, part: Option<Part>) -> Self {
+        Self { t, sample: sample_at(t), kind, bodies, point, normal: DVec3::Y, impulse: 0.0, speed: 0.0, part }
+    }
+
+    /// A part of the exhibit broke or was triggered.
+    pub(super) fn of_part(t: f64, kind: EventKind, part: Part, exhibit: &Exhibit, bodies: &[RigidBody]) -> Self {
+        let (ends, point) = part.place(exhibit, bodies);
+        Self::quiet(t, kind, ends, point, Some(part))
+    }
+
+    /// Bad numbers were found, first in this body.
+    pub(super) fn fault(t: f64, body: usize, bodies: &[RigidBody]) -> Self {
+        Self::quiet(t, EventKind::Fault, [Some(body), None], bodies[body].position, None)
+    }
+
+    /// A hit.
+    pub(super) fn hit(began: f64, impact: &Impact) -> Self {
+        let t = began + impact.time;
+        Self {
+            t,
+            sample: sample_at(t),
+            kind: match impact.kind {
+                ImpactKind::Impact | ImpactKind::Stop => EventKind::Impact,
+                ImpactKind::Rest => EventKind::Rest,
+            },
+            bodies: impact.bodies,
+            point: impact.point,
+            normal: impact.normal,
+            impulse: impact.impulse,
+            speed: impact.speed,
+            part: None,
+        }
+    }
+}
+
+fn sample_at(t: f64) -> u64 {
+    (t * f64::from(SAMPLE_RATE)).round() as u64
 }

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
-use crate::dynamics::{self, Dynamics, Figure, Impact, ImpactKind, SurfacePair};
+use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
 use crate::exhibit::{Exhibit, View};
 use crate::math::{DVec3, StateHash};
 use crate::sound::SoundCommand;
@@ -27,7 +27,7 @@ use crate::wind::force::{Breath, WindField, WindReport};
 use crate::wind::jet::{Front, Jet};
 
 use aim::{Aim, AimTarget};
-pub use event::{Event, EventKind};
+pub use event::{Event, EventKind, Part};
 use motes::Motes;
 pub use script::{Script, ScriptError};
 pub use snapshot::{BreathView, Diagnostics, Mote, Snapshot};
@@ -44,6 +44,9 @@ pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+
+/// Room for what happens in one step: more makes its list grow, once.
+const LISTED: usize = 64;
 
 /// How a breath becomes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -191,9 +194,9 @@ impl Simulation {
             aim: Aim::default(),
             aim_targets: Vec::new(),
             front: Front::default(),
-            impacts: Vec::new(),
-            events: Vec::new(),
-            sounds: Vec::new(),
+            impacts: Vec::with_capacity(LISTED),
+            events: Vec::with_capacity(LISTED),
+            sounds: Vec::with_capacity(LISTED),
             speed: 0.0,
             estimate: BlowEstimate::default(),
             report: WindReport::default(),
@@ -211,11 +214,13 @@ impl Simulation {
         }
         self.carry_out(input.commands);
         (self.speed, self.estimate) = self.source.advance(input.microphone, input.hold, DT);
+        let mended = self.dynamics.mend();
         self.take_aim(input);
         self.blow();
         self.impacts.clear();
-        let restored = self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
-        self.tell(restored);
+        self.dynamics.breathe(self.speed);
+        self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
+        self.tell(mended.or(self.dynamics.fault()));
         self.drift();
         self.step += 1;
     }
@@ -266,44 +271,32 @@ impl Simulation {
         self.report = self.wind.push(&self.dynamics.bodies, breath.as_ref(), &mut self.wrenches);
     }
 
-    /// Turns impacts into events and sounds.
-    fn tell(&mut self, restored: usize) {
+    /// Turns what happened into events and sounds.
+    fn tell(&mut self, fault: Option<usize>) {
         let listener = Listener::new(&self.view.1);
         let began = self.step as f64 * DT;
-        let at = |t: f64| (t * f64::from(SAMPLE_RATE)).round() as u64;
-        if restored > 0 {
-            self.fault_count += 1;
-            self.events.push(Event {
-                t: began,
-                sample: at(began),
-                kind: EventKind::Fault,
-                bodies: [None, None],
-                point: DVec3::ZERO,
-                normal: DVec3::Y,
-                impulse: 0.0,
-                speed: 0.0,
-            });
-        }
+        let (exhibit, bodies) = (&*self.exhibit, &self.dynamics.bodies);
         for impact in &self.impacts {
-            let t = began + impact.time;
-            let event = Event {
-                t,
-                sample: at(t),
-                kind: match impact.kind {
-                    ImpactKind::Impact | ImpactKind::Stop => EventKind::Impact,
-                    ImpactKind::Rest => EventKind::Rest,
-                },
-                bodies: impact.bodies,
-                point: impact.point,
-                normal: impact.normal,
-                impulse: impact.impulse,
-                speed: impact.speed,
-            };
+            let event = Event::hit(began, impact);
             if event.kind == EventKind::Impact {
                 self.impact_count += 1;
-                sonify::strikes(&self.exhibit, &event, impact, &self.dynamics.bodies, &listener, &mut self.sounds);
+                sonify::strikes(exhibit, &event, impact, bodies, &listener, &mut self.sounds);
             }
-            self.events.push(event);
+            enter(&mut self.events, event);
+        }
+        // The figure's own clock starts anew with a reset, and rounds.
+        let offset = began - (self.dynamics.time() - DT);
+        let mut part =
+            |t: f64, kind, part| enter(&mut self.events, Event::of_part(offset + t, kind, part, exhibit, bodies));
+        let (fired, springs_fired) = (self.dynamics.fired(), self.dynamics.springs_fired());
+        fired.iter().for_each(|&(index, t)| part(t, EventKind::Trigger, Part::Constraint(index)));
+        springs_fired.iter().for_each(|&(index, t)| part(t, EventKind::Trigger, Part::Spring(index)));
+        let (breaks, spring_breaks) = (self.dynamics.breaks(), self.dynamics.spring_breaks());
+        breaks.iter().for_each(|b| part(b.time, EventKind::Break, Part::Constraint(b.index)));
+        spring_breaks.iter().for_each(|b| part(b.time, EventKind::Break, Part::Spring(b.index)));
+        if let Some(body) = fault {
+            self.fault_count += 1;
+            enter(&mut self.events, Event::fault(began, body, bodies));
         }
         let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
         // What is heard is the wind the sculpture feels: a gain on the force is its root on the speed.
@@ -404,6 +397,12 @@ impl Simulation {
         }
         hash.0
     }
+}
+
+/// Adds an event in its place in time.
+fn enter(events: &mut Vec<Event>, event: Event) {
+    let place = events.partition_point(|earlier| earlier.t <= event.t);
+    events.insert(place, event);
 }
 
 /// The breath of this step; `None` where no air of one is anywhere, or wind is off.

@@ -99,6 +99,8 @@ impl Front {
     pub fn advance(&mut self, speed: f64, dt: f64) {
         self.drive = speed.max(self.drive * exp(-dt / DRIFT_TIME));
         if self.history.is_empty() {
+            // Room for all that is ever remembered.
+            self.history.reserve((MEMORY / dt) as usize + 2);
             self.history.push_back((0.0, 0.0));
         }
         let blown = self.history.back().map_or(0.0, |&(phi, _)| phi) + self.drive * dt;
@@ -127,7 +129,8 @@ impl Front {
 
     /// Forgets all air in flight.
     pub fn clear(&mut self) {
-        *self = Self::default();
+        self.history.clear();
+        self.drive = 0.0;
     }
 }
 

@@ -3,7 +3,7 @@
 mod collection;
 mod constraints;
 mod example;
-mod glb;
+pub mod glb;
 mod mass;
 mod model;
 mod motion;

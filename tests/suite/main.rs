@@ -9,12 +9,15 @@ mod contacts;
 mod dynamics;
 mod escapement;
 mod exhibit;
+mod exhibits_in_motion;
 mod forge;
 mod hits;
 mod kiosk;
 #[cfg(feature = "kiosk")]
 mod pictures;
 mod realtime;
+mod repeatable;
+mod robust;
 mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;

@@ -75,7 +75,7 @@ fn the_weak_joint_bears_the_weight_below_it_and_little_more() {
     let mass: f64 = below.iter().map(|name| exhibit.bodies[body(&exhibit, name)].properties.mass).sum();
     let weak = exhibit.constraints.iter().find(|c| c.name == "weak").and_then(|c| c.breaking).expect("a weak joint");
     let share = weak.force / (9.81 * mass);
-    assert!((1.08..1.2).contains(&share), "it bears {share} of the weight of {mass} kg");
+    assert!((1.03..1.1).contains(&share), "it bears {share} of the weight of {mass} kg");
     assert_eq!(weak.restore, 6.0);
     // At rest nothing else can break.
     assert!(exhibit.constraints.iter().filter(|c| c.breaking.is_some()).count() == 1);
@@ -96,7 +96,7 @@ fn the_windmill_turns_about_its_shaft_and_the_shaft_about_the_mast() {
 }
 
 #[test]
-fn the_plates_hang_level_and_near_and_all_can_ring() {
+fn the_plates_hang_apart_and_where_they_meet_when_the_branch_turns() {
     let exhibit = shipped("plates");
     let discs = ["LargeDisc", "MiddleDisc", "SmallDisc"].map(|name| body(&exhibit, name));
     let ring = |body: usize| exhibit.sounds.iter().any(|s| s.body == body && s.on == SoundTrigger::Impact);
@@ -104,8 +104,14 @@ fn the_plates_hang_level_and_near_and_all_can_ring() {
     let circle =
         |body: usize, radius: f64| (exhibit.bodies[body].pose.point(exhibit.bodies[body].properties.center), radius);
     let [large, middle, small] = [circle(discs[0], 31e-3), circle(discs[1], 23e-3), circle(discs[2], 18e-3)];
-    for (a, b) in [(large, middle), (middle, small)] {
-        let gap = a.0.distance(b.0) - a.1 - b.1;
-        assert!((2e-3..15e-3).contains(&gap), "{gap} m apart");
+    for (a, b) in [(large, middle), (middle, small), (large, small)] {
+        // Apart as discs that may turn about their stems.
+        let between = a.0.distance(b.0);
+        assert!(between > 15e-3, "{between} m apart");
     }
+    // The lower branch turns about its loop: the middle disc's way crosses the large disc's.
+    let loop_at = exhibit.bodies[body(&exhibit, "Lower")].pose.position;
+    let level = |p: DVec3| DVec3::new(p.x - loop_at.x, 0.0, p.z - loop_at.z).length();
+    let overlap = level(middle.0) + middle.1 - (level(large.0) - large.1);
+    assert!(overlap > 5e-3, "they miss each other by {} m", -overlap);
 }

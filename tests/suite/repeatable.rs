@@ -1,0 +1,142 @@
+//! The same run is the same to the bit: again, in every build, and as it was; and a step asks for no memory.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+
+use assert_no_alloc::assert_no_alloc;
+use soffio::exhibit::{self, Exhibit};
+use soffio::offline::feed::WavFeed;
+use soffio::offline::wav;
+use soffio::simulation::{self, Script, Settings, Simulation, StepInput};
+
+/// Seconds of the run that is hashed: 10,000 steps.
+const SECONDS: &str = "41.6667";
+const STEPS: usize = 10_000;
+
+fn case(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(name)
+}
+
+fn load(id: &str) -> Arc<Exhibit> {
+    let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+}
+
+/// The hash that the program ends with after the run of the table.
+fn played(id: &str) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_soffio"))
+        .args(["play", id, "--seconds", SECONDS, "--script"])
+        .arg(case("gusts.jsonl"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the program starts");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let summary: serde_json::Value = serde_json::from_str(text.trim())
+        .unwrap_or_else(|error| panic!("{id}: {error}: {text}{}", String::from_utf8_lossy(&output.stderr)));
+    assert_eq!((summary["steps"].as_u64(), summary["faults"].as_u64()), (Some(STEPS as u64), Some(0)), "{id}");
+    summary["state_hash"].as_str().expect("a word").to_owned()
+}
+
+#[test]
+fn every_exhibit_ends_in_its_stored_state() {
+    let text = std::fs::read_to_string(case("hashes.toml")).expect("the table");
+    let stored: BTreeMap<String, String> = toml::from_str(&text).expect("a table of words");
+    let found: BTreeMap<String, String> = exhibit::ids().into_iter().map(|id| (id.clone(), played(&id))).collect();
+    assert!(
+        stored == found,
+        "stored {stored:#?}\nfound {found:#?}\nA change of the motion must be meant; then write the table anew: \
+         cargo test --no-default-features --test suite write_the_states -- --ignored"
+    );
+}
+
+#[test]
+#[ignore = "writes tests/cases/hashes.toml"]
+fn write_the_states_of_all_exhibits() {
+    let mut text = String::from(
+        "# The state that each exhibit ends in after 10,000 steps of gusts.jsonl: the same in every build. Where a change\n\
+         # of the motion is meant: cargo test --no-default-features --test suite write_the_states -- --ignored\n",
+    );
+    for id in exhibit::ids() {
+        text += &format!("{id} = \"{}\"\n", played(&id));
+    }
+    std::fs::write(case("hashes.toml"), text).expect("a writable folder");
+}
+
+/// A run with the table's script, or with a recorded breath, `seed` and a pointer that wanders.
+fn hash_after(exhibit: &Arc<Exhibit>, steps: usize, seed: u64) -> u64 {
+    let mut simulation = Simulation::new(exhibit.clone(), Settings { seed, ..Settings::default() });
+    let mut breath = strong();
+    for step in 0..steps {
+        let pointer = Some([0.3 + 0.4 * step as f64 / steps as f64, 0.5]);
+        simulation.step(&StepInput { microphone: Some(breath.microphone()), pointer, ..StepInput::default() });
+    }
+    simulation.state_hash()
+}
+
+fn strong() -> WavFeed {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish/breaths/strong.wav");
+    let recording = wav::read(path).expect("a shipped breath");
+    WavFeed::new(recording.samples, recording.sample_rate)
+}
+
+#[test]
+fn a_run_repeats_itself_within_a_process() {
+    for id in exhibit::ids() {
+        let exhibit = load(&id);
+        let first = hash_after(&exhibit, 1_500, 5);
+        assert_eq!(first, hash_after(&exhibit, 1_500, 5), "{id}");
+        assert_ne!(first, hash_after(&exhibit, 1_500, 6), "{id}: the gusts are those of the seed");
+    }
+}
+
+#[test]
+fn a_reset_gives_the_first_run_again() {
+    for id in exhibit::ids() {
+        let exhibit = load(&id);
+        let settings = Settings { wind: false, ..Settings::default() };
+        let mut simulation = Simulation::new(exhibit.clone(), settings);
+        let run = |simulation: &mut Simulation, reset: bool| {
+            for step in 0..700 {
+                let commands = [simulation::Command::Reset];
+                let commands = if reset && step == 0 { &commands[..] } else { &[] };
+                simulation.step(&StepInput { commands, ..StepInput::default() });
+            }
+            simulation.bodies().to_vec()
+        };
+        let first = run(&mut simulation, false);
+        assert!(first == run(&mut simulation, true), "{id} is another one after a reset");
+    }
+}
+
+/// The allocator that watches is that of `realtime.rs`; it acts in debug builds.
+#[test]
+fn a_step_asks_for_no_memory_once_it_is_warm() {
+    /// A breath is heard, the lists have been used, the chain has not broken yet.
+    const WARM: usize = 240;
+    for id in exhibit::ids() {
+        let mut simulation = Simulation::new(load(&id), Settings::default());
+        let text = std::fs::read_to_string(case("gusts.jsonl")).expect("the script");
+        // The reset of the script builds the figure anew; until then nothing may.
+        let text: Vec<&str> = text.lines().take_while(|line| !line.contains("reset")).collect();
+        let mut script = Script::parse(&text.join("\n")).expect("a good script");
+        let mut commands = Vec::with_capacity(8);
+        let mut breath = strong();
+        let mut seen = 0;
+        for step in 0..24 * 240 {
+            commands.clear();
+            script.due(step as f64 / 240.0, &mut commands);
+            let pointer = script.aim();
+            let microphone = Some(breath.microphone());
+            let input = StepInput { microphone, pointer, commands: &commands, ..StepInput::default() };
+            if step < WARM {
+                simulation.step(&input);
+            } else {
+                assert_no_alloc(|| simulation.step(&input));
+            }
+            seen += simulation.events().len();
+        }
+        println!("{id}: {seen} events");
+    }
+}
