@@ -17,7 +17,7 @@
 //! f_p += w      τ_p += s × w        w = f − L τ' − N g
 //! ```
 //!
-//! This is the general elimination of `tree.rs` for the rows J_c = [E, −[r]×]; here nothing larger than 3×3 is
+//! This is the general elimination of `tree.rs` for the rows J_c = `(E, −r×)`; here nothing larger than 3×3 is
 //! inverted. A test holds the two against each other.
 
 use super::block::{Vec6, angular, linear, vec6};

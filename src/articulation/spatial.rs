@@ -57,7 +57,7 @@ impl Sym3 {
         self.x() * v.x + self.y() * v.y + self.z() * v.z
     }
 
-    /// Matrix times [r]×, column by column: S (r × e).
+    /// Matrix times `[r]×`, column by column: S (r × e).
     #[inline]
     pub fn mul_skew(&self, r: DVec3) -> DMat3 {
         let (x, y, z) = (self.x(), self.y(), self.z());

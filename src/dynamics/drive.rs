@@ -9,7 +9,7 @@
 //! ```
 //!
 //! with s(t) as in `articulation::Function`. A *spline* is the quintic of that module in p and in the rotation vector
-//! φ(t) from R₀, R(t) = exp([φ]×) R₀. With θ = |φ|, a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³
+//! φ(t) from R₀, R(t) = `exp([φ]×)` R₀. With θ = |φ|, a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³
 //!
 //! ```text
 //! ω = φ̇ + a φ×φ̇ + b φ×(φ×φ̇)
