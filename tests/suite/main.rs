@@ -9,6 +9,7 @@ mod dynamics;
 mod exhibit;
 mod forge;
 mod kiosk;
+mod motion;
 #[cfg(feature = "kiosk")]
 mod pictures;
 mod realtime;
