@@ -38,6 +38,8 @@ pub struct Activity {
     changing: Vec<usize>,
     /// Members that can break.
     fragile: Vec<usize>,
+    /// Is any share between 0 and 1?
+    partial: bool,
     /// What broke since it was last cleared.
     pub breaks: Vec<Break>,
     /// Triggers that fired since this was last cleared: index of the member, seconds since reset.
@@ -79,6 +81,7 @@ impl Activity {
             members,
             changing,
             fragile,
+            partial: false,
             time: 0.0,
         };
         activity.set_shares(0.0);
@@ -98,6 +101,7 @@ impl Activity {
     /// Sets the shares for the time `t`, and closes again what has been broken long enough. Did any change?
     pub fn set_shares(&mut self, t: f64) -> bool {
         let mut changed = false;
+        self.partial = false;
         for &index in &self.changing {
             let member = &mut self.members[index];
             if let (Some(since), Some(breaking)) = (member.broken, member.breaking)
@@ -109,9 +113,15 @@ impl Activity {
             let whole = member.schedule.share(t, member.triggered);
             let share = if member.broken.is_some() { 0.0 } else { whole };
             changed |= share != member.share;
+            self.partial |= share > 0.0 && share < 1.0;
             member.share = share;
         }
         changed
+    }
+
+    /// Does anything act in part only?
+    pub fn is_partial(&self) -> bool {
+        self.partial
     }
 
     /// Share of a member, 0 … 1.

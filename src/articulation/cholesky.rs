@@ -1,21 +1,24 @@
 //! Cholesky factor of a symmetric positive semi-definite matrix, A = L Lᵀ, with the rows that repeat others left out.
 //!
-//! A pivot that is a tiny share of its own diagonal says that the row depends on those before it: it gets 0, so that
-//! its unknown comes out 0 and the others share the work. Nothing allocates after [`Cholesky::with_room`].
+//! A pivot that is a tiny share of what its row would have alone says that the row depends on others: it gets 0, so that
+//! its unknown comes out 0 and the others share the work. (Its own diagonal is no measure: where a tree holds the row
+//! already, that is rounding too.) Nothing allocates after [`Cholesky::with_room`].
 
 /// The factor; the inverse pivots stand on the diagonal.
 #[derive(Clone, Debug)]
 pub struct Cholesky {
     n: usize,
     entries: Vec<f64>,
+    /// What each row would have on the diagonal alone.
+    alone: Vec<f64>,
     redundant: Vec<bool>,
     tolerance: f64,
 }
 
 impl Cholesky {
-    /// Room for `most` rows; `tolerance` is the share of a diagonal below which its pivot counts as 0.
+    /// Room for `most` rows; a pivot below `tolerance` of what its row has alone counts as 0.
     pub fn with_room(most: usize, tolerance: f64) -> Self {
-        Self { n: 0, entries: vec![0.0; most * most], redundant: vec![false; most], tolerance }
+        Self { n: 0, entries: vec![0.0; most * most], alone: vec![0.0; most], redundant: vec![false; most], tolerance }
     }
 
     /// Begins a matrix of `n` rows.
@@ -28,6 +31,11 @@ impl Cholesky {
         &mut self.entries[i * self.n + j]
     }
 
+    /// Says what a row would have on the diagonal alone, before [`Cholesky::factor`].
+    pub fn measure(&mut self, row: usize, alone: f64) {
+        self.alone[row] = alone;
+    }
+
     /// Factors in place.
     pub fn factor(&mut self) {
         let n = self.n;
@@ -36,7 +44,7 @@ impl Cholesky {
             let row = &mut done[j * n..];
             let diagonal = row[j];
             let d = diagonal - row[..j].iter().map(|x| x * x).sum::<f64>();
-            let held = d > self.tolerance * diagonal;
+            let held = d > self.tolerance * self.alone[j].max(diagonal);
             let pivot = if held { 1.0 / d.sqrt() } else { 0.0 };
             self.redundant[j] = !held;
             row[j] = pivot;

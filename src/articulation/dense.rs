@@ -8,10 +8,10 @@
 
 use super::block::{Mat6, Vec6, add_scaled, dot, inverse, mul};
 use super::cholesky::Cholesky;
-use super::loops::LoopRow;
+use super::loops::{GATHERING, LoopRow};
 use super::spatial::{Articulated, Sym3};
 
-/// A pivot below this share of its row's own stiffness says that the row repeats earlier ones.
+/// A pivot below this share of its row's answer alone says that the row repeats earlier ones.
 const REDUNDANT: f64 = 1e-11;
 
 /// Factor of the dense system. Its rows are given as [`LoopRow`]s, which know no tree.
@@ -45,8 +45,8 @@ impl Dense {
         self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
     }
 
-    /// Factors J M⁻¹ Jᵀ + Γ for the active rows.
-    pub fn factor(&mut self, masses: &[f64], inertias: &[Sym3]) {
+    /// Factors J M⁻¹ Jᵀ + Γ for the active rows. Does the figure gather?
+    pub fn factor(&mut self, masses: &[f64], inertias: &[Sym3], gathering: bool) {
         for ((inverted, &mass), inertia) in self.inverse.iter_mut().zip(masses).zip(inertias) {
             *inverted = inverse(&Articulated::alone(mass, inertia).matrix());
         }
@@ -67,9 +67,10 @@ impl Dense {
                 }
                 *self.factor.entry(i, j) = sum;
             }
-            let row = &self.rows[self.active[i]];
-            let own = self.factor.entry(i, i);
-            *own = *own / row.share + row.compliance;
+            let alone = *self.factor.entry(i, i);
+            self.factor.measure(i, alone);
+            *self.factor.entry(i, i) += if gathering { GATHERING * alone } else { 0.0 };
+            self.rows[self.active[i]].add_compliance(i, &mut self.factor);
         }
         self.factor.factor();
     }

@@ -12,13 +12,18 @@
 //!
 //! Rows that repeat others (a planar four-bar of hinges has three) get the multiplier 0, as in the tree.
 
-use super::block::{Vec6, add_scaled, dot};
+use super::block::{RowVec, Vec6, add_scaled, dot};
 use super::cholesky::Cholesky;
+use super::spatial::{Sym3, response};
 use super::tree::Tree;
 
-/// A pivot below this share of its row's own stiffness says that the row repeats earlier ones. Loop rows pass
+/// A pivot below this share of its row's answer alone says that the row repeats others. Loop rows pass
 /// through a whole tree solve, so more is rounded off than within one joint.
 const REDUNDANT: f64 = 1e-9;
+
+/// Γ of rows outside the tree while a figure gathers, as a share of their answer alone. On its way together a figure
+/// passes places where its rows almost repeat each other but do not agree; what little holds them there must not decide.
+pub const GATHERING: f64 = 1e-4;
 
 /// One row outside the tree, at the present configuration.
 #[derive(Clone, Debug)]
@@ -29,13 +34,20 @@ pub struct LoopRow {
     pub active: bool,
     /// J: a block per body that it touches.
     pub parts: Vec<(usize, Vec6)>,
-    /// Γ.
-    pub compliance: f64,
-    /// Share, 1 is whole.
-    pub share: f64,
+    /// Which row of its joint it is; those before it stand before it here.
+    pub place: usize,
+    /// Γ with the rows of its joint, from the first to itself.
+    pub compliance: RowVec,
 }
 
 impl LoopRow {
+    /// Adds the Γ of the `k`th acting row to a matrix.
+    pub fn add_compliance(&self, k: usize, matrix: &mut Cholesky) {
+        for (l, gamma) in self.compliance[..=self.place].iter().enumerate() {
+            *matrix.entry(k, k - self.place + l) += gamma;
+        }
+    }
+
     /// Row times the bodies' coordinates.
     fn times(&self, a: &[Vec6]) -> f64 {
         self.parts.iter().map(|(body, block)| dot(block, &a[*body])).sum()
@@ -81,8 +93,9 @@ impl Loops {
         self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
     }
 
-    /// Factors S for the active rows; the tree must have been factored.
-    pub fn factor(&mut self, tree: &Tree) {
+    /// Factors S for the active rows; the tree must have been factored for these masses and world inertias. Does the
+    /// figure gather?
+    pub fn factor(&mut self, tree: &Tree, masses: &[f64], inertias: &[Sym3], gathering: bool) {
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
         let n = self.active.len();
@@ -107,8 +120,10 @@ impl Loops {
         }
         for k in 0..n {
             let row = &self.rows[self.active[k]];
-            let own = self.factor.entry(k, k);
-            *own = *own / row.share + row.compliance;
+            let alone = response(&row.parts, &self.driven, masses, inertias);
+            self.factor.measure(k, alone);
+            *self.factor.entry(k, k) += if gathering { GATHERING * alone } else { 0.0 };
+            row.add_compliance(k, &mut self.factor);
         }
         self.factor.factor();
     }

@@ -11,6 +11,7 @@ pub mod function;
 mod loops;
 pub mod rows;
 mod schedule;
+mod share;
 pub mod spatial;
 mod system;
 pub mod tree;

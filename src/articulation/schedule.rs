@@ -1,9 +1,8 @@
 //! When a constraint acts: windows, ramps, periods, triggers, breaking.
 //!
-//! A row carries the *share* s ∈ [0, 1] of the force that would hold it: 0 is absent, 1 is hard. In the multiplier
-//! system a row's own diagonal K is divided by s, so that alone it yields λ = s · λ_hard, whatever its units; two rows
-//! whose shares cross morph one constraint into the other. A row that closes again finds its error drawn in by the
-//! critically damped stabiliser, never snapped.
+//! A row carries the *share* s ∈ [0, 1] of the force that would hold it: 0 is absent, 1 is hard (`share.rs`); two rows
+//! whose shares cross morph one constraint into the other. A row that carries a part only, or that closes again, has
+//! its error drawn in by the critically damped stabiliser, never snapped.
 
 /// When a constraint acts. The default is always.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -143,6 +143,16 @@ impl Articulated {
     }
 }
 
+/// J M⁻¹ Jᵀ: what the bodies of one row answer to it, each alone; driven ones do not give way.
+pub fn response(parts: &[(usize, Vec6)], driven: &[bool], masses: &[f64], inertias: &[Sym3]) -> f64 {
+    let free = parts.iter().filter(|(body, _)| !driven[*body]);
+    let of_one = |(body, j): &(usize, Vec6)| {
+        let (force, torque) = (super::block::linear(j), super::block::angular(j));
+        force.length_squared() / masses[*body] + torque.dot(inertias[*body].inverse().mul(torque))
+    };
+    free.map(of_one).sum()
+}
+
 /// Rotation matrix of a unit quaternion.
 #[inline]
 pub fn matrix(q: DQuat) -> DMat3 {

@@ -6,12 +6,12 @@
 use std::collections::BTreeMap;
 
 use super::activity::Activity;
-use super::block::{MAX_ROWS, Vec6, add_scaled, angular, dot, linear, vec6};
+use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear, vec6};
 use super::dense::Dense;
 use super::loops::{LoopRow, Loops};
 use super::rows::coupling::{self, Gauge};
 use super::rows::{Row, Scene, friction, orientation, plane, point};
-use super::spatial::{Sym3, matrix};
+use super::spatial::{Sym3, matrix, response};
 use super::tree::{Form, JointRows, Link, Tree};
 use super::{Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
@@ -82,7 +82,9 @@ pub struct RowState {
     length: bool,
     /// Constraint that it belongs to.
     constraint: usize,
-    /// Is it so far from closed that the stabiliser draws it together?
+    /// Share of the force that would hold it.
+    pub(super) share: f64,
+    /// Is it drawn together by the stabiliser: far from closed, or held in part only?
     gathers: bool,
 }
 
@@ -138,7 +140,7 @@ impl System {
                 joint.outside = Some(outside.len());
                 let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
                 for k in 0..joint.capacity {
-                    outside.push(blank_row(joint.at + k, &parts));
+                    outside.push(blank_row(joint.at + k, k, &parts));
                 }
             }
             if !points[index] || closes {
@@ -157,7 +159,7 @@ impl System {
                 }
             }
             couplings.push(Coupling { constraint: index, at: count, terms, outside: outside.len() });
-            outside.push(blank_row(count, &parts));
+            outside.push(blank_row(count, 0, &parts));
             count += 1;
         }
         let (loop_rows, dense) = match method {
@@ -209,6 +211,16 @@ impl System {
         &self.driven
     }
 
+    /// The coupling's row at an index, if there is one.
+    pub(super) fn coupling_row(&self, index: usize) -> Option<usize> {
+        self.couplings.get(index).map(|coupling| coupling.at)
+    }
+
+    /// What the bodies of a row answer to it, each alone.
+    pub(super) fn response(&self, row: usize) -> f64 {
+        response(&self.jacobian(row), &self.driven, &self.masses, &self.inertia_world)
+    }
+
     /// World inertia of a body at the last evaluation.
     pub fn inertia_world(&self, body: usize) -> &Sym3 {
         &self.inertia_world[body]
@@ -230,9 +242,9 @@ impl System {
             let share = self.activity.share(coupling.constraint);
             let slot = &mut outside[coupling.outside];
             slot.active = share > 0.0;
-            slot.share = share;
+            slot.compliance[0] = 0.0;
             let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
-            self.states[coupling.at].set(&row, coupling.constraint);
+            self.states[coupling.at].set(&row, coupling.constraint, share);
         }
     }
 
@@ -240,15 +252,24 @@ impl System {
     pub fn add_friction(&mut self, bodies: &[RigidBody], loads: &[f64], h: f64) {
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
         for (joint, &load) in self.joints.iter_mut().zip(loads) {
-            joint.add_friction(&self.constraints, bodies, load, h, &mut self.blocks);
+            joint.add_friction(&self.constraints, bodies, load, h, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
     }
 
     /// Factors the system at the configuration last evaluated.
     pub fn factor(&mut self) {
+        self.factor_rows();
+        if self.activity.is_partial() {
+            self.soften();
+            self.factor_rows();
+        }
+    }
+
+    /// Factors the rows as they are.
+    fn factor_rows(&mut self) {
         if let Some(dense) = &mut self.dense {
-            dense.factor(&self.masses, &self.inertia_world);
+            dense.factor(&self.masses, &self.inertia_world, self.gathering);
             return;
         }
         let (joints, blocks) = (&self.joints, &self.blocks);
@@ -260,7 +281,7 @@ impl System {
                 (None, None) => unreachable!("a joint is a point or has a block"),
             }
         });
-        self.loops.factor(&self.tree);
+        self.loops.factor(&self.tree, &self.masses, &self.inertia_world, self.gathering);
     }
 
     /// Solves for `a` and `lambda` from `b` and `g`.
@@ -279,11 +300,11 @@ impl System {
     }
 
     /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
-    /// The others are closed by projection: their errors at an integrator's inner stages belong to the method.
+    /// So does it rows of a share below 1. The others are closed by projection: their errors at an integrator's inner stages belong to the method.
     pub fn look_for_gaps(&mut self) {
         self.gathering = false;
         for state in &mut self.states {
-            state.gathers = state.value.abs() > PROJECTION_REACH;
+            state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
             self.gathering |= state.gathers;
         }
     }
@@ -308,7 +329,6 @@ impl System {
         for (g, state) in self.g.iter_mut().zip(&self.states) {
             *g = if state.gathers { 0.0 } else { -state.value };
         }
-        self.clear_friction();
         self.solve();
     }
 
@@ -336,15 +356,6 @@ impl System {
         for (a, &driven) in self.a.iter_mut().zip(&self.driven) {
             if driven {
                 *a = [0.0; 6];
-            }
-        }
-    }
-
-    /// Friction rows hold no place.
-    fn clear_friction(&mut self) {
-        for joint in &self.joints {
-            for k in joint.hard..joint.rows {
-                self.g[joint.at + k] = 0.0;
             }
         }
     }
@@ -401,6 +412,22 @@ impl System {
         }
     }
 
+    /// Writes Γ = D K D among these rows of one joint or of a coupling, D diagonal.
+    pub(super) fn set_compliance(&mut self, rows: &[usize], k: &RowSquare, d: &RowVec) {
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        if let Some(joint) = self.joints.iter().find(|joint| (joint.at..joint.at + joint.hard).contains(&rows[0])) {
+            let Some(block) = joint.block else { return };
+            for (i, &row) in rows.iter().enumerate() {
+                for (j, &other) in rows[..=i].iter().enumerate() {
+                    self.blocks[block].compliance[row - joint.at][other - joint.at] = d[i] * d[j] * k[i][j];
+                }
+            }
+            joint.write_outside(&self.blocks, outside);
+        } else if let Some(coupling) = self.couplings.iter().find(|coupling| coupling.at == rows[0]) {
+            outside[coupling.outside].compliance[0] = d[0] * d[0] * k[0][0];
+        }
+    }
+
     /// Rows outside the tree.
     fn outside_rows(&self) -> &[LoopRow] {
         self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
@@ -443,14 +470,16 @@ impl System {
         coupling.map_or(Vec::new(), |coupling| self.outside_rows()[coupling.outside].parts.clone())
     }
 
-    /// Γ and share of one row.
-    pub fn softness(&self, row: usize) -> (f64, f64) {
-        if let Some(joint) = self.joint_of(row) {
-            let block = joint.block.filter(|_| joint.arms.is_none()).map(|block| &self.blocks[block]);
-            return block.map_or((0.0, 1.0), |rows| (rows.compliance[row - joint.at], rows.share[row - joint.at]));
+    /// Γ between two rows at the last factorisation.
+    pub fn compliance(&self, row: usize, other: usize) -> f64 {
+        let (low, high) = (row.min(other), row.max(other));
+        if let Some(joint) = self.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&low)) {
+            let inside = high < joint.at + joint.rows && joint.arms.is_none();
+            let block = joint.block.filter(|_| inside);
+            return block.map_or(0.0, |block| self.blocks[block].compliance[high - joint.at][low - joint.at]);
         }
-        let coupling = self.couplings.iter().find(|coupling| coupling.at == row);
-        coupling.map(|c| &self.outside_rows()[c.outside]).map_or((0.0, 1.0), |row| (row.compliance, row.share))
+        let coupling = self.couplings.iter().find(|coupling| coupling.at == row && row == other);
+        coupling.map_or(0.0, |coupling| self.outside_rows()[coupling.outside].compliance[0])
     }
 
     /// Rows that act now, as indices into `g` and `lambda`.
@@ -561,13 +590,19 @@ impl System {
         !held.chain(self.couplings.iter().map(|c| &self.states[c.at])).any(apart)
     }
 
-    /// What each constraint carried in the last solve: (constraint, of its lengths, of its angles).
+    /// What a constraint carried in the last solve: of its lengths, of its angles. The stabiliser's pull on what is far
+    /// apart is no load.
     pub fn carried(&self, constraint: usize) -> (f64, f64) {
         let (mut force, mut torque) = (0.0, 0.0);
         let joints = self.joints.iter().filter(|joint| joint.constraints.contains(&constraint));
         let rows = joints.flat_map(|joint| joint.at..joint.at + joint.hard);
         let couplings = self.couplings.iter().filter(|c| c.constraint == constraint).map(|c| c.at);
-        for row in rows.chain(couplings).filter(|&row| self.states[row].constraint == constraint) {
+        let couplings = couplings.filter(|_| self.activity.share(constraint) > 0.0);
+        let own = |&row: &usize| {
+            let state = &self.states[row];
+            state.constraint == constraint && state.value.abs() <= PROJECTION_REACH
+        };
+        for row in rows.chain(couplings).filter(own) {
             let square = self.lambda[row] * self.lambda[row];
             if self.states[row].length { force += square } else { torque += square }
         }
@@ -577,9 +612,10 @@ impl System {
 
 impl RowState {
     /// Takes over a row's numbers.
-    fn set(&mut self, row: &Row, constraint: usize) {
+    fn set(&mut self, row: &Row, constraint: usize, share: f64) {
         let gathers = self.gathers;
-        *self = Self { value: row.value, feed: row.feed, bias: row.bias, length: row.length, constraint, gathers };
+        let Row { value, feed, bias, length, .. } = *row;
+        *self = Self { value, feed, bias, length, constraint, share, gathers };
     }
 }
 
@@ -613,7 +649,7 @@ impl Joint {
             for k in 0..3 {
                 let state = &mut states[self.at + k];
                 (state.value, state.feed, state.bias) = (c[k], 0.0, bias[k]);
-                (state.length, state.constraint) = (true, self.constraints[0]);
+                (state.length, state.constraint, state.share) = (true, self.constraints[0], 1.0);
             }
             (self.rows, self.hard) = (3, 3);
             self.arms = Some((r, s));
@@ -637,9 +673,8 @@ impl Joint {
                     return;
                 }
                 (rows.a[k], rows.b[k]) = if own { (row.a, row.b) } else { (row.b, row.a) };
-                rows.compliance[k] = 0.0;
-                rows.share[k] = share;
-                states[self.at + k].set(&row, index);
+                rows.compliance[k] = [0.0; MAX_ROWS];
+                states[self.at + k].set(&row, index, share);
                 rows.rows = k + 1;
             };
             match &constraint.kind {
@@ -647,7 +682,11 @@ impl Joint {
                 ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
                     push(plane::row(scene, point, plane, *normal, offset));
                 }
-                ConstraintKind::Orientation { a, b, angle } => push(orientation::row(scene, a, b, angle)),
+                ConstraintKind::Orientation { a, b, angle } => {
+                    let others = || self.constraints.iter().filter(|&&c| c != index && activity.share(c) > 0.0);
+                    let held = || others().find_map(|&c| orientation_axis(scene, &constraints[c]));
+                    push(orientation::row(scene, a, b, angle, held));
+                }
                 ConstraintKind::Coupling { .. } => {}
             }
         }
@@ -662,6 +701,7 @@ impl Joint {
         load: f64,
         h: f64,
         blocks: &mut [JointRows],
+        states: &mut [RowState],
     ) {
         let Some(block) = self.block else { return };
         if !self.constraints.iter().any(|&index| constraints[index].friction.is_some()) {
@@ -672,7 +712,7 @@ impl Joint {
             rows.rows = 3;
             for (k, e) in DVec3::AXES.into_iter().enumerate() {
                 (rows.a[k], rows.b[k]) = (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)));
-                (rows.compliance[k], rows.share[k]) = (0.0, 1.0);
+                rows.compliance[k] = [0.0; MAX_ROWS];
             }
         }
         let spin = |body: Option<usize>| body.map_or(DVec3::ZERO, |b| bodies[b].angular_velocity);
@@ -685,8 +725,10 @@ impl Joint {
                     break;
                 }
                 (rows.a[k], rows.b[k]) = (row.a, row.b);
-                rows.compliance[k] = friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
-                rows.share[k] = 1.0;
+                rows.compliance[k] = [0.0; MAX_ROWS];
+                rows.compliance[k][k] = friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
+                // It holds no place, and where it stands another row may have stood before.
+                states[self.at + k] = RowState { constraint: index, share: 1.0, ..RowState::default() };
                 rows.rows = k + 1;
             }
         }
@@ -703,7 +745,7 @@ impl Joint {
             if let Some(second) = row.parts.get_mut(1) {
                 second.1 = rows.b[k];
             }
-            (row.compliance, row.share) = (rows.compliance[k], rows.share[k]);
+            row.compliance = rows.compliance[k];
         }
     }
 }
@@ -747,6 +789,14 @@ fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
     (joints, at)
 }
 
+/// The axis about which an orientation holds its bodies.
+fn orientation_axis(scene: &Scene, constraint: &Constraint) -> Option<DVec3> {
+    match &constraint.kind {
+        ConstraintKind::Orientation { a, b, .. } => orientation::axis(scene, a, b),
+        _ => None,
+    }
+}
+
 /// Both ends of a joint that is one point, as [`Joint::point`] has them.
 fn lone_point(joint: &Joint, constraints: &[Constraint], bodies: &[RigidBody]) -> Option<(DVec3, DVec3)> {
     let [index] = joint.constraints[..] else { return None };
@@ -771,7 +821,7 @@ fn is_only_point(constraint: &Constraint) -> bool {
         && constraint.friction.is_none()
 }
 
-fn blank_row(at: usize, bodies: &[usize]) -> LoopRow {
+fn blank_row(at: usize, place: usize, bodies: &[usize]) -> LoopRow {
     let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
-    LoopRow { at, active: false, parts, compliance: 0.0, share: 1.0 }
+    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS] }
 }

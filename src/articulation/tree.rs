@@ -24,7 +24,7 @@
 //! depends on poses and masses only, so one factor serves accelerations, position and velocity projection, friction
 //! and impacts. A body that hangs by one point only goes through `ball.rs`, the same elimination in 3×3 blocks.
 //!
-//! A driven body's a is given: it is ground that moves. A row of share s < 1 (`schedule.rs`) has its K divided by s.
+//! A driven body's a is given: it is ground that moves. Γ need not be diagonal within a joint: `share.rs` says why.
 //!
 //! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
 
@@ -42,21 +42,13 @@ pub struct JointRows {
     pub a: RowBlock,
     /// Blocks that multiply the coordinates of the second body; unused where it is the world.
     pub b: RowBlock,
-    /// Γ: compliance of each row, 0 is hard.
-    pub compliance: [f64; MAX_ROWS],
-    /// Share of each row, 1 is whole.
-    pub share: [f64; MAX_ROWS],
+    /// Γ, lower triangle; 0 is hard.
+    pub compliance: RowSquare,
 }
 
 impl Default for JointRows {
     fn default() -> Self {
-        Self {
-            rows: 0,
-            a: [[0.0; 6]; MAX_ROWS],
-            b: [[0.0; 6]; MAX_ROWS],
-            compliance: [0.0; MAX_ROWS],
-            share: [1.0; MAX_ROWS],
-        }
+        Self { rows: 0, a: [[0.0; 6]; MAX_ROWS], b: [[0.0; 6]; MAX_ROWS], compliance: [[0.0; MAX_ROWS]; MAX_ROWS] }
     }
 }
 
@@ -347,11 +339,8 @@ impl General {
             self.jp[k] = jp[k];
             self.w[k] = mul(&self.inverse, &jc[k]);
             for l in 0..=k {
-                self.k[k][l] = dot(&jc[k], &self.w[l]);
+                self.k[k][l] = dot(&jc[k], &self.w[l]) + r.compliance[k][l];
             }
-        }
-        for k in 0..rows {
-            self.k[k][k] = self.k[k][k] / r.share[k] + r.compliance[k];
         }
         self.redundant = pseudo_inverse(&mut self.k, rows);
         for k in 0..rows {

@@ -3,13 +3,15 @@
 //! **Turn** of body i about its axis n (fixed in it) against the frame k that carries the axle:
 //!
 //! ```text
-//! q̇ = (ω_i − ω_k)·n          J_i = (0, n), J_k = −(0, n)          ṅ = ω_i×n
-//! J̇ẋ = (ω_i − ω_k)·(ω_i×n) = −ω_k·(ω_i×n)
+//! q = 2 atan2(d_v·n, d_w) + 2π · turns         d = q₀⁻¹ q, the relative rotation since the start, in the body's axes
+//! q̇ = (ω_i − ω_k)·e          e = (n + m)/(1 + n·m)          J_i = (0, e), J_k = −(0, e)
+//! J̇ẋ = (ω_i − ω_k)·ė         ė = (ṅ + ṁ − e (ṅ·m + n·ṁ))/(1 + n·m)          ṅ = ω_i×n, ṁ = ω_k×m
 //! ```
 //!
-//! Its value comes from the rotations themselves, so that phases never drift: with d = q₀⁻¹ q the relative rotation
-//! since the start, in the body's axes, the turn is 2 atan2(d_v·n, d_w) (the twist of d about n) plus whole turns,
-//! which are counted. Σ c (2π k) is summed from the counts: with tooth numbers for c the sum is exact over any time.
+//! with m the direction in the frame from which n started. On an axle both are one, e = n; where the body also swings,
+//! q is the twist of d about n, and e its gradient (write D n by the quaternion d), so that a torsion spring on a ball
+//! joint keeps energy. The value comes from the rotations themselves, so that phases never drift. Whole turns are
+//! counted, and Σ c (2π k) is summed from the counts: with tooth numbers for c the sum is exact over any time.
 //!
 //! **Way** of a point P along a direction u fixed in the frame k, from where P was at the start (S, fixed in k): the
 //! point-on-plane row with normal u.
@@ -22,7 +24,10 @@ use super::{Row, Scene, negated};
 use crate::articulation::block::{Vec6, add_scaled, vec6};
 use crate::articulation::{Anchor, Function, Measure};
 use crate::bodies::RigidBody;
-use crate::math::{DQuat, DVec3, PI, atan2};
+use crate::math::{DMat3, DQuat, DVec3, PI, atan2};
+
+/// Below this 1 + n·m the body lies with its axis overturned, where the twist says nothing.
+const OVERTURNED: f64 = 1e-6;
 
 /// A measure with what it must remember of the start, and its count of turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,8 +105,10 @@ impl Gauge {
                 } else if value - self.last < -PI {
                     turns += 1;
                 }
-                let bias = -scene.spin(*frame).dot(n.spin.cross(n.n));
-                let j = vec6(DVec3::ZERO, n.n);
+                let against = scene.spin(*frame);
+                let m = frame.map_or(DMat3::IDENTITY, |i| scene.frames[i]) * (self.start * axis.direction);
+                let (e, bias) = twist((n.n, n.spin), (m, against));
+                let j = vec6(DVec3::ZERO, e);
                 Reading { value, turns, on: j, against: negated(j), bias }
             }
             Measure::Way { point, direction } => {
@@ -137,6 +144,18 @@ impl Gauge {
             angle
         }
     }
+}
+
+/// e and J̇ẋ of the file's head, for the directions n and m with the angular velocities of their bodies.
+fn twist((n, spin): (DVec3, DVec3), (m, against): (DVec3, DVec3)) -> (DVec3, f64) {
+    let whole = 1.0 + n.dot(m);
+    if whole < OVERTURNED {
+        return (n, -against.dot(spin.cross(n)));
+    }
+    let e = (n + m) / whole;
+    let (dn, dm) = (spin.cross(n), against.cross(m));
+    let de = (dn + dm - e * (dn.dot(m) + n.dot(dm))) / whole;
+    (e, de.dot(spin - against))
 }
 
 /// Rotation of a body in the axes of another.

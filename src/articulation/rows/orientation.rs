@@ -13,7 +13,7 @@
 //!
 //! At C = 0 this is the source's row. Far from it a transition between two axes runs as one critically damped turn,
 //! where the cosine would make it fast near the end and stuck at the start. Where T and N coincide, any axis across
-//! them is as good: a fixed choice is taken.
+//! them is as good for this row; the one is taken that the rows beside it leave free.
 
 use super::{Row, Scene, negated};
 use crate::articulation::block::vec6;
@@ -23,8 +23,14 @@ use crate::math::{DVec3, atan2, tangents};
 /// Below this sine the axes coincide, rad.
 const COINCIDE: f64 = 1e-6;
 
-/// The row.
-pub fn row(scene: &Scene, a: &Axis, b: &Axis, angle: &Function) -> Row {
+/// The axis e about which a row turns T against N; `None` where they coincide.
+pub fn axis(scene: &Scene, a: &Axis, b: &Axis) -> Option<DVec3> {
+    let across = scene.direction(a).n.cross(scene.direction(b).n);
+    (across.length() > COINCIDE).then(|| across.normalize())
+}
+
+/// The row. `held` is an axis about which T is held by another row, asked where T and N coincide.
+pub fn row(scene: &Scene, a: &Axis, b: &Axis, angle: &Function, held: impl FnOnce() -> Option<DVec3>) -> Row {
     let f = angle.at(scene.time);
     let (t, n) = (scene.direction(a), scene.direction(b));
     let (dt, dn) = (t.spin.cross(t.n), n.spin.cross(n.n));
@@ -35,7 +41,8 @@ pub fn row(scene: &Scene, a: &Axis, b: &Axis, angle: &Function) -> Row {
         let b = t.spin.cross(dt).dot(n.n) + t.n.dot(n.spin.cross(dn)) + 2.0 * dt.dot(dn);
         (across / s, b / s + c * dc * dc / (s * s * s))
     } else {
-        (tangents(t.n).0, 0.0)
+        let free = held().and_then(|held| t.n.cross(held).try_normalize());
+        (free.unwrap_or_else(|| tangents(t.n).0), 0.0)
     };
     let j = vec6(DVec3::ZERO, e);
     Row { a: j, b: negated(j), value: atan2(c, s) - f.value, feed: f.rate, bias: bias - f.acceleration, length: false }

@@ -1,0 +1,234 @@
+//! Motion against the laws: every joint, gear, spring, window and drive against its formula, through `Dynamics::step`
+//! and by both integrators that exhibits use.
+
+mod gears;
+mod joints;
+mod loops;
+mod pendulums;
+mod reference;
+mod springs;
+mod swaps;
+mod timing;
+mod trajectories;
+
+use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function, Interpolation, Spring};
+use soffio::bodies::{MassProperties, RigidBody};
+use soffio::dynamics::forces::Damping;
+use soffio::dynamics::{Drive, Dynamics, Figure, Integrator, Motion, Settings, Solver};
+use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
+
+pub const G: f64 = 9.81;
+pub const DT: f64 = 1.0 / 240.0;
+/// ω₀ of the stabiliser, 1/s.
+pub const OMEGA: f64 = 25.0;
+/// The two that exhibits use.
+pub const INTEGRATORS: [Integrator; 2] = [Integrator::RungeKutta, Integrator::Precise];
+/// What an exact law leaves after some hundred steps of rounding, in m, rad, m/s and rad/s.
+pub const ROUNDING: f64 = 1e-11;
+/// Gap of a joint of a metre-sized figure: rounding of its coordinates.
+pub const CLOSED: f64 = 1e-12;
+
+/// A figure and the world it moves in.
+#[derive(Clone)]
+pub struct World {
+    pub bodies: Vec<RigidBody>,
+    pub constraints: Vec<Constraint>,
+    pub springs: Vec<Spring>,
+    pub drives: Vec<Drive>,
+    pub damping: Damping,
+    pub gravity: DVec3,
+    pub solver: Solver,
+}
+
+impl World {
+    /// These bodies under gravity, without anything that holds them.
+    pub fn new(bodies: Vec<RigidBody>) -> Self {
+        Self {
+            bodies,
+            constraints: Vec::new(),
+            springs: Vec::new(),
+            drives: Vec::new(),
+            damping: Damping::default(),
+            gravity: DVec3::NEG_Y * G,
+            solver: Solver::Sparse,
+        }
+    }
+
+    pub fn start(&self, integrator: Integrator) -> Dynamics {
+        let figure = Figure {
+            bodies: self.bodies.clone(),
+            damping: vec![self.damping; self.bodies.len()],
+            constraints: &self.constraints,
+            limits: &[],
+            springs: &self.springs,
+            drives: &self.drives,
+            colliders: &[],
+            pairs: Vec::new(),
+        };
+        Dynamics::new(figure, self.settings(integrator))
+    }
+
+    pub fn settings(&self, integrator: Integrator) -> Settings {
+        Settings {
+            gravity: self.gravity,
+            // Damping is all that it switches here: no pivot has friction.
+            friction: self.damping != Damping::default(),
+            stabilization_time: 1.0 / OMEGA,
+            integrator,
+            solver: self.solver,
+        }
+    }
+
+    pub fn add(&mut self, name: &str, kind: ConstraintKind) {
+        self.constraints.push(Constraint::new(name, kind));
+    }
+
+    /// A point of body `a` stays on a point of `b` (or the world): both are at `place` now.
+    pub fn pin(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3) {
+        let kind = ConstraintKind::PointToPoint { a: self.anchor(Some(a), place), b: self.anchor(b, place) };
+        self.add(name, kind);
+    }
+
+    /// Directions of `a` and `b`, world axes now, stay at their angle.
+    pub fn across(&mut self, name: &str, a: usize, t: DVec3, b: Option<usize>, n: DVec3) {
+        let angle = Function::Constant(t.dot(n).asin());
+        let kind = ConstraintKind::Orientation { a: self.axis(Some(a), t), b: self.axis(b, n), angle };
+        self.add(name, kind);
+    }
+
+    /// A pin and two orientations: `a` turns about `axis` at `place`.
+    pub fn hinge(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, axis: DVec3) {
+        self.pin(&format!("{name}/nail"), a, b, place);
+        let (u, v) = soffio::math::tangents(axis);
+        self.across(&format!("{name}/across-1"), a, axis, b, u);
+        self.across(&format!("{name}/across-2"), a, axis, b, v);
+    }
+
+    /// Three orientations: `a` does not turn against `b`.
+    pub fn fix_turn(&mut self, name: &str, a: usize, b: Option<usize>) {
+        for (k, (t, n)) in [(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)].into_iter().enumerate() {
+            self.across(&format!("{name}/turn-{k}"), a, t, b, n);
+        }
+    }
+
+    /// A point of `a` that is at `place` stays in the plane of `b` through it.
+    pub fn plane(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, normal: DVec3) {
+        let (point, plane) = (self.anchor(Some(a), place), self.anchor(b, place));
+        let normal = self.axis(b, normal).direction;
+        self.add(name, ConstraintKind::PointOnPlane { point, plane, normal, offset: Function::default() });
+    }
+
+    /// Two planes: the point stays on a straight wire.
+    pub fn wire(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, along: DVec3) {
+        let (u, v) = soffio::math::tangents(along);
+        self.plane(&format!("{name}/plane-1"), a, b, place, u);
+        self.plane(&format!("{name}/plane-2"), a, b, place, v);
+    }
+
+    /// `a` slides along a direction without turning.
+    pub fn slider(&mut self, name: &str, a: usize, b: Option<usize>, along: DVec3) {
+        self.fix_turn(name, a, b);
+        self.wire(name, a, b, self.bodies[a].position, along);
+    }
+
+    /// The body's (or the world's) point that is at a place now.
+    pub fn anchor(&self, body: Option<usize>, place: DVec3) -> Anchor {
+        Anchor { body, point: body.map_or(place, |i| self.bodies[i].pose().inverse_point(place)) }
+    }
+
+    /// The body's (or the world's) axis that points so now.
+    pub fn axis(&self, body: Option<usize>, direction: DVec3) -> Axis {
+        Axis { body, direction: body.map_or(direction, |i| self.bodies[i].pose().inverse_vector(direction)) }
+    }
+}
+
+/// A body with its node frame at its centre of mass.
+pub fn body(mass: f64, inertia: DVec3, position: DVec3) -> RigidBody {
+    let properties = MassProperties { mass, center: DVec3::ZERO, inertia: DMat3::from_diagonal(inertia) };
+    RigidBody::at_rest(properties, Pose { rotation: DQuat::IDENTITY, position })
+}
+
+/// A wheel with its axle along z.
+pub fn wheel(mass: f64, inertia: f64, position: DVec3) -> RigidBody {
+    body(mass, DVec3::new(0.6, 0.6, 1.0) * inertia, position)
+}
+
+/// A thin rod between two places.
+pub fn rod(mass: f64, from: DVec3, to: DVec3) -> RigidBody {
+    let way = to - from;
+    let l = way.length();
+    let across = mass * l * l / 12.0;
+    let mut rod = body(mass, DVec3::new(across, 1e-3 * across, across), 0.5 * (from + to));
+    rod.rotation = DQuat::from_rotation_arc(DVec3::NEG_Y, way / l);
+    rod
+}
+
+/// Steps without external forces; what comes back is how long it took.
+pub fn run(dynamics: &mut Dynamics, seconds: f64, dt: f64) {
+    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    for _ in 0..(seconds / dt).round() as usize {
+        step(dynamics, dt, &still);
+    }
+}
+
+pub fn step(dynamics: &mut Dynamics, dt: f64, external: &[[f64; 6]]) {
+    assert_eq!(dynamics.step(dt, external, &mut Vec::new()), 0, "bad numbers");
+}
+
+/// A body that is accelerated evenly from rest at the origin at t = 0, until t = 20 s: splines through a parabola's
+/// points are that parabola.
+pub fn accelerated(body: usize, acceleration: DVec3) -> Drive {
+    let key = |i: i32| {
+        let t = f64::from(i);
+        (t, Pose { rotation: DQuat::IDENTITY, position: 0.5 * t * t * acceleration })
+    };
+    let keys = (-2..=22).map(key).collect();
+    Drive { body, motion: Motion { keys, interpolation: Interpolation::Spline, repeat: false } }
+}
+
+/// A body that turns about an axis through the origin at an even rate, until t = 100 radians.
+pub fn turning(body: usize, rate: DVec3) -> Drive {
+    let key = |i: i32| {
+        let t = f64::from(i) / rate.length();
+        (t, Pose { rotation: rotation(t * rate), position: DVec3::ZERO })
+    };
+    let keys = (-1..=100).map(key).collect();
+    Drive { body, motion: Motion { keys, interpolation: Interpolation::Linear, repeat: false } }
+}
+
+/// Period of a physical pendulum with ω² = `square` at small swings, released at `angle`: T = (2π/ω)/agm(1, cos θ₀/2).
+pub fn elliptic_period(square: f64, angle: f64) -> f64 {
+    let (mut a, mut g) = (1.0, (0.5 * angle).cos());
+    for _ in 0..8 {
+        (a, g) = (0.5 * (a + g), (a * g).sqrt());
+    }
+    2.0 * PI / square.sqrt() / a
+}
+
+/// Mean time from one upward zero of a coordinate to the next over `seconds`; the zeros are those of the cubics through
+/// its values and rates.
+pub fn period(dynamics: &mut Dynamics, seconds: f64, dt: f64, read: impl Fn(&Dynamics) -> (f64, f64)) -> f64 {
+    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    let mut zeros = Vec::new();
+    let mut before = read(dynamics);
+    for index in 0..(seconds / dt).round() as usize {
+        step(dynamics, dt, &still);
+        let after = read(dynamics);
+        if before.0 < 0.0 && after.0 >= 0.0 {
+            let ((p, v), (q, w)) = (before, after);
+            let cubic = |s: f64| {
+                let r = 1.0 - s;
+                r * r * ((1.0 + 2.0 * s) * p + s * dt * v) + s * s * ((1.0 + 2.0 * r) * q - r * dt * w)
+            };
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if cubic(middle) < 0.0 { low = middle } else { high = middle }
+            }
+            zeros.push((index as f64 + low) * dt);
+        }
+        before = after;
+    }
+    assert!(zeros.len() > 1, "it does not swing");
+    (zeros[zeros.len() - 1] - zeros[0]) / (zeros.len() - 1) as f64
+}

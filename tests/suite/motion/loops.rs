@@ -1,0 +1,189 @@
+//! Closed loops: a four-bar linkage, a chain between two walls; and figures that put themselves together.
+
+use soffio::dynamics::forces::Damping;
+use soffio::dynamics::{Integrator, Solver};
+use soffio::math::{DVec3, rotation};
+use soffio::noise::Random;
+
+use super::{CLOSED, DT, G, INTEGRATORS, World, rod, run, step};
+
+/// A crank, a coupler and a rocker in a plane, hinged to the ground at both ends.
+fn four_bar() -> World {
+    let pins = [DVec3::ZERO, DVec3::new(-0.05, 0.2, 0.0), DVec3::new(0.5, 0.35, 0.0), DVec3::new(0.4, 0.0, 0.0)];
+    let mut world = World::new((0..3).map(|i| rod(0.2 + 0.1 * i as f64, pins[i], pins[i + 1])).collect());
+    for (i, pin) in pins.into_iter().enumerate() {
+        let (a, b) = if i < 3 { (i, i.checked_sub(1)) } else { (2, None) };
+        world.hinge(&format!("hinge-{i}"), a, b, pin, DVec3::Z);
+    }
+    world
+}
+
+#[test]
+fn a_four_bar_linkage_keeps_its_energy_and_its_pins() {
+    for (integrator, solver) in INTEGRATORS.into_iter().flat_map(|i| [(i, Solver::Sparse), (i, Solver::Dense)]) {
+        let mut world = four_bar();
+        world.solver = solver;
+        let mut dynamics = world.start(integrator);
+        let energy = dynamics.energy();
+        let still = [[0.0; 6]; 3];
+        let (mut lost, mut apart, mut moved) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for _ in 0..720 {
+            step(&mut dynamics, DT, &still);
+            lost = lost.max((dynamics.energy() - energy).abs());
+            apart = apart.max(dynamics.joint_error());
+            moved = moved.max(dynamics.bodies[0].kinetic_energy() + dynamics.bodies[2].kinetic_energy());
+            assert!(dynamics.bodies.iter().all(|b| (b.rotation * DVec3::Z).dot(DVec3::Z) > 1.0 - 1e-14));
+        }
+        // Four hinges of five rows hold seventeen of eighteen freedoms.
+        assert_eq!(dynamics.system().redundant_rows().len(), 3, "{solver:?}");
+        let lost = lost / moved;
+        println!("four-bar, {integrator:?}, {solver:?}: energy off by {lost:.1e}, pins by {apart:.1e} m");
+        let allowed = if integrator == Integrator::Precise { 1e-8 } else { 1e-4 };
+        assert!(lost < allowed, "{integrator:?}, {solver:?}: energy off by {lost:e}");
+        assert!(apart < CLOSED, "{integrator:?}, {solver:?}: {apart:e} m apart");
+    }
+}
+
+/// Links of the chain, their length and mass.
+const LINKS: usize = 40;
+const LENGTH: f64 = 0.05;
+const MASS: f64 = 0.02;
+
+/// Places of the chain's joints at rest when it draws sideways with `pull` N: every rod lies along the mean of the forces
+/// on its two ends.
+fn resting(pull: f64) -> Vec<DVec3> {
+    let mut places = vec![DVec3::ZERO];
+    for i in 0..LINKS {
+        let up = MASS * G * (i as f64 + 0.5 - 0.5 * LINKS as f64);
+        let along = DVec3::new(pull, up, 0.0).normalize();
+        places.push(places[i] + LENGTH * along);
+    }
+    places
+}
+
+/// The sideways pull at which the chain spans `span`.
+fn pull_for(span: f64) -> f64 {
+    let (mut low, mut high) = (1e-3, 1e3);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if resting(middle)[LINKS].x < span { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// The chain with its joints at these places, pinned at both ends.
+fn chain(places: &[DVec3]) -> World {
+    let mut world = World::new((0..LINKS).map(|i| rod(MASS, places[i], places[i + 1])).collect());
+    for i in 0..LINKS {
+        world.pin(&format!("link-{i}"), i, i.checked_sub(1), places[i]);
+    }
+    world.pin("end", LINKS - 1, None, places[LINKS]);
+    world
+}
+
+#[test]
+fn a_chain_between_two_walls_bears_the_tension_of_the_catenary() {
+    // Rods: the discrete chain is exact; the smooth catenary differs by (length of a link / length of the chain)².
+    const SMOOTH: f64 = 2e-3;
+    const EXACT: f64 = 1e-9;
+    let span = 1.2;
+    let pull = pull_for(span);
+    // Analytic: s/2 = a sinh(span/2a), H = w a.
+    let length = LINKS as f64 * LENGTH;
+    let (mut low, mut high) = (0.05, 100.0);
+    for _ in 0..200 {
+        let a: f64 = 0.5 * (low + high);
+        if 2.0 * a * (0.5 * span / a).sinh() > length { low = a } else { high = a }
+    }
+    let smooth = MASS / LENGTH * G * low;
+    assert!((pull / smooth - 1.0).abs() < SMOOTH, "{pull} N against {smooth} N");
+    let mut dynamics = chain(&resting(pull)).start(Integrator::RungeKutta);
+    run(&mut dynamics, 0.1, DT);
+    let mut worst = 0.0_f64;
+    for i in 0..=LINKS {
+        let up = MASS * G * (i as f64 - 0.5 * LINKS as f64);
+        let (found, _) = dynamics.system().carried(i);
+        worst = worst.max((found / pull.hypot(up) - 1.0).abs());
+    }
+    println!("catenary: tension off by {worst:.1e}, from the smooth one by {:.1e}", (pull / smooth - 1.0).abs());
+    assert!(worst < EXACT, "tension off by {worst:e}");
+    assert!(dynamics.joint_error() < CLOSED);
+}
+
+#[test]
+fn a_chain_hung_askew_comes_to_rest_as_a_catenary() {
+    // Strained from another shape of the same length and span: a tent. Damped, it comes to rest.
+    const SETTLED: f64 = 1e-4;
+    let span = 1.2;
+    let half = 0.5 * LINKS as f64 * LENGTH;
+    let sag = (half * half - 0.25 * span * span).sqrt();
+    let side = DVec3::new(0.5 * span, -sag, 0.0) / (0.5 * LINKS as f64);
+    let mut places = vec![DVec3::ZERO];
+    for i in 0..LINKS {
+        let way = if i < LINKS / 2 { side } else { DVec3::new(side.x, -side.y, 0.0) };
+        places.push(places[i] + way);
+    }
+    let mut world = chain(&places);
+    world.damping = Damping { linear: 8.0, angular: 8.0 };
+    let mut dynamics = world.start(Integrator::RungeKutta);
+    run(&mut dynamics, 5.0, DT);
+    assert!(dynamics.joint_error() < CLOSED);
+    // What it carries at rest, without the damping, whose last solve was for an impulse.
+    world.bodies = dynamics.bodies;
+    world.damping = Damping::default();
+    let mut dynamics = world.start(Integrator::RungeKutta);
+    run(&mut dynamics, DT, DT);
+    let pull = pull_for(span);
+    let mut worst = 0.0_f64;
+    for i in 0..=LINKS {
+        let up = MASS * G * (i as f64 - 0.5 * LINKS as f64);
+        let (found, _) = dynamics.system().carried(i);
+        worst = worst.max((found / pull.hypot(up) - 1.0).abs());
+    }
+    println!("chain hung askew: tension off by {worst:.1e}");
+    assert!(worst < SETTLED, "tension off by {worst:e}");
+}
+
+#[test]
+fn scattered_figures_put_themselves_together() {
+    const TOGETHER: f64 = 1e-9;
+    for seed in 0..6 {
+        for (name, mut world) in [("linkage", four_bar()), ("chain", branches())] {
+            let mut random = Random::new(seed);
+            let mut vector = || DVec3::new(random.signed(), random.signed(), random.signed());
+            world.gravity = DVec3::ZERO;
+            // What the stabiliser does not take back of its work would spin thin rods for ever.
+            world.damping = Damping { linear: 3.0, angular: 3.0 };
+            for body in &mut world.bodies {
+                let reach = if name == "linkage" { 0.1 } else { 0.5 };
+                body.position += reach * vector();
+                body.rotation = rotation(2.0 * reach * vector()) * body.rotation;
+            }
+            let mut dynamics = world.start(Integrator::RungeKutta);
+            let before = dynamics.joint_error();
+            let still = vec![[0.0; 6]; world.bodies.len()];
+            let mut fastest = 0.0_f64;
+            for _ in 0..720 {
+                step(&mut dynamics, DT, &still);
+                fastest = dynamics.bodies.iter().fold(fastest, |s, b| s.max(b.velocity.length()));
+            }
+            let after = dynamics.joint_error();
+            assert!(before > 0.01 && after < TOGETHER, "seed {seed}, {name}: {before} m, then {after} m apart");
+            assert!(fastest < 50.0, "seed {seed}, {name}: as fast as {fastest} m/s");
+            assert!(dynamics.system().largest_error() < TOGETHER, "seed {seed}, {name}: an angle is off");
+        }
+    }
+}
+
+/// A trunk with two arms and a hand, on a nail, by balls and hinges.
+fn branches() -> World {
+    let joints = [DVec3::ZERO, DVec3::NEG_Y * 0.4, DVec3::NEG_Y * 0.4, DVec3::new(0.3, -0.6, 0.0)];
+    let ends =
+        [DVec3::NEG_Y * 0.4, DVec3::new(0.3, -0.6, 0.0), DVec3::new(-0.3, -0.6, 0.1), DVec3::new(0.5, -0.7, 0.2)];
+    let mut world = World::new((0..4).map(|i| rod(0.2, joints[i], ends[i])).collect());
+    world.pin("nail", 0, None, joints[0]);
+    world.pin("shoulder", 1, Some(0), joints[1]);
+    world.hinge("other shoulder", 2, Some(0), joints[2], DVec3::Z);
+    world.hinge("wrist", 3, Some(1), joints[3], DVec3::new(0.6, 0.0, 0.8));
+    world
+}

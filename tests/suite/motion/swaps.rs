@@ -1,0 +1,74 @@
+//! Orientations that take turns: a wheel's axle is led from one axis to another, critically damped.
+
+use soffio::articulation::{Constraint, ConstraintKind, Function, Schedule, Window};
+use soffio::math::{DVec3, PI, rotation};
+
+use super::{DT, INTEGRATORS, OMEGA, World, step, wheel};
+
+/// When the rows change; inside a step.
+const CHANGE: f64 = 0.1037;
+/// The way goes by the stabiliser's law until projection closes the last of it, 1e-4 rad.
+const REACH: f64 = 1.5e-4;
+/// The rates of its end follow: ω₀ times that.
+const RATE: f64 = 2.0 * OMEGA * REACH;
+
+/// A wheel on a nail whose axle is held along `from`, then along `to`; all in the frame `turn`.
+fn swapping(from: DVec3, to: DVec3, turn: DVec3, spin: f64) -> World {
+    let frame = rotation(turn);
+    let (from, to) = (frame * from, frame * to);
+    let third = from.cross(to);
+    let mut wheel = wheel(0.5, 2e-3, DVec3::ZERO);
+    wheel.rotation = soffio::math::DQuat::from_rotation_arc(DVec3::Z, from);
+    wheel.angular_velocity = spin * from;
+    let mut world = World::new(vec![wheel]);
+    world.pin("nail", 0, None, DVec3::ZERO);
+    let before = Window { start: f64::NEG_INFINITY, end: CHANGE };
+    let after = Window { start: CHANGE, end: f64::INFINITY };
+    let axle = world.axis(Some(0), from);
+    for (name, across, window) in
+        [("from-1", to, before), ("from-2", third, before), ("to-1", from, after), ("to-2", third, after)]
+    {
+        let b = world.axis(None, across);
+        let kind = ConstraintKind::Orientation { a: axle, b, angle: Function::default() };
+        let schedule = Schedule { windows: vec![window], ..Schedule::default() };
+        world.constraints.push(Constraint { schedule, ..Constraint::new(name, kind) });
+    }
+    world
+}
+
+#[test]
+fn a_wheel_goes_from_axis_to_axis_smoothly() {
+    let axes = DVec3::AXES;
+    for integrator in INTEGRATORS {
+        for (from, to) in [(2, 1), (1, 2), (0, 1), (1, 0), (0, 2), (2, 0)] {
+            for (turn, spin) in [(DVec3::ZERO, 0.0), (DVec3::ZERO, 8.0), (DVec3::new(0.3, -0.8, 0.5), 3.0)] {
+                let case = format!("{integrator:?}, axis {from} to {to} turned by {turn}, {spin} rad/s");
+                let world = swapping(axes[from], axes[to], turn, spin);
+                let axle = rotation(turn) * axes[from];
+                let goal = rotation(turn) * axes[to];
+                let mut dynamics = world.start(integrator);
+                let mut before = dynamics.bodies[0].angular_velocity;
+                let (mut jump, mut last) = (0.0_f64, 0.0);
+                for index in 0..240 {
+                    step(&mut dynamics, DT, &[[0.0; 6]]);
+                    let t = f64::from(index + 1) * DT;
+                    let now = dynamics.bodies[0].rotation * world.axis(Some(0), axle).direction;
+                    let angle = now.dot(axle).clamp(-1.0, 1.0).acos();
+                    // It may choose the way, not the law: C = π/2 (1 + ω₀t) exp(−ω₀t).
+                    let since = (t - CHANGE).max(0.0);
+                    let expected = 0.5 * PI * (1.0 - (1.0 + OMEGA * since) * (-OMEGA * since).exp());
+                    assert!((angle - expected).abs() < REACH, "{case}: {angle} rad against {expected} rad at {t} s");
+                    let rate = dynamics.bodies[0].angular_velocity;
+                    jump = jump.max((rate - before).length());
+                    (before, last) = (rate, angle);
+                }
+                let side = (dynamics.bodies[0].rotation * world.axis(Some(0), axle).direction).dot(goal).abs();
+                assert!((side - 1.0).abs() < 1e-12, "{case}: it ends {last} rad away");
+                // No jerk beyond what the stabiliser asks at the start: ω₀² π/2, and the spin that is carried along.
+                let allowed = (OMEGA * OMEGA * 0.5 * PI + OMEGA * spin) * DT + RATE;
+                assert!(jump < allowed, "{case}: ω jumps by {jump}, at most {allowed} rad/s");
+                assert!(dynamics.joint_error() < super::CLOSED);
+            }
+        }
+    }
+}
