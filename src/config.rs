@@ -33,6 +33,8 @@ pub struct Config {
     pub breath: Breath,
     /// Microphone and loudspeaker.
     pub audio: AudioSettings,
+    /// Other ways to blow and to aim.
+    pub controllers: ControllerSettings,
     /// What happens when nobody is there.
     pub attract: AttractSettings,
     /// Staff only.
@@ -141,6 +143,69 @@ impl Default for AudioSettings {
     }
 }
 
+/// Other ways to blow and to aim than microphone, pointer and glass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ControllerSettings {
+    /// Which kinds are listened to.
+    pub listen: Vec<ControllerKind>,
+    /// Key, or switch that acts as one, that blows while it is held, as it is called on a US keyboard.
+    pub key: String,
+    /// How fast a stick at its end or an arrow key moves the aim, heights of the picture a second.
+    pub stick_speed: f64,
+    /// Any part of the name of the MIDI port; empty takes the first instrument there is.
+    pub midi: String,
+    /// Number of the control change that is breath.
+    pub midi_controller: u8,
+    /// Address and port at which OSC messages are heard.
+    pub osc: String,
+    /// Device of a serial line.
+    pub serial: String,
+    /// Speed of the serial line, bits a second.
+    pub serial_baud: u32,
+}
+
+impl Default for ControllerSettings {
+    fn default() -> Self {
+        Self {
+            listen: vec![ControllerKind::Gamepad, ControllerKind::Midi],
+            key: "Space".into(),
+            stick_speed: 0.7,
+            midi: String::new(),
+            midi_controller: 2,
+            osc: "127.0.0.1:9000".into(),
+            serial: String::new(),
+            serial_baud: 115_200,
+        }
+    }
+}
+
+/// A kind of controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ControllerKind {
+    /// Gamepads and adaptive controllers.
+    Gamepad,
+    /// MIDI breath controllers.
+    Midi,
+    /// Messages over the network.
+    Osc,
+    /// A sensor on a serial line.
+    Serial,
+}
+
+impl ControllerKind {
+    /// As the file spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gamepad => "gamepad",
+            Self::Midi => "midi",
+            Self::Osc => "osc",
+            Self::Serial => "serial",
+        }
+    }
+}
+
 /// What happens when nobody is there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -204,6 +269,9 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
     Limit { key: "audio.volume_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.block_ms", low: 2.0, high: 100.0, unit: "ms" },
+    Limit { key: "controllers.stick_speed", low: 0.05, high: 5.0, unit: "1/s" },
+    Limit { key: "controllers.midi_controller", low: 0.0, high: 127.0, unit: "1" },
+    Limit { key: "controllers.serial_baud", low: 300.0, high: 4e6, unit: "1/s" },
     Limit { key: "attract.idle_s", low: 1.0, high: 3600.0, unit: "s" },
 ];
 

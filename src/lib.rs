@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! math, noise → geometry → bodies → collision, articulation → dynamics | wind | sound → exhibit → simulation
-//!             → config → audio_io | render → offline, kiosk → commands
+//!             → config → audio_io | controllers | render → offline, kiosk → commands
 //! ```
 //!
 //! Everything down to `simulation` is pure and deterministic: no clock, file (but `exhibit`'s loader), device,
@@ -28,6 +28,8 @@ pub mod wind;
 
 #[cfg(feature = "kiosk")]
 pub mod audio_io;
+#[cfg(feature = "kiosk")]
+pub mod controllers;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
 #[cfg(feature = "kiosk")]

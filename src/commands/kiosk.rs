@@ -76,6 +76,7 @@ pub fn run(args: Args) -> Outcome {
         exhibit: exhibit.clone(),
         settings,
         audio: config.audio.clone(),
+        controllers: config.controllers.clone(),
         recording: recording.map(|recording| WavFeed::new(recording.samples, recording.sample_rate)),
         idle_s: config.attract.enabled.then_some(config.attract.idle_s),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),

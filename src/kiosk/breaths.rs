@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::stage::Controls;
 use crate::simulation::{BreathView, STEPS_PER_SECOND};
 
 /// Where a breath came from.
@@ -14,11 +15,13 @@ pub enum Source {
     Microphone,
     /// A button, finger or key is held.
     Hold,
+    /// A breath controller: gamepad trigger, MIDI, OSC, serial line.
+    Controller,
     /// The attract script.
     Script,
 }
 
-const SOURCES: [Source; 3] = [Source::Microphone, Source::Hold, Source::Script];
+const SOURCES: [Source; 4] = [Source::Microphone, Source::Hold, Source::Controller, Source::Script];
 
 /// What there is to say about one source.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,15 +48,22 @@ pub struct Breaths {
 
 impl Breaths {
     /// Takes notice of a step and what blew in it; what began or ended.
-    pub fn note(&mut self, step: u64, breath: &BreathView, hold: bool, attracts: bool) -> impl Iterator<Item = Turn> {
+    pub fn note(
+        &mut self,
+        step: u64,
+        breath: &BreathView,
+        controls: &Controls,
+        attracts: bool,
+    ) -> impl Iterator<Item = Turn> {
         let from_microphone = breath.estimate.speed;
         let turns = std::array::from_fn::<_, { SOURCES.len() }, _>(|i| {
             let lasts = self.running[i].is_some();
             let speed = match SOURCES[i] {
                 Source::Microphone => from_microphone,
-                Source::Hold if hold || lasts && breath.speed > from_microphone => breath.speed,
+                Source::Hold if controls.hold || lasts && breath.speed > from_microphone => breath.speed,
+                Source::Controller if controls.strength > 0.0 => breath.speed,
                 Source::Script if attracts => breath.speed,
-                Source::Hold | Source::Script => 0.0,
+                Source::Hold | Source::Controller | Source::Script => 0.0,
             };
             match &mut self.running[i] {
                 Some((_, peak)) if speed > 0.0 => {
@@ -80,6 +90,7 @@ impl fmt::Display for Source {
         f.write_str(match self {
             Self::Microphone => "microphone",
             Self::Hold => "hold",
+            Self::Controller => "controller",
             Self::Script => "script",
         })
     }
@@ -109,7 +120,10 @@ mod tests {
     #[test]
     fn each_source_begins_and_ends_by_itself() {
         let mut breaths = Breaths::default();
-        let mut turns = |step, view: BreathView, hold| breaths.note(step, &view, hold, false).collect::<Vec<_>>();
+        let mut turns = |step, view: BreathView, hold| {
+            let controls = Controls { hold, ..Controls::default() };
+            breaths.note(step, &view, &controls, false).collect::<Vec<_>>()
+        };
         assert_eq!(turns(0, view(0.0, 0.0), false), []);
         assert_eq!(turns(1, view(9.0, 0.0), true), [Turn::Begins(Source::Hold, 9.0)]);
         // The microphone answers in the middle of the hold.
@@ -124,10 +138,10 @@ mod tests {
     #[test]
     fn the_script_is_no_visitor() {
         let mut breaths = Breaths::default();
-        let begins: Vec<_> = breaths.note(0, &view(3.0, 0.0), false, true).collect();
+        let begins: Vec<_> = breaths.note(0, &view(3.0, 0.0), &Controls::default(), true).collect();
         assert_eq!(begins, [Turn::Begins(Source::Script, 3.0)]);
         // A visitor's breath ends the show within the step.
-        let both: Vec<_> = breaths.note(1, &view(4.0, 4.0), false, false).collect();
+        let both: Vec<_> = breaths.note(1, &view(4.0, 4.0), &Controls::default(), false).collect();
         assert_eq!(both[0], Turn::Begins(Source::Microphone, 4.0));
         assert!(matches!(both[1], Turn::Ends { source: Source::Script, .. }), "{both:?}");
     }

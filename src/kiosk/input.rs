@@ -1,6 +1,6 @@
 //! What a visitor does with pointer, touch and keys, as what the simulation and the overlay are told.
 //!
-//! One action, many ways to do it: aim with pointer or finger; blow by holding button, finger or space bar. The
+//! One action, many ways to do it: aim with pointer, finger or arrow keys; blow by holding button, finger or a key. The
 //! place where a pointer happens to lie when the window opens is nobody's aim: it counts once it has moved.
 //!
 //! Invariant: whatever holds a blow lets go of it at the latest when the window loses the focus.
@@ -83,13 +83,27 @@ pub struct Visitor {
     resting: Option<[f64; 2]>,
     button: bool,
     finger: Option<u64>,
-    space: bool,
+    key: bool,
+    /// Arrow keys held: left, right, up, down.
+    arrows: [bool; 4],
     activity: u64,
+}
+
+/// Names of the arrow keys, in the order of `Visitor::arrows`.
+const ARROWS: [&str; 4] = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
+
+/// Keys that the site chooses.
+#[derive(Clone, Copy, Debug)]
+pub struct Keys<'a> {
+    /// Opens the staff panel.
+    pub staff: &'a Chord,
+    /// Blows while it is held.
+    pub blow: &'a str,
 }
 
 impl Visitor {
     /// Takes in a signal. `windowed` says that this is somebody's desk and not the gallery.
-    pub fn signal(&mut self, signal: &Signal, staff_chord: &Chord, windowed: bool) -> Option<Request> {
+    pub fn signal(&mut self, signal: &Signal, keys: Keys, windowed: bool) -> Option<Request> {
         match signal {
             Signal::Pointer(at) => self.pointer(*at),
             Signal::Button(down) => {
@@ -99,9 +113,11 @@ impl Visitor {
             Signal::Touch { finger, at, phase } => self.touch(*finger, *at, *phase),
             Signal::Key(key) => {
                 self.activity += 1;
-                return self.key(key, staff_chord, windowed);
+                return self.key(key, keys, windowed);
             }
-            Signal::Deserted => (self.button, self.finger, self.space) = (false, None, false),
+            Signal::Deserted => {
+                (self.button, self.finger, self.key, self.arrows) = (false, None, false, [false; 4]);
+            }
         }
         None
     }
@@ -113,7 +129,13 @@ impl Visitor {
 
     /// Is a blow held?
     pub fn holds(&self) -> bool {
-        self.button || self.finger.is_some() || self.space
+        self.button || self.finger.is_some() || self.key
+    }
+
+    /// Where the arrow keys push the aim, right and down, −1, 0 or 1 each.
+    pub fn stick(&self) -> [f64; 2] {
+        let [left, right, up, down] = self.arrows.map(|held| f64::from(u8::from(held)));
+        [right - left, down - up]
     }
 
     /// Inputs so far: whoever sees it grow knows that somebody is there.
@@ -161,17 +183,20 @@ impl Visitor {
         }
     }
 
-    fn key(&mut self, key: &Key, staff_chord: &Chord, windowed: bool) -> Option<Request> {
+    fn key(&mut self, key: &Key, keys: Keys, windowed: bool) -> Option<Request> {
         let plain = !(key.ctrl || key.alt);
         // A key that comes up lets go of the blow whatever is held with it by now.
-        if key.name == "Space" && (plain || !key.pressed) {
-            self.space = key.pressed;
+        if key.name == keys.blow && (plain || !key.pressed) {
+            self.key = key.pressed;
+        }
+        if let Some(arrow) = ARROWS.iter().position(|name| *name == key.name) {
+            self.arrows[arrow] = key.pressed && plain;
         }
         if !key.pressed || key.repeat {
             return None;
         }
         match key.name.as_str() {
-            name if staff_chord.matches(key.ctrl, key.alt, key.shift, name) => Some(Request::ToggleStaff),
+            name if keys.staff.matches(key.ctrl, key.alt, key.shift, name) => Some(Request::ToggleStaff),
             "L" if plain => Some(Request::NextLanguage),
             "Escape" if windowed => Some(Request::Close),
             _ => None,

@@ -12,7 +12,8 @@ use std::thread::JoinHandle;
 use std::time::Instant;
 
 use crate::audio_io::{AudioIo, AudioStatus, DeviceState};
-use crate::config::AudioSettings;
+use crate::config::{AudioSettings, ControllerSettings};
+use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
@@ -31,6 +32,8 @@ pub struct Options {
     pub settings: Settings,
     /// Devices.
     pub audio: AudioSettings,
+    /// Other ways to blow and to aim.
+    pub controllers: ControllerSettings,
     /// A recording in the microphone's place.
     pub recording: Option<WavFeed>,
     /// Idle time before attract mode, s; `None` without attract mode.
@@ -71,6 +74,8 @@ pub struct Load {
     pub dropped: u64,
     /// What the devices say.
     pub audio: AudioStatus,
+    /// What the controllers say, by kind.
+    pub controllers: Vec<(&'static str, State)>,
 }
 
 impl Frame {
@@ -191,6 +196,8 @@ struct Thread {
     stage: Stage,
     trace: Option<TraceWriter>,
     audio: AudioIo,
+    controllers: Controllers,
+    stick_speed: f64,
     shared: Arc<Shared>,
     limit: u64,
     seed: u64,
@@ -211,6 +218,8 @@ impl Thread {
             stage,
             trace,
             audio,
+            controllers: Controllers::start(&options.controllers),
+            stick_speed: options.controllers.stick_speed,
             shared,
             limit: options.steps.unwrap_or(u64::MAX),
             seed: options.settings.seed,
@@ -259,6 +268,7 @@ impl Thread {
         if let Some(exhibit) = controls.exhibit.take() {
             self.swap(exhibit);
         }
+        add(&mut controls, &self.controllers.reading(), self.stick_speed);
         self.heard.clear();
         self.played.clear();
         let rate = self.audio.read_microphone(&mut self.heard, &mut self.played);
@@ -276,7 +286,7 @@ impl Thread {
             self.sounds.extend_from_slice(self.stage.sounds());
             self.write_trace()?;
             let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
-            for turn in self.breaths.note(step, breath, controls.hold, self.stage.attracts()) {
+            for turn in self.breaths.note(step, breath, &controls, self.stage.attracts()) {
                 tracing::info!("{:.3} s: {turn}", step as f64 / STEPS_PER_SECOND as f64);
             }
         }
@@ -307,6 +317,8 @@ impl Thread {
 
     fn publish(&mut self, due: Instant, hears: bool) {
         self.load.audio = self.audio.status();
+        self.load.controllers.clear();
+        self.load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));
         let frame = Arc::new(Frame {
             exhibit: self.stage.exhibit().clone(),
             previous: self.previous.clone(),
@@ -319,6 +331,17 @@ impl Thread {
         });
         *lock(&self.shared.frame) = frame;
     }
+}
+
+/// Joins what the controllers say to what the window tells.
+fn add(controls: &mut Controls, reading: &Reading, stick_speed: f64) {
+    controls.hold |= reading.hold;
+    controls.strength = reading.strength;
+    controls.named = reading.aim;
+    for (speed, tilt) in controls.stick.iter_mut().zip(reading.stick) {
+        *speed += stick_speed * tilt;
+    }
+    controls.activity += reading.activity;
 }
 
 /// Builds the voice of an exhibit for a loudspeaker's rate.

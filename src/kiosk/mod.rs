@@ -12,6 +12,7 @@ pub mod input;
 pub mod live;
 pub mod overlay;
 pub mod pace;
+pub mod pointing;
 pub mod reload;
 pub mod screen;
 pub mod staff;

@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use egui::{Align2, Color32, Grid, RichText, ScrollArea, Ui};
 
 use super::live::Frame;
+use crate::controllers::State;
 
 /// Messages that are kept.
 const KEPT: usize = 30;
@@ -131,6 +132,10 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         row("steps dropped", frame.load.dropped.to_string(), false);
         row("picture", format!("{:.1} ms, {}x{}", 1e3 * vitals.frame_s, vitals.size[0], vitals.size[1]), false);
         row("graphics", vitals.adapter.to_owned(), false);
+        for (kind, state) in &frame.load.controllers {
+            let (State::Listening(said) | State::Waiting(said)) = state;
+            row(kind, said.clone(), false);
+        }
         row("loudspeaker", audio.output.to_string(), false);
         row("late blocks", audio.xruns.to_string(), audio.xruns > 0);
     });

@@ -12,14 +12,21 @@ use crate::simulation::{Command, Microphone, SAMPLES_PER_STEP, Settings, Simulat
 use crate::sound::SoundCommand;
 
 use super::attract::Attract;
+use super::pointing::Pointing;
 
 /// What the visitor does, as the window tells it.
 #[derive(Clone, Debug, Default)]
 pub struct Controls {
     /// Where the breath is aimed, picture coordinates; `None` is the centre.
     pub aim: Option<[f64; 2]>,
+    /// The last place that was named instead of pointed at, and how many were named so far.
+    pub named: Option<([f64; 2], u64)>,
+    /// Where a stick or the arrow keys point, right and down, −1 … 1 each, times their speed, picture heights/s.
+    pub stick: [f64; 2],
     /// Is a blow held?
     pub hold: bool,
+    /// How hard a breath controller is blown, 0 … 1.
+    pub strength: f64,
     /// Width over height of the picture.
     pub aspect: f64,
     /// Inputs so far.
@@ -38,6 +45,7 @@ pub struct Stage {
     attract: Option<Attract>,
     idle_s: f64,
     activity: u64,
+    pointing: Pointing,
     snapshot: Snapshot,
 }
 
@@ -48,7 +56,16 @@ impl Stage {
         let attract = idle_s.map(|idle| Attract::new(exhibit.attract.clone(), idle));
         let simulation = Simulation::new(exhibit, settings);
         let snapshot = simulation.snapshot();
-        Self { simulation, steps: 0, recording, attract, idle_s: idle_s.unwrap_or_default(), activity: 0, snapshot }
+        Self {
+            simulation,
+            steps: 0,
+            recording,
+            attract,
+            idle_s: idle_s.unwrap_or_default(),
+            activity: 0,
+            pointing: Pointing::default(),
+            snapshot,
+        }
     }
 
     /// Advances by one step. `microphone` is what was heard since the last; a recording goes before it.
@@ -59,11 +76,16 @@ impl Stage {
         self.activity = controls.activity;
         let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
         cue.commands.extend_from_slice(&controls.commands);
+        let aim = self.pointing.step(controls);
+        if cue.active {
+            self.pointing.forget();
+        }
 
         self.simulation.step(&StepInput {
             microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
             hold: controls.hold,
-            pointer: if cue.active { cue.aim } else { controls.aim },
+            strength: controls.strength,
+            pointer: if cue.active { cue.aim } else { aim },
             aspect: controls.aspect,
             commands: &cue.commands,
         });

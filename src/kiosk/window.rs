@@ -20,7 +20,7 @@ use crate::exhibit::{Label, Labels};
 use crate::simulation::Command;
 
 use super::events::translate;
-use super::input::{Request, Visitor};
+use super::input::{Keys, Request, Visitor};
 use super::live::{self, Frame, Live, Report};
 use super::overlay::{Overlay, Scene};
 use super::reload::Reload;
@@ -218,7 +218,10 @@ impl ApplicationHandler for App<'_> {
                 self.visitor.note();
                 Some(request)
             }
-            None => self.visitor.signal(&signal, &self.config.staff.chord, desk),
+            None => {
+                let keys = Keys { staff: &self.config.staff.chord, blow: &self.config.controllers.key };
+                self.visitor.signal(&signal, keys, desk)
+            }
         };
         if let Some(request) = request {
             self.grant(events, request);
@@ -375,6 +378,7 @@ impl App<'_> {
         let Some(show) = &self.show else { return };
         let mut controls = show.live.controls();
         controls.aim = self.visitor.aim();
+        controls.stick = self.visitor.stick().map(|tilt| tilt * self.config.controllers.stick_speed);
         controls.hold = self.visitor.holds();
         controls.activity = self.visitor.activity();
     }

@@ -142,6 +142,8 @@ pub struct StepInput<'a> {
     pub microphone: Option<Microphone<'a>>,
     /// Hold-to-blow (pointer, touch, key, switch).
     pub hold: bool,
+    /// How hard a breath controller is blown (gamepad trigger, MIDI, OSC, serial line), 0 … 1.
+    pub strength: f64,
     /// Pointer in picture coordinates, (0,0) top left, (1,1) bottom right; `None` is the centre.
     pub pointer: Option<[f64; 2]>,
     /// Width over height of the picture; 0 is 16:9.
@@ -213,7 +215,7 @@ impl Simulation {
             self.carry_out(&[Command::Reset]);
         }
         self.carry_out(input.commands);
-        (self.speed, self.estimate) = self.source.advance(input.microphone, input.hold, DT);
+        (self.speed, self.estimate) = self.source.advance(input, DT);
         let mended = self.dynamics.mend();
         self.take_aim(input);
         self.blow();

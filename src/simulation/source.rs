@@ -1,18 +1,41 @@
-//! Where the breath comes from: microphone, hold-to-blow, a script; joined into one source speed.
+//! Where the breath comes from, joined into one source speed: the microphone, a hold (button, finger, key, switch), a
+//! controller that says how hard (gamepad trigger, MIDI or OSC breath controller, a sensor on a serial line), a script.
+//!
+//! Whoever cannot blow is as good a visitor: the strongest source counts, and none can be stuck. A hold swells and
+//! fades as a breath does and ends when the lungs are empty; a controller that repeats the same strength for as long
+//! has been left lying, or its cable was pulled.
 
-use super::Microphone;
+use super::{Microphone, StepInput};
 use crate::math::exp;
 use crate::wind::blow::{BlowDetector, BlowEstimate};
 
 /// Speed at the lips of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
 const HELD_SPEED: f64 = 9.0;
+/// Speed at the lips of a controller at its end, m/s: the hardest blow of the detector.
+const HARDEST_SPEED: f64 = 17.0;
 /// A held breath swells and fades with these times, s.
-const ATTACK: f64 = 0.10;
-const RELEASE: f64 = 0.12;
-/// The lungs are empty after this long a hold, s; letting go fills them.
+const HELD: Swing = Swing { attack: 0.10, release: 0.12 };
+/// A controller shapes its own breath; these take the steps of seven bits out of it, s.
+const CONTROLLED: Swing = Swing { attack: 0.015, release: 0.03 };
+/// The lungs are empty after this long, s; letting go fills them.
 const LUNGS: f64 = 6.0;
 /// Slower than this is no breath, m/s.
 const STILL: f64 = 0.05;
+
+/// How fast a source follows what it is asked for, s.
+struct Swing {
+    attack: f64,
+    release: f64,
+}
+
+impl Swing {
+    /// `speed` one step of `dt` seconds later; exactly 0 soon after the goal is 0.
+    fn follow(&self, speed: f64, goal: f64, dt: f64) -> f64 {
+        let time = if goal > speed { self.attack } else { self.release };
+        let next = goal + (speed - goal) * exp(-dt / time);
+        if goal == 0.0 && next < STILL { 0.0 } else { next }
+    }
+}
 
 /// All sources of breath of one kiosk.
 #[derive(Default)]
@@ -20,6 +43,9 @@ pub struct BreathSource {
     detector: Option<(u32, BlowDetector)>,
     held: f64,
     held_for: f64,
+    controlled: f64,
+    /// Strength of the controllers, and for how long it has been just that.
+    strength: (f64, f64),
     commanded: Option<f64>,
 }
 
@@ -31,29 +57,78 @@ impl BreathSource {
 
     /// Hears one step of `dt` seconds. Returns the source speed (m/s, exactly 0 when nobody blows) and what the
     /// detector says.
-    pub fn advance(&mut self, microphone: Option<Microphone>, hold: bool, dt: f64) -> (f64, BlowEstimate) {
-        let estimate = match microphone {
-            Some(heard) => {
-                if self.detector.as_ref().is_none_or(|(rate, _)| *rate != heard.sample_rate) {
-                    self.detector = Some((heard.sample_rate, BlowDetector::new(heard.sample_rate)));
-                }
-                self.detector.as_mut().map_or_else(BlowEstimate::default, |(_, detector)| {
-                    detector.push(heard.samples, heard.reference);
-                    detector.estimate()
-                })
-            }
-            // Gone: the room is learnt anew when it comes back.
-            None => {
-                self.detector = None;
-                BlowEstimate::default()
-            }
+    pub fn advance(&mut self, input: &StepInput, dt: f64) -> (f64, BlowEstimate) {
+        let estimate = self.hear(input.microphone);
+        self.held_for = if input.hold { self.held_for + dt } else { 0.0 };
+        let hold = input.hold && self.held_for < LUNGS;
+        self.held = HELD.follow(self.held, if hold { HELD_SPEED } else { 0.0 }, dt);
+
+        let strength = if input.strength.is_finite() { input.strength.clamp(0.0, 1.0) } else { 0.0 };
+        let unchanged = if strength == self.strength.0 { self.strength.1 + dt } else { 0.0 };
+        self.strength = (strength, unchanged);
+        let goal = if unchanged < LUNGS { HARDEST_SPEED * strength } else { 0.0 };
+        self.controlled = CONTROLLED.follow(self.controlled, goal, dt);
+
+        let commanded = self.commanded.unwrap_or(0.0);
+        (estimate.speed.max(self.held).max(self.controlled).max(commanded), estimate)
+    }
+
+    fn hear(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
+        // Gone: the room is learnt anew when it comes back.
+        let Some(heard) = microphone else {
+            self.detector = None;
+            return BlowEstimate::default();
         };
-        self.held_for = if hold { self.held_for + dt } else { 0.0 };
-        let (goal, time) = if hold && self.held_for < LUNGS { (HELD_SPEED, ATTACK) } else { (0.0, RELEASE) };
-        self.held = goal + (self.held - goal) * exp(-dt / time);
-        if goal == 0.0 && self.held < STILL {
-            self.held = 0.0;
+        if self.detector.as_ref().is_none_or(|(rate, _)| *rate != heard.sample_rate) {
+            self.detector = Some((heard.sample_rate, BlowDetector::new(heard.sample_rate)));
         }
-        (estimate.speed.max(self.held).max(self.commanded.unwrap_or(0.0)), estimate)
+        self.detector.as_mut().map_or_else(BlowEstimate::default, |(_, detector)| {
+            detector.push(heard.samples, heard.reference);
+            detector.estimate()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f64 = 1.0 / 240.0;
+
+    /// Speeds of so many seconds of the same input.
+    fn blow(source: &mut BreathSource, input: &StepInput, seconds: f64) -> Vec<f64> {
+        (0..(seconds / DT) as usize).map(|_| source.advance(input, DT).0).collect()
+    }
+
+    #[test]
+    fn a_controller_blows_as_hard_as_it_says_and_at_once() {
+        let mut source = BreathSource::default();
+        let half = StepInput { strength: 0.5, ..StepInput::default() };
+        let speeds = blow(&mut source, &half, 0.2);
+        // Within 5 % after three times the attack.
+        assert!((speeds[11] - 8.5).abs() < 0.05 * 8.5, "{}", speeds[11]);
+        let after = blow(&mut source, &StepInput::default(), 0.3);
+        assert_eq!(after.last(), Some(&0.0));
+        for wrong in [f64::NAN, f64::INFINITY, -1.0] {
+            let input = StepInput { strength: wrong, ..StepInput::default() };
+            assert!(blow(&mut source, &input, 0.1).iter().all(|&speed| speed == 0.0), "{wrong}");
+        }
+        let beyond = StepInput { strength: 7.0, ..StepInput::default() };
+        assert!(blow(&mut source, &beyond, 0.5).iter().all(|&speed| speed <= HARDEST_SPEED));
+    }
+
+    #[test]
+    fn nothing_held_or_left_lying_blows_for_ever() {
+        for input in
+            [StepInput { hold: true, ..StepInput::default() }, StepInput { strength: 0.3, ..StepInput::default() }]
+        {
+            let mut source = BreathSource::default();
+            let speeds = blow(&mut source, &input, LUNGS + 1.0);
+            assert!(speeds[240] > 5.0 && speeds[(5.9 / DT) as usize] > 5.0, "{input:?}");
+            assert_eq!(speeds.last(), Some(&0.0), "{input:?}");
+            // Letting go fills the lungs.
+            blow(&mut source, &StepInput::default(), 0.1);
+            assert!(blow(&mut source, &input, 1.0).last().is_some_and(|&speed| speed > 5.0), "{input:?}");
+        }
     }
 }

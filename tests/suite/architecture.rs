@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["exhibit"],
     &["simulation"],
     &["config"],
-    &["audio_io", "render"],
+    &["audio_io", "controllers", "render"],
     &["offline"],
     &["kiosk"],
     &["commands"],
@@ -64,6 +64,10 @@ const KEPT_APART: &[(&str, &[&str])] = &[
     ("winit::", &["kiosk", "commands"]),
     ("egui::", &["kiosk"]),
     ("gltf::", &["exhibit"]),
+    ("gilrs::", &["controllers"]),
+    ("midir::", &["controllers"]),
+    ("rosc::", &["controllers"]),
+    ("serialport::", &["controllers"]),
 ];
 
 fn source_files() -> Vec<PathBuf> {

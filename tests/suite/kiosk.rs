@@ -145,7 +145,7 @@ mod live {
     use soffio::config::Chord;
     use soffio::exhibit::{Attract as Script, AttractAction, AttractStep};
     use soffio::kiosk::attract::Attract;
-    use soffio::kiosk::input::{Key, Phase, Request, Signal, Visitor};
+    use soffio::kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
     use soffio::kiosk::pace::{MOST_BEHIND, Pacer};
     use soffio::kiosk::reload::Reload;
     use soffio::kiosk::words::{WORDS, language_name, words};
@@ -183,7 +183,7 @@ mod live {
     }
 
     fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
-        visitor.signal(&signal, &chord(), false)
+        visitor.signal(&signal, Keys { staff: &chord(), blow: "Space" }, false)
     }
 
     #[test]
@@ -221,6 +221,25 @@ mod live {
     }
 
     #[test]
+    fn a_switch_of_the_sites_choice_blows_and_arrows_aim() {
+        let mut visitor = Visitor::default();
+        let chord = chord();
+        let mut press = |name: &str, down: bool| {
+            visitor.signal(&key(name, down), Keys { staff: &chord, blow: "F9" }, false);
+            (visitor.holds(), visitor.stick())
+        };
+        assert_eq!(press("Space", true), (false, [0.0, 0.0]));
+        assert_eq!(press("F9", true), (true, [0.0, 0.0]));
+        assert_eq!(press("ArrowUp", true), (true, [0.0, -1.0]));
+        assert_eq!(press("ArrowRight", true), (true, [1.0, -1.0]));
+        assert_eq!(press("ArrowLeft", true), (true, [0.0, -1.0]), "left and right at once is neither");
+        press("ArrowRight", false);
+        assert_eq!(press("F9", false), (false, [-1.0, -1.0]));
+        tell(&mut visitor, Signal::Deserted);
+        assert_eq!(visitor.stick(), [0.0, 0.0], "a window that loses the focus hears no release");
+    }
+
+    #[test]
     fn the_first_finger_aims_and_a_second_changes_nothing() {
         let mut visitor = Visitor::default();
         let touch = |finger, x, phase| Signal::Touch { finger, at: [x, 0.5], phase };
@@ -245,12 +264,16 @@ mod live {
             for held in 0..7 {
                 let (ctrl, alt, shift) = (held & 1 > 0, held & 2 > 0, held & 4 > 0);
                 let key = Key { name: name.into(), pressed: true, repeat: false, ctrl, alt, shift };
-                let asked = visitor.signal(&Signal::Key(key), &chord(), false);
+                let asked = tell(&mut visitor, Signal::Key(key));
                 let staff = name == "S" && ctrl && alt && !shift;
                 assert_eq!(asked, staff.then_some(Request::ToggleStaff), "{name} {held:03b}");
             }
         }
-        assert_eq!(visitor.signal(&key("Escape", true), &chord(), true), Some(Request::Close), "on a desk it may");
+        assert_eq!(
+            visitor.signal(&key("Escape", true), Keys { staff: &chord(), blow: "Space" }, true),
+            Some(Request::Close),
+            "on a desk it may"
+        );
     }
 
     #[test]
