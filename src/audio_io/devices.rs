@@ -9,6 +9,9 @@ use cpal::{BufferSize, Device, Host, HostId, SampleFormat, StreamConfig, Support
 /// The rate that spares all conversion, Hz.
 const PREFERRED_RATE: u32 = crate::simulation::SAMPLE_RATE;
 
+/// How the sound server ends the name of what a loudspeaker plays.
+const MONITOR: &str = ".monitor";
+
 /// Where sound goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
@@ -37,6 +40,8 @@ pub struct Listed {
 pub struct Chosen {
     /// The device.
     pub device: Device,
+    /// For the configuration.
+    pub id: String,
     /// As the system calls it.
     pub name: String,
     /// Rate, channels, block.
@@ -52,11 +57,33 @@ fn hosts() -> impl Iterator<Item = Host> {
     ids.into_iter().filter_map(|id| cpal::host_from_id(id).ok())
 }
 
+/// Whoever owns the machine's sound: the sound server if there is one, or else the driver. What a driver calls its
+/// default beside a server is that server again, by a longer way.
+fn owner() -> impl Iterator<Item = Host> {
+    let answers = |host: &Host| host.output_devices().is_ok_and(|mut devices| devices.next().is_some());
+    let mut served = false;
+    hosts().take_while(move |host| !std::mem::replace(&mut served, host.id() == HostId::PulseAudio && answers(host)))
+}
+
+/// The system's own choice. When a microphone is pulled out, a sound server may call the loudspeaker's own sound the
+/// microphone from then on; that is never meant, so any other goes before it.
 fn default_device(host: &Host, direction: Direction) -> Option<Device> {
     match direction {
-        Direction::Input => host.default_input_device(),
+        Direction::Input => {
+            let is_ear = |device: &Device| !id(device).ends_with(MONITOR);
+            let others = || host.input_devices().ok().and_then(|mut devices| devices.find(is_ear));
+            host.default_input_device().filter(is_ear).or_else(others)
+        }
         Direction::Output => host.default_output_device(),
     }
+}
+
+/// Is this device of [`Chosen::id`] still there? A sound server moves the stream of one that is pulled out to another,
+/// without a word. A host that does not answer says nothing.
+pub fn is_present(direction: Direction, wanted: &str) -> bool {
+    let there = |host: Host| all_devices(&host, direction).map(|devices| devices.iter().any(|d| id(d) == wanted));
+    let prefix = wanted.split(':').next().unwrap_or_default();
+    hosts().filter(|host| host.id().to_string() == prefix).all(|host| there(host).unwrap_or(true))
 }
 
 fn all_devices(host: &Host, direction: Direction) -> Result<Vec<Device>, cpal::Error> {
@@ -119,7 +146,8 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
         "" => format!("this machine has no {kind}"),
         _ => format!("no {kind} is called \"{wanted}\"; `soffio devices` lists them"),
     };
-    for host in hosts() {
+    let hosts: Vec<Host> = if wanted.is_empty() { owner().collect() } else { hosts().collect() };
+    for host in hosts {
         let device = if wanted.is_empty() {
             default_device(&host, direction)
         } else {
@@ -138,7 +166,7 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
         };
         let Some(device) = device else { continue };
         match configure(&device, direction, block_ms) {
-            Ok((config, format)) => return Ok(Chosen { name: name(&device), device, config, format }),
+            Ok((config, format)) => return Ok(Chosen { id: id(&device), name: name(&device), device, config, format }),
             Err(error) => problem = format!("{}: {error}", name(&device)),
         }
     }

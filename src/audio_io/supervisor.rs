@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use cpal::traits::{DeviceTrait, StreamTrait};
 use cpal::{BufferSize, Device, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
 
-use super::devices::{Chosen, Direction, choose};
+use super::devices::{Chosen, Direction, choose, is_present};
 use super::input::{self, Ears, Recorder};
 use super::output::{self, Engine, Player, Voice, Workshop};
 use super::{AudioSettings, AudioStatus, DeviceState, SynthFactory};
@@ -21,6 +21,10 @@ use crate::math::from_decibels;
 const LOOK: Duration = Duration::from_millis(100);
 /// A device that asks for no block for this long is lost.
 const STALLED: Duration = Duration::from_secs(3);
+/// Between two looks whether the device is still listed.
+const ROLL_CALL: Duration = Duration::from_secs(1);
+/// From so many blocks on their length is judged.
+const ENOUGH_BLOCKS: u64 = 50;
 /// The first pause before a device is tried again, and the longest.
 const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(10));
 
@@ -43,6 +47,8 @@ pub(super) enum Link {
 struct Health {
     /// Blocks so far.
     blocks: AtomicU64,
+    /// Frames of the longest block.
+    longest: AtomicU64,
     /// Gaps so far.
     xruns: AtomicU64,
     /// Why the stream is over.
@@ -50,6 +56,12 @@ struct Health {
 }
 
 impl Health {
+    /// A callback had so many frames.
+    fn block(&self, frames: usize) {
+        self.blocks.fetch_add(1, Ordering::Relaxed);
+        self.longest.fetch_max(frames as u64, Ordering::Relaxed);
+    }
+
     fn report(&self, error: &cpal::Error) {
         match error.kind() {
             ErrorKind::Xrun => {
@@ -67,23 +79,53 @@ impl Health {
 
 /// One device over all its lives.
 struct Line {
+    direction: Direction,
+    /// Of the device that is open.
+    id: String,
+    called: Instant,
     stream: Option<Stream>,
     health: Arc<Health>,
     seen: (u64, Instant),
     retry_at: Instant,
     pause: Duration,
+    /// Hz.
+    sample_rate: u32,
+    /// Has the log been told how long its blocks are?
+    told: bool,
     /// Gaps of earlier lives.
     xruns: u64,
 }
 
 impl Line {
-    fn new() -> Self {
+    fn new(direction: Direction) -> Self {
         let now = Instant::now();
-        Self { stream: None, health: Arc::default(), seen: (0, now), retry_at: now, pause: BACK_OFF.0, xruns: 0 }
+        let (health, seen) = (Arc::default(), (0, now));
+        Self {
+            direction,
+            id: String::new(),
+            called: now,
+            stream: None,
+            health,
+            seen,
+            retry_at: now,
+            pause: BACK_OFF.0,
+            sample_rate: 1,
+            told: false,
+            xruns: 0,
+        }
     }
 
     fn xruns(&self) -> u64 {
         self.xruns + self.health.xruns.load(Ordering::Relaxed)
+    }
+
+    /// Length of its longest block, ms: told once in a life, when there were enough of them to judge.
+    fn tell_block(&mut self) -> Option<f64> {
+        if self.told || self.health.blocks.load(Ordering::Relaxed) < ENOUGH_BLOCKS {
+            return None;
+        }
+        self.told = true;
+        Some(1e3 * self.health.longest.load(Ordering::Relaxed) as f64 / f64::from(self.sample_rate))
     }
 
     /// Why the stream is over, if it is.
@@ -100,6 +142,12 @@ impl Line {
         } else if self.seen.1.elapsed() > STALLED {
             return Some(format!("the device stood still for {} s", STALLED.as_secs()));
         }
+        if self.called.elapsed() > ROLL_CALL {
+            self.called = Instant::now();
+            if !is_present(self.direction, &self.id) {
+                return Some("it was pulled out".into());
+            }
+        }
         None
     }
 
@@ -115,8 +163,10 @@ impl Line {
         self.stream.is_none() && Instant::now() >= self.retry_at
     }
 
-    fn opened(&mut self, stream: Stream) {
+    fn opened(&mut self, stream: Stream, id: String, sample_rate: u32) {
         self.stream = Some(stream);
+        (self.id, self.called) = (id, Instant::now());
+        (self.sample_rate, self.told) = (sample_rate, false);
         self.seen = (0, Instant::now());
     }
 }
@@ -148,8 +198,8 @@ impl Supervisor {
             inbox,
             links,
             status,
-            microphone: Line::new(),
-            loudspeaker: Line::new(),
+            microphone: Line::new(Direction::Input),
+            loudspeaker: Line::new(Direction::Output),
             workshop: None,
         }
     }
@@ -159,6 +209,11 @@ impl Supervisor {
         loop {
             self.tend_loudspeaker();
             self.tend_microphone();
+            for (name, line) in [("microphone", &mut self.microphone), ("loudspeaker", &mut self.loudspeaker)] {
+                if let Some(length) = line.tell_block() {
+                    tracing::info!("{name} in blocks of {length:.1} ms");
+                }
+            }
             let xruns = self.microphone.xruns() + self.loudspeaker.xruns();
             self.tell(|status| status.xruns = xruns);
             match self.inbox.recv_timeout(LOOK) {
@@ -204,7 +259,7 @@ impl Supervisor {
             return;
         }
         let result = choose(Direction::Output, &self.settings.loudspeaker, self.settings.block_ms).and_then(|chosen| {
-            let Chosen { device, name, config, format } = chosen;
+            let Chosen { device, id, name, config, format } = chosen;
             let gain = from_decibels(self.settings.volume_db.min(0.0)) as f32;
             let open = |config: StreamConfig| {
                 let (player, voice, workshop) = output::open(config.sample_rate, config.channels.into(), gain);
@@ -212,12 +267,12 @@ impl Supervisor {
                 Ok((stream, voice, workshop))
             };
             let (stream, voice, workshop) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
-            Ok((stream, voice, workshop, name, config.sample_rate))
+            Ok((stream, voice, workshop, id, name, config.sample_rate))
         });
         match result {
-            Ok((stream, voice, workshop, name, sample_rate)) => {
+            Ok((stream, voice, workshop, id, name, sample_rate)) => {
                 tracing::info!("loudspeaker: {name}, {sample_rate} Hz");
-                self.loudspeaker.opened(stream);
+                self.loudspeaker.opened(stream, id, sample_rate);
                 self.workshop = Some((workshop, sample_rate));
                 self.install_synth();
                 self.link(Link::Loudspeaker(Some(voice)));
@@ -241,19 +296,19 @@ impl Supervisor {
             return;
         }
         let result = choose(Direction::Input, &self.settings.microphone, self.settings.block_ms).and_then(|chosen| {
-            let Chosen { device, name, config, format } = chosen;
+            let Chosen { device, id, name, config, format } = chosen;
             let open = |config: StreamConfig| {
                 let (channels, channel) = (config.channels.into(), self.settings.microphone_channel);
                 let (recorder, ears) = input::open(config.sample_rate, channels, channel);
                 Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, ears))
             };
             let (stream, ears) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
-            Ok((stream, ears, name, config.sample_rate))
+            Ok((stream, ears, id, name, config.sample_rate))
         });
         match result {
-            Ok((stream, ears, name, sample_rate)) => {
+            Ok((stream, ears, id, name, sample_rate)) => {
                 tracing::info!("microphone: {name}, {sample_rate} Hz");
-                self.microphone.opened(stream);
+                self.microphone.opened(stream, id, sample_rate);
                 self.link(Link::Microphone(Some(ears)));
                 self.tell(|status| status.input = DeviceState::Ok { name, sample_rate });
             }
@@ -287,9 +342,10 @@ fn play(
         health: Arc<Health>,
     ) -> Result<Stream, cpal::Error> {
         let errors = health.clone();
+        let channels = usize::from(config.channels).max(1);
         let callback = move |data: &mut [T], _: &cpal::OutputCallbackInfo| {
             player.play(data);
-            health.blocks.fetch_add(1, Ordering::Relaxed);
+            health.block(data.len() / channels);
         };
         let stream = device.build_output_stream(config, callback, move |error| errors.report(&error), None)?;
         stream.play()?;
@@ -324,9 +380,10 @@ fn record(
         f32: FromSample<T>,
     {
         let errors = health.clone();
+        let channels = usize::from(config.channels).max(1);
         let callback = move |data: &[T], _: &cpal::InputCallbackInfo| {
             recorder.record(data);
-            health.blocks.fetch_add(1, Ordering::Relaxed);
+            health.block(data.len() / channels);
         };
         let stream = device.build_input_stream(config, callback, move |error| errors.report(&error), None)?;
         stream.play()?;

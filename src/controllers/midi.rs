@@ -2,6 +2,7 @@
 //!
 //! The library calls back on its own thread; a port that is pulled out is noticed because it is no longer listed.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use midir::{Ignore, MidiInput, MidiInputConnection};
@@ -12,6 +13,8 @@ use super::{Driver, Slot};
 const CLIENT: &str = "soffio";
 /// Between two looks whether the port is still there.
 const ROLL_CALL: Duration = Duration::from_secs(2);
+/// Where Linux has its MIDI ports.
+const SEQUENCER: &str = "/dev/snd/seq";
 /// The kernel's own patch bay, which nobody blows into.
 const NOT_AN_INSTRUMENT: &str = "Midi Through";
 
@@ -72,6 +75,10 @@ impl Driver for Midi {
 }
 
 fn client() -> Result<MidiInput, String> {
+    // Without its device ALSA's library would complain on stderr at each look.
+    if cfg!(target_os = "linux") && !Path::new(SEQUENCER).exists() {
+        return Err(format!("no MIDI here: there is no {SEQUENCER} (kernel module snd-seq)"));
+    }
     MidiInput::new(CLIENT).map_err(|error| format!("no MIDI here: {error}"))
 }
 

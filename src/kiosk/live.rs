@@ -19,10 +19,14 @@ use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{Microphone, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{SoundCommand, Synth};
+use crate::wind::blow::Reason;
 
-use super::breaths::Breaths;
+use super::breaths::{Breaths, Turn};
 use super::pace::Pacer;
 use super::stage::{Controls, Stage};
+
+/// A microphone that sends exact zeros for this long is muted, or its cable is out: 3 s.
+const MUTED_STEPS: u64 = 3 * STEPS_PER_SECOND;
 
 /// What a run is made of.
 pub struct Options {
@@ -61,8 +65,19 @@ pub struct Frame {
     pub attract_text: Option<String>,
     /// Is there a microphone, or a recording in its place?
     pub hears: bool,
+    /// When the last breath began.
+    pub onset: Option<Onset>,
     /// For staff.
     pub load: Load,
+}
+
+/// The beginning of a breath, from whatever source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Onset {
+    /// The first step with wind, as its snapshot counts.
+    pub step: u64,
+    /// When that step was published.
+    pub at: Instant,
 }
 
 /// How the thread is doing.
@@ -72,6 +87,8 @@ pub struct Load {
     pub step_s: f64,
     /// Steps of time that were dropped so far.
     pub dropped: u64,
+    /// Does the microphone send nothing but exact silence?
+    pub silent: bool,
     /// What the devices say.
     pub audio: AudioStatus,
     /// What the controllers say, by kind.
@@ -81,7 +98,7 @@ pub struct Load {
 impl Frame {
     /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
     pub fn is_deaf(&self) -> bool {
-        !self.hears && matches!(self.load.audio.input, DeviceState::Missing(_))
+        !self.hears && (self.load.silent || matches!(self.load.audio.input, DeviceState::Missing(_)))
     }
 
     /// Is it certain that there is no loudspeaker?
@@ -138,6 +155,7 @@ impl Live {
             attracts: false,
             attract_text: None,
             hears: options.recording.is_some(),
+            onset: None,
             load: Load::default(),
         };
         let shared = Arc::new(Shared {
@@ -207,6 +225,11 @@ struct Thread {
     played: Vec<f32>,
     sounds: Vec<SoundCommand>,
     breaths: Breaths,
+    onset: Option<Onset>,
+    /// The step that was published last.
+    published: u64,
+    /// Steps of exact silence from the microphone until now.
+    silent_steps: u64,
     load: Load,
 }
 
@@ -228,6 +251,9 @@ impl Thread {
             played: Vec::new(),
             sounds: Vec::new(),
             breaths: Breaths::default(),
+            onset: None,
+            published: 0,
+            silent_steps: 0,
             load: Load::default(),
         }
     }
@@ -287,19 +313,26 @@ impl Thread {
             self.write_trace()?;
             let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
             for turn in self.breaths.note(step, breath, &controls, self.stage.attracts()) {
+                if matches!(turn, Turn::Begins(..)) {
+                    self.onset = Some(Onset { step: self.stage.snapshot().step, at: Instant::now() });
+                }
                 tracing::info!("{:.3} s: {turn}", step as f64 / STEPS_PER_SECOND as f64);
             }
         }
         let each = before.elapsed().as_secs_f64() / due as f64;
         self.load.step_s += 0.02 * (each - self.load.step_s);
         self.audio.send(self.stage.sample(), &self.sounds);
-        Ok(rate.is_some() || self.recorded)
+        let silent = rate.is_some() && self.stage.snapshot().breath.estimate.reason == Reason::NoSignal;
+        self.silent_steps = if silent { self.silent_steps + due } else { 0 };
+        self.load.silent = self.silent_steps > MUTED_STEPS;
+        Ok(rate.is_some() && !self.load.silent || self.recorded)
     }
 
     /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
         self.audio.set_instruments(synth(&exhibit, self.seed));
         self.stage.swap(exhibit);
+        self.onset = None;
         if let Some(trace) = self.trace.take() {
             match trace.finish() {
                 Ok(_) => tracing::warn!("the trace ends here: the exhibit was loaded anew"),
@@ -319,6 +352,12 @@ impl Thread {
         self.load.audio = self.audio.status();
         self.load.controllers.clear();
         self.load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));
+        if let Some(onset) = &mut self.onset
+            && onset.step > self.published
+        {
+            onset.at = Instant::now();
+        }
+        self.published = self.stage.snapshot().step;
         let frame = Arc::new(Frame {
             exhibit: self.stage.exhibit().clone(),
             previous: self.previous.clone(),
@@ -327,6 +366,7 @@ impl Thread {
             attracts: self.stage.attracts(),
             attract_text: self.stage.attract_text().map(str::to_owned),
             hears,
+            onset: self.onset,
             load: self.load.clone(),
         });
         *lock(&self.shared.frame) = frame;

@@ -36,6 +36,8 @@ pub struct Vitals<'a> {
     pub size: [u32; 2],
     /// Seconds since the kiosk began.
     pub time: f64,
+    /// From the last breath's first wind to its first picture, s.
+    pub sight_s: f64,
 }
 
 /// The panel and its messages.
@@ -131,6 +133,7 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         row("step", format!("{:.3} ms of 4.167", 1e3 * frame.load.step_s), frame.load.step_s > 1.0 / 240.0);
         row("steps dropped", frame.load.dropped.to_string(), false);
         row("picture", format!("{:.1} ms, {}x{}", 1e3 * vitals.frame_s, vitals.size[0], vitals.size[1]), false);
+        row("wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);
         row("graphics", vitals.adapter.to_owned(), false);
         for (kind, state) in &frame.load.controllers {
             let (State::Listening(said) | State::Waiting(said)) = state;

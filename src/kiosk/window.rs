@@ -17,11 +17,11 @@ use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::config::Config;
 use crate::exhibit::{Label, Labels};
-use crate::simulation::Command;
+use crate::simulation::{Command, Snapshot};
 
 use super::events::translate;
 use super::input::{Keys, Request, Visitor};
-use super::live::{self, Frame, Live, Report};
+use super::live::{self, Frame, Live, Onset, Report};
 use super::overlay::{Overlay, Scene};
 use super::reload::Reload;
 use super::screen::{Drawn, Screen};
@@ -82,6 +82,7 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
         deaf: false,
         mute: false,
         clock: Clock::new(),
+        sight: Sight::default(),
         lost: 0,
         missing: None,
         failure: None,
@@ -137,6 +138,34 @@ impl Clock {
     }
 }
 
+/// From the step with the first wind of a breath to the first picture that shows it.
+#[derive(Default)]
+struct Sight {
+    onset: Option<Onset>,
+    /// Of the last breath, s.
+    seconds: f64,
+    /// When the picture before this one was begun.
+    before: Option<Instant>,
+}
+
+impl Sight {
+    /// A picture of `moment`, begun at `begun`, has just been handed to the display.
+    fn note(&mut self, frame: &Frame, moment: &Snapshot, begun: Instant) {
+        let before = self.before.replace(begun);
+        if let Some(onset) = frame.onset.filter(|&onset| moment.step >= onset.step && self.onset != Some(onset)) {
+            self.onset = Some(onset);
+            self.seconds = onset.at.elapsed().as_secs_f64();
+            let place = if before.is_none_or(|before| before <= onset.at) { "the next picture" } else { "a later one" };
+            tracing::info!(
+                "the breath of step {} is seen {:.1} ms after it, in {place} (step {})",
+                onset.step,
+                1e3 * self.seconds,
+                moment.step
+            );
+        }
+    }
+}
+
 struct App<'a> {
     config: Config,
     instance: wgpu::Instance,
@@ -158,6 +187,7 @@ struct App<'a> {
     deaf: bool,
     mute: bool,
     clock: Clock,
+    sight: Sight,
     lost: u32,
     missing: Option<Missing>,
     failure: Option<String>,
@@ -271,7 +301,13 @@ impl App<'_> {
         let moment = frame.moment(now);
         let view = frame.exhibit.view(show.screen.aspect());
         let size = show.screen.size();
-        let vitals = Vitals { adapter: &adapter, frame_s: self.clock.frame_s, size, time: self.clock.seconds(now) };
+        let vitals = Vitals {
+            adapter: &adapter,
+            frame_s: self.clock.frame_s,
+            size,
+            time: self.clock.seconds(now),
+            sight_s: self.sight.seconds,
+        };
         let mut wish = None;
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
             self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
@@ -293,6 +329,9 @@ impl App<'_> {
             self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &scene);
             wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
         });
+        if drawn == Drawn::Shown {
+            self.sight.note(&frame, &moment, now);
+        }
         self.follow_attract(&frame);
         self.follow_devices(&frame);
         match wish {
@@ -337,6 +376,7 @@ impl App<'_> {
         if frame.is_deaf() != self.deaf {
             self.deaf = frame.is_deaf();
             self.say(match self.deaf {
+                true if frame.load.silent => "the microphone is silent: muted, or its cable is out".into(),
                 true => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
                 false => "the microphone listens".into(),
             });

@@ -3,8 +3,10 @@
 #
 #   paplay -d mic_in F.wav     somebody makes a sound before the microphone
 #   parec -d speakers.monitor  what the loudspeaker plays
+#   parec -d air.monitor       both at once on one clock: the first channel is what the microphone hears
 #
-# The null sinks are timers, not hardware: `norewinds` keeps them from swallowing the first two seconds of a stream.
+# All sound is in one sink, which is a timer, not hardware: `norewinds` keeps it from swallowing the first two seconds
+# of a stream. Microphone and loudspeaker are channels of it.
 
 room=$(mktemp -d)
 started=()
@@ -58,15 +60,15 @@ enter_room() {
     unset WAYLAND_DISPLAY RUST_LOG PULSE_SINK PULSE_SOURCE
     cat >"$room/room.pa" <<'PA'
 load-module module-native-protocol-unix auth-anonymous=1
-load-module module-null-sink sink_name=mic_in rate=48000 channels=1 channel_map=mono format=float32le norewinds=1
-load-module module-remap-source master=mic_in.monitor source_name=mic
-load-module module-null-sink sink_name=speakers rate=48000 channels=2 format=float32le norewinds=1
+load-module module-null-sink sink_name=air rate=48000 channels=3 channel_map=aux0,aux1,aux2 format=float32le norewinds=1
+load-module module-remap-sink sink_name=mic_in master=air channels=1 channel_map=mono master_channel_map=aux0 remix=no
+load-module module-remap-sink sink_name=speakers master=air channels=2 channel_map=front-left,front-right master_channel_map=aux1,aux2 remix=no
 set-default-sink speakers
-set-default-source mic
 PA
     start pulse pulseaudio -n -F "$room/room.pa" --daemonize=no --exit-idle-time=-1 --use-pid-file=no --disallow-exit \
         --realtime=no --high-priority=no
     within 10 pactl info || { cat "$room/pulse.err" >&2; return 1; }
+    plug_microphone
     # The server finds a free number itself and says which.
     start xvfb Xvfb -displayfd 1 -screen 0 "${1:-1280x720}x24" -nolisten tcp
     within 10 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
@@ -75,6 +77,16 @@ PA
     # Without a window manager no window becomes fullscreen.
     start openbox openbox
     within 10 xdotool get_desktop
+}
+
+# The microphone's plug.
+plug_microphone() {
+    pactl load-module module-remap-source source_name=mic master=air.monitor channels=1 channel_map=mono \
+        master_channel_map=aux0 remix=no >"$room/plug"
+    pactl set-default-source mic
+}
+pull_microphone() {
+    pactl unload-module "$(cat "$room/plug")"
 }
 
 # Kiosk under test: its log is $room/$1.err. A debug build on software graphics opens its window within seconds.
@@ -137,6 +149,23 @@ breaths() {
 level() { # level RAW FROM SECONDS
     sox -t raw -r 48000 -c 2 -e float -b 32 "$1" -n trim "$2" "$3" stats 2>&1 |
         awk '/^RMS lev dB/ { print ($4 == "-inf" || $4 < -140) ? -140 : $4; found = 1 } END { if (!found) print -140 }'
+}
+
+# Moments, s, at which one channel (from 1) of a recording of the air gets louder than a level (dB of full scale, 5 ms)
+# after at least a second below it.
+onsets() { # onsets RAW CHANNEL LEVEL
+    sox -t raw -r 48000 -c 3 -e float -b 32 "$1" -t raw -c 1 -e float -b 32 - remix "$2" | od -An -v -w960 -tf4 |
+        awk -v loud="$3" '{
+            sum = 0
+            for (i = 1; i <= NF; i++) sum += $i * $i
+            if (10 * log(sum / NF + 1e-14) / log(10) > loud) { if (quiet >= 200) print (NR - 1) / 200; quiet = 0 }
+            else quiet++
+        }'
+}
+
+# Longest block of a kiosk's device, ms.
+block() { # block KIOSK microphone|loudspeaker
+    sed -nE "s/.* $2 in blocks of ([0-9.]+) ms.*/\\1/p" "$room/$1.err" | tail -1
 }
 
 # Is an arithmetic comparison true?

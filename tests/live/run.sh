@@ -46,7 +46,7 @@ breath() { sox "$recordings/$1.wav" -r 48000 -e float -b 32 "$room/$1.wav"; }
 a_visitor() {
     local before during speech t_on t_off at
     start_kiosk visitor --no-attract --trace "$room/visitor.csv" --for 26
-    within 10 grep -q 'microphone: ' "$room/visitor.err"
+    within 10 grep -q 'supervisor: microphone: ' "$room/visitor.err"
     start speakers parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 \
         --raw
     local recorder=$last t_rec
@@ -86,6 +86,39 @@ a_visitor() {
     bar "speech moves nothing" "$turn < 0.2 && $shift < 0.2" "$turn degrees, $shift mm"
 }
 
+# ---- from the lips to wind, sound and picture -----------------------------------------------------------------------
+# Sound: on one clock, from the breath at the microphone (5 ms louder than −45 dBFS) to the loudspeaker (−60 dBFS).
+# Wind and picture: the kiosk's own stamps. What a debug build on software graphics takes for a picture says nothing of
+# a kiosk; that it is the next picture does.
+latency() {
+    local breaths=(strong normal strong normal strong) name took seen
+    start_kiosk latency --no-attract --for 40
+    within 10 grep -q 'supervisor: microphone: ' "$room/latency.err"
+    start air parec -d air.monitor --rate=48000 --channels=3 --channel-map=aux0,aux1,aux2 --format=float32le \
+        --latency-msec=20 --raw
+    local recorder=$last
+    within 5 test -s "$room/air.out"
+    sleep 3
+    for name in "${breaths[@]}"; do
+        before_microphone "$room/$name.wav"
+        sleep 2
+    done
+    kill "$recorder"
+    wait "$recorder" 2>/dev/null || true
+    end_kiosk latency
+    # Onsets after at least a second of quiet, channel by channel, in blocks of 240 frames.
+    took=$(paste <(onsets "$room/air.out" 1 -45) <(onsets "$room/air.out" 2 -60) |
+        awk 'NF == 2 { print int(1000 * ($2 - $1)) }' | sort -n | xargs)
+    local median most
+    median=$(echo "$took" | tr ' ' '\n' | sed -n 3p)
+    most=${took##* }
+    # A detector may take 140 ms; a block of microphone and one of loudspeaker, a step and the attack of the sound.
+    bar "breath to sound" "$(echo "$took" | wc -w) == 5 && $median <= 220 && $most <= 350" \
+        "$took ms, blocks of $(block latency microphone) and $(block latency loudspeaker) ms"
+    seen=$(sed -nE 's/.* seen ([0-9.]+) ms after it, in the next picture.*/\1/p' "$room/latency.err" | xargs)
+    bar "breath to picture" "$(echo "$seen" | wc -w) == 5" "$seen ms after its first wind, each time in the next picture"
+}
+
 # ---- the kiosk never answers itself, even beside its loudspeaker, and hears a breath over its own sound -------------------------------------
 own_voice() {
     local loud before t_on t_off begun ended
@@ -94,7 +127,7 @@ own_voice() {
     close_the_loop 12
     start ears parec -d mic_in.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 --raw
     start_kiosk own --no-attract --config "$room/loud.toml" --for 30
-    within 10 grep -q 'microphone: ' "$room/own.err"
+    within 10 grep -q 'supervisor: microphone: ' "$room/own.err"
     sleep 2
     for place in "340 300" "925 280"; do
         # shellcheck disable=SC2086
@@ -124,6 +157,38 @@ own_voice() {
     end_kiosk own
     open_the_loop
 }
+
+# ---- ten times the microphone is pulled out and put in again --------------------------------------------------------
+replugged() {
+    local i heard=0 module before t_on
+    start_kiosk replugged --no-attract --trace "$room/replugged.csv" --for 90
+    within 10 grep -q 'supervisor: microphone: ' "$room/replugged.err"
+    for i in {1..10}; do
+        before=$(grep -c 'supervisor: microphone: ' "$room/replugged.err")
+        pull_microphone
+        within 8 lost_times replugged "$i"
+        plug_microphone
+        # It is tried again after 1, 2, 4 … s; it worked since, so after one.
+        within 8 listens_times replugged $((before + 1)) || break
+    done
+    bar "ten times replugged" "$(grep -c 'microphone lost' "$room/replugged.err") == 10 && $(grep -c 'supervisor: microphone: ' "$room/replugged.err") == 11" \
+        "lost $(grep -c 'microphone lost' "$room/replugged.err") times, $(grep -c 'supervisor: microphone: ' "$room/replugged.err") times opened"
+    # A breath while it is out, and one after it is back.
+    pull_microphone
+    within 8 lost_times replugged 11
+    before_microphone "$room/strong.wav"
+    bar "pulled out: no wind" "$(breaths replugged microphone begins | wc -l) == 0" "$(breaths replugged microphone begins | wc -l) breaths heard"
+    plug_microphone
+    within 12 listens_times replugged 12
+    sleep 2
+    before_microphone "$room/strong.wav"
+    sleep 1
+    bar "back: it listens" "$(breaths replugged microphone begins | wc -l) == 1" "$(breaths replugged microphone begins | wc -l) breaths heard"
+    kill "$kiosk" 2>/dev/null || true
+    wait "$kiosk" 2>/dev/null || true
+}
+lost_times() { [ "$(grep -c 'microphone lost' "$room/$1.err")" -ge "$2" ]; }
+listens_times() { [ "$(grep -c 'supervisor: microphone: ' "$room/$1.err")" -ge "$2" ]; }
 
 # ---- live and offline are one run ------------------------------------------------------------------------------
 one_run() {
@@ -205,7 +270,7 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS:-a_visitor own_voice one_run no_devices no_display}; do
+for part in ${SOFFIO_LIVE_PARTS:-a_visitor latency replugged own_voice one_run no_devices no_display}; do
     "$part"
 done
 if [ -n "${SOFFIO_LIVE_SECONDS:-}" ]; then
