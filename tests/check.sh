@@ -22,7 +22,7 @@ states() {
 }
 exhibits() { cargo run --locked --quiet -- check exhibits kiosk-config/kiosk.toml; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
-live()     { cargo build --locked --quiet && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
+live()     { cargo build --locked --quiet --bins --example correlate && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
 
 # Longer runs than a change needs: each leaves its mark in out/long and is not run again until the sources change.
 long() {

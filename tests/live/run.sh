@@ -11,7 +11,8 @@ root=$(readlink -f "$here/../..")
 soffio=$(readlink -f "${1:?usage: tests/live/run.sh PATH-OF-SOFFIO}")
 exhibit=$root/exhibits/steel-fish
 recordings=$exhibit/breaths
-for tool in Xvfb openbox xdotool import compare pulseaudio pactl paplay parec sox espeak-ng; do
+correlate=$(dirname "$soffio")/examples/correlate
+for tool in strace Xvfb openbox xdotool import compare pulseaudio pactl paplay parec sox espeak-ng; do
     command -v "$tool" >/dev/null || { echo "live: $tool is missing; ./check installs it" >&2; exit 3; }
 done
 . "$here/room.sh"
@@ -158,6 +159,52 @@ own_voice() {
     open_the_loop
 }
 
+# ---- no sample of the microphone is ever written, sent, or mapped where others read it -----------------------------
+# A known noise is played at the microphone of a kiosk whose every write and send is traced; its shared memory is read
+# while it runs, and every file that it leaves afterwards. Nothing of it may resemble the noise; planted copies must.
+privacy() {
+    local address pid kiosk_soffio=$soffio found=0 planted
+    if ! strace -f --seccomp-bpf -o /dev/null true 2>/dev/null; then
+        echo "live: SKIP  privacy                  this machine lets no process be traced"
+        return
+    fi
+    sox -R -n -r 48000 -c 1 -e float -b 32 "$room/known.wav" synth 4 whitenoise norm -12
+    sox "$room/known.wav" -t raw "$room/known.f32"
+    sox "$room/known.wav" -r 16000 -t raw -e signed -b 16 "$room/planted.i16"
+    od -An -v -w4 -tf4 "$room/known.f32" | awk '{ printf "%.5f,%s\n", NR / 48000, $1 }' >"$room/planted.csv"
+    od -An -v -w16 -tx1 "$room/known.f32" | sed 's/ /\\x/g; s/.*/write(7, "&", 16) = 16/' >"$room/planted.strace"
+    # Pictures are written to the display: a small one keeps the trace small.
+    start small Xvfb -displayfd 1 -screen 0 160x90x24 -nolisten tcp
+    within 10 test -s "$room/small.out"
+    address=:$(cat "$room/small.out")
+    DISPLAY=$address start manager openbox
+    DISPLAY=$address within 10 xdotool get_desktop
+    cat >"$room/traced" <<TRACED
+#!/bin/sh
+exec strace -f --seccomp-bpf -qq -s 1048576 -xx -o $room/kiosk.strace \
+    -e trace=write,pwrite64,writev,pwritev,pwritev2,sendto,sendmsg,sendmmsg $kiosk_soffio "\$@"
+TRACED
+    chmod +x "$room/traced"
+    touch "$room/before"
+    DISPLAY=$address soffio=$room/traced start_kiosk privacy --no-attract --for 16
+    within 20 grep -q 'supervisor: microphone: ' "$room/privacy.err"
+    sleep 2
+    before_microphone "$room/known.wav"
+    pid=$(pgrep -f "^$kiosk_soffio kiosk" | tail -1)
+    grep 'rw-s' "/proc/$pid/maps" | while IFS=' -' read -r from to _; do
+        dd if="/proc/$pid/mem" bs=4096 iflag=skip_bytes,count_bytes skip=$((0x$from)) count=$((0x$to - 0x$from)) 2>/dev/null || true
+    done >"$room/kiosk.mapped"
+    end_kiosk privacy
+    mapfile -t left < <(find "$HOME" "$XDG_RUNTIME_DIR" "$root/out" /dev/shm -type f -newer "$room/before" 2>/dev/null)
+    local heard
+    heard=$(grep -c . "$room/kiosk.strace")
+    planted=$("$correlate" "$room/known.f32" "$room"/planted.* | grep -c FOUND || true)
+    "$correlate" "$room/known.f32" "$room/kiosk.strace" "$room/kiosk.mapped" "$room/privacy.err" "${left[@]}" \
+        >"$room/privacy.correlate" || found=1
+    bar "privacy" "$found == 0 && $planted == 3 && $heard > 1000" \
+        "$planted of 3 planted copies found; $heard writes and sends, ${#left[@]} files: at most $(awk '$2 > m { m = $2 } END { print m }' "$room/privacy.correlate")"
+}
+
 # ---- ten times the microphone is pulled out and put in again --------------------------------------------------------
 replugged() {
     local i heard=0 module before t_on
@@ -270,7 +317,7 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS:-a_visitor latency replugged own_voice one_run no_devices no_display}; do
+for part in ${SOFFIO_LIVE_PARTS:-a_visitor latency replugged privacy own_voice one_run no_devices no_display}; do
     "$part"
 done
 if [ -n "${SOFFIO_LIVE_SECONDS:-}" ]; then
