@@ -135,6 +135,44 @@ mod callback {
     }
 
     #[test]
+    fn from_microphone_to_wind_the_delay_does_not_grow_in_an_hour() {
+        use std::time::Duration;
+
+        // A crystal 300 millionths fast, blocks of 10 ms, a kiosk that wakes when it likes and once stands still for 1 s.
+        const RATE: f64 = 48_000.0 * 1.0003;
+        const BLOCK: u64 = 480;
+        // A block waits for its end; nothing else may wait.
+        const LONGEST_S: f64 = BLOCK as f64 / RATE + 1e-6;
+        let (mut recorder, mut ears) = input::open(48_000, 1, 1);
+        let mut pacer = soffio::kiosk::pace::Pacer::default();
+        let mut random = soffio::noise::Random::new(5);
+        let (mut now, mut sent, mut heard_in_all) = (0.0, 0_u64, 0_u64);
+        let mut heard = Vec::new();
+        while now < 3600.0 {
+            let nap = if (now..now + 0.02).contains(&1800.0) { 1.0 } else { random.range(1e-4, 0.012) };
+            now += nap;
+            while (sent + BLOCK) as f64 / RATE <= now {
+                // 24 bits of the sample's own number: what a float holds exactly.
+                let block: Vec<f32> = (sent..sent + BLOCK).map(|i| (i % (1 << 24)) as f32 / (1 << 24) as f32).collect();
+                recorder.record(&block);
+                sent += BLOCK;
+            }
+            if pacer.due(Duration::from_secs_f64(now)) == 0 {
+                continue;
+            }
+            heard.clear();
+            heard_in_all += ears.read(&mut heard) as u64;
+            assert_eq!(heard_in_all, sent, "at {now} s samples wait or are lost");
+            if let Some(&last) = heard.last() {
+                assert_eq!((f64::from(last) * f64::from(1 << 24)) as u64, (sent - 1) % (1 << 24), "at {now} s");
+                let age = now - sent as f64 / RATE;
+                assert!(age < LONGEST_S + nap, "at {now} s the newest sample is {age} s old");
+            }
+        }
+        assert!(pacer.dropped() > 200, "the standstill was one");
+    }
+
+    #[test]
     fn hits_keep_their_distance_while_the_clocks_drift() {
         // A loudspeaker 200 ppm fast with blocks of 480 against steps of 200 samples; hits every 0.1 s.
         // Jitter allowed: the block's sawtooth through a filter of 480 looks, plus rounding.
