@@ -89,6 +89,9 @@ pub struct Breath {
     pub profile: Profile,
     /// Multiplies the force of the breath on top of the profile's own gain.
     pub gain: f64,
+    /// Added to the microphone's level before it becomes a speed, dB: how strong a breath is taken to be, never whether
+    /// it is one. `soffio doctor --blow` proposes it.
+    pub sensitivity_db: f64,
     /// Distance of the lips before the sculpture, m.
     pub distance_m: f64,
     /// Diameter of the blowing lips, m.
@@ -101,6 +104,7 @@ impl Default for Breath {
         Self {
             profile: settings.profile,
             gain: settings.breath_gain,
+            sensitivity_db: settings.sensitivity_db,
             distance_m: settings.distance,
             lip_diameter_m: settings.lip_diameter,
         }
@@ -264,6 +268,7 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "screen.mm_per_px", low: 0.05, high: 2.0, unit: "mm" },
     Limit { key: "screen.software_fps", low: 2.0, high: 60.0, unit: "1/s" },
     Limit { key: "breath.gain", low: 0.1, high: 10.0, unit: "1" },
+    Limit { key: "breath.sensitivity_db", low: -40.0, high: 40.0, unit: "dB" },
     Limit { key: "breath.distance_m", low: 0.1, high: 2.0, unit: "m" },
     Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
@@ -295,6 +300,7 @@ impl Config {
         Settings {
             profile: self.breath.profile,
             breath_gain: self.breath.gain,
+            sensitivity_db: self.breath.sensitivity_db,
             distance: self.breath.distance_m,
             lip_diameter: self.breath.lip_diameter_m,
             seed,

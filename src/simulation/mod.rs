@@ -87,6 +87,8 @@ impl Profile {
 pub struct Settings {
     /// How a breath becomes wind.
     pub profile: Profile,
+    /// Added to the microphone's level before it becomes a speed, dB.
+    pub sensitivity_db: f64,
     /// Multiplies the force of the breath on top of the profile's own gain.
     pub breath_gain: f64,
     /// Distance of the lips before the target, m.
@@ -105,6 +107,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             profile: Profile::Gallery,
+            sensitivity_db: 0.0,
             breath_gain: 1.0,
             distance: 0.5,
             lip_diameter: 0.01,
@@ -192,7 +195,7 @@ impl Simulation {
             settings,
             step: 0,
             start_step: 0,
-            source: BreathSource::default(),
+            source: BreathSource::new(settings.sensitivity_db),
             aim: Aim::default(),
             aim_targets: Vec::new(),
             front: Front::default(),

@@ -7,7 +7,7 @@
 
 use super::{Microphone, StepInput};
 use crate::math::exp;
-use crate::wind::blow::{BlowDetector, BlowEstimate};
+use crate::wind::blow::{BlowDetector, BlowEstimate, BlowSettings};
 
 /// Speed at the lips of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
 const HELD_SPEED: f64 = 9.0;
@@ -40,6 +40,7 @@ impl Swing {
 /// All sources of breath of one kiosk.
 #[derive(Default)]
 pub struct BreathSource {
+    settings: BlowSettings,
     detector: Option<(u32, BlowDetector)>,
     held: f64,
     held_for: f64,
@@ -50,6 +51,11 @@ pub struct BreathSource {
 }
 
 impl BreathSource {
+    /// Sources whose microphone's level counts so many dB more.
+    pub fn new(sensitivity_db: f64) -> Self {
+        Self { settings: BlowSettings { sensitivity_db, ..BlowSettings::default() }, ..Self::default() }
+    }
+
     /// Sets or releases the commanded speed, m/s.
     pub fn command(&mut self, speed: Option<f64>) {
         self.commanded = speed.filter(|s| s.is_finite()).map(|s| s.max(0.0));
@@ -80,7 +86,8 @@ impl BreathSource {
             return BlowEstimate::default();
         };
         if self.detector.as_ref().is_none_or(|(rate, _)| *rate != heard.sample_rate) {
-            self.detector = Some((heard.sample_rate, BlowDetector::new(heard.sample_rate)));
+            self.detector =
+                Some((heard.sample_rate, BlowDetector::with_settings(heard.sample_rate, self.settings.clone())));
         }
         self.detector.as_mut().map_or_else(BlowEstimate::default, |(_, detector)| {
             detector.push(heard.samples, heard.reference);

@@ -488,7 +488,9 @@ mod stage {
 }
 
 mod room {
-    use soffio::commands::doctor::{Health, judge_room};
+    use soffio::commands::doctor::{Health, judge_blow, judge_room};
+    use soffio::wind::blow::{BlowDetector, BlowEstimate, BlowSettings};
+    use soffio::wind::generate::{self, BreathShape};
 
     const RATE: u32 = 48_000;
 
@@ -513,5 +515,34 @@ mod room {
             assert_eq!(finding.health, health, "{what}: {finding:?}");
             assert!(finding.remedy.contains(word), "{what}: {finding:?}");
         }
+    }
+
+    /// What the detector says every 20 ms of a normal breath whose samples were so many dB louder.
+    fn blown(gain_db: f64, sensitivity_db: f64) -> Vec<BlowEstimate> {
+        let gain = soffio::math::from_decibels(gain_db) as f32;
+        let breath = generate::breath(RATE, 7, &BreathShape::default());
+        let settings = BlowSettings { sensitivity_db, ..BlowSettings::default() };
+        let mut detector = BlowDetector::with_settings(RATE, settings);
+        let hear = |block: &[f32]| {
+            let samples: Vec<f32> = block.iter().map(|x| (gain * x).clamp(-1.0, 1.0)).collect();
+            detector.push(&samples, &[]);
+            detector.estimate()
+        };
+        breath.chunks(RATE as usize / 50).map(hear).collect()
+    }
+
+    #[test]
+    fn the_doctor_proposes_a_sensitivity_that_makes_a_normal_breath_normal() {
+        for gain_db in [-24.0, -12.0] {
+            let finding = judge_blow(&blown(gain_db, 0.0), 0.0);
+            assert_eq!(finding.health, Health::Warn, "{finding:?}");
+            let proposed = finding.remedy.split("sensitivity_db = ").nth(1).and_then(|rest| rest.split(' ').next());
+            let proposed: f64 = proposed.and_then(|number| number.parse().ok()).expect("a number in the remedy");
+            let again = judge_blow(&blown(gain_db, proposed), proposed);
+            assert_eq!(again.health, Health::Ok, "{gain_db} dB, {proposed} dB proposed: {again:?}");
+        }
+        assert_eq!(judge_blow(&[], 0.0).health, Health::Bad);
+        let railed = judge_blow(&blown(40.0, 0.0), 0.0);
+        assert!(railed.health == Health::Warn && railed.remedy.contains("gain down"), "{railed:?}");
     }
 }

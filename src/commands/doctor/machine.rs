@@ -1,0 +1,135 @@
+//! Screen, graphics and sound of this machine.
+
+use std::time::{Duration, Instant};
+
+use super::{Finding, Health, judge_blow, judge_room};
+use crate::audio_io::{AudioIo, DeviceState};
+use crate::config::Config;
+use crate::kiosk::{fonts, window};
+use crate::render::Gpu;
+use crate::sound::Synth;
+use crate::wind::blow::{BlowDetector, BlowEstimate, BlowSettings, Reason};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// How long the room is listened to.
+const LISTEN: Duration = Duration::from_millis(1100);
+/// How long a breath is waited for.
+const PATIENCE: Duration = Duration::from_secs(12);
+/// Range of the meter, dB below full scale.
+const METER: u64 = 80;
+/// Longest wait for the devices to open.
+const OPENING: Duration = Duration::from_secs(3);
+
+/// All that can be found out without a visitor, or with the help of one who blows.
+pub fn look(config: &Config, blow: bool) -> Vec<Finding> {
+    let mut findings = vec![display(), graphics(), east_asian()];
+    findings.extend(sound(config, blow));
+    findings
+}
+
+fn display() -> Finding {
+    let finding = match window::event_loop() {
+        Ok(_) => Finding::new("display", Health::Ok, "windows can be opened", ""),
+        Err(error) => {
+            let remedy = "start it in a graphical session, where DISPLAY or WAYLAND_DISPLAY is set; without one \
+                          the exhibit runs into files";
+            Finding::new("display", Health::Bad, error, remedy)
+        }
+    };
+    finding.of_device()
+}
+
+fn graphics() -> Finding {
+    let finding = match Gpu::headless() {
+        Ok(gpu) if gpu.is_software() => {
+            let remedy = "the processor draws, a few pictures a second: install the graphics card's Vulkan driver";
+            Finding::new("graphics", Health::Warn, gpu.name(), remedy)
+        }
+        Ok(gpu) => Finding::new("graphics", Health::Ok, gpu.name(), ""),
+        Err(error) => {
+            let remedy = "install a Vulkan driver; mesa-vulkan-drivers has one for every machine";
+            Finding::new("graphics", Health::Bad, error.to_string(), remedy)
+        }
+    };
+    finding.of_device()
+}
+
+fn east_asian() -> Finding {
+    let what = "fonts for Chinese, Japanese and Korean";
+    match fonts::find_east_asian() {
+        Some((file, _)) => Finding::new(what, Health::Ok, file.display().to_string(), ""),
+        None => {
+            let remedy = "install fonts-noto-cjk or fonts-nanum; until then these languages are not offered";
+            Finding::new(what, Health::Warn, "none found", remedy)
+        }
+    }
+}
+
+fn sound(config: &Config, blow: bool) -> Vec<Finding> {
+    let mut audio = AudioIo::start(&config.audio, Synth::silent);
+    let (mut heard, mut played) = (Vec::new(), Vec::new());
+    let mut rate = None;
+    let began = Instant::now();
+    let mut opened = None;
+    // Devices open on a thread of their own; the second of listening begins with the first samples.
+    while opened.map_or(began.elapsed() < OPENING, |at: Instant| at.elapsed() < LISTEN) {
+        std::thread::sleep(Duration::from_millis(20));
+        rate = audio.read_microphone(&mut heard, &mut played).or(rate);
+        if opened.is_none() && !heard.is_empty() {
+            opened = Some(Instant::now());
+        }
+    }
+    let status = audio.status();
+    let device = |what: &str, state: &DeviceState, without: &str| {
+        let finding = match state {
+            DeviceState::Ok { .. } => Finding::new(what, Health::Ok, state.to_string(), ""),
+            _ => {
+                let remedy = format!("connect one, or name it in [audio]; until then {without}");
+                Finding::new(what, Health::Bad, state.to_string(), remedy)
+            }
+        };
+        finding.of_device()
+    };
+    let mut findings = vec![
+        device("loudspeaker", &status.output, "all is silent"),
+        device("microphone", &status.input, "visitors press and hold to blow"),
+    ];
+    if let Some(rate) = rate {
+        findings.push(judge_room(&heard, rate).of_device());
+        if blow {
+            let sensitivity_db = config.breath.sensitivity_db;
+            let mut detector = BlowDetector::with_settings(rate, BlowSettings { sensitivity_db, ..Default::default() });
+            detector.push(&heard, &[]);
+            findings.push(judge_blow(&listen(&mut audio, &mut detector), sensitivity_db).of_device());
+        }
+    }
+    findings
+}
+
+/// Asks for a breath and hears it, with a meter for whoever blows.
+fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate> {
+    eprintln!("Blow at the microphone from where visitors stand, as they would, for a second or two.");
+    let began = Instant::now();
+    let meter = ProgressBar::new(METER)
+        .with_style(ProgressStyle::with_template("[{bar:40}] {msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let (mut steps, mut heard, mut played) = (Vec::new(), Vec::new(), Vec::new());
+    let mut ended = 0;
+    // Until half a second after the breath, or until nobody blows any more.
+    while began.elapsed() < PATIENCE && ended < 25 {
+        std::thread::sleep(Duration::from_millis(20));
+        heard.clear();
+        played.clear();
+        if audio.read_microphone(&mut heard, &mut played).is_none() {
+            break;
+        }
+        detector.push(&heard, &played);
+        let step = detector.estimate();
+        let blew = steps.iter().any(|s: &BlowEstimate| s.reason == Reason::Blow);
+        ended = if blew && step.reason != Reason::Blow { ended + 1 } else { 0 };
+        meter.set_position((step.level_dbfs + METER as f64).clamp(0.0, METER as f64) as u64);
+        meter.set_message(format!("{:4.0} dBFS  {:?}", step.level_dbfs, step.reason));
+        steps.push(step);
+    }
+    meter.finish_and_clear();
+    steps
+}

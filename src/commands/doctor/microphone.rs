@@ -1,0 +1,91 @@
+//! What is heard at a microphone, as findings: the room in silence, and a breath.
+
+use super::{Finding, Health};
+use crate::math::{decibels, log10};
+use crate::wind::blow::{BlowEstimate, Reason};
+
+/// What a second of sound of the room says about a microphone.
+pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
+    /// Quieter than any room through any microphone, dB of full scale: it is switched off.
+    const MUTED_DBFS: f64 = -100.0;
+    /// Louder than a room should be where a gentle breath is to stand out, dB of full scale.
+    const LOUD_DBFS: f64 = -25.0;
+    /// Share of samples at the rails from which it clips.
+    const CLIPPED: f64 = 1e-4;
+    /// Rise from the first to the last tenth of the time, dB, that only a gain that adapts makes in a steady room.
+    const CREEPING_DB: f64 = 8.0;
+    const WHAT: &str = "microphone level";
+
+    // The first tenth is left out: streams begin with silence and clicks.
+    let heard = &samples[samples.len() / 10..];
+    let peak = heard.iter().fold(0.0_f32, |peak, sample| peak.max(sample.abs()));
+    let level = |part: &[f32]| {
+        let power: f64 = part.iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+        decibels((power / part.len().max(1) as f64).sqrt())
+    };
+    let rms = level(heard);
+    let tenths: Vec<f64> = heard.chunks((heard.len() / 9).max(1)).map(level).collect();
+    let creeps = tenths.windows(2).all(|pair| pair[1] >= pair[0])
+        && tenths.first().zip(tenths.last()).is_some_and(|(first, last)| last - first > CREEPING_DB);
+    let clipped = heard.iter().filter(|sample| sample.abs() >= 0.999).count() as f64 / heard.len().max(1) as f64;
+
+    let found = match peak {
+        0.0 => "not a single sample differs from zero".to_owned(),
+        _ => format!("{rms:.1} dBFS, peak {:.1} dBFS", decibels(f64::from(peak))),
+    };
+    if heard.len() < sample_rate as usize / 2 {
+        let found = format!("{} samples in a second that has {sample_rate}", samples.len());
+        return Finding::new(WHAT, Health::Bad, found, "it hardly delivers: try another socket or another device");
+    }
+    if rms < MUTED_DBFS {
+        return Finding::new(WHAT, Health::Bad, found, "it is muted: open the input in the system's mixer");
+    }
+    if clipped > CLIPPED {
+        return Finding::new(WHAT, Health::Warn, found, "it clips: turn the input gain down");
+    }
+    if creeps {
+        let remedy = "the level creeps up by itself: switch automatic gain control and noise suppression off";
+        return Finding::new(WHAT, Health::Warn, found, remedy);
+    }
+    if rms > LOUD_DBFS {
+        return Finding::new(WHAT, Health::Warn, found, "loud for a quiet room: turn the input gain down");
+    }
+    Finding::new(WHAT, Health::Ok, found, "")
+}
+
+/// Speed at the lips of the breath that a curator is asked for, m/s: a normal one.
+const NORMAL_M_S: f64 = 9.0;
+/// Speeds within this factor of it need no other sensitivity: breaths differ by as much.
+const ALIKE: f64 = 1.35;
+
+/// What a normal breath from where visitors stand says about microphone and settings. `steps` are the detector's words
+/// while it was blown, `sensitivity_db` the setting they were heard with.
+pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
+    const WHAT: &str = "a breath";
+    let blown = || steps.iter().filter(|step| step.reason == Reason::Blow);
+    let count = blown().count();
+    if count == 0 {
+        let loudest = steps.iter().max_by(|a, b| a.level_dbfs.total_cmp(&b.level_dbfs)).copied().unwrap_or_default();
+        let found = format!(
+            "none heard: at most {:.0} dBFS over a room of {:.0}, {:?}",
+            loudest.level_dbfs, loudest.floor_dbfs, loudest.reason
+        );
+        let remedy = "blow at the capsule itself, nearer, for a second; take off thick foam; or turn the input gain up";
+        return Finding::new(WHAT, Health::Bad, found, remedy);
+    }
+    let mean = blown().map(|step| step.speed).sum::<f64>() / count as f64;
+    let rails = blown().filter(|step| step.clipping).count() as f64 / count as f64;
+    let found = format!("heard, {mean:.1} m/s at the lips, {:.0} % of it at full scale", 100.0 * rails);
+    // U goes with 10^(dB/40).
+    let wanted = (sensitivity_db + 40.0 * log10(NORMAL_M_S / mean)).clamp(-40.0, 40.0).round();
+    if rails > 0.5 && mean > NORMAL_M_S {
+        let remedy = "the input is at its end and cannot tell strong from gentle: turn the input gain down, then again";
+        return Finding::new(WHAT, Health::Warn, found, remedy);
+    }
+    if (NORMAL_M_S / ALIKE..NORMAL_M_S * ALIKE).contains(&mean) {
+        return Finding::new(WHAT, Health::Ok, found, "");
+    }
+    let remedy =
+        format!("if that was a normal breath, set breath.sensitivity_db = {wanted:.1} in kiosk-config/kiosk.toml");
+    Finding::new(WHAT, Health::Warn, found, remedy)
+}
