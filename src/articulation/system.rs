@@ -5,12 +5,16 @@
 
 use std::collections::BTreeMap;
 
+use fearless_simd::Level;
+
 use super::activity::Activity;
 use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear, vec6};
 use super::dense::Dense;
 use super::loops::{LoopRow, Loops};
 use super::rows::coupling::{self, Gauge};
 use super::rows::{Row, Scene, friction, orientation, plane, point};
+use super::hung::Hung;
+use super::quads::Quads;
 use super::spatial::{Sym3, matrix, response};
 use super::tree::{Form, JointRows, Link, Tree};
 use super::{Constraint, ConstraintKind};
@@ -51,8 +55,10 @@ pub struct Joint {
     /// Where it is one point: that point from the two bodies' centres of mass in their node axes (in the world for
     /// the world), m.
     point: Option<(DVec3, DVec3)>,
-    /// World arms of the two bodies where it is one point, hard, at the last evaluation.
+    /// World arms of the two bodies where it is one point, hard, at the last evaluation; the tree has those of `hangs`.
     arms: Option<(DVec3, DVec3)>,
+    /// The body that hangs by it, where it is always one point.
+    hangs: Option<usize>,
     /// Its block rows, where it is ever more than a point.
     block: Option<usize>,
     /// First of its rows among the loops', where it closes one (or the solver is dense).
@@ -77,7 +83,7 @@ pub struct RowState {
     /// ḟ.
     feed: f64,
     /// J̇ẋ − f̈.
-    bias: f64,
+    pub(super) bias: f64,
     /// Is C a length?
     length: bool,
     /// Constraint that it belongs to.
@@ -97,16 +103,18 @@ pub struct System {
     /// What acts now.
     pub activity: Activity,
     joints: Vec<Joint>,
+    /// Joints that are not always one point by which a body hangs.
+    various: Vec<usize>,
     couplings: Vec<Coupling>,
     blocks: Vec<JointRows>,
     states: Vec<RowState>,
     tree: Tree,
+    hung: Hung,
     loops: Loops,
     dense: Option<Dense>,
-    inertia: Vec<Sym3>,
+    quads: Quads,
+    /// Rotation matrices, where a row asks for them.
     frames: Vec<DMat3>,
-    masses: Vec<f64>,
-    inertia_world: Vec<Sym3>,
     driven: Vec<bool>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
@@ -130,7 +138,8 @@ impl System {
             .zip(&joints)
             .map(|(all, joint)| all && joint.constraints.len() == 1)
             .collect();
-        let tree = Tree::new(driven, &links, &at, &points);
+        let level = Level::new();
+        let tree = Tree::new(level, driven, &links, &at, &points);
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
@@ -166,8 +175,26 @@ impl System {
             Method::Sparse => (outside, None),
             Method::Dense => (Vec::new(), Some(Dense::new(outside, driven))),
         };
-        let inertia = bodies.iter().map(|body| Sym3::lower(&body.properties.inertia)).collect();
         let n = bodies.len();
+        for &body in tree.order() {
+            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !driven[body]) {
+                joints[joint].hangs = Some(body);
+            }
+        }
+        let ends = |body: usize| {
+            let joint = tree.joint_of(body).map(|joint| &joints[joint]).filter(|joint| joint.hangs == Some(body))?;
+            joint.point.map(|(a, b)| if joint.link.a == body { (a, b) } else { (b, a) })
+        };
+        let hung = Hung::new(&tree, ends);
+        let various: Vec<usize> = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none()).collect();
+        let asked = !(various.is_empty() && couplings.is_empty());
+        let mut states = vec![RowState::default(); count];
+        for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
+            (joint.rows, joint.hard) = (3, 3);
+            for state in &mut states[joint.at..joint.at + 3] {
+                (state.length, state.constraint, state.share) = (true, joint.constraints[0], 1.0);
+            }
+        }
         Self {
             gathering: false,
             activity: Activity::new(constraints),
@@ -176,13 +203,13 @@ impl System {
             joints,
             couplings,
             blocks,
-            states: vec![RowState::default(); count],
+            states,
+            quads: Quads::new(level, tree.members(), bodies),
             tree,
+            hung,
+            various,
             dense,
-            inertia,
-            frames: vec![DMat3::IDENTITY; n],
-            masses: bodies.iter().map(|body| body.properties.mass).collect(),
-            inertia_world: vec![Sym3::default(); n],
+            frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
             driven: driven.to_vec(),
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
@@ -218,23 +245,25 @@ impl System {
 
     /// What the bodies of a row answer to it, each alone.
     pub(super) fn response(&self, row: usize) -> f64 {
-        response(&self.jacobian(row), &self.driven, &self.masses, &self.inertia_world)
+        response(&self.jacobian(row), &self.driven, &self.quads)
     }
 
     /// World inertia of a body at the last evaluation.
-    pub fn inertia_world(&self, body: usize) -> &Sym3 {
-        &self.inertia_world[body]
+    pub fn inertia_world(&self, body: usize) -> Sym3 {
+        self.quads.inertia(body)
     }
 
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
-        for (index, body) in bodies.iter().enumerate() {
-            self.frames[index] = matrix(body.rotation);
-            self.inertia_world[index] = self.inertia[index].rotated(&self.frames[index]);
+        self.quads.look(bodies);
+        self.hung.evaluate(self.quads.all(), &mut self.tree, &mut self.states);
+        for (body, frame) in self.frames.iter_mut().enumerate() {
+            *frame = self.quads.frame(body);
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
-        for joint in &mut self.joints {
+        for &index in &self.various {
+            let joint = &mut self.joints[index];
             joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
@@ -269,11 +298,11 @@ impl System {
     /// Factors the rows as they are.
     fn factor_rows(&mut self) {
         if let Some(dense) = &mut self.dense {
-            dense.factor(&self.masses, &self.inertia_world, self.gathering);
+            dense.factor(&self.quads, self.gathering);
             return;
         }
         let (joints, blocks) = (&self.joints, &self.blocks);
-        self.tree.factor(&self.masses, &self.inertia_world, |index| {
+        self.tree.factor(self.quads.all(), |index| {
             let joint = &joints[index];
             match (joint.arms, joint.block) {
                 (Some((a, b)), _) => Form::Point(a, b),
@@ -281,7 +310,7 @@ impl System {
                 (None, None) => unreachable!("a joint is a point or has a block"),
             }
         });
-        self.loops.factor(&self.tree, &self.masses, &self.inertia_world, self.gathering);
+        self.loops.factor(&self.tree, &self.quads, self.gathering);
     }
 
     /// Solves for `a` and `lambda` from `b` and `g`.
@@ -290,13 +319,9 @@ impl System {
             dense.solve(&mut self.b, &self.g, &mut self.a, &mut self.lambda);
             return;
         }
-        for &body in self.tree.order().iter().rev() {
-            self.tree.up(body, &mut self.b, Some(&self.g), &mut self.lambda);
-        }
+        self.tree.sweep_up(&mut self.b, &self.g, &mut self.lambda);
         self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
-        for &body in self.tree.order() {
-            self.tree.down(body, &self.b, Some(&self.g), &mut self.lambda, &mut self.a);
-        }
+        self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
     }
 
     /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
@@ -365,7 +390,7 @@ impl System {
         let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
         for joint in &self.joints {
             let at = joint.at;
-            match (joint.arms, joint.block) {
+            match (self.arms_of(joint), joint.block) {
                 (Some((r, s)), _) => {
                     let a = &bodies[joint.link.a];
                     let mut rate = a.velocity + a.angular_velocity.cross(r);
@@ -428,6 +453,11 @@ impl System {
         }
     }
 
+    /// World arms of a joint that is one point now.
+    fn arms_of(&self, joint: &Joint) -> Option<(DVec3, DVec3)> {
+        joint.hangs.map_or(joint.arms, |body| Some(self.tree.arms(body)))
+    }
+
     /// Rows outside the tree.
     fn outside_rows(&self) -> &[LoopRow] {
         self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
@@ -456,7 +486,7 @@ impl System {
     pub fn jacobian(&self, row: usize) -> Vec<(usize, Vec6)> {
         if let Some(joint) = self.joint_of(row) {
             let k = row - joint.at;
-            let (a, b) = match (joint.arms, joint.block) {
+            let (a, b) = match (self.arms_of(joint), joint.block) {
                 (Some((r, s)), _) => {
                     let e = DVec3::AXES[k];
                     (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)))
@@ -564,7 +594,7 @@ impl System {
     /// World arms from a joint's bodies to its point at the last evaluation, for stiffness estimates, m.
     pub fn arms(&self, joint: usize) -> (DVec3, DVec3) {
         let joint = &self.joints[joint];
-        if let Some(arms) = joint.arms {
+        if let Some(arms) = self.arms_of(joint) {
             return arms;
         }
         // The arm of a length row (e, r × e) is at least |r × e|: three rows of a point give r.
@@ -775,6 +805,7 @@ fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
                 hard: 0,
                 point: None,
                 arms: None,
+                hangs: None,
                 block: None,
                 outside: None,
             });

@@ -25,7 +25,7 @@ pub struct Damping {
 /// Gravity, gyroscopic torque, damping and what comes from outside, on one body.
 #[inline]
 pub fn on_body(body: &RigidBody, inertia: &Sym3, gravity: DVec3, damping: Damping, external: &Vec6) -> Vec6 {
-    let momentum = inertia.mul(body.angular_velocity);
+    let momentum: DVec3 = inertia.mul(body.angular_velocity.into()).into();
     let force = body.properties.mass * (gravity - damping.linear * body.velocity);
     let torque = -body.angular_velocity.cross(momentum) - damping.angular * momentum;
     let mut b = vec6(force, torque);

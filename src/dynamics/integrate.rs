@@ -164,7 +164,7 @@ impl Dynamics {
         let (mut error, mut scale) = (0.0, 0.0);
         for (index, body) in self.bodies.iter().enumerate() {
             let (mass, inertia) = (body.properties.mass, self.system.inertia_world(index));
-            let norm = |v: &Vec6| mass * linear(v).length_squared() + angular(v).dot(inertia.mul(angular(v)));
+            let norm = |v: &Vec6| mass * linear(v).length_squared() + angular(v).dot(inertia.mul(angular(v).into()).into());
             let (a, last) = (&self.system.a[index], &self.last[index]);
             let fourth: Vec6 = std::array::from_fn(|k| (a[k] - last[k]) * per_cube);
             let before = std::mem::replace(&mut self.fourth[index], fourth);
@@ -284,7 +284,7 @@ impl Dynamics {
         for (index, body) in self.bodies.iter().enumerate() {
             self.system.b[index] = forces::on_body(
                 body,
-                self.system.inertia_world(index),
+                &self.system.inertia_world(index),
                 gravity,
                 self.damping[index],
                 &self.external[index],

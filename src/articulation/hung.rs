@@ -1,0 +1,82 @@
+//! Bodies that hang by one point always: where that point is, and how it moves, four joints at a time.
+//!
+//! The same formulas as `rows/point.rs`, seen from the body that hangs: with its parent's s and ω_p,
+//!
+//! ```text
+//! C = (x + r) − (x_p + s)        J̇ẋ = ω×(ω×r) − ω_p×(ω_p×s)
+//! ```
+//!
+//! The world is a parent like any other: it stands at the origin, at rest.
+
+use fearless_simd::{Simd, dispatch};
+
+use super::ball::Arms;
+use super::lanes::{All, Four, Lanes, V3, WIDTH};
+use super::quads::{Homes, Quad, Slot};
+use super::system::RowState;
+use super::tree::Tree;
+use crate::math::DVec3;
+
+/// The points by which the bodies of each quad hang.
+#[derive(Clone, Debug)]
+pub struct Hung {
+    ends: Vec<Ends>,
+}
+
+/// Those of one quad, from the centres of mass, body axes, m; the world's from its origin.
+#[derive(Clone, Copy, Debug, Default)]
+struct Ends {
+    own: V3<Four>,
+    parent: V3<Four>,
+    /// Which of the bodies hang like this.
+    hang: [bool; WIDTH],
+}
+
+impl Hung {
+    /// `points` gives both ends of a body's joint where it is one point always: the body's and its parent's.
+    pub fn new(tree: &Tree, points: impl Fn(usize) -> Option<(DVec3, DVec3)>) -> Self {
+        let mut ends = vec![Ends::default(); tree.members().len()];
+        for &body in tree.order() {
+            let Slot { quad, lane } = tree.slot(body);
+            let Some((own, parent)) = points(body) else { continue };
+            let lanes = super::lanes::One(lane);
+            ends[quad].own.put(lanes, own.into());
+            ends[quad].parent.put(lanes, parent.into());
+            ends[quad].hang[lane] = true;
+        }
+        Self { ends }
+    }
+
+    /// Arms into the tree, C and J̇ẋ into the rows' numbers, for bodies that stand like this.
+    pub fn evaluate(&self, quads: &[Quad], tree: &mut Tree, states: &mut [RowState]) {
+        dispatch!(tree.level, simd => self.evaluate_in(simd, quads, tree, states));
+    }
+
+    #[inline(always)]
+    fn evaluate_in<S: Simd>(&self, simd: S, quads: &[Quad], tree: &mut Tree, states: &mut [RowState]) {
+        let lanes = All(simd);
+        for (quad, ends) in self.ends.iter().enumerate() {
+            if ends.hang == [false; WIDTH] {
+                continue;
+            }
+            let hooks = &tree.hooks[quad];
+            let (own, parent) = (&quads[quad], Homes::new(quads, &hooks.parents));
+            let r = own.frame.get(lanes).mul(ends.own.get(lanes));
+            let frame = parent.matrix(lanes, |quad| &quad.frame);
+            let s = frame.mul(ends.parent.get(lanes));
+            tree.balls[quad].arms.put(lanes, &Arms { own: r, parent: s });
+            let value = own.position.get(lanes) + r - (parent.vector(lanes, |quad| &quad.position) + s);
+            let (spin, other) = (own.spin.get(lanes), parent.vector(lanes, |quad| &quad.spin));
+            let bias = spin.cross(spin.cross(r)) - other.cross(other.cross(s));
+            let sign = lanes.get(&hooks.signs);
+            let (value, bias) = (value * sign, bias * sign);
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
+                let rows = &mut states[hooks.at[lane]..hooks.at[lane] + 3];
+                for (row, (value, bias)) in rows.iter_mut().zip([(&value.x, &bias.x), (&value.y, &bias.y), (&value.z, &bias.z)]) {
+                    row.value = lanes.lane(value, lane);
+                    row.bias = lanes.lane(bias, lane);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Four numbers side by side, and the same formula for four bodies or for one.
+//!
+//! What is kept of bodies in hot loops lies in fours: number k of a [`Four`] belongs to the kth body of a quad. A formula
+//! is written once, over a [`Real`]; [`Lanes`] says whether it takes all four numbers, as one vector of the processor,
+//! or one of them. Vectors are added, multiplied and divided number by number, each rounded as IEEE 754 says and
+//! nothing fused, so the bits are the same on every processor and in either way (a test holds them to that).
+//!
+//! `fearless_simd::dispatch!` makes a loop for each set of vector instructions that there is and takes the best that
+//! the processor has. Whatever such a loop calls must be inlined into it: hence `#[inline(always)]`.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4};
+
+/// Bodies of a quad.
+pub const WIDTH: usize = 4;
+
+/// A number of each body of a quad.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(32))]
+pub struct Four(pub [f64; WIDTH]);
+
+impl Four {
+    /// The same for all.
+    pub const fn splat(x: f64) -> Self {
+        Self([x; WIDTH])
+    }
+}
+
+/// What a formula calculates with: a number, or four.
+pub trait Real:
+    Copy
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    /// A constant, of this one's kind.
+    fn all(self, x: f64) -> Self;
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn all(self, x: f64) -> Self {
+        x
+    }
+}
+
+impl<S: Simd> Real for f64x4<S> {
+    #[inline(always)]
+    fn all(self, x: f64) -> Self {
+        Self::splat(self.simd, x)
+    }
+}
+
+/// Which bodies of a quad a formula is for.
+pub trait Lanes: Copy {
+    /// What it calculates with.
+    type T: Real;
+
+    /// The numbers of these bodies, in the order of the lanes.
+    fn gather(self, number: impl Fn(usize) -> f64) -> Self::T;
+
+    /// The lanes, of a quad that has `count` bodies.
+    fn each(self, count: usize) -> std::ops::Range<usize>;
+
+    /// The number of one body.
+    fn lane(self, x: &Self::T, lane: usize) -> f64;
+
+    /// Reads.
+    fn get(self, from: &Four) -> Self::T;
+
+    /// Writes.
+    fn put(self, to: &mut Four, x: Self::T);
+}
+
+/// All four.
+#[derive(Clone, Copy, Debug)]
+pub struct All<S>(pub S);
+
+/// One of the four.
+#[derive(Clone, Copy, Debug)]
+pub struct One(pub usize);
+
+impl<S: Simd> Lanes for All<S> {
+    type T = f64x4<S>;
+
+    #[inline(always)]
+    fn gather(self, number: impl Fn(usize) -> f64) -> Self::T {
+        [number(0), number(1), number(2), number(3)].simd_into(self.0)
+    }
+
+    #[inline(always)]
+    fn each(self, count: usize) -> std::ops::Range<usize> {
+        0..count.min(WIDTH)
+    }
+
+    #[inline(always)]
+    fn lane(self, x: &Self::T, lane: usize) -> f64 {
+        x[lane]
+    }
+
+    #[inline(always)]
+    fn get(self, from: &Four) -> Self::T {
+        from.0.simd_into(self.0)
+    }
+
+    #[inline(always)]
+    fn put(self, to: &mut Four, x: Self::T) {
+        to.0 = x.into();
+    }
+}
+
+impl Lanes for One {
+    type T = f64;
+
+    #[inline(always)]
+    fn gather(self, number: impl Fn(usize) -> f64) -> f64 {
+        number(self.0)
+    }
+
+    #[inline(always)]
+    fn each(self, _: usize) -> std::ops::Range<usize> {
+        self.0..self.0 + 1
+    }
+
+    #[inline(always)]
+    fn lane(self, x: &f64, _: usize) -> f64 {
+        *x
+    }
+
+    #[inline(always)]
+    fn get(self, from: &Four) -> f64 {
+        from.0[self.0]
+    }
+
+    #[inline(always)]
+    fn put(self, to: &mut Four, x: f64) {
+        to.0[self.0] = x;
+    }
+}
+
+/// Three numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct V3<T> {
+    /// x.
+    pub x: T,
+    /// y.
+    pub y: T,
+    /// z.
+    pub z: T,
+}
+
+impl<T> V3<T> {
+    /// From its parts.
+    #[inline(always)]
+    pub const fn new(x: T, y: T, z: T) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl<T: Real> V3<T> {
+    /// Sum of the products.
+    #[inline(always)]
+    pub fn dot(self, v: Self) -> T {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+
+    /// Vector product.
+    #[inline(always)]
+    pub fn cross(self, v: Self) -> Self {
+        Self {
+            x: self.y * v.z - v.y * self.z,
+            y: self.z * v.x - v.z * self.x,
+            z: self.x * v.y - v.x * self.y,
+        }
+    }
+
+    /// Part by part.
+    #[inline(always)]
+    pub fn times(self, v: Self) -> Self {
+        Self { x: self.x * v.x, y: self.y * v.y, z: self.z * v.z }
+    }
+}
+
+impl V3<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> V3<L::T> {
+        V3 { x: lanes.get(&self.x), y: lanes.get(&self.y), z: lanes.get(&self.z) }
+    }
+
+    /// Writes.
+    #[inline(always)]
+    pub fn put<L: Lanes>(&mut self, lanes: L, v: V3<L::T>) {
+        lanes.put(&mut self.x, v.x);
+        lanes.put(&mut self.y, v.y);
+        lanes.put(&mut self.z, v.z);
+    }
+}
+
+impl<T: Real> Neg for V3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { x: -self.x, y: -self.y, z: -self.z }
+    }
+}
+
+impl<T: Real> Add for V3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, v: Self) -> Self {
+        Self { x: self.x + v.x, y: self.y + v.y, z: self.z + v.z }
+    }
+}
+
+impl<T: Real> Sub for V3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, v: Self) -> Self {
+        Self { x: self.x - v.x, y: self.y - v.y, z: self.z - v.z }
+    }
+}
+
+impl<T: Real> Mul<T> for V3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, s: T) -> Self {
+        Self { x: self.x * s, y: self.y * s, z: self.z * s }
+    }
+}
+
+impl<T: Real> AddAssign for V3<T> {
+    #[inline(always)]
+    fn add_assign(&mut self, v: Self) {
+        *self = *self + v;
+    }
+}
+
+impl<T: Real> SubAssign for V3<T> {
+    #[inline(always)]
+    fn sub_assign(&mut self, v: Self) {
+        *self = *self - v;
+    }
+}
