@@ -21,7 +21,7 @@
 //! inverted. A test holds the two against each other.
 
 use super::block::Vec6;
-use super::lanes::{Four, Lanes, Real, V3};
+use crate::math::lanes::{Four, Lanes, Real, V3};
 use super::spatial::{Articulated, M3, Sym3};
 
 /// Where the point is, as seen from both bodies.
@@ -47,7 +47,7 @@ pub struct Ball<T> {
 }
 
 /// Force and torque, or the linear and angular parts of an acceleration.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Twist<T> {
     /// Linear part.
     pub linear: V3<T>,
@@ -64,14 +64,11 @@ impl<T: Real> Ball<T> {
         let y = mass.a.mul_skew(r);
         let q = M3 { x: b.x + y.x, y: b.y + y.y, z: b.z + y.z };
         // Entry (i, j) of C' needs component j of r × b_i and component i of r × q_j.
-        let cross_x = |v: V3<T>| r.y * v.z - r.z * v.y;
-        let cross_y = |v: V3<T>| r.z * v.x - r.x * v.z;
-        let cross_z = |v: V3<T>| r.x * v.y - r.y * v.x;
+        let (bx, by, bz) = (r.cross(b.x), r.cross(b.y), r.cross(b.z));
+        let (qx, qy, qz) = (r.cross(q.x), r.cross(q.y), r.cross(q.z));
         let spin = Sym3 {
-            d: mass.c.d
-                - V3::new(cross_x(b.x) + cross_x(q.x), cross_y(b.y) + cross_y(q.y), cross_z(b.z) + cross_z(q.z)),
-            o: mass.c.o
-                - V3::new(cross_z(b.y) + cross_y(q.z), cross_z(b.x) + cross_x(q.z), cross_y(b.x) + cross_x(q.y)),
+            d: mass.c.d - V3::new(bx.x + qx.x, by.y + qy.y, bz.z + qz.z),
+            o: mass.c.o - V3::new(by.z + qz.y, bx.z + qz.x, bx.y + qy.x),
         };
         let free = spin.inverse();
         let (gx, gy, gz) = (free.x(), free.y(), free.z());
@@ -87,12 +84,11 @@ impl<T: Real> Ball<T> {
         let (n, s) = (self.point_mass, self.arms.parent);
         let y = n.mul_skew(s);
         // −[s]× N [s]×, column by column s × (−y).
-        let (x, z) = (y.x, y.z);
         let b = M3 { x: -y.x, y: -y.y, z: -y.z };
-        let y = y.y;
+        let (x, y, z) = (y.x, y.y, y.z);
         let c = Sym3 {
-            d: -V3::new(s.y * x.z - s.z * x.y, s.z * y.x - s.x * y.z, s.x * z.y - s.y * z.x),
-            o: -V3::new(s.x * y.y - s.y * y.x, s.x * x.y - s.y * x.x, s.z * x.x - s.x * x.z),
+            d: -V3::new(s.cross(x).x, s.cross(y).y, s.cross(z).z),
+            o: -V3::new(s.cross(y).z, s.cross(x).z, s.cross(x).y),
         };
         Articulated { a: n, b, c }
     }
@@ -126,10 +122,8 @@ impl<T: Real> Twist<T> {
     /// Of each body.
     #[inline(always)]
     pub fn gather<'a, L: Lanes<T = T>>(lanes: L, of: impl Fn(usize) -> &'a Vec6) -> Self {
-        Self {
-            linear: V3::new(lanes.gather(|k| of(k)[0]), lanes.gather(|k| of(k)[1]), lanes.gather(|k| of(k)[2])),
-            angular: V3::new(lanes.gather(|k| of(k)[3]), lanes.gather(|k| of(k)[4]), lanes.gather(|k| of(k)[5])),
-        }
+        let [x, y, z, a, b, c] = lanes.rows(of);
+        Self { linear: V3 { x, y, z }, angular: V3 { x: a, y: b, z: c } }
     }
 
     /// Of one body.
@@ -137,6 +131,21 @@ impl<T: Real> Twist<T> {
     pub fn lane<L: Lanes<T = T>>(&self, lanes: L, lane: usize) -> Vec6 {
         let (l, a) = (&self.linear, &self.angular);
         [&l.x, &l.y, &l.z, &a.x, &a.y, &a.z].map(|x| lanes.lane(x, lane))
+    }
+}
+
+impl Twist<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> Twist<L::T> {
+        Twist { linear: self.linear.get(lanes), angular: self.angular.get(lanes) }
+    }
+
+    /// Writes.
+    #[inline(always)]
+    pub fn put<L: Lanes>(&mut self, lanes: L, twist: &Twist<L::T>) {
+        self.linear.put(lanes, twist.linear);
+        self.angular.put(lanes, twist.angular);
     }
 }
 

@@ -11,7 +11,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::ball::Arms;
-use super::lanes::{All, Four, Lanes, V3, WIDTH};
+use crate::math::lanes::{All, Four, Lanes, One, V3, WIDTH};
 use super::quads::{Homes, Quad, Slot};
 use super::system::RowState;
 use super::tree::Tree;
@@ -39,7 +39,7 @@ impl Hung {
         for &body in tree.order() {
             let Slot { quad, lane } = tree.slot(body);
             let Some((own, parent)) = points(body) else { continue };
-            let lanes = super::lanes::One(lane);
+            let lanes = One(lane);
             ends[quad].own.put(lanes, own.into());
             ends[quad].parent.put(lanes, parent.into());
             ends[quad].hang[lane] = true;

@@ -9,7 +9,6 @@ mod cholesky;
 mod dense;
 pub mod function;
 mod hung;
-pub mod lanes;
 mod loops;
 pub mod quads;
 pub mod rows;

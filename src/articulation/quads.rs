@@ -7,7 +7,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::lanes::{All, Four, Lanes, V3, WIDTH};
+use crate::math::lanes::{All, Four, Lanes, One, V3, WIDTH};
 use super::spatial::{M3, Sym3};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
@@ -82,10 +82,15 @@ impl Quads {
                 let properties = &bodies[four.bodies[lane]].properties;
                 slots[four.bodies[lane]] = Slot { quad, lane };
                 quads[quad].mass.0[lane] = properties.mass;
-                quads[quad].own_inertia.put(super::lanes::One(lane), &Sym3::lower(&properties.inertia));
+                quads[quad].own_inertia.put(One(lane), &Sym3::lower(&properties.inertia));
             }
         }
         Self { level, members: members.to_vec(), slots, quads }
+    }
+
+    /// Which instructions there are.
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// The quads, the world's last.
@@ -112,13 +117,13 @@ impl Quads {
     /// World inertia of a body, kg m².
     pub fn inertia(&self, body: usize) -> Sym3 {
         let slot = self.slots[body];
-        self.quads[slot.quad].inertia.get(super::lanes::One(slot.lane))
+        self.quads[slot.quad].inertia.get(One(slot.lane))
     }
 
     /// Rotation matrix of a body.
     pub fn frame(&self, body: usize) -> DMat3 {
         let slot = self.slots[body];
-        let m = self.quads[slot.quad].frame.get(super::lanes::One(slot.lane));
+        let m = self.quads[slot.quad].frame.get(One(slot.lane));
         DMat3::from_cols(m.x.into(), m.y.into(), m.z.into())
     }
 

@@ -8,9 +8,9 @@
 //! All of it for one body or for four (`lanes.rs`).
 
 use super::block::{Mat6, Vec6};
-use super::lanes::{Four, Lanes, Real, V3};
+use crate::math::lanes::{Four, Lanes, Real, V3};
 use super::quads::Quads;
-use crate::math::{DMat3, DQuat, DVec3};
+use crate::math::{DMat3, DQuat};
 
 /// A 3×3 matrix by its columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -246,16 +246,4 @@ pub fn response(parts: &[(usize, Vec6)], driven: &[bool], quads: &Quads) -> f64 
 #[inline]
 pub fn matrix(q: DQuat) -> DMat3 {
     DMat3::from_quat(q)
-}
-
-impl From<DVec3> for V3<f64> {
-    fn from(v: DVec3) -> Self {
-        Self { x: v.x, y: v.y, z: v.z }
-    }
-}
-
-impl From<V3<f64>> for DVec3 {
-    fn from(v: V3<f64>) -> Self {
-        Self::new(v.x, v.y, v.z)
-    }
 }

@@ -7,7 +7,7 @@ use fearless_simd::{Simd, dispatch};
 
 use super::ball::{Arms, Ball, Twist};
 use super::block::{MAX_ROWS, Vec6, add_scaled, dot, inverse, mul};
-use super::lanes::{All, Four, Lanes, One, V3};
+use crate::math::lanes::{All, Four, Lanes, One, V3};
 use super::quads::{Quad, Slot};
 use super::spatial::{Articulated, M3, Sym3};
 use super::tree::{Form, Step, Tree};
@@ -107,8 +107,7 @@ impl Tree {
     fn up_balls<L: Lanes>(&self, lanes: L, quad: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
         let (members, hooks) = (&self.members[quad], &self.hooks[quad]);
         let ball = self.balls[quad].get(lanes);
-        let own = members.bodies.map(|body| &b[body]);
-        let wrench = Twist::gather(lanes, |k| own[k]);
+        let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
         let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
         let w = ball.up(wrench, wanted);
         let push = ball.wrench(w);
@@ -136,12 +135,11 @@ impl Tree {
         const STILL: Vec6 = [0.0; 6];
         let (members, hooks) = (&self.members[quad], &self.hooks[quad]);
         let ball = self.balls[quad].get(lanes);
-        let own = members.bodies.map(|body| &b[body]);
-        let wrench = Twist::gather(lanes, |k| own[k]);
+        let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
         let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
         let w = triples(lanes, lambda, &hooks.at);
-        let parents = members.bodies.map(|body| self.hang[body].parent.map_or(&STILL, |parent| &a[parent]));
-        let carried = Twist::gather(lanes, |k| parents[k]);
+        let parent = |k: usize| self.hang[members.bodies[k]].parent.map_or(&STILL, |parent| &a[parent]);
+        let carried = Twist::gather(lanes, parent);
         let (acceleration, l) = ball.down(wrench, wanted, w, carried);
         let l = l * lanes.get(&hooks.signs);
         for lane in lanes.each(members.count) {
@@ -208,8 +206,8 @@ fn wanted<L: Lanes>(lanes: L, g: Option<&[f64]>, at: &[usize; 4], signs: &Four) 
 /// Three numbers of each body.
 #[inline(always)]
 fn triples<L: Lanes>(lanes: L, v: &[f64], at: &[usize; 4]) -> V3<L::T> {
-    let rows = at.map(|at| &v[at..at + 3]);
-    V3 { x: lanes.gather(|k| rows[k][0]), y: lanes.gather(|k| rows[k][1]), z: lanes.gather(|k| rows[k][2]) }
+    let [x, y, z] = lanes.rows(|k| v[at[k]..].first_chunk().unwrap_or(&[0.0; 3]));
+    V3 { x, y, z }
 }
 
 #[inline(always)]

@@ -15,7 +15,7 @@ use super::rows::coupling::{self, Gauge};
 use super::rows::{Row, Scene, friction, orientation, plane, point};
 use super::hung::Hung;
 use super::quads::Quads;
-use super::spatial::{Sym3, matrix, response};
+use super::spatial::{matrix, response};
 use super::tree::{Form, JointRows, Link, Tree};
 use super::{Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
@@ -248,9 +248,9 @@ impl System {
         response(&self.jacobian(row), &self.driven, &self.quads)
     }
 
-    /// World inertia of a body at the last evaluation.
-    pub fn inertia_world(&self, body: usize) -> Sym3 {
-        self.quads.inertia(body)
+    /// The bodies by fours, as they stood at the last evaluation.
+    pub fn quads(&self) -> &Quads {
+        &self.quads
     }
 
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.

@@ -33,7 +33,7 @@ use fearless_simd::Level;
 
 use super::ball::{Arms, Ball};
 use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, mul, pseudo_inverse};
-use super::lanes::{Four, One, WIDTH};
+use crate::math::lanes::{Four, One, WIDTH};
 use super::quads::{Members, Slot};
 use super::spatial::Articulated;
 use crate::math::DVec3;

@@ -13,6 +13,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
+use super::{DQuat, DVec3};
+
 /// Bodies of a quad.
 pub const WIDTH: usize = 4;
 
@@ -65,6 +67,9 @@ pub trait Lanes: Copy {
     /// The numbers of these bodies, in the order of the lanes.
     fn gather(self, number: impl Fn(usize) -> f64) -> Self::T;
 
+    /// N numbers of each of these bodies.
+    fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [Self::T; N];
+
     /// The lanes, of a quad that has `count` bodies.
     fn each(self, count: usize) -> std::ops::Range<usize>;
 
@@ -95,6 +100,12 @@ impl<S: Simd> Lanes for All<S> {
     }
 
     #[inline(always)]
+    fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [Self::T; N] {
+        let rows = [of(0), of(1), of(2), of(3)];
+        std::array::from_fn(|n| [rows[0][n], rows[1][n], rows[2][n], rows[3][n]].simd_into(self.0))
+    }
+
+    #[inline(always)]
     fn each(self, count: usize) -> std::ops::Range<usize> {
         0..count.min(WIDTH)
     }
@@ -121,6 +132,11 @@ impl Lanes for One {
     #[inline(always)]
     fn gather(self, number: impl Fn(usize) -> f64) -> f64 {
         number(self.0)
+    }
+
+    #[inline(always)]
+    fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [f64; N] {
+        *of(self.0)
     }
 
     #[inline(always)]
@@ -188,6 +204,11 @@ impl<T: Real> V3<T> {
 }
 
 impl V3<Four> {
+    /// The same for all.
+    pub const fn splat(v: DVec3) -> Self {
+        Self { x: Four::splat(v.x), y: Four::splat(v.y), z: Four::splat(v.z) }
+    }
+
     /// Reads.
     #[inline(always)]
     pub fn get<L: Lanes>(&self, lanes: L) -> V3<L::T> {
@@ -246,5 +267,77 @@ impl<T: Real> SubAssign for V3<T> {
     #[inline(always)]
     fn sub_assign(&mut self, v: Self) {
         *self = *self - v;
+    }
+}
+
+/// A quaternion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quat<T> {
+    /// Imaginary part.
+    pub v: V3<T>,
+    /// Real part.
+    pub w: T,
+}
+
+impl<T: Real> Quat<T> {
+    /// Product.
+    #[inline(always)]
+    pub fn times(self, q: Self) -> Self {
+        let p = self;
+        Self { v: q.v * p.w + p.v * q.w + p.v.cross(q.v), w: p.w * q.w - p.v.dot(q.v) }
+    }
+
+    /// As [`super::renormalized`].
+    #[inline(always)]
+    pub fn renormalized(self) -> Self {
+        let s = self.w.all(1.5) - self.w.all(0.5) * (self.v.dot(self.v) + self.w * self.w);
+        Self { v: self.v * s, w: self.w * s }
+    }
+
+    /// As [`super::rotation`], to the bit.
+    #[inline(always)]
+    pub fn of_turn<L: Lanes<T = T>>(lanes: L, w: V3<T>) -> Self {
+        let x = w.x.all(0.25) * w.dot(w);
+        let small = (0..WIDTH).all(|k| lanes.lane(&x, k) < super::SMALL);
+        if small {
+            let (s, c) = super::small_turn(x);
+            return Self { v: w * s, w: c };
+        }
+        Self::gather(lanes, |k| super::rotation(DVec3::new(lanes.lane(&w.x, k), lanes.lane(&w.y, k), lanes.lane(&w.z, k))))
+    }
+
+    /// Of each body.
+    #[inline(always)]
+    pub fn gather<L: Lanes<T = T>>(lanes: L, of: impl Fn(usize) -> DQuat) -> Self {
+        let rows: [[f64; 4]; WIDTH] = std::array::from_fn(|k| of(k).to_array());
+        let [x, y, z, w] = lanes.rows(|k| &rows[k]);
+        Self { v: V3 { x, y, z }, w }
+    }
+}
+
+impl Quat<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> Quat<L::T> {
+        Quat { v: self.v.get(lanes), w: lanes.get(&self.w) }
+    }
+
+    /// Writes.
+    #[inline(always)]
+    pub fn put<L: Lanes>(&mut self, lanes: L, q: &Quat<L::T>) {
+        self.v.put(lanes, q.v);
+        lanes.put(&mut self.w, q.w);
+    }
+}
+
+impl From<DVec3> for V3<f64> {
+    fn from(v: DVec3) -> Self {
+        Self { x: v.x, y: v.y, z: v.z }
+    }
+}
+
+impl From<V3<f64>> for DVec3 {
+    fn from(v: V3<f64>) -> Self {
+        Self::new(v.x, v.y, v.z)
     }
 }
