@@ -65,8 +65,8 @@ impl Hung {
             let frame = parent.matrix(lanes, |quad| &quad.frame);
             let s = frame.mul(ends.parent.get(lanes));
             tree.balls[quad].arms.put(lanes, &Arms { own: r, parent: s });
-            let value = own.position.get(lanes) + r - (parent.vector(lanes, |quad| &quad.position) + s);
-            let (spin, other) = (own.spin.get(lanes), parent.vector(lanes, |quad| &quad.spin));
+            let value = own.state.position.get(lanes) + r - (parent.vector(lanes, |quad| &quad.state.position) + s);
+            let (spin, other) = (own.state.spin.get(lanes), parent.vector(lanes, |quad| &quad.state.spin));
             let bias = spin.cross(spin.cross(r)) - other.cross(other.cross(s));
             let sign = lanes.get(&hooks.signs);
             let (value, bias) = (value * sign, bias * sign);
@@ -76,6 +76,32 @@ impl Hung {
                     row.value = lanes.lane(value, lane);
                     row.bias = lanes.lane(bias, lane);
                 }
+            }
+        }
+    }
+
+    /// Ċ of the rows into `g`.
+    pub fn rates(&self, quads: &[Quad], tree: &Tree, g: &mut [f64]) {
+        dispatch!(tree.level, simd => self.rates_in(simd, quads, tree, g));
+    }
+
+    #[inline(always)]
+    fn rates_in<S: Simd>(&self, simd: S, quads: &[Quad], tree: &Tree, g: &mut [f64]) {
+        let lanes = All(simd);
+        for (quad, ends) in self.ends.iter().enumerate() {
+            if ends.hang == [false; WIDTH] {
+                continue;
+            }
+            let hooks = &tree.hooks[quad];
+            let (own, parent) = (&quads[quad].state, Homes::new(quads, &hooks.parents));
+            let arms = tree.balls[quad].arms.get(lanes);
+            let own = own.velocity.get(lanes) + own.spin.get(lanes).cross(arms.own);
+            let spin = parent.vector(lanes, |quad| &quad.state.spin);
+            let rate = own - (parent.vector(lanes, |quad| &quad.state.velocity) + spin.cross(arms.parent));
+            let rate = rate * lanes.get(&hooks.signs);
+            let rate = lanes.columns(&[rate.x, rate.y, rate.z]);
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
+                g[hooks.at[lane]..hooks.at[lane] + 3].copy_from_slice(&rate[lane]);
             }
         }
     }

@@ -7,10 +7,12 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::math::lanes::{All, Four, Lanes, One, V3, WIDTH};
+use crate::math::lanes::{All, Four, Lanes, One, Quat, Real, V3, WIDTH};
+use super::ball::Twist;
+use super::block::Vec6;
 use super::spatial::{M3, Sym3};
 use crate::bodies::RigidBody;
-use crate::math::{DMat3, DVec3};
+use crate::math::{DMat3, DQuat, DVec3};
 
 /// Where a body's numbers are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,6 +45,65 @@ impl Members {
     }
 }
 
+/// A body's changing numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct State<T> {
+    /// Centre of mass, m.
+    pub position: V3<T>,
+    /// Body axes to world axes.
+    pub rotation: Quat<T>,
+    /// m/s.
+    pub velocity: V3<T>,
+    /// rad/s.
+    pub spin: V3<T>,
+}
+
+impl<T: Real> State<T> {
+    /// Of these bodies.
+    #[inline(always)]
+    pub fn of<'a, L: Lanes<T = T>>(lanes: L, body: impl Fn(usize) -> &'a RigidBody) -> Self {
+        Self {
+            position: gather(lanes, |k| &body(k).position),
+            rotation: Quat::gather(lanes, |k| body(k).rotation),
+            velocity: gather(lanes, |k| &body(k).velocity),
+            spin: gather(lanes, |k| &body(k).angular_velocity),
+        }
+    }
+
+    /// That of one of them, into a body.
+    #[inline(always)]
+    pub fn put<L: Lanes<T = T>>(&self, lanes: L, lane: usize, body: &mut RigidBody) {
+        let vector = |v: &V3<T>| DVec3::new(lanes.lane(&v.x, lane), lanes.lane(&v.y, lane), lanes.lane(&v.z, lane));
+        let (q, w) = (vector(&self.rotation.v), lanes.lane(&self.rotation.w, lane));
+        body.position = vector(&self.position);
+        body.rotation = DQuat::from_xyzw(q.x, q.y, q.z, w);
+        body.velocity = vector(&self.velocity);
+        body.angular_velocity = vector(&self.spin);
+    }
+}
+
+impl State<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> State<L::T> {
+        State {
+            position: self.position.get(lanes),
+            rotation: self.rotation.get(lanes),
+            velocity: self.velocity.get(lanes),
+            spin: self.spin.get(lanes),
+        }
+    }
+
+    /// Writes.
+    #[inline(always)]
+    pub fn set<L: Lanes>(&mut self, lanes: L, state: &State<L::T>) {
+        self.position.put(lanes, state.position);
+        self.rotation.put(lanes, &state.rotation);
+        self.velocity.put(lanes, state.velocity);
+        self.spin.put(lanes, state.spin);
+    }
+}
+
 /// Mass, place and motion of four bodies, world axes but where said.
 #[derive(Clone, Copy, Debug)]
 pub struct Quad {
@@ -50,12 +111,8 @@ pub struct Quad {
     pub mass: Four,
     /// Body axes, kg m².
     own_inertia: Sym3<Four>,
-    /// Centres of mass, m.
-    pub position: V3<Four>,
-    /// m/s.
-    pub velocity: V3<Four>,
-    /// rad/s.
-    pub spin: V3<Four>,
+    /// Where they are and how they move.
+    pub state: State<Four>,
     /// Body axes to world axes.
     pub frame: M3<Four>,
     /// kg m².
@@ -127,30 +184,80 @@ impl Quads {
         DMat3::from_cols(m.x.into(), m.y.into(), m.z.into())
     }
 
+    /// The quads, to be moved.
+    pub fn all_mut(&mut self) -> &mut [Quad] {
+        &mut self.quads
+    }
+
     /// Takes over where the bodies are.
     pub fn look(&mut self, bodies: &[RigidBody]) {
         let (members, quads) = (&self.members, &mut self.quads);
         dispatch!(self.level, simd => look(simd, members, quads, bodies));
     }
+
+    /// Takes over where one body is.
+    pub fn look_at(&mut self, index: usize, body: &RigidBody) {
+        let Slot { quad, lane } = self.slots[index];
+        let lanes = One(lane);
+        self.quads[quad].put(lanes, &State::of(lanes, |_| body));
+    }
+
+    /// Turns frames and inertias to where the bodies are, after [`Quads::displace`].
+    pub fn turn(&mut self) {
+        let quads = &mut self.quads;
+        dispatch!(self.level, simd => turn(simd, quads));
+    }
+
+    /// Adds displacements: of the centres (m) and rotation vectors (rad, world axes). Frames and inertias stay.
+    pub fn displace(&mut self, by: &[Vec6]) {
+        let (members, quads) = (&self.members, &mut self.quads);
+        dispatch!(self.level, simd => displace(simd, members, quads, by));
+    }
+
+    /// Adds to the velocities.
+    pub fn push(&mut self, by: &[Vec6]) {
+        let (members, quads) = (&self.members, &mut self.quads);
+        dispatch!(self.level, simd => push(simd, members, quads, by));
+    }
 }
 
 #[inline(always)]
 fn look<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], bodies: &[RigidBody]) {
+    for (four, quad) in members.iter().zip(quads) {
+        quad.put(All(simd), &State::of(All(simd), |k| &bodies[four.bodies[k]]));
+    }
+}
+
+#[inline(always)]
+fn turn<S: Simd>(simd: S, quads: &mut [Quad]) {
+    for quad in quads {
+        let state = quad.state.get(All(simd));
+        quad.put(All(simd), &state);
+    }
+}
+
+#[inline(always)]
+fn displace<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
     let lanes = All(simd);
     for (four, quad) in members.iter().zip(quads) {
-        let own = four.bodies.map(|body| &bodies[body]);
-        let vector = |of: fn(&RigidBody) -> &DVec3| gather(lanes, |k| of(own[k]));
-        quad.position.put(lanes, vector(|body| &body.position));
-        quad.velocity.put(lanes, vector(|body| &body.velocity));
-        quad.spin.put(lanes, vector(|body| &body.angular_velocity));
-        let q = V3 {
-            x: lanes.gather(|k| own[k].rotation.x),
-            y: lanes.gather(|k| own[k].rotation.y),
-            z: lanes.gather(|k| own[k].rotation.z),
-        };
-        let frame = M3::of_rotation(q, lanes.gather(|k| own[k].rotation.w));
-        quad.frame.put(lanes, &frame);
-        quad.inertia.put(lanes, &quad.own_inertia.get(lanes).rotated(&frame));
+        let by = Twist::gather(lanes, |k| &by[four.bodies[k]]);
+        let state = &mut quad.state;
+        let position = state.position.get(lanes) + by.linear;
+        let rotation = Quat::of_turn(lanes, by.angular).times(state.rotation.get(lanes)).renormalized();
+        state.position.put(lanes, position);
+        state.rotation.put(lanes, &rotation);
+    }
+}
+
+#[inline(always)]
+fn push<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
+    let lanes = All(simd);
+    for (four, quad) in members.iter().zip(quads) {
+        let by = Twist::gather(lanes, |k| &by[four.bodies[k]]);
+        let state = &mut quad.state;
+        let (velocity, spin) = (state.velocity.get(lanes) + by.linear, state.spin.get(lanes) + by.angular);
+        state.velocity.put(lanes, velocity);
+        state.spin.put(lanes, spin);
     }
 }
 
@@ -165,15 +272,22 @@ pub fn gather<'a, L: Lanes>(lanes: L, vector: impl Fn(usize) -> &'a DVec3) -> V3
 }
 
 impl Quad {
+    /// Puts bodies into this state.
+    #[inline(always)]
+    pub fn put<L: Lanes>(&mut self, lanes: L, state: &State<L::T>) {
+        let frame = M3::of_rotation(state.rotation.v, state.rotation.w);
+        self.state.set(lanes, state);
+        self.frame.put(lanes, &frame);
+        self.inertia.put(lanes, &self.own_inertia.get(lanes).rotated(&frame));
+    }
+
     fn world() -> Self {
         let (zero, one) = (Four::splat(0.0), Four::splat(1.0));
         let none = V3 { x: zero, y: zero, z: zero };
         Self {
             mass: one,
             own_inertia: Sym3 { d: V3 { x: one, y: one, z: one }, o: none },
-            position: none,
-            velocity: none,
-            spin: none,
+            state: State { position: none, rotation: Quat { v: none, w: one }, velocity: none, spin: none },
             frame: M3 {
                 x: V3 { x: one, y: zero, z: zero },
                 y: V3 { x: zero, y: one, z: zero },

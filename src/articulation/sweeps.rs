@@ -110,13 +110,13 @@ impl Tree {
         let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
         let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
         let w = ball.up(wrench, wanted);
-        let push = ball.wrench(w);
+        let push = ball.wrench(w).scatter(lanes);
+        let w = lanes.columns(&[w.x, w.y, w.z]);
         for lane in lanes.each(members.count).rev() {
-            put(lambda, hooks.at[lane], [lanes.lane(&w.x, lane), lanes.lane(&w.y, lane), lanes.lane(&w.z, lane)]);
+            put(lambda, hooks.at[lane], w[lane]);
             if let Some(parent) = self.hang[members.bodies[lane]].parent {
-                let push = push.lane(lanes, lane);
                 for k in 0..6 {
-                    b[parent][k] += push[k];
+                    b[parent][k] += push[lane][k];
                 }
             }
         }
@@ -142,9 +142,10 @@ impl Tree {
         let carried = Twist::gather(lanes, parent);
         let (acceleration, l) = ball.down(wrench, wanted, w, carried);
         let l = l * lanes.get(&hooks.signs);
+        let (acceleration, l) = (acceleration.scatter(lanes), lanes.columns(&[l.x, l.y, l.z]));
         for lane in lanes.each(members.count) {
-            a[members.bodies[lane]] = acceleration.lane(lanes, lane);
-            put(lambda, hooks.at[lane], [lanes.lane(&l.x, lane), lanes.lane(&l.y, lane), lanes.lane(&l.z, lane)]);
+            a[members.bodies[lane]] = acceleration[lane];
+            put(lambda, hooks.at[lane], l[lane]);
         }
     }
 

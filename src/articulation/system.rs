@@ -253,9 +253,24 @@ impl System {
         &self.quads
     }
 
+    /// The same, to be moved before an evaluation.
+    pub fn quads_mut(&mut self) -> &mut Quads {
+        &mut self.quads
+    }
+
+    /// Is there any joint that looks at the bodies themselves?
+    pub fn asks_bodies(&self) -> bool {
+        !self.frames.is_empty()
+    }
+
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
+        self.evaluate_quads(bodies);
+    }
+
+    /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
+    pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
         self.hung.evaluate(self.quads.all(), &mut self.tree, &mut self.states);
         for (body, frame) in self.frames.iter_mut().enumerate() {
             *frame = self.quads.frame(body);
@@ -360,6 +375,12 @@ impl System {
     /// Solves for the velocity change that makes J (v + δ) + Γ λ = ḟ: joints hold, soft rows resist. What is still
     /// being drawn together keeps its speed.
     pub fn solve_velocity(&mut self, bodies: &[RigidBody]) {
+        self.quads.look(bodies);
+        self.solve_velocity_quads(bodies);
+    }
+
+    /// The same for bodies whose velocities the quads have, see [`System::evaluate_quads`].
+    pub fn solve_velocity_quads(&mut self, bodies: &[RigidBody]) {
         self.b.fill([0.0; 6]);
         self.still();
         self.rates(bodies);
@@ -388,9 +409,10 @@ impl System {
     /// Ċ of every row into `g`.
     fn rates(&mut self, bodies: &[RigidBody]) {
         let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
-        for joint in &self.joints {
+        self.hung.rates(self.quads.all(), &self.tree, &mut self.g);
+        for joint in self.various.iter().map(|&joint| &self.joints[joint]) {
             let at = joint.at;
-            match (self.arms_of(joint), joint.block) {
+            match (joint.arms, joint.block) {
                 (Some((r, s)), _) => {
                     let a = &bodies[joint.link.a];
                     let mut rate = a.velocity + a.angular_velocity.cross(r);
@@ -427,11 +449,14 @@ impl System {
         }
     }
 
-    /// Closes the joints: adds the answer of [`System::solve_displacement`] to the bodies' places.
-    pub fn close(&mut self, bodies: &mut [RigidBody]) {
-        for (body, a) in bodies.iter_mut().zip(&self.a) {
-            body.displace(linear(a), angular(a));
-        }
+    /// Adds the answer `a` to the quads' velocities.
+    pub fn apply_velocity_quads(&mut self) {
+        self.quads.push(&self.a);
+    }
+
+    /// Closes the joints: adds the answer of [`System::solve_displacement`] to the quads' places.
+    pub fn close_quads(&mut self) {
+        self.quads.displace(&self.a);
         for state in self.states.iter_mut().filter(|state| !state.gathers) {
             state.value = 0.0;
         }

@@ -10,80 +10,21 @@
 
 use super::forces::Damping;
 use crate::articulation::ball::Twist;
-use crate::articulation::quads::gather;
-use crate::bodies::RigidBody;
+use crate::articulation::quads::State;
 use crate::math::lanes::{Four, Lanes, Quat, Real, V3, WIDTH};
-use crate::math::{DQuat, DVec3};
 
-/// A body's changing numbers.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct State<T> {
-    position: V3<T>,
-    rotation: Quat<T>,
-    /// m/s.
-    pub velocity: V3<T>,
-    /// rad/s.
-    pub spin: V3<T>,
-}
-
-impl<T: Real> State<T> {
-    /// Of these bodies.
-    #[inline(always)]
-    pub fn of<'a, L: Lanes<T = T>>(lanes: L, body: impl Fn(usize) -> &'a RigidBody) -> Self {
-        Self {
-            position: gather(lanes, |k| &body(k).position),
-            rotation: Quat::gather(lanes, |k| body(k).rotation),
-            velocity: gather(lanes, |k| &body(k).velocity),
-            spin: gather(lanes, |k| &body(k).angular_velocity),
-        }
-    }
-
-    /// That of one of them, into a body.
-    #[inline(always)]
-    pub fn put<L: Lanes<T = T>>(&self, lanes: L, lane: usize, body: &mut RigidBody) {
-        let vector = |v: &V3<T>| DVec3::new(lanes.lane(&v.x, lane), lanes.lane(&v.y, lane), lanes.lane(&v.z, lane));
-        let (q, w) = (vector(&self.rotation.v), lanes.lane(&self.rotation.w, lane));
-        body.position = vector(&self.position);
-        body.rotation = DQuat::from_xyzw(q.x, q.y, q.z, w);
-        body.velocity = vector(&self.velocity);
-        body.angular_velocity = vector(&self.spin);
-    }
-
-    /// This state and `h` times a rate; also σ.
-    #[inline(always)]
-    pub fn advance<L: Lanes<T = T>>(&self, lanes: L, h: f64, rate: &Rate<T>) -> (Self, V3<T>) {
-        let h = self.rotation.w.all(h);
-        let turn = rate.turn * h;
-        let state = Self {
-            position: self.position + rate.velocity * h,
-            rotation: Quat::of_turn(lanes, turn).times(self.rotation).renormalized(),
-            velocity: self.velocity + rate.acceleration.linear * h,
-            spin: self.spin + rate.acceleration.angular * h,
-        };
-        (state, turn)
-    }
-}
-
-impl State<Four> {
-    /// Reads.
-    #[inline(always)]
-    pub fn get<L: Lanes>(&self, lanes: L) -> State<L::T> {
-        State {
-            position: self.position.get(lanes),
-            rotation: self.rotation.get(lanes),
-            velocity: self.velocity.get(lanes),
-            spin: self.spin.get(lanes),
-        }
-    }
-
-    /// Writes.
-    #[inline(always)]
-    pub fn set<L: Lanes>(&mut self, lanes: L, state: &State<L::T>) {
-        self.position.put(lanes, state.position);
-        self.rotation.put(lanes, &state.rotation);
-        self.velocity.put(lanes, state.velocity);
-        self.spin.put(lanes, state.spin);
-    }
+/// A state and `h` times a rate; also σ.
+#[inline(always)]
+pub(super) fn advance<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, rate: &Rate<T>) -> (State<T>, V3<T>) {
+    let h = from.rotation.w.all(h);
+    let turn = rate.turn * h;
+    let state = State {
+        position: from.position + rate.velocity * h,
+        rotation: Quat::of_turn(lanes, turn).times(from.rotation).renormalized(),
+        velocity: from.velocity + rate.acceleration.linear * h,
+        spin: from.spin + rate.acceleration.angular * h,
+    };
+    (state, turn)
 }
 
 /// Rate of change of a body's state.

@@ -70,6 +70,11 @@ impl Springs {
         }
     }
 
+    /// Is there none?
+    pub fn is_empty(&self) -> bool {
+        self.springs.is_empty()
+    }
+
     /// Adds their forces at the time `t` to `b`.
     pub fn push(&mut self, bodies: &[RigidBody], t: f64, b: &mut [Vec6]) {
         self.look(bodies);

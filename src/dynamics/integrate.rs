@@ -24,7 +24,7 @@
 //! II.1.3). **Fast**: semi-implicit Euler.
 
 use super::Dynamics;
-use super::passes::{Compare, Estimate, Guess, Last, Mean, Push, Stage};
+use super::passes::{Compare, Estimate, Guess, Last, Mean, Push, Show, Stage};
 use crate::articulation::block::{angular, linear, vec6};
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
@@ -81,6 +81,7 @@ impl Dynamics {
             let (way, turn) = (h * body.velocity, h * body.angular_velocity);
             body.displace(way, turn);
         }
+        self.system.quads_mut().look(&self.bodies);
         self.arrive(t + h);
     }
 
@@ -118,7 +119,7 @@ impl Dynamics {
     /// Closes the joints at the new state, at the time `t`, and finds the rate there.
     fn arrive(&mut self, t: f64) {
         self.carry_driven(t);
-        self.project();
+        self.close_joints();
         self.solve_forces(t);
     }
 
@@ -135,10 +136,10 @@ impl Dynamics {
         self.fresh = true;
     }
 
-    /// Accelerations at the bodies' present state, rows and factor made anew.
+    /// Accelerations at the quads' present state, rows and factor made anew.
     fn accelerate(&mut self, t: f64) {
         self.carry_driven(t);
-        self.system.evaluate(&self.bodies);
+        self.evaluate_quads();
         self.system.factor();
         self.solve_forces(t);
     }
@@ -158,30 +159,48 @@ impl Dynamics {
         self.system.activity.set_time(t);
         for (drive, (body, a)) in self.drives.iter().zip(&mut self.driven_accelerations) {
             let (acceleration, turn) = drive.motion.at(t).carry(&mut self.bodies[*body]);
+            self.system.quads_mut().look_at(*body, &self.bodies[*body]);
             *a = vec6(acceleration, turn);
         }
     }
 
-    /// Closes the joints in place and speed; leaves the system factored there.
+    /// Evaluates the rows at the quads' present state.
+    fn evaluate_quads(&mut self) {
+        if self.system.asks_bodies() || !self.springs.is_empty() {
+            self.by_quads(Show);
+        }
+        self.system.evaluate_quads(&self.bodies);
+    }
+
+    /// Closes the joints of the bodies in place and speed; leaves the system factored there.
     pub(super) fn project(&mut self) {
-        self.system.evaluate(&self.bodies);
+        self.system.quads_mut().look(&self.bodies);
+        self.close_joints();
+    }
+
+    /// The same where the quads are; the bodies follow.
+    fn close_joints(&mut self) {
+        self.evaluate_quads();
         self.system.factor();
         if self.system.states().is_empty() {
+            self.by_quads(Show);
             return;
         }
         self.system.look_for_gaps();
         let apart = self.system.largest_error();
         self.system.solve_displacement();
-        self.system.close(&mut self.bodies);
+        self.system.close_quads();
         if apart > COARSE {
             // Newton's error is the square of what was there.
-            self.system.evaluate(&self.bodies);
+            self.system.quads_mut().turn();
+            self.evaluate_quads();
             self.system.factor();
             self.system.solve_displacement();
-            self.system.close(&mut self.bodies);
+            self.system.close_quads();
         }
-        self.system.solve_velocity(&self.bodies);
-        self.system.apply_velocity(&mut self.bodies);
+        self.system.solve_velocity_quads(&self.bodies);
+        self.system.apply_velocity_quads();
+        self.by_quads(Show);
     }
 
     /// Lets pivot friction act for `dt` seconds, the joints held.

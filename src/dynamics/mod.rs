@@ -24,6 +24,7 @@ mod passes;
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::block::Vec6;
+use crate::articulation::quads::State;
 use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
@@ -33,7 +34,7 @@ use crate::math::{DMat3, DVec3};
 use contacts::Verdict;
 pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
 pub use drive::{Drive, Instant, Motion};
-use course::{Course, Rate, State};
+use course::{Course, Rate};
 use forces::{Damping, Springs};
 use passes::{Begin, Return};
 

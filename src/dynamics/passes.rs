@@ -6,11 +6,11 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use super::course::{Rate, State};
+use super::course::{Rate, advance};
 use super::integrate::{GAUSS_NODES, WEIGHTS};
 use super::{Dynamics, forces};
 use crate::articulation::ball::Twist;
-use crate::articulation::quads::{Members, Quad};
+use crate::articulation::quads::{Members, Quad, State};
 use crate::articulation::spatial::Sym3;
 use crate::math::lanes::{All, Lanes, Real, V3};
 
@@ -50,10 +50,8 @@ impl Dynamics {
 
     /// Puts bodies into this state.
     #[inline(always)]
-    fn put<L: Lanes>(&mut self, lanes: L, members: &Members, state: &State<L::T>) {
-        for lane in lanes.each(members.count) {
-            state.put(lanes, lane, &mut self.bodies[members.bodies[lane]]);
-        }
+    fn put<L: Lanes>(&mut self, lanes: L, index: usize, state: &State<L::T>) {
+        self.system.quads_mut().all_mut()[index].put(lanes, state);
     }
 }
 
@@ -79,7 +77,24 @@ impl Pass for Return {
     fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
         let (members, _) = dynamics.quad(index);
         let state = dynamics.courses[index].start.get(lanes);
-        dynamics.put(lanes, &members, &state);
+        for lane in lanes.each(members.count) {
+            state.put(lanes, lane, &mut dynamics.bodies[members.bodies[lane]]);
+        }
+    }
+}
+
+/// Lets the bodies be where the quads are.
+#[derive(Clone, Copy)]
+pub(super) struct Show;
+
+impl Pass for Show {
+    #[inline(always)]
+    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
+        let (members, quad) = dynamics.quad(index);
+        let state = quad.state.get(lanes);
+        for lane in lanes.each(members.count) {
+            state.put(lanes, lane, &mut dynamics.bodies[members.bodies[lane]]);
+        }
     }
 }
 
@@ -105,15 +120,15 @@ impl Pass for Stage {
             let mean = Rate { velocity: none, turn: none, acceleration: Twist { linear: none, angular: none } };
             (Rate::of(start.velocity, start.spin, none, a), mean)
         } else {
-            let (velocity, spin) = (quad.velocity.get(lanes), quad.spin.get(lanes));
+            let (velocity, spin) = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
             (Rate::of(velocity, spin, course.turned.get(lanes), a), course.mean.get(lanes))
         };
         mean.add(self.weight, &rate);
-        let (state, turned) = start.advance(lanes, self.h, &rate);
+        let (state, turned) = advance(lanes, &start, self.h, &rate);
         let course = &mut dynamics.courses[index];
         course.mean.set(lanes, &mean);
         course.turned.put(lanes, turned);
-        dynamics.put(lanes, &members, &state);
+        dynamics.put(lanes, index, &state);
     }
 }
 
@@ -129,12 +144,12 @@ impl Pass for Last {
         let (members, quad) = dynamics.quad(index);
         let a = dynamics.accelerations(lanes, &members);
         let course = &dynamics.courses[index];
-        let rate = Rate::of(quad.velocity.get(lanes), quad.spin.get(lanes), course.turned.get(lanes), a);
+        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), course.turned.get(lanes), a);
         let mut mean = course.mean.get(lanes);
         mean.add(WEIGHTS[3], &rate);
-        let (state, _) = course.start.get(lanes).advance(lanes, self.h, &mean);
+        let (state, _) = advance(lanes, &course.start.get(lanes), self.h, &mean);
         dynamics.courses[index].last.put(lanes, &a);
-        dynamics.put(lanes, &members, &state);
+        dynamics.put(lanes, index, &state);
     }
 }
 
@@ -164,10 +179,10 @@ impl Pass for Estimate {
             change.angular -= before.angular;
         }
         change = Twist { linear: change.linear * spread, angular: change.angular * spread };
-        let now = State::of(lanes, |k| &dynamics.bodies[members.bodies[k]]);
+        let now = Twist { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) };
         let error = norm(mass, &inertia, &change);
         let slowest = mass.all(SLOWEST);
-        let scale = norm(mass, &inertia, &Twist { linear: now.velocity, angular: now.spin }) + mass * slowest * slowest;
+        let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
         dynamics.courses[index].fourth.put(lanes, &fourth);
         for lane in lanes.each(members.count) {
             dynamics.norms[members.bodies[lane]] = [lanes.lane(&error, lane), lanes.lane(&scale, lane)];
@@ -192,12 +207,13 @@ impl Pass for Push {
         let gravity = dynamics.settings.gravity;
         let external = Twist::gather(lanes, |k| &dynamics.external[members.bodies[k]]);
         let [linear, angular] = dynamics.courses[index].damping.each_ref().map(|rate| lanes.get(rate));
-        let now = State::of(lanes, |k| &dynamics.bodies[members.bodies[k]]);
+        let motion = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let own = forces::on_body((mass, &inertia), (now.velocity, now.spin), gravity, (linear, angular));
+        let own = forces::on_body((mass, &inertia), motion, gravity, (linear, angular));
         let push = Twist { linear: own.linear + external.linear, angular: own.angular + external.angular };
+        let push = push.scatter(lanes);
         for lane in lanes.each(members.count) {
-            dynamics.system.b[members.bodies[lane]] = push.lane(lanes, lane);
+            dynamics.system.b[members.bodies[lane]] = push[lane];
         }
     }
 }
@@ -245,9 +261,9 @@ impl Pass for Mean {
         for (rates, weight) in dynamics.stages.iter().zip(self.weights) {
             mean.add(weight, &rates[index].get(lanes));
         }
-        let (state, turned) = start.advance(lanes, self.h, &mean);
+        let (state, turned) = advance(lanes, &start, self.h, &mean);
         dynamics.courses[index].turned.put(lanes, turned);
-        dynamics.put(lanes, &members, &state);
+        dynamics.put(lanes, index, &state);
     }
 }
 
@@ -263,7 +279,7 @@ impl Pass for Compare {
         let (members, quad) = dynamics.quad(index);
         let a = dynamics.accelerations(lanes, &members);
         let turned = dynamics.courses[index].turned.get(lanes);
-        let rate = Rate::of(quad.velocity.get(lanes), quad.spin.get(lanes), turned, a);
+        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), turned, a);
         let old = dynamics.stages[self.stage][index].get(lanes);
         let (linear, angular) = (a.linear - old.acceleration.linear, a.angular - old.acceleration.angular);
         let turn = rate.turn - old.turn;

@@ -70,6 +70,9 @@ pub trait Lanes: Copy {
     /// N numbers of each of these bodies.
     fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [Self::T; N];
 
+    /// The other way: the N numbers of each body; of those that this is for.
+    fn columns<const N: usize>(self, x: &[Self::T; N]) -> [[f64; N]; WIDTH];
+
     /// The lanes, of a quad that has `count` bodies.
     fn each(self, count: usize) -> std::ops::Range<usize>;
 
@@ -102,7 +105,43 @@ impl<S: Simd> Lanes for All<S> {
     #[inline(always)]
     fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [Self::T; N] {
         let rows = [of(0), of(1), of(2), of(3)];
-        std::array::from_fn(|n| [rows[0][n], rows[1][n], rows[2][n], rows[3][n]].simd_into(self.0))
+        let mut out = [f64x4::splat(self.0, 0.0); N];
+        let mut n = 0;
+        while n + WIDTH <= N {
+            let four = transposed([
+                f64x4::from_slice(self.0, &rows[0][n..n + WIDTH]),
+                f64x4::from_slice(self.0, &rows[1][n..n + WIDTH]),
+                f64x4::from_slice(self.0, &rows[2][n..n + WIDTH]),
+                f64x4::from_slice(self.0, &rows[3][n..n + WIDTH]),
+            ]);
+            out[n..n + WIDTH].copy_from_slice(&four);
+            n += WIDTH;
+        }
+        while n < N {
+            out[n] = [rows[0][n], rows[1][n], rows[2][n], rows[3][n]].simd_into(self.0);
+            n += 1;
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn columns<const N: usize>(self, x: &[Self::T; N]) -> [[f64; N]; WIDTH] {
+        let mut out = [[0.0; N]; WIDTH];
+        let mut n = 0;
+        while n + WIDTH <= N {
+            let four = transposed([x[n], x[n + 1], x[n + 2], x[n + 3]]);
+            for k in 0..WIDTH {
+                four[k].store_slice(&mut out[k][n..n + WIDTH]);
+            }
+            n += WIDTH;
+        }
+        while n < N {
+            for k in 0..WIDTH {
+                out[k][n] = x[n][k];
+            }
+            n += 1;
+        }
+        out
     }
 
     #[inline(always)]
@@ -126,6 +165,14 @@ impl<S: Simd> Lanes for All<S> {
     }
 }
 
+/// Rows for columns.
+#[inline(always)]
+fn transposed<S: Simd>(rows: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
+    let [a, b, c, d] = rows;
+    let (low, high) = ((a.zip_low(c), b.zip_low(d)), (a.zip_high(c), b.zip_high(d)));
+    [low.0.zip_low(low.1), low.0.zip_high(low.1), high.0.zip_low(high.1), high.0.zip_high(high.1)]
+}
+
 impl Lanes for One {
     type T = f64;
 
@@ -137,6 +184,11 @@ impl Lanes for One {
     #[inline(always)]
     fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [f64; N] {
         *of(self.0)
+    }
+
+    #[inline(always)]
+    fn columns<const N: usize>(self, x: &[f64; N]) -> [[f64; N]; WIDTH] {
+        [*x; WIDTH]
     }
 
     #[inline(always)]
