@@ -21,7 +21,7 @@
 //! inverted. A test holds the two against each other.
 
 use super::block::Vec6;
-use crate::math::lanes::{Four, Lanes, Real, V3, WIDTH};
+use crate::math::lanes::{Four, Lanes, Real, V3};
 use super::spatial::{Articulated, M3, Sym3};
 
 /// Where the point is, as seen from both bodies.
@@ -126,11 +126,11 @@ impl<T: Real> Twist<T> {
         Self { linear: V3 { x, y, z }, angular: V3 { x: a, y: b, z: c } }
     }
 
-    /// The other way.
+    /// The six numbers.
     #[inline(always)]
-    pub fn scatter<L: Lanes<T = T>>(&self, lanes: L) -> [Vec6; WIDTH] {
+    pub fn numbers(&self) -> [T; 6] {
         let (l, a) = (&self.linear, &self.angular);
-        lanes.columns(&[l.x, l.y, l.z, a.x, a.y, a.z])
+        [l.x, l.y, l.z, a.x, a.y, a.z]
     }
 }
 

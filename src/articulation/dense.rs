@@ -49,7 +49,7 @@ impl Dense {
     /// Factors J M⁻¹ Jᵀ + Γ for the active rows. Does the figure gather?
     pub fn factor(&mut self, quads: &Quads, gathering: bool) {
         for (body, inverted) in self.inverse.iter_mut().enumerate() {
-            *inverted = inverse(&Articulated::alone(quads.mass(body), &quads.inertia(body)).matrix());
+            *inverted = inverse(&Articulated::alone(quads.mass(body), quads.inertia(body)).matrix());
         }
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));

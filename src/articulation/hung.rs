@@ -30,6 +30,9 @@ struct Ends {
     parent: V3<Four>,
     /// Which of the bodies hang like this.
     hang: [bool; WIDTH],
+    /// C and J̇ẋ at the last evaluation, as seen from the joints' first bodies.
+    value: V3<Four>,
+    bias: V3<Four>,
 }
 
 impl Hung {
@@ -47,20 +50,57 @@ impl Hung {
         Self { ends }
     }
 
-    /// Arms into the tree, C and J̇ẋ into the rows' numbers, for bodies that stand like this.
-    pub fn evaluate(&self, quads: &[Quad], tree: &mut Tree, states: &mut [RowState]) {
-        dispatch!(tree.level, simd => self.evaluate_in(simd, quads, tree, states));
+    /// Arms (into the tree), C and J̇ẋ for bodies that stand like this.
+    pub fn evaluate(&mut self, quads: &[Quad], tree: &mut Tree) {
+        dispatch!(tree.level, simd => self.evaluate_in(simd, quads, tree));
+    }
+
+    /// C into the rows' numbers.
+    pub fn tell_values(&self, tree: &Tree, states: &mut [RowState]) {
+        self.each(tree, |at, lane, ends| {
+            for (state, value) in states[at..at + 3].iter_mut().zip([&ends.value.x, &ends.value.y, &ends.value.z]) {
+                state.value = value.0[lane];
+            }
+        });
+    }
+
+    /// J̇ẋ into the rows' numbers.
+    pub fn tell_biases(&self, tree: &Tree, states: &mut [RowState]) {
+        self.each(tree, |at, lane, ends| {
+            for (state, bias) in states[at..at + 3].iter_mut().zip([&ends.bias.x, &ends.bias.y, &ends.bias.z]) {
+                state.bias = bias.0[lane];
+            }
+        });
+    }
+
+    /// −J̇ẋ into `g`.
+    pub fn want_still(&self, tree: &Tree, g: &mut [f64]) {
+        self.each(tree, |at, lane, ends| {
+            for (g, bias) in g[at..at + 3].iter_mut().zip([&ends.bias.x, &ends.bias.y, &ends.bias.z]) {
+                *g = -bias.0[lane];
+            }
+        });
+    }
+
+    /// Goes through the joints: where the numbers of each begin, its lane, its quad.
+    #[inline(always)]
+    fn each(&self, tree: &Tree, mut joint: impl FnMut(usize, usize, &Ends)) {
+        for (ends, hooks) in self.ends.iter().zip(&tree.hooks) {
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
+                joint(hooks.at[lane], lane, ends);
+            }
+        }
     }
 
     #[inline(always)]
-    fn evaluate_in<S: Simd>(&self, simd: S, quads: &[Quad], tree: &mut Tree, states: &mut [RowState]) {
+    fn evaluate_in<S: Simd>(&mut self, simd: S, quads: &[Quad], tree: &mut Tree) {
         let lanes = All(simd);
-        for (quad, ends) in self.ends.iter().enumerate() {
+        for (quad, ends) in self.ends.iter_mut().enumerate() {
             if ends.hang == [false; WIDTH] {
                 continue;
             }
             let hooks = &tree.hooks[quad];
-            let (own, parent) = (&quads[quad], Homes::new(quads, &hooks.parents));
+            let (own, parent) = (&quads[quad], Homes::new(quads, &hooks.slots));
             let r = own.frame.get(lanes).mul(ends.own.get(lanes));
             let frame = parent.matrix(lanes, |quad| &quad.frame);
             let s = frame.mul(ends.parent.get(lanes));
@@ -69,14 +109,8 @@ impl Hung {
             let (spin, other) = (own.state.spin.get(lanes), parent.vector(lanes, |quad| &quad.state.spin));
             let bias = spin.cross(spin.cross(r)) - other.cross(other.cross(s));
             let sign = lanes.get(&hooks.signs);
-            let (value, bias) = (value * sign, bias * sign);
-            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
-                let rows = &mut states[hooks.at[lane]..hooks.at[lane] + 3];
-                for (row, (value, bias)) in rows.iter_mut().zip([(&value.x, &bias.x), (&value.y, &bias.y), (&value.z, &bias.z)]) {
-                    row.value = lanes.lane(value, lane);
-                    row.bias = lanes.lane(bias, lane);
-                }
-            }
+            ends.value.put(lanes, value * sign);
+            ends.bias.put(lanes, bias * sign);
         }
     }
 
@@ -93,16 +127,17 @@ impl Hung {
                 continue;
             }
             let hooks = &tree.hooks[quad];
-            let (own, parent) = (&quads[quad].state, Homes::new(quads, &hooks.parents));
+            let (own, parent) = (&quads[quad].state, Homes::new(quads, &hooks.slots));
             let arms = tree.balls[quad].arms.get(lanes);
             let own = own.velocity.get(lanes) + own.spin.get(lanes).cross(arms.own);
             let spin = parent.vector(lanes, |quad| &quad.state.spin);
             let rate = own - (parent.vector(lanes, |quad| &quad.state.velocity) + spin.cross(arms.parent));
             let rate = rate * lanes.get(&hooks.signs);
-            let rate = lanes.columns(&[rate.x, rate.y, rate.z]);
-            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
-                g[hooks.at[lane]..hooks.at[lane] + 3].copy_from_slice(&rate[lane]);
-            }
+            lanes.scatter(WIDTH, &[rate.x, rate.y, rate.z], |lane, rate| {
+                if ends.hang[lane] {
+                    g[hooks.at[lane]..hooks.at[lane] + 3].copy_from_slice(rate);
+                }
+            });
         }
     }
 }

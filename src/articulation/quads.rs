@@ -70,15 +70,18 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// That of one of them, into a body.
+    /// Puts these of the bodies into it.
     #[inline(always)]
-    pub fn put<L: Lanes<T = T>>(&self, lanes: L, lane: usize, body: &mut RigidBody) {
-        let vector = |v: &V3<T>| DVec3::new(lanes.lane(&v.x, lane), lanes.lane(&v.y, lane), lanes.lane(&v.z, lane));
-        let (q, w) = (vector(&self.rotation.v), lanes.lane(&self.rotation.w, lane));
-        body.position = vector(&self.position);
-        body.rotation = DQuat::from_xyzw(q.x, q.y, q.z, w);
-        body.velocity = vector(&self.velocity);
-        body.angular_velocity = vector(&self.spin);
+    pub fn put<L: Lanes<T = T>>(&self, lanes: L, members: &Members, bodies: &mut [RigidBody]) {
+        let (x, q, v, s) = (&self.position, &self.rotation, &self.velocity, &self.spin);
+        let numbers = [x.x, x.y, x.z, q.v.x, q.v.y, q.v.z, q.w, v.x, v.y, v.z, s.x, s.y, s.z];
+        lanes.scatter(members.count, &numbers, |lane, n| {
+            let body = &mut bodies[members.bodies[lane]];
+            body.position = DVec3::new(n[0], n[1], n[2]);
+            body.rotation = DQuat::from_xyzw(n[3], n[4], n[5], n[6]);
+            body.velocity = DVec3::new(n[7], n[8], n[9]);
+            body.angular_velocity = DVec3::new(n[10], n[11], n[12]);
+        });
     }
 }
 

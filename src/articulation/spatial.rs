@@ -135,6 +135,45 @@ impl<T: Real> Sym3<T> {
     }
 }
 
+/// Room for the 21 numbers of an [`Articulated`], in whole vectors of four.
+pub const NUMBERS: usize = 24;
+
+impl<T: Real> Articulated<T> {
+    /// A body on which nothing hangs: mass (kg) and world inertia (kg m²).
+    #[inline(always)]
+    pub fn alone(mass: T, inertia: Sym3<T>) -> Self {
+        let zero = mass.all(0.0);
+        let none = V3::new(zero, zero, zero);
+        let a = Sym3 { d: V3::new(mass, mass, mass), o: none };
+        Self { a, b: M3 { x: none, y: none, z: none }, c: inertia }
+    }
+
+    /// All numbers; the last ones are 0.
+    #[inline(always)]
+    pub fn numbers(&self) -> [T; NUMBERS] {
+        let (a, b, c) = (&self.a, &self.b, &self.c);
+        let zero = a.d.x.all(0.0);
+        [
+            a.d.x, a.d.y, a.d.z, a.o.x, a.o.y, a.o.z, b.x.x, b.x.y, b.x.z, b.y.x, b.y.y, b.y.z, b.z.x, b.z.y, b.z.z,
+            c.d.x, c.d.y, c.d.z, c.o.x, c.o.y, c.o.z, zero, zero, zero,
+        ]
+    }
+
+    /// From its numbers.
+    #[inline(always)]
+    pub fn of_numbers(n: &[T; NUMBERS]) -> Self {
+        Self {
+            a: Sym3 { d: V3::new(n[0], n[1], n[2]), o: V3::new(n[3], n[4], n[5]) },
+            b: M3 {
+                x: V3::new(n[6], n[7], n[8]),
+                y: V3::new(n[9], n[10], n[11]),
+                z: V3::new(n[12], n[13], n[14]),
+            },
+            c: Sym3 { d: V3::new(n[15], n[16], n[17]), o: V3::new(n[18], n[19], n[20]) },
+        }
+    }
+}
+
 impl Sym3 {
     /// The symmetric part of what a matrix holds on and below its diagonal.
     pub fn lower(m: &DMat3) -> Self {
@@ -157,11 +196,6 @@ impl Articulated {
                 (false, false) => c[j - 3][i - 3],
             })
         })
-    }
-
-    /// A body on which nothing hangs: mass (kg) and world inertia (kg m²).
-    pub fn alone(mass: f64, inertia: &Sym3) -> Self {
-        Self { a: Sym3 { d: V3::new(mass, mass, mass), o: V3::default() }, b: M3::default(), c: *inertia }
     }
 
     /// u vᵀ, where the sum of all such terms is symmetric.
@@ -204,31 +238,6 @@ impl Sym3<Four> {
     pub fn put<L: Lanes>(&mut self, lanes: L, m: &Sym3<L::T>) {
         self.d.put(lanes, m.d);
         self.o.put(lanes, m.o);
-    }
-}
-
-impl Articulated<Four> {
-    /// Reads.
-    #[inline(always)]
-    pub fn get<L: Lanes>(&self, lanes: L) -> Articulated<L::T> {
-        Articulated { a: self.a.get(lanes), b: self.b.get(lanes), c: self.c.get(lanes) }
-    }
-
-    /// Adds to one body what `lane` of these others is.
-    #[inline(always)]
-    pub fn add<L: Lanes>(&mut self, own: usize, lanes: L, other: &Articulated<L::T>, lane: usize) {
-        let vector = |to: &mut V3<Four>, v: &V3<L::T>| {
-            to.x.0[own] += lanes.lane(&v.x, lane);
-            to.y.0[own] += lanes.lane(&v.y, lane);
-            to.z.0[own] += lanes.lane(&v.z, lane);
-        };
-        vector(&mut self.a.d, &other.a.d);
-        vector(&mut self.a.o, &other.a.o);
-        vector(&mut self.b.x, &other.b.x);
-        vector(&mut self.b.y, &other.b.y);
-        vector(&mut self.b.z, &other.b.z);
-        vector(&mut self.c.d, &other.c.d);
-        vector(&mut self.c.o, &other.c.o);
     }
 }
 

@@ -9,7 +9,7 @@ use super::ball::{Arms, Ball, Twist};
 use super::block::{MAX_ROWS, Vec6, add_scaled, dot, inverse, mul};
 use crate::math::lanes::{All, Four, Lanes, One, V3};
 use super::quads::{Quad, Slot};
-use super::spatial::{Articulated, M3, Sym3};
+use super::spatial::Articulated;
 use super::tree::{Form, Step, Tree};
 
 impl Tree {
@@ -20,16 +20,17 @@ impl Tree {
 
     #[inline(always)]
     fn factor_in<'a, S: Simd>(&mut self, simd: S, quads: &[Quad], form: &impl Fn(usize) -> Form<'a>) {
-        let none = V3 { x: Four::splat(0.0), y: Four::splat(0.0), z: Four::splat(0.0) };
-        for (articulated, quad) in self.articulated.iter_mut().zip(quads) {
-            let mass = V3 { x: quad.mass, y: quad.mass, z: quad.mass };
-            let b = M3 { x: none, y: none, z: none };
-            *articulated = Articulated { a: Sym3 { d: mass, o: none }, b, c: quad.inertia };
+        for (members, quad) in self.members.iter().zip(quads) {
+            let lanes = All(simd);
+            let alone = Articulated::alone(lanes.get(&quad.mass), quad.inertia.get(lanes));
+            lanes.scatter(members.count, &alone.numbers(), |lane, mass| {
+                self.articulated[members.bodies[lane]] = *mass;
+            });
         }
         for index in (0..self.steps.len()).rev() {
             match self.steps[index] {
                 Step::Quad(quad) => self.factor_balls(All(simd), quad),
-                Step::Body(body) if self.driven[body] => {}
+                Step::Point(Slot { quad, lane }) => self.factor_balls(One(lane), quad),
                 Step::Body(body) => self.factor_one(body, form),
             }
         }
@@ -38,20 +39,18 @@ impl Tree {
     /// Eliminates these bodies of a quad; their arms are known.
     #[inline(always)]
     fn factor_balls<L: Lanes>(&mut self, lanes: L, quad: usize) {
-        let ball = Ball::factor(self.balls[quad].arms.get(lanes), &self.articulated[quad].get(lanes));
+        let (members, parents) = (&self.members[quad], &self.hooks[quad].parents);
+        let mass = lanes.rows(|k| &self.articulated[members.bodies[k]]);
+        let ball = Ball::factor(self.balls[quad].arms.get(lanes), &Articulated::of_numbers(&mass));
         self.balls[quad].put_factor(lanes, &ball);
-        let load = ball.load();
-        let parents = &self.hooks[quad].parents;
-        for lane in lanes.each(self.members[quad].count).rev() {
-            let home = parents[lane];
-            self.articulated[home.quad].add(home.lane, lanes, &load, lane);
-        }
+        let articulated = &mut self.articulated;
+        lanes.scatter(members.count, &ball.load().numbers(), |lane, load| add(&mut articulated[parents[lane]], load));
     }
 
     fn factor_one<'a>(&mut self, body: usize, form: &impl Fn(usize) -> Form<'a>) {
         let Slot { quad, lane } = self.slots[body];
         let hang = &mut self.hang[body];
-        let Some(general) = &mut self.general[body] else { return self.factor_balls(One(lane), quad) };
+        let Some(general) = self.general[body].as_mut().filter(|_| !self.driven[body]) else { return };
         let shape = hang.joint.map(form);
         if let Some(Form::Point(a, b)) = shape {
             hang.ball = true;
@@ -61,14 +60,13 @@ impl Tree {
         }
         hang.ball = false;
         general.rows = 0;
-        general.inverse = inverse(&self.articulated[quad].get(One(lane)).matrix());
+        general.inverse = inverse(&Articulated::of_numbers(&self.articulated[body]).matrix());
         let Some(Form::Rows(rows)) = shape else { return };
         general.eliminate(rows, hang.first);
-        if hang.parent.is_some() {
-            let home = self.hooks[quad].parents[lane];
+        if let Some(parent) = hang.parent {
             for k in 0..general.rows {
                 let load = Articulated::outer(&general.jp[k], &general.x[k]);
-                self.articulated[home.quad].add(home.lane, One(lane), &load, lane);
+                add(&mut self.articulated[parent], &load.numbers());
             }
         }
     }
@@ -83,6 +81,7 @@ impl Tree {
         for step in self.steps.iter().rev() {
             match *step {
                 Step::Quad(quad) => self.up_balls(All(simd), quad, b, Some(g), lambda),
+                Step::Point(Slot { quad, lane }) => self.up_balls(One(lane), quad, b, Some(g), lambda),
                 Step::Body(body) => self.up(body, b, Some(g), lambda),
             }
         }
@@ -98,6 +97,7 @@ impl Tree {
         for step in &self.steps {
             match *step {
                 Step::Quad(quad) => self.down_balls(All(simd), quad, b, Some(g), lambda, a),
+                Step::Point(Slot { quad, lane }) => self.down_balls(One(lane), quad, b, Some(g), lambda, a),
                 Step::Body(body) => self.down(body, b, Some(g), lambda, a),
             }
         }
@@ -110,16 +110,12 @@ impl Tree {
         let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
         let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
         let w = ball.up(wrench, wanted);
-        let push = ball.wrench(w).scatter(lanes);
-        let w = lanes.columns(&[w.x, w.y, w.z]);
-        for lane in lanes.each(members.count).rev() {
-            put(lambda, hooks.at[lane], w[lane]);
-            if let Some(parent) = self.hang[members.bodies[lane]].parent {
-                for k in 0..6 {
-                    b[parent][k] += push[lane][k];
-                }
+        lanes.scatter(members.count, &[w.x, w.y, w.z], |lane, w| put(lambda, hooks.at[lane], w));
+        lanes.scatter(members.count, &ball.wrench(w).numbers(), |lane, push| {
+            if let Some(b) = b.get_mut(hooks.parents[lane]) {
+                add(b, push);
             }
-        }
+        });
     }
 
     #[inline(always)]
@@ -138,15 +134,12 @@ impl Tree {
         let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
         let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
         let w = triples(lanes, lambda, &hooks.at);
-        let parent = |k: usize| self.hang[members.bodies[k]].parent.map_or(&STILL, |parent| &a[parent]);
+        let parent = |k: usize| a.get(hooks.parents[k]).unwrap_or(&STILL);
         let carried = Twist::gather(lanes, parent);
         let (acceleration, l) = ball.down(wrench, wanted, w, carried);
         let l = l * lanes.get(&hooks.signs);
-        let (acceleration, l) = (acceleration.scatter(lanes), lanes.columns(&[l.x, l.y, l.z]));
-        for lane in lanes.each(members.count) {
-            a[members.bodies[lane]] = acceleration[lane];
-            put(lambda, hooks.at[lane], l[lane]);
-        }
+        lanes.scatter(members.count, &[l.x, l.y, l.z], |lane, l| put(lambda, hooks.at[lane], l));
+        lanes.scatter(members.count, &acceleration.numbers(), |lane, own| a[members.bodies[lane]] = *own);
     }
 
     /// The way up for one body. Without `g`, g is 0.
@@ -192,6 +185,14 @@ impl Tree {
     }
 }
 
+/// x += y.
+#[inline(always)]
+fn add<const N: usize>(x: &mut [f64; N], y: &[f64; N]) {
+    for k in 0..N {
+        x[k] += y[k];
+    }
+}
+
 /// The wanted g of point joints, as seen from their bodies.
 #[inline(always)]
 fn wanted<L: Lanes>(lanes: L, g: Option<&[f64]>, at: &[usize; 4], signs: &Four) -> V3<L::T> {
@@ -212,6 +213,6 @@ fn triples<L: Lanes>(lanes: L, v: &[f64], at: &[usize; 4]) -> V3<L::T> {
 }
 
 #[inline(always)]
-fn put(v: &mut [f64], at: usize, x: [f64; 3]) {
-    v[at..at + 3].copy_from_slice(&x);
+fn put(v: &mut [f64], at: usize, x: &[f64; 3]) {
+    v[at..at + 3].copy_from_slice(x);
 }

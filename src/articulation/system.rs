@@ -110,6 +110,8 @@ pub struct System {
     states: Vec<RowState>,
     tree: Tree,
     hung: Hung,
+    /// Do the rows' numbers hold the values of the last evaluation?
+    told: bool,
     loops: Loops,
     dense: Option<Dense>,
     quads: Quads,
@@ -207,6 +209,7 @@ impl System {
             quads: Quads::new(level, tree.members(), bodies),
             tree,
             hung,
+            told: false,
             various,
             dense,
             frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
@@ -267,11 +270,13 @@ impl System {
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
         self.evaluate_quads(bodies);
+        self.tell_values();
     }
 
     /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
     pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
-        self.hung.evaluate(self.quads.all(), &mut self.tree, &mut self.states);
+        self.hung.evaluate(self.quads.all(), &mut self.tree);
+        self.told = false;
         for (body, frame) in self.frames.iter_mut().enumerate() {
             *frame = self.quads.frame(body);
         }
@@ -339,9 +344,18 @@ impl System {
         self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
     }
 
+    /// C of the point joints into their rows' numbers, if it is not there yet.
+    fn tell_values(&mut self) {
+        if !self.told {
+            self.hung.tell_values(&self.tree, &mut self.states);
+            self.told = true;
+        }
+    }
+
     /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
     /// So does it rows of a share below 1. The others are closed by projection: their errors at an integrator's inner stages belong to the method.
     pub fn look_for_gaps(&mut self) {
+        self.tell_values();
         self.gathering = false;
         for state in &mut self.states {
             state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
@@ -353,17 +367,26 @@ impl System {
     /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
         if self.gathering {
+            self.hung.tell_biases(&self.tree, &mut self.states);
             self.rates(bodies);
-        }
-        for (g, state) in self.g.iter_mut().zip(&self.states) {
-            let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
-            *g = -state.bias - drawn;
+            for (g, state) in self.g.iter_mut().zip(&self.states) {
+                let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
+                *g = -state.bias - drawn;
+            }
+        } else {
+            self.hung.want_still(&self.tree, &mut self.g);
+            let various = self.various.iter().map(|&joint| &self.joints[joint]);
+            let rows = various.flat_map(|joint| joint.at..joint.at + joint.rows);
+            for row in rows.chain(self.couplings.iter().map(|coupling| coupling.at)) {
+                self.g[row] = -self.states[row].bias;
+            }
         }
         self.solve();
     }
 
     /// Solves for the displacement that closes the joints' position error: J δ = −C, least in kinetic energy.
     pub fn solve_displacement(&mut self) {
+        self.tell_values();
         self.b.fill([0.0; 6]);
         self.still();
         for (g, state) in self.g.iter_mut().zip(&self.states) {
@@ -609,6 +632,9 @@ impl System {
     /// The force that a joint's length rows carried in the last solve of forces, N.
     pub fn load(&self, joint: usize) -> f64 {
         let j = &self.joints[joint];
+        if j.hangs.is_some() {
+            return linear_length(&self.lambda[j.at..j.at + 3]);
+        }
         let mut sum = 0.0;
         for row in (j.at..j.at + j.hard).filter(|&row| self.states[row].length) {
             sum += self.lambda[row] * self.lambda[row];
@@ -867,6 +893,11 @@ fn lone_point(joint: &Joint, constraints: &[Constraint], bodies: &[RigidBody]) -
 fn capacity(joint: &Joint, constraints: &[Constraint]) -> usize {
     let each = |&index: &usize| constraints[index].row_count() + 3 * usize::from(constraints[index].friction.is_some());
     joint.constraints.iter().map(each).sum::<usize>().min(MAX_ROWS)
+}
+
+/// |v|.
+fn linear_length(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
 /// Is it a point at all times, and nothing more?

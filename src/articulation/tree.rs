@@ -35,7 +35,7 @@ use super::ball::{Arms, Ball};
 use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, mul, pseudo_inverse};
 use crate::math::lanes::{Four, One, WIDTH};
 use super::quads::{Members, Slot};
-use super::spatial::Articulated;
+use super::spatial::NUMBERS;
 use crate::math::DVec3;
 
 /// Rows of one joint at one configuration, for the general elimination.
@@ -95,8 +95,10 @@ pub(super) struct Hang {
 /// What the bodies of a quad hang on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hooks {
-    /// Parents' slots; the world's where there is none.
-    pub parents: [Slot; WIDTH],
+    /// Parents; where there is none, the index after the last body: the world's.
+    pub parents: [usize; WIDTH],
+    /// Their slots.
+    pub slots: [Slot; WIDTH],
     /// Signs of the joints' rows as seen from these bodies.
     pub signs: Four,
     /// Where the joints' numbers begin.
@@ -108,7 +110,9 @@ pub(super) struct Hooks {
 pub(super) enum Step {
     /// The members of a quad, all of one depth, each by one point.
     Quad(usize),
-    /// A body.
+    /// A body that hangs by one point, alone at its depth.
+    Point(Slot),
+    /// Any other body.
     Body(usize),
 }
 
@@ -138,8 +142,8 @@ pub struct Tree {
     pub(super) members: Vec<Members>,
     pub(super) slots: Vec<Slot>,
     pub(super) hooks: Vec<Hooks>,
-    /// By quads, with one for the world, which bears what hangs on it and does not move.
-    pub(super) articulated: Vec<Articulated<Four>>,
+    /// Articulated masses by bodies, and what hangs on the world, which does not move for it.
+    pub(super) articulated: Vec<[f64; NUMBERS]>,
     /// By quads.
     pub(super) balls: Vec<Ball<Four>>,
     /// Per body, where its joint is ever anything but a point.
@@ -225,7 +229,8 @@ impl Tree {
             }
         }
         let hooks = |four: &Members| Hooks {
-            parents: four.bodies.map(|body| hang[body].parent.map_or(world, |parent| slots[parent])),
+            parents: four.bodies.map(|body| hang[body].parent.unwrap_or(bodies)),
+            slots: four.bodies.map(|body| hang[body].parent.map_or(world, |parent| slots[parent])),
             signs: Four(four.bodies.map(|body| hang[body].sign())),
             at: four.bodies.map(|body| hang[body].at),
         };
@@ -235,7 +240,7 @@ impl Tree {
             steps,
             hooks: members.iter().map(hooks).collect(),
             slots,
-            articulated: vec![Articulated::default(); members.len() + 1],
+            articulated: vec![[0.0; NUMBERS]; bodies + 1],
             balls: vec![Ball::default(); members.len()],
             members,
             order,
@@ -319,14 +324,19 @@ fn by_quads(order: &[usize], hang: &[Hang]) -> (Vec<Step>, Vec<Members>) {
             members.push(quad);
         }
         for body in others {
-            steps.push(Step::Body(body));
-            match open.filter(|&quad: &usize| members[quad].count < WIDTH) {
-                Some(quad) => members[quad].push(body),
-                None => {
-                    open = Some(members.len());
-                    members.push(Members::first(body));
+            let quad = match open.filter(|&quad: &usize| members[quad].count < WIDTH) {
+                Some(quad) => {
+                    members[quad].push(body);
+                    quad
                 }
-            }
+                None => {
+                    members.push(Members::first(body));
+                    members.len() - 1
+                }
+            };
+            open = Some(quad);
+            let slot = Slot { quad, lane: members[quad].count - 1 };
+            steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
         }
     }
     (steps, members)

@@ -24,7 +24,7 @@ mod passes;
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::block::Vec6;
-use crate::articulation::quads::State;
+use crate::articulation::quads::{Members, State};
 use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
@@ -128,7 +128,7 @@ pub struct Dynamics {
     loads: Vec<f64>,
     /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
     levers: Vec<f64>,
-    last: Vec<Vec6>,
+    pressed: Vec<Vec6>,
     /// By quads of the joints' tree.
     courses: Vec<Course>,
     /// h of the last substep; `None` where its error says nothing of the next.
@@ -190,7 +190,7 @@ impl Dynamics {
             settings,
             given: vec![[0.0; 6]; n],
             external: vec![[0.0; 6]; n],
-            last: vec![[0.0; 6]; n],
+            pressed: vec![[0.0; 6]; n],
             courses,
             fourth_step: None,
             stages: [stages(), stages(), stages()],
@@ -339,10 +339,10 @@ impl Dynamics {
 
     /// All wrenches: those from outside, and those of what rests.
     fn press(&mut self) {
-        self.last.copy_from_slice(&self.external);
-        self.external.copy_from_slice(&self.given);
-        self.contacts.press(&mut self.external);
-        if self.last != self.external {
+        self.pressed.copy_from_slice(&self.given);
+        self.contacts.press(&mut self.pressed);
+        if self.pressed != self.external {
+            std::mem::swap(&mut self.pressed, &mut self.external);
             self.fresh = false;
         }
     }
@@ -485,16 +485,17 @@ impl Dynamics {
     /// Puts bodies with bad numbers back to where the step began, at rest. Returns how many.
     fn restore_bad_bodies(&mut self) -> usize {
         let sane = |body: &RigidBody| {
-            body.is_finite()
-                && body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
+            // What is no number is below nothing.
+            body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
                 && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT
+                && body.is_finite()
         };
         let bad = self.bodies.iter().filter(|body| !sane(body)).count();
         if bad > 0 {
             self.fault = self.fault.or(self.bodies.iter().position(|body| !sane(body)));
             // One bad body has already pulled at its neighbours: the whole figure goes back.
             for (body, before) in self.bodies.iter_mut().zip(&self.before_step) {
-                before.put(One(0), 0, body);
+                before.put(One(0), &Members::first(0), std::slice::from_mut(body));
                 (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             }
             self.loads.fill(0.0);

@@ -77,9 +77,7 @@ impl Pass for Return {
     fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
         let (members, _) = dynamics.quad(index);
         let state = dynamics.courses[index].start.get(lanes);
-        for lane in lanes.each(members.count) {
-            state.put(lanes, lane, &mut dynamics.bodies[members.bodies[lane]]);
-        }
+        state.put(lanes, &members, &mut dynamics.bodies);
     }
 }
 
@@ -92,9 +90,7 @@ impl Pass for Show {
     fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
         let (members, quad) = dynamics.quad(index);
         let state = quad.state.get(lanes);
-        for lane in lanes.each(members.count) {
-            state.put(lanes, lane, &mut dynamics.bodies[members.bodies[lane]]);
-        }
+        state.put(lanes, &members, &mut dynamics.bodies);
     }
 }
 
@@ -184,9 +180,7 @@ impl Pass for Estimate {
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
         dynamics.courses[index].fourth.put(lanes, &fourth);
-        for lane in lanes.each(members.count) {
-            dynamics.norms[members.bodies[lane]] = [lanes.lane(&error, lane), lanes.lane(&scale, lane)];
-        }
+        lanes.scatter(members.count, &[error, scale], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
     }
 }
 
@@ -211,10 +205,8 @@ impl Pass for Push {
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
         let own = forces::on_body((mass, &inertia), motion, gravity, (linear, angular));
         let push = Twist { linear: own.linear + external.linear, angular: own.angular + external.angular };
-        let push = push.scatter(lanes);
-        for lane in lanes.each(members.count) {
-            dynamics.system.b[members.bodies[lane]] = push[lane];
-        }
+        let b = &mut dynamics.system.b;
+        lanes.scatter(members.count, &push.numbers(), |lane, push| b[members.bodies[lane]] = *push);
     }
 }
 
@@ -286,8 +278,6 @@ impl Pass for Compare {
         let change = linear.dot(linear) + angular.dot(angular) + turn.dot(turn);
         let size = a.linear.dot(a.linear) + a.angular.dot(a.angular) + rate.turn.dot(rate.turn);
         dynamics.stages[self.stage][index].set(lanes, &rate);
-        for lane in lanes.each(members.count) {
-            dynamics.norms[members.bodies[lane]] = [lanes.lane(&change, lane), lanes.lane(&size, lane)];
-        }
+        lanes.scatter(members.count, &[change, size], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
     }
 }

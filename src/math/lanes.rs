@@ -70,11 +70,8 @@ pub trait Lanes: Copy {
     /// N numbers of each of these bodies.
     fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [Self::T; N];
 
-    /// The other way: the N numbers of each body; of those that this is for.
-    fn columns<const N: usize>(self, x: &[Self::T; N]) -> [[f64; N]; WIDTH];
-
-    /// The lanes, of a quad that has `count` bodies.
-    fn each(self, count: usize) -> std::ops::Range<usize>;
+    /// The other way: hands out each body's lane and N numbers, the last one's first, in a quad that has `count`.
+    fn scatter<const N: usize>(self, count: usize, x: &[Self::T; N], to: impl FnMut(usize, &[f64; N]));
 
     /// The number of one body.
     fn lane(self, x: &Self::T, lane: usize) -> f64;
@@ -125,7 +122,7 @@ impl<S: Simd> Lanes for All<S> {
     }
 
     #[inline(always)]
-    fn columns<const N: usize>(self, x: &[Self::T; N]) -> [[f64; N]; WIDTH] {
+    fn scatter<const N: usize>(self, count: usize, x: &[Self::T; N], mut to: impl FnMut(usize, &[f64; N])) {
         let mut out = [[0.0; N]; WIDTH];
         let mut n = 0;
         while n + WIDTH <= N {
@@ -141,12 +138,9 @@ impl<S: Simd> Lanes for All<S> {
             }
             n += 1;
         }
-        out
-    }
-
-    #[inline(always)]
-    fn each(self, count: usize) -> std::ops::Range<usize> {
-        0..count.min(WIDTH)
+        for lane in (0..count.min(WIDTH)).rev() {
+            to(lane, &out[lane]);
+        }
     }
 
     #[inline(always)]
@@ -187,13 +181,8 @@ impl Lanes for One {
     }
 
     #[inline(always)]
-    fn columns<const N: usize>(self, x: &[f64; N]) -> [[f64; N]; WIDTH] {
-        [*x; WIDTH]
-    }
-
-    #[inline(always)]
-    fn each(self, _: usize) -> std::ops::Range<usize> {
-        self.0..self.0 + 1
+    fn scatter<const N: usize>(self, _: usize, x: &[f64; N], mut to: impl FnMut(usize, &[f64; N])) {
+        to(self.0, x);
     }
 
     #[inline(always)]
