@@ -21,8 +21,8 @@
 //! inverted. A test holds the two against each other.
 
 use super::block::Vec6;
-use crate::math::lanes::{Four, Lanes, Real, V3};
 use super::spatial::{Articulated, M3, Sym3};
+use crate::math::lanes::{Four, Lanes, Real, V3};
 
 /// Where the point is, as seen from both bodies.
 #[derive(Clone, Copy, Debug, Default)]

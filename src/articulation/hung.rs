@@ -11,11 +11,11 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::ball::Arms;
-use crate::math::lanes::{All, Four, Lanes, One, V3, WIDTH};
 use super::quads::{Homes, Quad, Slot};
 use super::system::RowState;
 use super::tree::Tree;
 use crate::math::DVec3;
+use crate::math::lanes::{All, Four, Lanes, One, V3, WIDTH};
 
 /// The points by which the bodies of each quad hang.
 #[derive(Clone, Debug)]

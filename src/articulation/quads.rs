@@ -7,11 +7,11 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::math::lanes::{All, Four, Lanes, One, Quat, Real, V3, WIDTH};
 use super::ball::Twist;
 use super::block::Vec6;
 use super::spatial::{M3, Sym3};
 use crate::bodies::RigidBody;
+use crate::math::lanes::{All, Four, Lanes, One, Quat, Real, V3, WIDTH};
 use crate::math::{DMat3, DQuat, DVec3};
 
 /// Where a body's numbers are.
@@ -267,11 +267,7 @@ fn push<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], by: &[Vec6]) 
 /// A vector of each body.
 #[inline(always)]
 pub fn gather<'a, L: Lanes>(lanes: L, vector: impl Fn(usize) -> &'a DVec3) -> V3<L::T> {
-    V3 {
-        x: lanes.gather(|k| vector(k).x),
-        y: lanes.gather(|k| vector(k).y),
-        z: lanes.gather(|k| vector(k).z),
-    }
+    V3 { x: lanes.gather(|k| vector(k).x), y: lanes.gather(|k| vector(k).y), z: lanes.gather(|k| vector(k).z) }
 }
 
 impl Quad {

@@ -8,8 +8,8 @@
 //! All of it for one body or for four (`lanes.rs`).
 
 use super::block::{Mat6, Vec6};
-use crate::math::lanes::{Four, Lanes, Real, V3};
 use super::quads::Quads;
+use crate::math::lanes::{Four, Lanes, Real, V3};
 use crate::math::{DMat3, DQuat};
 
 /// A 3×3 matrix by its columns.
@@ -164,11 +164,7 @@ impl<T: Real> Articulated<T> {
     pub fn of_numbers(n: &[T; NUMBERS]) -> Self {
         Self {
             a: Sym3 { d: V3::new(n[0], n[1], n[2]), o: V3::new(n[3], n[4], n[5]) },
-            b: M3 {
-                x: V3::new(n[6], n[7], n[8]),
-                y: V3::new(n[9], n[10], n[11]),
-                z: V3::new(n[12], n[13], n[14]),
-            },
+            b: M3 { x: V3::new(n[6], n[7], n[8]), y: V3::new(n[9], n[10], n[11]), z: V3::new(n[12], n[13], n[14]) },
             c: Sym3 { d: V3::new(n[15], n[16], n[17]), o: V3::new(n[18], n[19], n[20]) },
         }
     }

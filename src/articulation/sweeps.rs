@@ -7,10 +7,10 @@ use fearless_simd::{Simd, dispatch};
 
 use super::ball::{Arms, Ball, Twist};
 use super::block::{MAX_ROWS, Vec6, add_scaled, dot, inverse, mul};
-use crate::math::lanes::{All, Four, Lanes, One, V3};
 use super::quads::{Quad, Slot};
 use super::spatial::Articulated;
 use super::tree::{Form, Step, Tree};
+use crate::math::lanes::{All, Four, Lanes, One, V3};
 
 impl Tree {
     /// Factors the system for bodies of these masses and world inertias, and the joints' present forms.
@@ -44,7 +44,12 @@ impl Tree {
         let ball = Ball::factor(self.balls[quad].arms.get(lanes), &Articulated::of_numbers(&mass));
         self.balls[quad].put_factor(lanes, &ball);
         let articulated = &mut self.articulated;
-        lanes.scatter(members.count, &ball.load().numbers(), |lane, load| add(&mut articulated[parents[lane]], load));
+        lanes.scatter(
+            members.count,
+            &ball.load().numbers(),
+            #[inline(always)]
+            |lane, load| add(&mut articulated[parents[lane]], load),
+        );
     }
 
     fn factor_one<'a>(&mut self, body: usize, form: &impl Fn(usize) -> Form<'a>) {
@@ -110,12 +115,22 @@ impl Tree {
         let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
         let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
         let w = ball.up(wrench, wanted);
-        lanes.scatter(members.count, &[w.x, w.y, w.z], |lane, w| put(lambda, hooks.at[lane], w));
-        lanes.scatter(members.count, &ball.wrench(w).numbers(), |lane, push| {
-            if let Some(b) = b.get_mut(hooks.parents[lane]) {
-                add(b, push);
-            }
-        });
+        lanes.scatter(
+            members.count,
+            &[w.x, w.y, w.z],
+            #[inline(always)]
+            |lane, w| put(lambda, hooks.at[lane], w),
+        );
+        lanes.scatter(
+            members.count,
+            &ball.wrench(w).numbers(),
+            #[inline(always)]
+            |lane, push| {
+                if let Some(b) = b.get_mut(hooks.parents[lane]) {
+                    add(b, push);
+                }
+            },
+        );
     }
 
     #[inline(always)]
@@ -138,8 +153,18 @@ impl Tree {
         let carried = Twist::gather(lanes, parent);
         let (acceleration, l) = ball.down(wrench, wanted, w, carried);
         let l = l * lanes.get(&hooks.signs);
-        lanes.scatter(members.count, &[l.x, l.y, l.z], |lane, l| put(lambda, hooks.at[lane], l));
-        lanes.scatter(members.count, &acceleration.numbers(), |lane, own| a[members.bodies[lane]] = *own);
+        lanes.scatter(
+            members.count,
+            &[l.x, l.y, l.z],
+            #[inline(always)]
+            |lane, l| put(lambda, hooks.at[lane], l),
+        );
+        lanes.scatter(
+            members.count,
+            &acceleration.numbers(),
+            #[inline(always)]
+            |lane, own| a[members.bodies[lane]] = *own,
+        );
     }
 
     /// The way up for one body. Without `g`, g is 0.

@@ -10,11 +10,11 @@ use fearless_simd::Level;
 use super::activity::Activity;
 use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear, vec6};
 use super::dense::Dense;
+use super::hung::Hung;
 use super::loops::{LoopRow, Loops};
+use super::quads::Quads;
 use super::rows::coupling::{self, Gauge};
 use super::rows::{Row, Scene, friction, orientation, plane, point};
-use super::hung::Hung;
-use super::quads::Quads;
 use super::spatial::{matrix, response};
 use super::tree::{Form, JointRows, Link, Tree};
 use super::{Constraint, ConstraintKind};
@@ -131,6 +131,17 @@ pub struct System {
 impl System {
     /// The figure of `bodies` at its start, joined by `constraints`; `driven` says whose motion is given.
     pub fn new(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
+        Self::at_level(Level::new(), bodies, driven, constraints, method)
+    }
+
+    /// The same for a processor of this level; what it finds does not depend on it.
+    pub fn at_level(
+        level: Level,
+        bodies: &[RigidBody],
+        driven: &[bool],
+        constraints: &[Constraint],
+        method: Method,
+    ) -> Self {
         let (mut joints, mut count) = joints(constraints);
         let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
         let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
@@ -140,7 +151,6 @@ impl System {
             .zip(&joints)
             .map(|(all, joint)| all && joint.constraints.len() == 1)
             .collect();
-        let level = Level::new();
         let tree = Tree::new(level, driven, &links, &at, &points);
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();

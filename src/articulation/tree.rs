@@ -31,12 +31,12 @@
 
 use fearless_simd::Level;
 
-use super::ball::{Arms, Ball};
+use super::ball::Ball;
 use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, mul, pseudo_inverse};
-use crate::math::lanes::{Four, One, WIDTH};
 use super::quads::{Members, Slot};
 use super::spatial::NUMBERS;
 use crate::math::DVec3;
+use crate::math::lanes::{Four, One, WIDTH};
 
 /// Rows of one joint at one configuration, for the general elimination.
 #[derive(Clone, Debug)]

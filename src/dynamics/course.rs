@@ -15,7 +15,12 @@ use crate::math::lanes::{Four, Lanes, Quat, Real, V3, WIDTH};
 
 /// A state and `h` times a rate; also σ.
 #[inline(always)]
-pub(super) fn advance<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, rate: &Rate<T>) -> (State<T>, V3<T>) {
+pub(super) fn advance<T: Real, L: Lanes<T = T>>(
+    lanes: L,
+    from: &State<T>,
+    h: f64,
+    rate: &Rate<T>,
+) -> (State<T>, V3<T>) {
     let h = from.rotation.w.all(h);
     let turn = rate.turn * h;
     let state = State {

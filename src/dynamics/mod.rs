@@ -33,8 +33,8 @@ use crate::math::{DMat3, DVec3};
 
 use contacts::Verdict;
 pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
-pub use drive::{Drive, Instant, Motion};
 use course::{Course, Rate};
+pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
 use passes::{Begin, Return};
 

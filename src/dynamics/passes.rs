@@ -245,7 +245,6 @@ pub(super) struct Mean {
 impl Pass for Mean {
     #[inline(always)]
     fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, _) = dynamics.quad(index);
         let start = dynamics.courses[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let none = V3 { x: zero, y: zero, z: zero };

@@ -230,11 +230,7 @@ impl<T: Real> V3<T> {
     /// Vector product.
     #[inline(always)]
     pub fn cross(self, v: Self) -> Self {
-        Self {
-            x: self.y * v.z - v.y * self.z,
-            y: self.z * v.x - v.z * self.x,
-            z: self.x * v.y - v.x * self.y,
-        }
+        Self { x: self.y * v.z - v.y * self.z, y: self.z * v.x - v.z * self.x, z: self.x * v.y - v.x * self.y }
     }
 
     /// Part by part.
@@ -245,11 +241,6 @@ impl<T: Real> V3<T> {
 }
 
 impl V3<Four> {
-    /// The same for all.
-    pub const fn splat(v: DVec3) -> Self {
-        Self { x: Four::splat(v.x), y: Four::splat(v.y), z: Four::splat(v.z) }
-    }
-
     /// Reads.
     #[inline(always)]
     pub fn get<L: Lanes>(&self, lanes: L) -> V3<L::T> {
@@ -344,7 +335,9 @@ impl<T: Real> Quat<T> {
             let (s, c) = super::small_turn(x);
             return Self { v: w * s, w: c };
         }
-        Self::gather(lanes, |k| super::rotation(DVec3::new(lanes.lane(&w.x, k), lanes.lane(&w.y, k), lanes.lane(&w.z, k))))
+        Self::gather(lanes, |k| {
+            super::rotation(DVec3::new(lanes.lane(&w.x, k), lanes.lane(&w.y, k), lanes.lane(&w.z, k)))
+        })
     }
 
     /// Of each body.
