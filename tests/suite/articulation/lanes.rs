@@ -42,10 +42,13 @@ fn bush(random: &mut Random) -> (Vec<RigidBody>, Vec<Constraint>) {
     (bodies, constraints)
 }
 
-/// Accelerations and multipliers under random forces and wanted rows, and the rates that a velocity solve undoes.
-fn solved(system: &mut System, bodies: &[RigidBody], random: &mut Random) -> (Vec<Vec6>, Vec<f64>) {
+/// Accelerations and multipliers under random forces and wanted rows, and the rates that a velocity solve undoes; the
+/// figure may be one that is still being drawn together.
+fn solved(system: &mut System, bodies: &[RigidBody], gathers: bool, random: &mut Random) -> (Vec<Vec6>, Vec<f64>) {
     system.evaluate(bodies);
-    system.look_for_gaps();
+    if gathers {
+        system.look_for_gaps();
+    }
     system.factor();
     for i in 0..bodies.len() {
         (system.b[i], system.a[i]) = (wrench(random), wrench(random));
@@ -84,7 +87,7 @@ fn every_processor_finds_the_same_bits() {
         };
         let found = levels().into_iter().map(|level| {
             let mut system = System::at_level(level, &bodies, &driven, &constraints, Method::Sparse);
-            bits(&solved(&mut system, &bodies, &mut Random::new(seed)))
+            bits(&solved(&mut system, &bodies, seed % 4 < 2, &mut Random::new(seed)))
         });
         let found: Vec<Vec<u64>> = found.collect();
         assert!(found.windows(2).all(|pair| pair[0] == pair[1]), "seed {seed}: {} levels differ", found.len());
@@ -104,7 +107,7 @@ fn four_bodies_at_a_time_come_out_as_one_by_one() {
         }
         let [together, alone] = [&constraints, &alone].map(|constraints| {
             let mut system = System::new(&bodies, &driven, constraints, Method::Sparse);
-            solved(&mut system, &bodies, &mut Random::new(seed))
+            solved(&mut system, &bodies, seed % 2 == 0, &mut Random::new(seed))
         });
         assert!(bits(&together) == bits(&alone), "seed {seed}");
     }
@@ -118,7 +121,8 @@ fn four_bodies_at_a_time_obey_the_dense_equations() {
         let driven = vec![false; bodies.len()];
         let [tree, dense] = [Method::Sparse, Method::Dense].map(|method| {
             let mut system = System::new(&bodies, &driven, &constraints, method);
-            solved(&mut system, &bodies, &mut Random::new(seed))
+            // While it gathers the dense rows yield a little, and those of the tree do not.
+            solved(&mut system, &bodies, false, &mut Random::new(seed))
         });
         let largest = |(a, lambda): &(Vec<Vec6>, Vec<f64>)| {
             a.iter().flatten().chain(lambda).fold(0.0_f64, |most, x| most.max(x.abs()))
