@@ -4,6 +4,8 @@
 //! platform, in debug and in release. `f64::sqrt` and the four operations are exact by IEEE 754 and used directly.
 //! `f64::powi` is not: its rounding may differ between optimisation levels, so it is forbidden (clippy.toml).
 
+pub mod lanes;
+
 pub use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
 pub use libm::{acos, asin, atan2, cos, exp, log as ln, log10, pow, sin, sincos, sqrt, tanh};
 
@@ -65,16 +67,24 @@ impl Pose {
 /// Coefficients of sin(θ/2)/θ and of cos(θ/2) in powers of (θ/2)², from the first on: ±1/(2 (2n+1)!) and ±1/(2n)!.
 const S: [f64; 5] = [-0.5 / 6.0, 0.5 / 120.0, -0.5 / 5040.0, 0.5 / 362_880.0, -0.5 / 39_916_800.0];
 const C: [f64; 6] = [-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0, 1.0 / 479_001_600.0];
+/// (θ/2)² of a small turn.
+const SMALL: f64 = 1e-3;
+
+/// sin(θ/2)/θ and cos(θ/2) of a small turn by x = (θ/2)²: the terms left out are below 10⁻¹⁷.
+#[inline(always)]
+fn small_turn<T: lanes::Real>(x: T) -> (T, T) {
+    let s = x.all(S[0]) + x * (x.all(S[1]) + x * x.all(S[2]));
+    let c = x.all(C[0]) + x * (x.all(C[1]) + x * (x.all(C[2]) + x * x.all(C[3])));
+    (x.all(0.5) + x * s, x.all(1.0) + x * c)
+}
 
 /// Rotation by the vector `w` (axis times angle, rad): the exponential map. Turns of a step, below half a radian, by
 /// the Taylor series of sin(θ/2)/θ and cos(θ/2), which end below rounding there.
 #[inline]
 pub fn rotation(w: DVec3) -> DQuat {
     let x = 0.25 * w.length_squared();
-    if x < 1e-3 {
-        // The terms left out are below 10⁻¹⁷.
-        let s = 0.5 + x * (S[0] + x * (S[1] + x * S[2]));
-        let c = 1.0 + x * (C[0] + x * (C[1] + x * (C[2] + x * C[3])));
+    if x < SMALL {
+        let (s, c) = small_turn(x);
         return DQuat::from_xyzw(s * w.x, s * w.y, s * w.z, c);
     }
     if x < 0.0625 {

@@ -1,4 +1,4 @@
-//! Elimination of a body that hangs by one point: the commonest joint, in 3×3 blocks.
+//! Elimination of a body that hangs by one point: the commonest joint, in 3×3 blocks, for one body or four.
 //!
 //! Let c be the body, p its parent, r and s the arms from their centres of mass to the common point, (A, B, C) c's
 //! articulated mass (`spatial.rs`). With u the acceleration of the point instead of the centre's, ω̇ unchanged,
@@ -20,106 +20,167 @@
 //! This is the general elimination of `tree.rs` for the rows J_c = `(E, −r×)`; here nothing larger than 3×3 is
 //! inverted. A test holds the two against each other.
 
-use super::block::{Vec6, angular, linear, vec6};
-use super::spatial::{Articulated, Sym3};
-use crate::math::{DMat3, DVec3};
+use super::block::Vec6;
+use super::spatial::{Articulated, M3, Sym3};
+use crate::math::lanes::{Four, Lanes, Real, V3};
 
-/// Factor of one such body.
-#[derive(Clone, Copy, Debug)]
-pub struct Ball {
+/// Where the point is, as seen from both bodies.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arms<T> {
     /// r: from the body's centre of mass to the point, world axes, m.
-    pub arm: DVec3,
-    /// s: from the parent's centre of mass to the point, world axes, m; unused under the world.
-    pub parent_arm: DVec3,
+    pub own: V3<T>,
+    /// s: from the parent's centre of mass to the point, world axes, m.
+    pub parent: V3<T>,
+}
+
+/// Factor of such a body.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ball<T> {
+    /// r and s.
+    pub arms: Arms<T>,
     /// C'⁻¹.
-    free: Sym3,
+    free: Sym3<T>,
     /// L.
-    lever: DMat3,
+    lever: M3<T>,
     /// N.
-    point_mass: Sym3,
+    point_mass: Sym3<T>,
 }
 
-impl Default for Ball {
-    fn default() -> Self {
-        let none = Sym3::default();
-        Self { arm: DVec3::ZERO, parent_arm: DVec3::ZERO, free: none, lever: DMat3::ZERO, point_mass: none }
-    }
+/// Force and torque, or the linear and angular parts of an acceleration.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Twist<T> {
+    /// Linear part.
+    pub linear: V3<T>,
+    /// Angular part.
+    pub angular: V3<T>,
 }
 
-impl Ball {
+impl<T: Real> Ball<T> {
     /// Eliminates the body of this articulated mass.
-    #[inline]
-    pub fn factor(&mut self, mass: &Articulated) {
-        let r = self.arm;
-        let q = mass.b + mass.a.mul_skew(r);
+    #[inline(always)]
+    pub fn factor(arms: Arms<T>, mass: &Articulated<T>) -> Self {
+        let r = arms.own;
+        let b = &mass.b;
+        let y = mass.a.mul_skew(r);
+        let q = M3 { x: b.x + y.x, y: b.y + y.y, z: b.z + y.z };
         // Entry (i, j) of C' needs component j of r × b_i and component i of r × q_j.
-        let (b, n) = (&mass.b, &q);
-        let cross_x = |v: DVec3| r.y * v.z - r.z * v.y;
-        let cross_y = |v: DVec3| r.z * v.x - r.x * v.z;
-        let cross_z = |v: DVec3| r.x * v.y - r.y * v.x;
+        let (bx, by, bz) = (r.cross(b.x), r.cross(b.y), r.cross(b.z));
+        let (qx, qy, qz) = (r.cross(q.x), r.cross(q.y), r.cross(q.z));
         let spin = Sym3 {
-            d: mass.c.d
-                - DVec3::new(
-                    cross_x(b.x_axis) + cross_x(n.x_axis),
-                    cross_y(b.y_axis) + cross_y(n.y_axis),
-                    cross_z(b.z_axis) + cross_z(n.z_axis),
-                ),
-            o: mass.c.o
-                - DVec3::new(
-                    cross_z(b.y_axis) + cross_y(n.z_axis),
-                    cross_z(b.x_axis) + cross_x(n.z_axis),
-                    cross_y(b.x_axis) + cross_x(n.y_axis),
-                ),
+            d: mass.c.d - V3::new(bx.x + qx.x, by.y + qy.y, bz.z + qz.z),
+            o: mass.c.o - V3::new(by.z + qz.y, bx.z + qz.x, bx.y + qy.x),
         };
-        self.free = spin.inverse();
-        let (gx, gy, gz) = (self.free.x(), self.free.y(), self.free.z());
-        self.lever = DMat3::from_cols(q * gx, q * gy, q * gz);
-        let l = &self.lever;
-        let entry =
-            |i: usize, j: usize| l.x_axis[i] * q.x_axis[j] + l.y_axis[i] * q.y_axis[j] + l.z_axis[i] * q.z_axis[j];
-        self.point_mass = Sym3 {
-            d: mass.a.d - DVec3::new(entry(0, 0), entry(1, 1), entry(2, 2)),
-            o: mass.a.o - DVec3::new(entry(1, 2), entry(2, 0), entry(0, 1)),
-        };
+        let free = spin.inverse();
+        let (gx, gy, gz) = (free.x(), free.y(), free.z());
+        let lever = M3 { x: q.mul(gx), y: q.mul(gy), z: q.mul(gz) };
+        let taken = Sym3::product(&lever, &q);
+        let point_mass = Sym3 { d: mass.a.d - taken.d, o: mass.a.o - taken.o };
+        Self { arms, free, lever, point_mass }
     }
 
-    /// Leaves the parent with what it feels of the body.
-    #[inline]
-    pub fn load(&self, parent: &mut Articulated) {
-        let (n, s) = (&self.point_mass, self.parent_arm);
+    /// What the parent feels of the body.
+    #[inline(always)]
+    pub fn load(&self) -> Articulated<T> {
+        let (n, s) = (self.point_mass, self.arms.parent);
         let y = n.mul_skew(s);
-        parent.a.add(n);
-        parent.b -= y;
         // −[s]× N [s]×, column by column s × (−y).
-        let (x, z) = (y.x_axis, y.z_axis);
-        let y = y.y_axis;
-        parent.c.d -= DVec3::new(s.y * x.z - s.z * x.y, s.z * y.x - s.x * y.z, s.x * z.y - s.y * z.x);
-        parent.c.o -= DVec3::new(s.x * y.y - s.y * y.x, s.x * x.y - s.y * x.x, s.z * x.x - s.x * x.z);
+        let b = M3 { x: -y.x, y: -y.y, z: -y.z };
+        let (x, y, z) = (y.x, y.y, y.z);
+        let c = Sym3 {
+            d: -V3::new(s.cross(x).x, s.cross(y).y, s.cross(z).z),
+            o: -V3::new(s.cross(y).z, s.cross(x).z, s.cross(x).y),
+        };
+        Articulated { a: n, b, c }
     }
 
     /// Towards the root: the wrench `b` on the body and the wanted `g` become the force w on the parent's point.
-    #[inline]
-    pub fn up(&self, b: &Vec6, g: DVec3) -> DVec3 {
-        let f = linear(b);
-        let torque = angular(b) - self.arm.cross(f);
-        f - self.lever * torque - self.point_mass.mul(g)
+    #[inline(always)]
+    pub fn up(&self, b: Twist<T>, g: V3<T>) -> V3<T> {
+        let torque = b.angular - self.arms.own.cross(b.linear);
+        b.linear - self.lever.mul(torque) - self.point_mass.mul(g)
     }
 
     /// Wrench on the parent of a force at the point.
-    #[inline]
-    pub fn wrench(&self, w: DVec3) -> Vec6 {
-        vec6(w, self.parent_arm.cross(w))
+    #[inline(always)]
+    pub fn wrench(&self, w: V3<T>) -> Twist<T> {
+        Twist { linear: w, angular: self.arms.parent.cross(w) }
     }
 
     /// Towards the leaves: the body's acceleration and λ from the parent's `a`, the body's own `b`, `g` and w.
-    #[inline]
-    pub fn down(&self, b: &Vec6, g: DVec3, w: DVec3, parent: Option<&Vec6>) -> (Vec6, DVec3) {
-        let carried = parent.map_or(DVec3::ZERO, |a| linear(a) + angular(a).cross(self.parent_arm));
+    #[inline(always)]
+    pub fn down(&self, b: Twist<T>, g: V3<T>, w: V3<T>, parent: Twist<T>) -> (Twist<T>, V3<T>) {
+        let carried = parent.linear + parent.angular.cross(self.arms.parent);
         let lambda = self.point_mass.mul(carried) - w;
         let u = g + carried;
-        let torque = angular(b) - self.arm.cross(linear(b));
-        let l = &self.lever;
-        let turn = self.free.mul(torque) - DVec3::new(l.x_axis.dot(u), l.y_axis.dot(u), l.z_axis.dot(u));
-        (vec6(u - turn.cross(self.arm), turn), lambda)
+        let torque = b.angular - self.arms.own.cross(b.linear);
+        let turn = self.free.mul(torque) - self.lever.transposed_mul(u);
+        (Twist { linear: u - turn.cross(self.arms.own), angular: turn }, lambda)
+    }
+}
+
+impl<T: Real> Twist<T> {
+    /// Of each body.
+    #[inline(always)]
+    pub fn gather<'a, L: Lanes<T = T>>(lanes: L, of: impl Fn(usize) -> &'a Vec6) -> Self {
+        let [x, y, z, a, b, c] = lanes.rows(of);
+        Self { linear: V3 { x, y, z }, angular: V3 { x: a, y: b, z: c } }
+    }
+
+    /// The six numbers.
+    #[inline(always)]
+    pub fn numbers(&self) -> [T; 6] {
+        let (l, a) = (&self.linear, &self.angular);
+        [l.x, l.y, l.z, a.x, a.y, a.z]
+    }
+}
+
+impl Twist<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> Twist<L::T> {
+        Twist { linear: self.linear.get(lanes), angular: self.angular.get(lanes) }
+    }
+
+    /// Writes.
+    #[inline(always)]
+    pub fn put<L: Lanes>(&mut self, lanes: L, twist: &Twist<L::T>) {
+        self.linear.put(lanes, twist.linear);
+        self.angular.put(lanes, twist.angular);
+    }
+}
+
+impl Arms<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> Arms<L::T> {
+        Arms { own: self.own.get(lanes), parent: self.parent.get(lanes) }
+    }
+
+    /// Writes.
+    #[inline(always)]
+    pub fn put<L: Lanes>(&mut self, lanes: L, arms: &Arms<L::T>) {
+        self.own.put(lanes, arms.own);
+        self.parent.put(lanes, arms.parent);
+    }
+}
+
+impl Ball<Four> {
+    /// Reads.
+    #[inline(always)]
+    pub fn get<L: Lanes>(&self, lanes: L) -> Ball<L::T> {
+        Ball {
+            arms: self.arms.get(lanes),
+            free: self.free.get(lanes),
+            lever: self.lever.get(lanes),
+            point_mass: self.point_mass.get(lanes),
+        }
+    }
+
+    /// Writes all but the arms, which are known.
+    #[inline(always)]
+    pub fn put_factor<L: Lanes>(&mut self, lanes: L, ball: &Ball<L::T>) {
+        self.free.put(lanes, &ball.free);
+        self.lever.put(lanes, &ball.lever);
+        self.point_mass.put(lanes, &ball.point_mass);
     }
 }

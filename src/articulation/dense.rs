@@ -9,7 +9,8 @@
 use super::block::{Mat6, Vec6, add_scaled, dot, inverse, mul};
 use super::cholesky::Cholesky;
 use super::loops::{GATHERING, LoopRow};
-use super::spatial::{Articulated, Sym3};
+use super::quads::Quads;
+use super::spatial::Articulated;
 
 /// A pivot below this share of its row's answer alone says that the row repeats earlier ones.
 const REDUNDANT: f64 = 1e-11;
@@ -46,9 +47,9 @@ impl Dense {
     }
 
     /// Factors J M⁻¹ Jᵀ + Γ for the active rows. Does the figure gather?
-    pub fn factor(&mut self, masses: &[f64], inertias: &[Sym3], gathering: bool) {
-        for ((inverted, &mass), inertia) in self.inverse.iter_mut().zip(masses).zip(inertias) {
-            *inverted = inverse(&Articulated::alone(mass, inertia).matrix());
+    pub fn factor(&mut self, quads: &Quads, gathering: bool) {
+        for (body, inverted) in self.inverse.iter_mut().enumerate() {
+            *inverted = inverse(&Articulated::alone(quads.mass(body), quads.inertia(body)).matrix());
         }
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));

@@ -14,7 +14,8 @@
 
 use super::block::{RowVec, Vec6, add_scaled, dot};
 use super::cholesky::Cholesky;
-use super::spatial::{Sym3, response};
+use super::quads::Quads;
+use super::spatial::response;
 use super::tree::Tree;
 
 /// A pivot below this share of its row's answer alone says that the row repeats others. Loop rows pass
@@ -93,9 +94,8 @@ impl Loops {
         self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
     }
 
-    /// Factors S for the active rows; the tree must have been factored for these masses and world inertias. Does the
-    /// figure gather?
-    pub fn factor(&mut self, tree: &Tree, masses: &[f64], inertias: &[Sym3], gathering: bool) {
+    /// Factors S for the active rows; the tree must have been factored for these bodies. Does the figure gather?
+    pub fn factor(&mut self, tree: &Tree, quads: &Quads, gathering: bool) {
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
         let n = self.active.len();
@@ -120,7 +120,7 @@ impl Loops {
         }
         for k in 0..n {
             let row = &self.rows[self.active[k]];
-            let alone = response(&row.parts, &self.driven, masses, inertias);
+            let alone = response(&row.parts, &self.driven, quads);
             self.factor.measure(k, alone);
             *self.factor.entry(k, k) += if gathering { GATHERING * alone } else { 0.0 };
             row.add_compliance(k, &mut self.factor);

@@ -8,11 +8,14 @@ pub mod block;
 mod cholesky;
 mod dense;
 pub mod function;
+mod hung;
 mod loops;
+pub mod quads;
 pub mod rows;
 mod schedule;
 mod share;
 pub mod spatial;
+mod sweeps;
 mod system;
 pub mod tree;
 

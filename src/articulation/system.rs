@@ -5,13 +5,17 @@
 
 use std::collections::BTreeMap;
 
+use fearless_simd::Level;
+
 use super::activity::Activity;
 use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear, vec6};
 use super::dense::Dense;
+use super::hung::Hung;
 use super::loops::{LoopRow, Loops};
+use super::quads::Quads;
 use super::rows::coupling::{self, Gauge};
 use super::rows::{Row, Scene, friction, orientation, plane, point};
-use super::spatial::{Sym3, matrix, response};
+use super::spatial::{matrix, response};
 use super::tree::{Form, JointRows, Link, Tree};
 use super::{Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
@@ -51,8 +55,10 @@ pub struct Joint {
     /// Where it is one point: that point from the two bodies' centres of mass in their node axes (in the world for
     /// the world), m.
     point: Option<(DVec3, DVec3)>,
-    /// World arms of the two bodies where it is one point, hard, at the last evaluation.
+    /// World arms of the two bodies where it is one point, hard, at the last evaluation; the tree has those of `hangs`.
     arms: Option<(DVec3, DVec3)>,
+    /// The body that hangs by it, where it is always one point.
+    hangs: Option<usize>,
     /// Its block rows, where it is ever more than a point.
     block: Option<usize>,
     /// First of its rows among the loops', where it closes one (or the solver is dense).
@@ -77,7 +83,7 @@ pub struct RowState {
     /// ḟ.
     feed: f64,
     /// J̇ẋ − f̈.
-    bias: f64,
+    pub(super) bias: f64,
     /// Is C a length?
     length: bool,
     /// Constraint that it belongs to.
@@ -97,16 +103,20 @@ pub struct System {
     /// What acts now.
     pub activity: Activity,
     joints: Vec<Joint>,
+    /// Joints that are not always one point by which a body hangs.
+    various: Vec<usize>,
     couplings: Vec<Coupling>,
     blocks: Vec<JointRows>,
     states: Vec<RowState>,
     tree: Tree,
+    hung: Hung,
+    /// Do the rows' numbers hold the values of the last evaluation?
+    told: bool,
     loops: Loops,
     dense: Option<Dense>,
-    inertia: Vec<Sym3>,
+    quads: Quads,
+    /// Rotation matrices, where a row asks for them.
     frames: Vec<DMat3>,
-    masses: Vec<f64>,
-    inertia_world: Vec<Sym3>,
     driven: Vec<bool>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
@@ -121,6 +131,17 @@ pub struct System {
 impl System {
     /// The figure of `bodies` at its start, joined by `constraints`; `driven` says whose motion is given.
     pub fn new(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
+        Self::at_level(Level::new(), bodies, driven, constraints, method)
+    }
+
+    /// The same for a processor of this level; what it finds does not depend on it.
+    pub fn at_level(
+        level: Level,
+        bodies: &[RigidBody],
+        driven: &[bool],
+        constraints: &[Constraint],
+        method: Method,
+    ) -> Self {
         let (mut joints, mut count) = joints(constraints);
         let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
         let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
@@ -130,7 +151,7 @@ impl System {
             .zip(&joints)
             .map(|(all, joint)| all && joint.constraints.len() == 1)
             .collect();
-        let tree = Tree::new(driven, &links, &at, &points);
+        let tree = Tree::new(level, driven, &links, &at, &points);
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
@@ -166,8 +187,26 @@ impl System {
             Method::Sparse => (outside, None),
             Method::Dense => (Vec::new(), Some(Dense::new(outside, driven))),
         };
-        let inertia = bodies.iter().map(|body| Sym3::lower(&body.properties.inertia)).collect();
         let n = bodies.len();
+        for &body in tree.order() {
+            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !driven[body]) {
+                joints[joint].hangs = Some(body);
+            }
+        }
+        let ends = |body: usize| {
+            let joint = tree.joint_of(body).map(|joint| &joints[joint]).filter(|joint| joint.hangs == Some(body))?;
+            joint.point.map(|(a, b)| if joint.link.a == body { (a, b) } else { (b, a) })
+        };
+        let hung = Hung::new(&tree, ends);
+        let various: Vec<usize> = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none()).collect();
+        let asked = !(various.is_empty() && couplings.is_empty());
+        let mut states = vec![RowState::default(); count];
+        for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
+            (joint.rows, joint.hard) = (3, 3);
+            for state in &mut states[joint.at..joint.at + 3] {
+                (state.length, state.constraint, state.share) = (true, joint.constraints[0], 1.0);
+            }
+        }
         Self {
             gathering: false,
             activity: Activity::new(constraints),
@@ -176,13 +215,14 @@ impl System {
             joints,
             couplings,
             blocks,
-            states: vec![RowState::default(); count],
+            states,
+            quads: Quads::new(level, tree.members(), bodies),
             tree,
+            hung,
+            told: false,
+            various,
             dense,
-            inertia,
-            frames: vec![DMat3::IDENTITY; n],
-            masses: bodies.iter().map(|body| body.properties.mass).collect(),
-            inertia_world: vec![Sym3::default(); n],
+            frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
             driven: driven.to_vec(),
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
@@ -218,23 +258,42 @@ impl System {
 
     /// What the bodies of a row answer to it, each alone.
     pub(super) fn response(&self, row: usize) -> f64 {
-        response(&self.jacobian(row), &self.driven, &self.masses, &self.inertia_world)
+        response(&self.jacobian(row), &self.driven, &self.quads)
     }
 
-    /// World inertia of a body at the last evaluation.
-    pub fn inertia_world(&self, body: usize) -> &Sym3 {
-        &self.inertia_world[body]
+    /// The bodies by fours, as they stood at the last evaluation.
+    pub fn quads(&self) -> &Quads {
+        &self.quads
+    }
+
+    /// The same, to be moved before an evaluation.
+    pub fn quads_mut(&mut self) -> &mut Quads {
+        &mut self.quads
+    }
+
+    /// Is there any joint that looks at the bodies themselves?
+    pub fn asks_bodies(&self) -> bool {
+        !self.frames.is_empty()
     }
 
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
-        for (index, body) in bodies.iter().enumerate() {
-            self.frames[index] = matrix(body.rotation);
-            self.inertia_world[index] = self.inertia[index].rotated(&self.frames[index]);
+        self.quads.look(bodies);
+        self.evaluate_quads(bodies);
+        self.tell_values();
+    }
+
+    /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
+    pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
+        self.hung.evaluate(self.quads.all(), &mut self.tree);
+        self.told = false;
+        for (body, frame) in self.frames.iter_mut().enumerate() {
+            *frame = self.quads.frame(body);
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
-        for joint in &mut self.joints {
+        for &index in &self.various {
+            let joint = &mut self.joints[index];
             joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
@@ -269,11 +328,11 @@ impl System {
     /// Factors the rows as they are.
     fn factor_rows(&mut self) {
         if let Some(dense) = &mut self.dense {
-            dense.factor(&self.masses, &self.inertia_world, self.gathering);
+            dense.factor(&self.quads, self.gathering);
             return;
         }
         let (joints, blocks) = (&self.joints, &self.blocks);
-        self.tree.factor(&self.masses, &self.inertia_world, |index| {
+        self.tree.factor(self.quads.all(), |index| {
             let joint = &joints[index];
             match (joint.arms, joint.block) {
                 (Some((a, b)), _) => Form::Point(a, b),
@@ -281,7 +340,7 @@ impl System {
                 (None, None) => unreachable!("a joint is a point or has a block"),
             }
         });
-        self.loops.factor(&self.tree, &self.masses, &self.inertia_world, self.gathering);
+        self.loops.factor(&self.tree, &self.quads, self.gathering);
     }
 
     /// Solves for `a` and `lambda` from `b` and `g`.
@@ -290,18 +349,23 @@ impl System {
             dense.solve(&mut self.b, &self.g, &mut self.a, &mut self.lambda);
             return;
         }
-        for &body in self.tree.order().iter().rev() {
-            self.tree.up(body, &mut self.b, Some(&self.g), &mut self.lambda);
-        }
+        self.tree.sweep_up(&mut self.b, &self.g, &mut self.lambda);
         self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
-        for &body in self.tree.order() {
-            self.tree.down(body, &self.b, Some(&self.g), &mut self.lambda, &mut self.a);
+        self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
+    }
+
+    /// C of the point joints into their rows' numbers, if it is not there yet.
+    fn tell_values(&mut self) {
+        if !self.told {
+            self.hung.tell_values(&self.tree, &mut self.states);
+            self.told = true;
         }
     }
 
     /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
     /// So does it rows of a share below 1. The others are closed by projection: their errors at an integrator's inner stages belong to the method.
     pub fn look_for_gaps(&mut self) {
+        self.tell_values();
         self.gathering = false;
         for state in &mut self.states {
             state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
@@ -313,17 +377,26 @@ impl System {
     /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
         if self.gathering {
+            self.hung.tell_biases(&self.tree, &mut self.states);
             self.rates(bodies);
-        }
-        for (g, state) in self.g.iter_mut().zip(&self.states) {
-            let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
-            *g = -state.bias - drawn;
+            for (g, state) in self.g.iter_mut().zip(&self.states) {
+                let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
+                *g = -state.bias - drawn;
+            }
+        } else {
+            self.hung.want_still(&self.tree, &mut self.g);
+            let various = self.various.iter().map(|&joint| &self.joints[joint]);
+            let rows = various.flat_map(|joint| joint.at..joint.at + joint.rows);
+            for row in rows.chain(self.couplings.iter().map(|coupling| coupling.at)) {
+                self.g[row] = -self.states[row].bias;
+            }
         }
         self.solve();
     }
 
     /// Solves for the displacement that closes the joints' position error: J δ = −C, least in kinetic energy.
     pub fn solve_displacement(&mut self) {
+        self.tell_values();
         self.b.fill([0.0; 6]);
         self.still();
         for (g, state) in self.g.iter_mut().zip(&self.states) {
@@ -335,6 +408,12 @@ impl System {
     /// Solves for the velocity change that makes J (v + δ) + Γ λ = ḟ: joints hold, soft rows resist. What is still
     /// being drawn together keeps its speed.
     pub fn solve_velocity(&mut self, bodies: &[RigidBody]) {
+        self.quads.look(bodies);
+        self.solve_velocity_quads(bodies);
+    }
+
+    /// The same for bodies whose velocities the quads have, see [`System::evaluate_quads`].
+    pub fn solve_velocity_quads(&mut self, bodies: &[RigidBody]) {
         self.b.fill([0.0; 6]);
         self.still();
         self.rates(bodies);
@@ -363,7 +442,8 @@ impl System {
     /// Ċ of every row into `g`.
     fn rates(&mut self, bodies: &[RigidBody]) {
         let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
-        for joint in &self.joints {
+        self.hung.rates(self.quads.all(), &self.tree, &mut self.g);
+        for joint in self.various.iter().map(|&joint| &self.joints[joint]) {
             let at = joint.at;
             match (joint.arms, joint.block) {
                 (Some((r, s)), _) => {
@@ -402,11 +482,14 @@ impl System {
         }
     }
 
-    /// Closes the joints: adds the answer of [`System::solve_displacement`] to the bodies' places.
-    pub fn close(&mut self, bodies: &mut [RigidBody]) {
-        for (body, a) in bodies.iter_mut().zip(&self.a) {
-            body.displace(linear(a), angular(a));
-        }
+    /// Adds the answer `a` to the quads' velocities.
+    pub fn apply_velocity_quads(&mut self) {
+        self.quads.push(&self.a);
+    }
+
+    /// Closes the joints: adds the answer of [`System::solve_displacement`] to the quads' places.
+    pub fn close_quads(&mut self) {
+        self.quads.displace(&self.a);
         for state in self.states.iter_mut().filter(|state| !state.gathers) {
             state.value = 0.0;
         }
@@ -426,6 +509,11 @@ impl System {
         } else if let Some(coupling) = self.couplings.iter().find(|coupling| coupling.at == rows[0]) {
             outside[coupling.outside].compliance[0] = d[0] * d[0] * k[0][0];
         }
+    }
+
+    /// World arms of a joint that is one point now.
+    fn arms_of(&self, joint: &Joint) -> Option<(DVec3, DVec3)> {
+        joint.hangs.map_or(joint.arms, |body| Some(self.tree.arms(body)))
     }
 
     /// Rows outside the tree.
@@ -456,7 +544,7 @@ impl System {
     pub fn jacobian(&self, row: usize) -> Vec<(usize, Vec6)> {
         if let Some(joint) = self.joint_of(row) {
             let k = row - joint.at;
-            let (a, b) = match (joint.arms, joint.block) {
+            let (a, b) = match (self.arms_of(joint), joint.block) {
                 (Some((r, s)), _) => {
                     let e = DVec3::AXES[k];
                     (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)))
@@ -554,6 +642,9 @@ impl System {
     /// The force that a joint's length rows carried in the last solve of forces, N.
     pub fn load(&self, joint: usize) -> f64 {
         let j = &self.joints[joint];
+        if j.hangs.is_some() {
+            return linear_length(&self.lambda[j.at..j.at + 3]);
+        }
         let mut sum = 0.0;
         for row in (j.at..j.at + j.hard).filter(|&row| self.states[row].length) {
             sum += self.lambda[row] * self.lambda[row];
@@ -564,7 +655,7 @@ impl System {
     /// World arms from a joint's bodies to its point at the last evaluation, for stiffness estimates, m.
     pub fn arms(&self, joint: usize) -> (DVec3, DVec3) {
         let joint = &self.joints[joint];
-        if let Some(arms) = joint.arms {
+        if let Some(arms) = self.arms_of(joint) {
             return arms;
         }
         // The arm of a length row (e, r × e) is at least |r × e|: three rows of a point give r.
@@ -775,6 +866,7 @@ fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
                 hard: 0,
                 point: None,
                 arms: None,
+                hangs: None,
                 block: None,
                 outside: None,
             });
@@ -811,6 +903,11 @@ fn lone_point(joint: &Joint, constraints: &[Constraint], bodies: &[RigidBody]) -
 fn capacity(joint: &Joint, constraints: &[Constraint]) -> usize {
     let each = |&index: &usize| constraints[index].row_count() + 3 * usize::from(constraints[index].friction.is_some());
     joint.constraints.iter().map(each).sum::<usize>().min(MAX_ROWS)
+}
+
+/// |v|.
+fn linear_length(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
 /// Is it a point at all times, and nothing more?

@@ -22,16 +22,21 @@
 //!
 //! (the parent feels J_pᵀ λ = J_pᵀ h − J_pᵀ X a_p). Then, roots first, a_c = A⁻¹ b_c + W λ. The factor
 //! depends on poses and masses only, so one factor serves accelerations, position and velocity projection, friction
-//! and impacts. A body that hangs by one point only goes through `ball.rs`, the same elimination in 3×3 blocks.
+//! and impacts. A body that hangs by one point only goes through `ball.rs`, the same elimination in 3×3 blocks; those of
+//! one depth do not wait for each other and go four at a time (`sweeps.rs`).
 //!
 //! A driven body's a is given: it is ground that moves. Γ need not be diagonal within a joint: `share.rs` says why.
 //!
 //! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
 
+use fearless_simd::Level;
+
 use super::ball::Ball;
-use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, Vec6, add_scaled, dot, inverse, mul, pseudo_inverse};
-use super::spatial::{Articulated, Sym3};
+use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, mul, pseudo_inverse};
+use super::quads::{Members, Slot};
+use super::spatial::NUMBERS;
 use crate::math::DVec3;
+use crate::math::lanes::{Four, One, WIDTH};
 
 /// Rows of one joint at one configuration, for the general elimination.
 #[derive(Clone, Debug)]
@@ -72,50 +77,85 @@ pub struct Link {
 
 /// How a body hangs in the tree.
 #[derive(Clone, Copy, Debug)]
-struct Hang {
+pub(super) struct Hang {
     /// Parent body; `None`: the world, or nothing.
-    parent: Option<usize>,
+    pub parent: Option<usize>,
     /// Joint to the parent; `None` for the root of a piece that is not joined to the ground.
-    joint: Option<usize>,
+    pub joint: Option<usize>,
     /// Where the joint's numbers begin in `g` and `lambda`.
-    at: usize,
+    pub at: usize,
     /// Is this body the joint's first one?
-    first: bool,
+    pub first: bool,
     /// Was the joint a point at the last factorisation?
-    ball: bool,
+    pub ball: bool,
+    /// Joints on the way from the root.
+    depth: usize,
+}
+
+/// What the bodies of a quad hang on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hooks {
+    /// Parents; where there is none, the index after the last body: the world's.
+    pub parents: [usize; WIDTH],
+    /// Their slots.
+    pub slots: [Slot; WIDTH],
+    /// Signs of the joints' rows as seen from these bodies.
+    pub signs: Four,
+    /// Where the joints' numbers begin.
+    pub at: [usize; WIDTH],
+}
+
+/// One step of the elimination.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step {
+    /// The members of a quad, all of one depth, each by one point.
+    Quad(usize),
+    /// A body that hangs by one point, alone at its depth.
+    Point(Slot),
+    /// Any other body.
+    Body(usize),
 }
 
 /// What is kept of a body's general elimination, in the letters of the file's head; `k` holds K⁻¹.
 #[derive(Clone, Debug)]
-struct General {
-    rows: usize,
-    inverse: Mat6,
-    jp: RowBlock,
-    w: RowBlock,
-    k: RowSquare,
-    x: RowBlock,
-    redundant: u32,
+pub(super) struct General {
+    pub rows: usize,
+    pub inverse: Mat6,
+    pub jp: RowBlock,
+    pub w: RowBlock,
+    pub k: RowSquare,
+    pub x: RowBlock,
+    pub redundant: u32,
 }
 
 /// Elimination order and factor of an articulated figure.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// Roots first; reversed it is the elimination order.
+    pub(super) level: Level,
+    /// Roots first.
     order: Vec<usize>,
-    hang: Vec<Hang>,
-    driven: Vec<bool>,
+    /// The same by quads; reversed it is the elimination order.
+    pub(super) steps: Vec<Step>,
+    pub(super) hang: Vec<Hang>,
+    pub(super) driven: Vec<bool>,
     loops: Vec<usize>,
-    articulated: Vec<Articulated>,
-    balls: Vec<Ball>,
+    pub(super) members: Vec<Members>,
+    pub(super) slots: Vec<Slot>,
+    pub(super) hooks: Vec<Hooks>,
+    /// Articulated masses by bodies, and what hangs on the world, which does not move for it.
+    pub(super) articulated: Vec<[f64; NUMBERS]>,
+    /// By quads.
+    pub(super) balls: Vec<Ball<Four>>,
     /// Per body, where its joint is ever anything but a point.
-    general: Vec<Option<Box<General>>>,
+    pub(super) general: Vec<Option<Box<General>>>,
 }
 
 impl Tree {
     /// The elimination order of bodies joined by `links`: breadth first from the ground (the world and what is
     /// driven), then each piece that floats from its first body. `at` is where each link's numbers begin, `points`
     /// whether it is never anything but a point. Links that would close a loop are left out, see [`Tree::loops`].
-    pub fn new(driven: &[bool], links: &[Link], at: &[usize], points: &[bool]) -> Self {
+    /// `level` says which instructions there are.
+    pub fn new(level: Level, driven: &[bool], links: &[Link], at: &[usize], points: &[bool]) -> Self {
         let bodies = driven.len();
         let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies];
         for (joint, link) in links.iter().enumerate() {
@@ -124,7 +164,10 @@ impl Tree {
                 beside[b].push(joint);
             }
         }
-        let root = |joint| Hang { parent: None, joint, at: joint.map_or(0, |j| at[j]), first: true, ball: false };
+        let root = |joint: Option<usize>| {
+            let at = joint.map_or(0, |j| at[j]);
+            Hang { parent: None, joint, at, first: true, ball: false, depth: 0 }
+        };
         let mut hang: Vec<Option<Hang>> = vec![None; bodies];
         let mut in_tree = vec![false; links.len()];
         let mut order = Vec::with_capacity(bodies);
@@ -144,13 +187,14 @@ impl Tree {
             while head < order.len() {
                 let parent = order[head];
                 head += 1;
+                let depth = hang[parent].map_or(0, |hang| hang.depth) + 1;
                 for &joint in &beside[parent] {
                     let link = links[joint];
                     let child = if link.a == parent { link.b } else { Some(link.a) };
                     let Some(child) = child.filter(|&child| hang[child].is_none()) else { continue };
-                    let first = link.a == child;
+                    let (first, at) = (link.a == child, at[joint]);
                     hang[child] =
-                        Some(Hang { parent: Some(parent), joint: Some(joint), at: at[joint], first, ball: false });
+                        Some(Hang { parent: Some(parent), joint: Some(joint), at, first, ball: false, depth });
                     in_tree[joint] = true;
                     order.push(child);
                 }
@@ -160,7 +204,11 @@ impl Tree {
                 order.push(piece);
             }
         }
-        let hang: Vec<Hang> = hang.into_iter().flatten().collect();
+        let mut hang: Vec<Hang> = hang.into_iter().flatten().collect();
+        for (hang, &driven) in hang.iter_mut().zip(driven) {
+            hang.ball = !driven && hang.joint.is_some_and(|joint| points[joint]);
+        }
+        order.sort_by_key(|&body| hang[body].depth);
         let blank = || {
             Box::new(General {
                 rows: 0,
@@ -172,16 +220,39 @@ impl Tree {
                 redundant: 0,
             })
         };
-        let always_point = |hang: &Hang| hang.joint.is_some_and(|joint| points[joint]);
+        let (steps, members) = by_quads(&order, &hang);
+        let world = Slot { quad: members.len(), lane: 0 };
+        let mut slots = vec![world; bodies];
+        for (quad, four) in members.iter().enumerate() {
+            for lane in 0..four.count {
+                slots[four.bodies[lane]] = Slot { quad, lane };
+            }
+        }
+        let hooks = |four: &Members| Hooks {
+            parents: four.bodies.map(|body| hang[body].parent.unwrap_or(bodies)),
+            slots: four.bodies.map(|body| hang[body].parent.map_or(world, |parent| slots[parent])),
+            signs: Four(four.bodies.map(|body| hang[body].sign())),
+            at: four.bodies.map(|body| hang[body].at),
+        };
         Self {
-            general: hang.iter().map(|hang| (!always_point(hang)).then(blank)).collect(),
+            level,
+            general: hang.iter().map(|hang| (!hang.ball).then(blank)).collect(),
+            steps,
+            hooks: members.iter().map(hooks).collect(),
+            slots,
+            articulated: vec![[0.0; NUMBERS]; bodies + 1],
+            balls: vec![Ball::default(); members.len()],
+            members,
             order,
             hang,
             driven: driven.to_vec(),
             loops: (0..links.len()).filter(|&joint| !in_tree[joint]).collect(),
-            articulated: vec![Articulated::ZERO; bodies],
-            balls: vec![Ball::default(); bodies],
         }
+    }
+
+    /// Who stands beside whom.
+    pub fn members(&self) -> &[Members] {
+        &self.members
     }
 
     /// Links that close a loop and so are not in the tree.
@@ -199,6 +270,20 @@ impl Tree {
         self.hang[body].joint
     }
 
+    /// Where a body's numbers are.
+    pub fn slot(&self, body: usize) -> Slot {
+        self.slots[body]
+    }
+
+    /// Where the point is by which a body hangs: arms from the centres of its joint's first and second body, world
+    /// axes, m.
+    pub fn arms(&self, body: usize) -> (DVec3, DVec3) {
+        let Slot { quad, lane } = self.slots[body];
+        let arms = self.balls[quad].arms.get(One(lane));
+        let (own, parent) = (arms.own.into(), arms.parent.into());
+        if self.hang[body].first { (own, parent) } else { (parent, own) }
+    }
+
     /// Bodies on the ways from these to their roots, roots first.
     pub fn paths(&self, from: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut on = vec![false; self.hang.len()];
@@ -214,124 +299,59 @@ impl Tree {
         self.order.iter().copied().filter(|&body| on[body]).collect()
     }
 
-    /// Factors the system for these masses, world inertias and the joints' present forms.
-    pub fn factor<'a>(&mut self, masses: &[f64], inertias: &[Sym3], form: impl Fn(usize) -> Form<'a>) {
-        for ((articulated, &mass), inertia) in self.articulated.iter_mut().zip(masses).zip(inertias) {
-            *articulated = Articulated::alone(mass, inertia);
-        }
-        for index in (0..self.order.len()).rev() {
-            let body = self.order[index];
-            if self.driven[body] {
-                continue;
-            }
-            let hang = &mut self.hang[body];
-            let shape = hang.joint.map(&form);
-            if let Some(Form::Point(a, b)) = shape {
-                hang.ball = true;
-                let ball = &mut self.balls[body];
-                (ball.arm, ball.parent_arm) = if hang.first { (a, b) } else { (b, a) };
-                ball.factor(&self.articulated[body]);
-                if let Some(parent) = hang.parent {
-                    self.balls[body].load(&mut self.articulated[parent]);
-                }
-                continue;
-            }
-            hang.ball = false;
-            let (first, parent) = (hang.first, hang.parent);
-            let Some(f) = &mut self.general[body] else { continue };
-            f.rows = 0;
-            f.inverse = inverse(&self.articulated[body].matrix());
-            let Some(Form::Rows(rows)) = shape else { continue };
-            f.eliminate(rows, first);
-            if let Some(parent) = parent {
-                for k in 0..f.rows {
-                    self.articulated[parent].add_outer(&f.jp[k], &f.x[k]);
-                }
-            }
-        }
-    }
-
-    /// Solves for the bodies' `a` and the joints' `lambda`; `b` is used up. The `a` of driven bodies must be given.
-    pub fn solve(&self, b: &mut [Vec6], g: &[f64], a: &mut [Vec6], lambda: &mut [f64]) {
-        for &body in self.order.iter().rev() {
-            self.up(body, b, Some(g), lambda);
-        }
-        for &body in &self.order {
-            self.down(body, b, Some(g), lambda, a);
-        }
-    }
-
-    /// The way up for one body: h of its joint into `lambda`, its share of `b` to the parent. Without `g`, g is 0.
-    #[inline]
-    pub fn up(&self, body: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
-        let hang = &self.hang[body];
-        if hang.ball {
-            let ball = &self.balls[body];
-            let wanted = g.map_or(DVec3::ZERO, |g| hang.sign() * triple(g, hang.at));
-            let w = ball.up(&b[body], wanted);
-            put(lambda, hang.at, w);
-            if let Some(parent) = hang.parent {
-                let wrench = ball.wrench(w);
-                for k in 0..6 {
-                    b[parent][k] += wrench[k];
-                }
-            }
-            return;
-        }
-        let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
-        let mut wanted = [0.0; MAX_ROWS];
-        for k in 0..f.rows {
-            wanted[k] = g.map_or(0.0, |g| g[hang.at + k]) - dot(&f.w[k], &b[body]);
-        }
-        for k in 0..f.rows {
-            let h = (0..f.rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
-            lambda[hang.at + k] = h;
-            if let Some(parent) = hang.parent {
-                add_scaled(&mut b[parent], h, &f.jp[k]);
-            }
-        }
-    }
-
-    /// The way down for one body, after its parent.
-    #[inline]
-    pub fn down(&self, body: usize, b: &[Vec6], g: Option<&[f64]>, lambda: &mut [f64], a: &mut [Vec6]) {
-        let hang = &self.hang[body];
-        if hang.ball {
-            let wanted = g.map_or(DVec3::ZERO, |g| hang.sign() * triple(g, hang.at));
-            let parent = hang.parent.map(|parent| a[parent]);
-            let (own, l) = self.balls[body].down(&b[body], wanted, triple(lambda, hang.at), parent.as_ref());
-            a[body] = own;
-            put(lambda, hang.at, hang.sign() * l);
-            return;
-        }
-        let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
-        let mut out = mul(&f.inverse, &b[body]);
-        for k in 0..f.rows {
-            let slot = &mut lambda[hang.at + k];
-            if let Some(parent) = hang.parent {
-                *slot -= dot(&f.x[k], &a[parent]);
-            }
-            add_scaled(&mut out, *slot, &f.w[k]);
-        }
-        a[body] = out;
-    }
-
     /// All bodies, roots first.
     pub fn order(&self) -> &[usize] {
         &self.order
     }
 }
 
+/// Steps from the roots, and the quads that they go by: two to four bodies of one depth that hang by a point side by
+/// side, the others in the order in which they come.
+fn by_quads(order: &[usize], hang: &[Hang]) -> (Vec<Step>, Vec<Members>) {
+    let (mut steps, mut members) = (Vec::new(), Vec::<Members>::new());
+    let mut open = None;
+    for level in order.chunk_by(|&a, &b| hang[a].depth == hang[b].depth) {
+        let (points, mut others): (Vec<usize>, Vec<usize>) = level.iter().partition(|&&body| hang[body].ball);
+        for four in points.chunks(WIDTH) {
+            let (&first, rest) = four.split_first().unwrap_or((&0, &[]));
+            if rest.is_empty() {
+                others.push(first);
+                continue;
+            }
+            steps.push(Step::Quad(members.len()));
+            let mut quad = Members::first(first);
+            rest.iter().for_each(|&body| quad.push(body));
+            members.push(quad);
+        }
+        for body in others {
+            let quad = match open.filter(|&quad: &usize| members[quad].count < WIDTH) {
+                Some(quad) => {
+                    members[quad].push(body);
+                    quad
+                }
+                None => {
+                    members.push(Members::first(body));
+                    members.len() - 1
+                }
+            };
+            open = Some(quad);
+            let slot = Slot { quad, lane: members[quad].count - 1 };
+            steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
+        }
+    }
+    (steps, members)
+}
+
 impl Hang {
     /// Rows are written for the joint's first body: their sign as seen from this one.
     #[inline]
-    fn sign(&self) -> f64 {
+    pub fn sign(&self) -> f64 {
         if self.first { 1.0 } else { -1.0 }
     }
 }
 
 impl General {
-    fn eliminate(&mut self, r: &JointRows, first: bool) {
+    pub fn eliminate(&mut self, r: &JointRows, first: bool) {
         let (jc, jp) = if first { (&r.a, &r.b) } else { (&r.b, &r.a) };
         let rows = r.rows.min(MAX_ROWS);
         self.rows = rows;
@@ -350,16 +370,4 @@ impl General {
             }
         }
     }
-}
-
-#[inline]
-fn triple(v: &[f64], at: usize) -> DVec3 {
-    DVec3::new(v[at], v[at + 1], v[at + 2])
-}
-
-#[inline]
-fn put(v: &mut [f64], at: usize, x: DVec3) {
-    v[at] = x.x;
-    v[at + 1] = x.y;
-    v[at + 2] = x.z;
 }

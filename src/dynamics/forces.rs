@@ -5,12 +5,14 @@
 //! spring   F = k (l − l₀) + c l̇       along the line of its two points, or as a torque about the axis of a turn
 //! ```
 
+use crate::articulation::ball::Twist;
 use crate::articulation::block::{Vec6, add_scaled, vec6};
 use crate::articulation::rows::Scene;
 use crate::articulation::rows::coupling::Gauge;
 use crate::articulation::spatial::{Sym3, matrix};
 use crate::articulation::{Activity, Anchor, Spring, SpringKind};
 use crate::bodies::RigidBody;
+use crate::math::lanes::{Real, V3};
 use crate::math::{DMat3, DVec3};
 
 /// Damping rates of a body, 1/s: force −c m v, torque −c I ω.
@@ -22,15 +24,17 @@ pub struct Damping {
     pub angular: f64,
 }
 
-/// Gravity, gyroscopic torque, damping and what comes from outside, on one body.
-#[inline]
-pub fn on_body(body: &RigidBody, inertia: &Sym3, gravity: DVec3, damping: Damping, external: &Vec6) -> Vec6 {
-    let momentum = inertia.mul(body.angular_velocity);
-    let force = body.properties.mass * (gravity - damping.linear * body.velocity);
-    let torque = -body.angular_velocity.cross(momentum) - damping.angular * momentum;
-    let mut b = vec6(force, torque);
-    add_scaled(&mut b, 1.0, external);
-    b
+/// Gravity, damping and the gyroscopic torque on bodies of this mass and world inertia, at these velocities.
+#[inline(always)]
+pub fn on_body<T: Real>(
+    (mass, inertia): (T, &Sym3<T>),
+    (velocity, spin): (V3<T>, V3<T>),
+    gravity: DVec3,
+    (linear, angular): (T, T),
+) -> Twist<T> {
+    let gravity = V3 { x: mass.all(gravity.x), y: mass.all(gravity.y), z: mass.all(gravity.z) };
+    let momentum = inertia.mul(spin);
+    Twist { linear: (gravity - velocity * linear) * mass, angular: -spin.cross(momentum) - momentum * angular }
 }
 
 /// All springs of a figure.
@@ -64,6 +68,11 @@ impl Springs {
             springs: springs.to_vec(),
             frames: vec![DMat3::IDENTITY; if springs.is_empty() { 0 } else { bodies.len() }],
         }
+    }
+
+    /// Is there none?
+    pub fn is_empty(&self) -> bool {
+        self.springs.is_empty()
     }
 
     /// Adds their forces at the time `t` to `b`.

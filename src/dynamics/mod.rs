@@ -13,25 +13,30 @@
 //! from then on projection keeps the joints closed to rounding.
 
 mod contacts;
+mod course;
 mod drive;
 pub mod forces;
 pub mod impulse;
 mod integrate;
 mod limits;
 mod pace;
+mod passes;
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::block::Vec6;
+use crate::articulation::quads::{Members, State};
 use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
+use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
 use contacts::Verdict;
 pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
+use course::{Course, Rate};
 pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
-use integrate::{Rate, State};
+use passes::{Begin, Return};
 
 /// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
 /// such a mode holds next to none of the energy, and at 1 it loses what little it has within some ten periods.
@@ -110,7 +115,6 @@ pub struct Dynamics {
     pub bodies: Vec<RigidBody>,
     settings: Settings,
     precise: bool,
-    damping: Vec<Damping>,
     springs: Springs,
     drives: Vec<Drive>,
     /// Body and acceleration of each drive at the time last asked for.
@@ -124,17 +128,17 @@ pub struct Dynamics {
     loads: Vec<f64>,
     /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
     levers: Vec<f64>,
-    start: Vec<State>,
-    mean: Vec<Rate>,
-    /// σ of each body at the present stage.
-    turned: Vec<DVec3>,
-    last: Vec<Vec6>,
-    /// (k₅ − k₄)/h³ of the last substep, and its h; `None` where it says nothing of the next.
-    fourth: Vec<Vec6>,
+    pressed: Vec<Vec6>,
+    /// By quads of the joints' tree.
+    courses: Vec<Course>,
+    /// h of the last substep; `None` where its error says nothing of the next.
     fourth_step: Option<f64>,
-    stages: [Vec<Rate>; 3],
+    /// Rates of the Gauss–Legendre stages, by quads.
+    stages: [Vec<Rate<Four>>; 3],
+    /// What a pass over the bodies found of each, for sums in their order.
+    norms: Vec<[f64; 2]>,
     before: Vec<RigidBody>,
-    before_step: Vec<State>,
+    before_step: Vec<State<f64>>,
     /// Seconds since reset, and of the present step.
     time: f64,
     dt: f64,
@@ -169,29 +173,29 @@ impl Dynamics {
             Integrator::Precise => true,
             Integrator::Fast | Integrator::RungeKutta => false,
         };
-        let stages = || vec![Rate::default(); if precise { n } else { 0 }];
+        let damping = if settings.friction { figure.damping } else { vec![Damping::default(); n] };
+        let members = system.quads().members();
+        let stages = || vec![Rate::default(); if precise { members.len() } else { 0 }];
+        let courses = members.iter().map(|members| Course::new(members.bodies.map(|body| damping[body]))).collect();
         Self {
             loads: vec![0.0; system.joints().len()],
             levers: levers(&system, &bodies),
             contacts,
             precise,
-            start: bodies.iter().map(State::of).collect(),
-            before_step: bodies.iter().map(State::of).collect(),
+            before_step: vec![State::default(); n],
             before: bodies.clone(),
-            damping: if settings.friction { figure.damping } else { vec![Damping::default(); n] },
             springs: Springs::new(figure.springs, &bodies),
             drives: figure.drives.to_vec(),
             driven_accelerations: figure.drives.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
             settings,
-            system,
             given: vec![[0.0; 6]; n],
             external: vec![[0.0; 6]; n],
-            mean: vec![Rate::default(); n],
-            turned: vec![DVec3::ZERO; n],
-            last: vec![[0.0; 6]; n],
-            fourth: vec![[0.0; 6]; n],
+            pressed: vec![[0.0; 6]; n],
+            courses,
             fourth_step: None,
             stages: [stages(), stages(), stages()],
+            norms: vec![[0.0; 2]; n],
+            system,
             time: 0.0,
             dt: 0.0,
             stride: f64::INFINITY,
@@ -210,7 +214,7 @@ impl Dynamics {
         self.fault = None;
         let bad = self.restore_bad_bodies();
         for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
-            *before = State::of(body);
+            *before = State::of(One(0), |_| body);
         }
         self.given.copy_from_slice(external);
         self.dt = dt;
@@ -262,9 +266,7 @@ impl Dynamics {
     /// Integrates `h` or less (where the error asks for it) or up to the first impact, resolves it, and returns the
     /// time used.
     fn substep(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
-        for (start, body) in self.start.iter_mut().zip(&self.bodies) {
-            *start = State::of(body);
-        }
+        self.by_quads(Begin);
         let collides = !self.contacts.is_empty();
         if collides {
             self.before.copy_from_slice(&self.bodies);
@@ -337,10 +339,10 @@ impl Dynamics {
 
     /// All wrenches: those from outside, and those of what rests.
     fn press(&mut self) {
-        self.last.copy_from_slice(&self.external);
-        self.external.copy_from_slice(&self.given);
-        self.contacts.press(&mut self.external);
-        if self.last != self.external {
+        self.pressed.copy_from_slice(&self.given);
+        self.contacts.press(&mut self.pressed);
+        if self.pressed != self.external {
+            std::mem::swap(&mut self.pressed, &mut self.external);
             self.fresh = false;
         }
     }
@@ -371,9 +373,7 @@ impl Dynamics {
     }
 
     fn back_to_start(&mut self) {
-        for (start, body) in self.start.iter().zip(&mut self.bodies) {
-            start.put(body);
-        }
+        self.by_quads(Return);
         self.fresh = false;
     }
 
@@ -485,16 +485,17 @@ impl Dynamics {
     /// Puts bodies with bad numbers back to where the step began, at rest. Returns how many.
     fn restore_bad_bodies(&mut self) -> usize {
         let sane = |body: &RigidBody| {
-            body.is_finite()
-                && body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
+            // What is no number is below nothing.
+            body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
                 && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT
+                && body.is_finite()
         };
         let bad = self.bodies.iter().filter(|body| !sane(body)).count();
         if bad > 0 {
             self.fault = self.fault.or(self.bodies.iter().position(|body| !sane(body)));
             // One bad body has already pulled at its neighbours: the whole figure goes back.
             for (body, before) in self.bodies.iter_mut().zip(&self.before_step) {
-                before.put(body);
+                before.put(One(0), &Members::first(0), std::slice::from_mut(body));
                 (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             }
             self.loads.fill(0.0);

@@ -2,6 +2,7 @@
 
 mod figures;
 mod kkt;
+mod lanes;
 mod rows;
 mod shares;
 mod solvers;

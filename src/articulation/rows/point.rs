@@ -7,7 +7,7 @@
 //!
 //! A nail is the same with the world for the second body; a moving nail, with a driven body.
 
-use super::{Point, Row, Scene, at, negated};
+use super::{Row, Scene, at, negated};
 use crate::articulation::Anchor;
 use crate::math::DVec3;
 
@@ -19,9 +19,4 @@ pub fn rows(scene: &Scene, a: &Anchor, b: &Anchor) -> [Row; 3] {
         let e = DVec3::AXES[k];
         Row { a: at(e, p.arm), b: negated(at(e, q.arm)), value: c[k], feed: 0.0, bias: bias[k], length: true }
     })
-}
-
-/// Both points, for the joint that is nothing else (`ball.rs`).
-pub fn ends(scene: &Scene, a: &Anchor, b: &Anchor) -> (Point, Point) {
-    (scene.point(a), scene.point(b))
 }

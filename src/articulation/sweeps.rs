@@ -1,0 +1,243 @@
+//! Factor and solves of the tree (`tree.rs`): sweeps over its steps, from the leaves or from the roots.
+//!
+//! A quad's bodies are eliminated together. What they leave to their parents is added body by body, the last first, so
+//! that sums come out the same however the bodies are put together.
+
+use fearless_simd::{Simd, dispatch};
+
+use super::ball::{Arms, Ball, Twist};
+use super::block::{MAX_ROWS, Vec6, add_scaled, dot, inverse, mul};
+use super::quads::{Quad, Slot};
+use super::spatial::Articulated;
+use super::tree::{Form, Step, Tree};
+use crate::math::lanes::{All, Four, Lanes, One, V3};
+
+impl Tree {
+    /// Factors the system for bodies of these masses and world inertias, and the joints' present forms.
+    pub fn factor<'a>(&mut self, quads: &[Quad], form: impl Fn(usize) -> Form<'a>) {
+        dispatch!(self.level, simd => self.factor_in(simd, quads, &form));
+    }
+
+    #[inline(always)]
+    fn factor_in<'a, S: Simd>(&mut self, simd: S, quads: &[Quad], form: &impl Fn(usize) -> Form<'a>) {
+        for (members, quad) in self.members.iter().zip(quads) {
+            let lanes = All(simd);
+            let alone = Articulated::alone(lanes.get(&quad.mass), quad.inertia.get(lanes));
+            lanes.scatter(members.count, &alone.numbers(), |lane, mass| {
+                self.articulated[members.bodies[lane]] = *mass;
+            });
+        }
+        for index in (0..self.steps.len()).rev() {
+            match self.steps[index] {
+                Step::Quad(quad) => self.factor_balls(All(simd), quad),
+                Step::Point(Slot { quad, lane }) => self.factor_balls(One(lane), quad),
+                Step::Body(body) => self.factor_one(body, form),
+            }
+        }
+    }
+
+    /// Eliminates these bodies of a quad; their arms are known.
+    #[inline(always)]
+    fn factor_balls<L: Lanes>(&mut self, lanes: L, quad: usize) {
+        let (members, parents) = (&self.members[quad], &self.hooks[quad].parents);
+        let mass = lanes.rows(|k| &self.articulated[members.bodies[k]]);
+        let ball = Ball::factor(self.balls[quad].arms.get(lanes), &Articulated::of_numbers(&mass));
+        self.balls[quad].put_factor(lanes, &ball);
+        let articulated = &mut self.articulated;
+        lanes.scatter(
+            members.count,
+            &ball.load().numbers(),
+            #[inline(always)]
+            |lane, load| add(&mut articulated[parents[lane]], load),
+        );
+    }
+
+    fn factor_one<'a>(&mut self, body: usize, form: &impl Fn(usize) -> Form<'a>) {
+        let Slot { quad, lane } = self.slots[body];
+        let hang = &mut self.hang[body];
+        let Some(general) = self.general[body].as_mut().filter(|_| !self.driven[body]) else { return };
+        let shape = hang.joint.map(form);
+        if let Some(Form::Point(a, b)) = shape {
+            hang.ball = true;
+            let (own, parent) = if hang.first { (a, b) } else { (b, a) };
+            self.balls[quad].arms.put(One(lane), &Arms { own: own.into(), parent: parent.into() });
+            return self.factor_balls(One(lane), quad);
+        }
+        hang.ball = false;
+        general.rows = 0;
+        general.inverse = inverse(&Articulated::of_numbers(&self.articulated[body]).matrix());
+        let Some(Form::Rows(rows)) = shape else { return };
+        general.eliminate(rows, hang.first);
+        if let Some(parent) = hang.parent {
+            for k in 0..general.rows {
+                let load = Articulated::outer(&general.jp[k], &general.x[k]);
+                add(&mut self.articulated[parent], &load.numbers());
+            }
+        }
+    }
+
+    /// The way up: h of the joints into `lambda`, what they push into `b`.
+    pub fn sweep_up(&self, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
+        dispatch!(self.level, simd => self.up_in(simd, b, g, lambda));
+    }
+
+    #[inline(always)]
+    fn up_in<S: Simd>(&self, simd: S, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
+        for step in self.steps.iter().rev() {
+            match *step {
+                Step::Quad(quad) => self.up_balls(All(simd), quad, b, Some(g), lambda),
+                Step::Point(Slot { quad, lane }) => self.up_balls(One(lane), quad, b, Some(g), lambda),
+                Step::Body(body) => self.up(body, b, Some(g), lambda),
+            }
+        }
+    }
+
+    /// The way down: the accelerations and the final `lambda`.
+    pub fn sweep_down(&self, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
+        dispatch!(self.level, simd => self.down_in(simd, b, g, lambda, a));
+    }
+
+    #[inline(always)]
+    fn down_in<S: Simd>(&self, simd: S, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
+        for step in &self.steps {
+            match *step {
+                Step::Quad(quad) => self.down_balls(All(simd), quad, b, Some(g), lambda, a),
+                Step::Point(Slot { quad, lane }) => self.down_balls(One(lane), quad, b, Some(g), lambda, a),
+                Step::Body(body) => self.down(body, b, Some(g), lambda, a),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn up_balls<L: Lanes>(&self, lanes: L, quad: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
+        let (members, hooks) = (&self.members[quad], &self.hooks[quad]);
+        let ball = self.balls[quad].get(lanes);
+        let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
+        let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
+        let w = ball.up(wrench, wanted);
+        lanes.scatter(
+            members.count,
+            &[w.x, w.y, w.z],
+            #[inline(always)]
+            |lane, w| put(lambda, hooks.at[lane], w),
+        );
+        lanes.scatter(
+            members.count,
+            &ball.wrench(w).numbers(),
+            #[inline(always)]
+            |lane, push| {
+                if let Some(b) = b.get_mut(hooks.parents[lane]) {
+                    add(b, push);
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn down_balls<L: Lanes>(
+        &self,
+        lanes: L,
+        quad: usize,
+        b: &[Vec6],
+        g: Option<&[f64]>,
+        lambda: &mut [f64],
+        a: &mut [Vec6],
+    ) {
+        const STILL: Vec6 = [0.0; 6];
+        let (members, hooks) = (&self.members[quad], &self.hooks[quad]);
+        let ball = self.balls[quad].get(lanes);
+        let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
+        let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
+        let w = triples(lanes, lambda, &hooks.at);
+        let parent = |k: usize| a.get(hooks.parents[k]).unwrap_or(&STILL);
+        let carried = Twist::gather(lanes, parent);
+        let (acceleration, l) = ball.down(wrench, wanted, w, carried);
+        let l = l * lanes.get(&hooks.signs);
+        lanes.scatter(
+            members.count,
+            &[l.x, l.y, l.z],
+            #[inline(always)]
+            |lane, l| put(lambda, hooks.at[lane], l),
+        );
+        lanes.scatter(
+            members.count,
+            &acceleration.numbers(),
+            #[inline(always)]
+            |lane, own| a[members.bodies[lane]] = *own,
+        );
+    }
+
+    /// The way up for one body. Without `g`, g is 0.
+    #[inline]
+    pub fn up(&self, body: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
+        let hang = &self.hang[body];
+        if hang.ball {
+            let Slot { quad, lane } = self.slots[body];
+            return self.up_balls(One(lane), quad, b, g, lambda);
+        }
+        let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
+        let mut wanted = [0.0; MAX_ROWS];
+        for k in 0..f.rows {
+            wanted[k] = g.map_or(0.0, |g| g[hang.at + k]) - dot(&f.w[k], &b[body]);
+        }
+        for k in 0..f.rows {
+            let h = (0..f.rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
+            lambda[hang.at + k] = h;
+            if let Some(parent) = hang.parent {
+                add_scaled(&mut b[parent], h, &f.jp[k]);
+            }
+        }
+    }
+
+    /// The way down for one body, after its parent.
+    #[inline]
+    pub fn down(&self, body: usize, b: &[Vec6], g: Option<&[f64]>, lambda: &mut [f64], a: &mut [Vec6]) {
+        let hang = &self.hang[body];
+        if hang.ball {
+            let Slot { quad, lane } = self.slots[body];
+            return self.down_balls(One(lane), quad, b, g, lambda, a);
+        }
+        let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
+        let mut out = mul(&f.inverse, &b[body]);
+        for k in 0..f.rows {
+            let slot = &mut lambda[hang.at + k];
+            if let Some(parent) = hang.parent {
+                *slot -= dot(&f.x[k], &a[parent]);
+            }
+            add_scaled(&mut out, *slot, &f.w[k]);
+        }
+        a[body] = out;
+    }
+}
+
+/// x += y.
+#[inline(always)]
+fn add<const N: usize>(x: &mut [f64; N], y: &[f64; N]) {
+    for k in 0..N {
+        x[k] += y[k];
+    }
+}
+
+/// The wanted g of point joints, as seen from their bodies.
+#[inline(always)]
+fn wanted<L: Lanes>(lanes: L, g: Option<&[f64]>, at: &[usize; 4], signs: &Four) -> V3<L::T> {
+    match g {
+        Some(g) => triples(lanes, g, at) * lanes.get(signs),
+        None => {
+            let zero = lanes.gather(|_| 0.0);
+            V3 { x: zero, y: zero, z: zero }
+        }
+    }
+}
+
+/// Three numbers of each body.
+#[inline(always)]
+fn triples<L: Lanes>(lanes: L, v: &[f64], at: &[usize; 4]) -> V3<L::T> {
+    let [x, y, z] = lanes.rows(|k| v[at[k]..].first_chunk().unwrap_or(&[0.0; 3]));
+    V3 { x, y, z }
+}
+
+#[inline(always)]
+fn put(v: &mut [f64], at: usize, x: &[f64; 3]) {
+    v[at..at + 3].copy_from_slice(x);
+}
