@@ -18,7 +18,7 @@ use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 
 /// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
-const PROJECTION_REACH: f64 = 1e-4;
+pub(super) const PROJECTION_REACH: f64 = 1e-4;
 
 /// Most held rows of a pair of bodies, twice over; three of friction may come after them.
 const HELD: usize = MAX_ROWS - 3;
@@ -316,6 +316,7 @@ impl System {
             self.rates(bodies);
         }
         for (g, state) in self.g.iter_mut().zip(&self.states) {
+            let omega0 = self.constraints[state.constraint].stabilization_time.map_or(omega0, f64::recip);
             let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
             *g = -state.bias - drawn;
         }

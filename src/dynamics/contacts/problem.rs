@@ -18,8 +18,9 @@
 //! nearest to where the rounds began.
 
 use super::leap::Active;
+use super::open::Open;
 use crate::articulation::System;
-use crate::articulation::block::{Vec6, angular, dot, linear};
+use crate::articulation::block::{Vec6, add_scaled, angular, dot, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec2, DVec3};
 
@@ -52,13 +53,27 @@ pub(super) enum Source {
     Bound(usize),
 }
 
-/// One row: the blocks of the one or two bodies it acts on.
-#[derive(Clone, Copy, Debug)]
+/// Most bodies of a row: the two wheels of a gear and what carries their axles.
+pub(in crate::dynamics) const ROW_ENDS: usize = 3;
+
+/// One row: the blocks of the bodies it acts on.
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::dynamics) struct Row {
-    pub ends: [Option<(usize, Vec6)>; 2],
+    pub ends: [Option<(usize, Vec6)>; ROW_ENDS],
 }
 
 impl Row {
+    /// Adds `scale` times a block of a body; nothing for the world.
+    pub fn add(&mut self, body: Option<usize>, scale: f64, block: &Vec6) {
+        let Some(body) = body else { return };
+        let own = |end: &&mut Option<(usize, Vec6)>| end.is_none_or(|(other, _)| other == body);
+        if let Some(slot) = self.ends.iter_mut().find(own) {
+            let mut sum = slot.map_or([0.0; 6], |(_, block)| block);
+            add_scaled(&mut sum, scale, block);
+            *slot = Some((body, sum));
+        }
+    }
+
     /// Row times the bodies' coordinates.
     fn along(&self, a: &[Vec6]) -> f64 {
         self.ends.iter().flatten().fold(0.0, |sum, (body, block)| sum + dot(block, &a[*body]))
@@ -68,7 +83,7 @@ impl Row {
     pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
         let along = |(body, block): &(usize, Vec6)| {
             let body = &bodies[*body];
-            dot(block, &crate::articulation::block::vec6(body.velocity, body.angular_velocity))
+            dot(block, &vec6(body.velocity, body.angular_velocity))
         };
         self.ends.iter().flatten().map(along).sum()
     }
@@ -150,11 +165,13 @@ pub(super) struct Problem {
     /// Unknowns and matrix of a leap.
     pub(super) active: Vec<Active>,
     pub(super) matrix: Vec<f64>,
+    /// Rows of the joints that pass nothing on.
+    open: Open,
 }
 
 impl Problem {
-    /// Room for this many touches at a time.
-    pub fn new(touches: usize) -> Self {
+    /// Room for this many touches at a time, of a figure whose joints have this many rows.
+    pub fn new(touches: usize, joint_rows: usize) -> Self {
         let touches = touches.min(MOST_TOUCHES);
         let rows = 3 * touches;
         Self {
@@ -165,6 +182,7 @@ impl Problem {
             other: vec![0.0; rows],
             active: Vec::with_capacity(rows),
             matrix: vec![0.0; rows * rows],
+            open: Open::new(joint_rows, rows),
         }
     }
 
@@ -191,6 +209,7 @@ impl Problem {
     /// Finds W and the velocities at the bodies' present state; the joints must be factored there.
     pub fn assemble(&mut self, system: &mut System, bodies: &[RigidBody]) {
         let n = self.rows.len();
+        self.open.find(system);
         for column in 0..n {
             system.b.fill([0.0; 6]);
             for (body, block) in self.rows[column].ends.iter().flatten() {
@@ -201,6 +220,14 @@ impl Problem {
                 let value = self.rows[row].along(&system.a);
                 self.w[row * n + column] = value;
                 self.w[column * n + row] = value;
+            }
+            self.open.take(column, system);
+        }
+        if !self.open.is_empty() {
+            for row in 0..n {
+                for column in 0..n {
+                    self.w[row * n + column] += self.open.adds(row, column);
+                }
             }
         }
         self.u.clear();
@@ -342,20 +369,34 @@ impl Problem {
     }
 
     /// Applies P − P₀ to the bodies' velocities.
-    pub fn apply(&self, system: &mut System, bodies: &mut [RigidBody]) {
-        system.b.fill([0.0; 6]);
+    pub fn apply(&mut self, system: &mut System, bodies: &mut [RigidBody]) {
         for touch in &self.touches {
             for i in 0..touch.rows {
-                for (body, block) in self.rows[touch.first + i].ends.iter().flatten() {
-                    system.push_impulse(*body, block, touch.impulse[i] - touch.before[i]);
-                }
+                self.other[touch.first + i] = touch.impulse[i] - touch.before[i];
             }
         }
-        system.solve_impulse();
+        self.answer(system);
         system.apply_velocity(bodies);
         // What rounding has left to the joints where much is taken up by little.
         system.solve_velocity(bodies);
         system.apply_velocity(bodies);
+    }
+
+    /// The bodies' answer to the impulses of the rows that stand in `other`.
+    fn answer(&self, system: &mut System) {
+        system.b.fill([0.0; 6]);
+        let impulses = &self.other[..self.rows.len()];
+        for (row, impulse) in self.rows.iter().zip(impulses) {
+            for (body, block) in row.ends.iter().flatten() {
+                system.push_impulse(*body, block, *impulse);
+            }
+        }
+        self.open.solve(impulses, system);
+    }
+
+    /// Are there joints that pass nothing on, at the last assembly?
+    pub fn has_open_joints(&self) -> bool {
+        !self.open.is_empty()
     }
 
     /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
@@ -386,13 +427,12 @@ impl Problem {
                 break;
             }
         }
-        system.b.fill([0.0; 6]);
         for touch in &self.touches {
-            for (body, block) in self.rows[touch.first].ends.iter().flatten() {
-                system.push_impulse(*body, block, touch.before.x);
+            for i in 0..touch.rows {
+                self.other[touch.first + i] = if i == 0 { touch.before.x } else { 0.0 };
             }
         }
-        system.solve_impulse();
+        self.answer(system);
         for (body, a) in bodies.iter_mut().zip(&system.a) {
             body.displace(linear(a), angular(a));
         }
