@@ -297,6 +297,18 @@ impl Problem {
         rest <= NEARLY + NEARLY_SHARE * scale
     }
 
+    /// Solves like [`Problem::solve`], and where the rounds do not settle begins anew: without friction, then from nothing.
+    /// Friction among redundant feet may have wandered to its cone, whence no round finds back.
+    pub fn solve_anew(&mut self) -> bool {
+        self.solve() || [1.0, 0.0].into_iter().any(|share| {
+            for index in 0..self.touches.len() {
+                let normal = share * self.touches[index].begin.x;
+                self.set(index, DVec3::X * normal);
+            }
+            self.solve()
+        })
+    }
+
     /// One round over all touches. Answers the largest velocity that it changed, and the largest that any impulse alone
     /// would make, m/s.
     fn round(&mut self) -> (f64, f64) {
@@ -400,6 +412,7 @@ impl Problem {
     }
 
     /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
+    /// Momentum and angular momentum are kept.
     pub fn push_out(&mut self, depth: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
         let n = self.rows.len();
         // `other` holds the opening of each row, `before.x` the push of each touch.
@@ -434,8 +447,23 @@ impl Problem {
         }
         self.answer(system);
         for (body, a) in bodies.iter_mut().zip(&system.a) {
+            // Its spin's momentum stays where it points.
+            let spin = body.inertia_world() * body.angular_velocity;
             body.displace(linear(a), angular(a));
+            body.angular_velocity = body.inertia_world().inverse() * spin;
         }
+        // Bodies that pass each other at v are moved by a push p: p × v of angular momentum goes back to them in halves.
+        system.b.fill([0.0; 6]);
+        for touch in self.touches.iter().filter(|touch| matches!(touch.source, Source::Pair(_))) {
+            if let [Some((a, along)), Some((b, _)), _] = self.rows[touch.first].ends {
+                let passes = bodies[a].velocity - bodies[b].velocity;
+                let back = vec6(DVec3::ZERO, (-0.5 * touch.before.x * linear(&along)).cross(passes));
+                system.push_impulse(a, &back, 1.0);
+                system.push_impulse(b, &back, 1.0);
+            }
+        }
+        system.solve_impulse();
+        system.apply_velocity(bodies);
     }
 }
 

@@ -158,7 +158,7 @@ impl Contacts {
         let lost = self.gather(h, bodies);
         self.problem.assemble(system, bodies);
         self.problem.begin();
-        let settled = self.problem.solve();
+        let settled = self.problem.solve_anew();
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
         let last = pass >= PASSES || !missed || self.problem.has_open_joints();
         if last && shortens && settled && self.sinks(FINE) {

@@ -13,8 +13,8 @@ fn stack(light: f64, heavy: f64) -> Dynamics {
 }
 
 #[test]
-fn a_light_box_bears_ten_thousand_times_its_weight() {
-    for heavy in [1.0, 10.0] {
+fn a_light_box_bears_a_hundred_thousand_times_its_weight() {
+    for heavy in [1.0, 10.0, 100.0] {
         let mut dynamics = stack(1e-3, heavy);
         run(&mut dynamics, 1.0);
         assert_stays(&mut dynamics, 10.0);
@@ -26,7 +26,7 @@ fn a_light_box_bears_ten_thousand_times_its_weight() {
 #[test]
 #[ignore = "finds the limit, for the documents"]
 fn the_heaviest_box_that_a_light_one_bears() {
-    for heavy in [30.0, 100.0, 300.0, 1e3, 1e4] {
+    for heavy in [100.0, 300.0, 1e3, 3e3, 1e4] {
         let mut dynamics = stack(1e-3, heavy);
         run(&mut dynamics, 11.0);
         let sunk = 0.09 - dynamics.bodies[1].position.y;
@@ -46,7 +46,7 @@ fn of_many_chimes_only_neighbours_are_measured() {
         let inertia = DVec3::new(1.0, 0.02, 1.0) * (0.1 * 4.0 * half * half / 12.0);
         let mut tube = body(0.1, inertia, at);
         let hook = at + DVec3::Y * half;
-        let away = 0.6 * ((i * 37 % 11) as f64 / 10.0 - 0.5);
+        let away = 2.0 * ((i * 37 % 11) as f64 / 10.0 - 0.5);
         tube.angular_velocity = DVec3::new(away, 0.0, -2.0 * away);
         tube.velocity = tube.angular_velocity.cross(at - hook);
         scene.bodies.push(tube);
