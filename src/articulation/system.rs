@@ -81,7 +81,7 @@ pub struct RowState {
     /// Is C a length?
     length: bool,
     /// Constraint that it belongs to.
-    constraint: usize,
+    pub(super) constraint: usize,
     /// Share of the force that would hold it.
     pub(super) share: f64,
     /// Is it drawn together by the stabiliser: far from closed, or held in part only?

@@ -163,7 +163,8 @@ impl Dynamics {
         }
         let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
         system.evaluate(&bodies);
-        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies, system.states().len());
+        let joints = (system.states().len(), settings.stabilization_time);
+        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies, joints);
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,

@@ -23,6 +23,8 @@ use crate::math::{DMat3, DVec3};
 
 /// Points of the same two bodies that meet within this time are hit together, s: one sample of sound.
 const ONE_TIME: f64 = 1.0 / 48_000.0;
+/// 1/ω₀ with which joints of a figure that is struck by hand gather, s: none of them is open.
+const GATHERS: f64 = 0.04;
 /// Hits that travel from one, at most.
 const MOST_ROUNDS: usize = 256;
 
@@ -55,7 +57,7 @@ pub struct Struck {
 /// Resolves one hit at one point: three solves for the effective mass, one for the answer. The joints must be
 /// factored at the bodies' present state. `None` where joints hold the point or nothing approaches.
 pub fn strike(strike: &Strike, system: &mut System, bodies: &mut [RigidBody]) -> Option<Struck> {
-    let mut problem = Problem::new(1, system.states().len());
+    let mut problem = Problem::new(1, (system.states().len(), GATHERS));
     let touch = Touch::new(Source::Pair(0), strike.point, strike.normal, 0.0, strike.friction);
     problem.push(touch, &point_rows(strike.point, strike.normal, strike.bodies, bodies));
     problem.assemble(system, bodies);

@@ -10,6 +10,7 @@ mod leap;
 mod open;
 mod problem;
 mod rest;
+mod row;
 mod sweep;
 
 use crate::articulation::Limit;
@@ -19,11 +20,12 @@ use crate::collision::{BroadPhase, Collider, Corners, Manifold, Pair, Sweep};
 use crate::math::{DVec3, Pose, tangents};
 
 use super::limits::Limits;
-use problem::{Problem, ROW_ENDS, Source, Touch};
+use problem::{Problem, Source, Touch};
+use row::ROW_ENDS;
 
 pub use hit::{Strike, Struck, strike};
-pub(super) use problem::Row;
 pub(super) use rest::Verdict;
+pub(super) use row::Row;
 
 /// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
 const REST_SPEED: f64 = 4e-3;
@@ -141,6 +143,8 @@ pub struct Contacts {
     held: Vec<Held>,
     /// Those before them.
     former: Vec<Held>,
+    /// 1/ω₀ of the figure's stabiliser, s.
+    gathering_time: f64,
     /// Length of the substep that they are laid out for, s.
     span: f64,
     /// Slip of the fastest touch that rests, m/s.
@@ -156,20 +160,21 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of a figure with these colliders and limits, whose joints have this many rows.
+    /// The contacts of a figure with these colliders and limits, whose joints have this many rows and
+    /// are drawn together with this time constant (s).
     pub fn new(
         colliders: &[Collider],
         pairs: Vec<SurfacePair>,
         limits: &[Limit],
         bodies: &[RigidBody],
-        joint_rows: usize,
+        joints: (usize, f64),
     ) -> Self {
         let balls: Vec<_> = colliders.iter().map(Collider::bounds).collect();
         let reach: Vec<f64> =
             colliders.iter().map(|c| c.body.map_or(0.0, |b| c.shape.reach(bodies[b].properties.center))).collect();
         let limits = Limits::new(limits, bodies);
         let touches = crate::collision::MANIFOLD_POINTS * pairs.len() + limits.count();
-        let problem = Problem::new(touches, joint_rows);
+        let problem = Problem::new(touches, joints);
         let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
             reach,
@@ -192,6 +197,7 @@ impl Contacts {
             limits,
             held: Vec::with_capacity(problem.touches.capacity()),
             former: Vec::with_capacity(problem.touches.capacity()),
+            gathering_time: joints.1,
             span: 0.0,
             problem,
             slip: 0.0,

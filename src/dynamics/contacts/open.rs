@@ -1,19 +1,30 @@
-//! Open joints pass no impulse on: what is still being drawn together is free in the contact problem.
+//! Open joints give way to touches: what is still being drawn together is soft in the contact problem.
 //!
-//! The joints' factor holds every row, J δ = 0. For rows R that are open that is wrong: the stabiliser that draws them
-//! together is soft, and a body that it draws on to an obstacle would be wedged between the two. With b the impulses of
-//! the touches, e_r a unit row of the right-hand side, and λ(·) the solved multipliers of the rows R,
+//! The joints' factor holds every row, J δ = 0. For rows R that are open that is wrong: a body that the stabiliser draws
+//! on to an obstacle would be wedged between the two. But rows that pass nothing on would let what lies on a floor lie
+//! there: its support is felt at the joint. So an open row yields to the impulse that it carries, Ċ = −γ λ, by a share
+//! β of what it would yield alone, γ = β/S_rr, and β is such that about a figure's weight outweighs the pull:
 //!
 //! ```text
-//! S = (λ(e_r))_r        Λ_j = λ(b_j) of the touches' row j
-//! solve with g_R = y, S y = −Λ P:  the rows R carry nothing        W_free = W + Λᵀ S⁻¹ Λ
+//! β = min(½, ω₀² |C| / 2g)       soft where it is wide open, hard as it closes
+//! ```
+//!
+//! With b the impulses of the touches, e_r a unit row of the right-hand side, λ(·) the solved multipliers of the rows R,
+//!
+//! ```text
+//! S = (λ(e_r))_r        Λ_j = λ(b_j) of the touches' row j        B = diag S_rr (1 + 1/β_r) off which S is S
+//! solve with g_R = y, B y = −Λ P:  g = −γ (Λ P + S y)             W_soft = W + Λᵀ B⁻¹ Λ
 //! ```
 //!
 //! as J_i M⁻¹ Jᵀ K⁻¹ e_r = −Λ_ri for K = J M⁻¹ Jᵀ. One solve more for each open row, and only while there are any.
 
 use crate::articulation::{Cholesky, System};
 
-/// Most rows that are freed; of a figure with more open ones the others hold, as if they were closed.
+/// 2g: the pull that a touch of about a figure's weight outweighs, m/s².
+const WEIGHT: f64 = 20.0;
+/// Largest β.
+const SOFTEST: f64 = 0.5;
+/// Most rows that are soft; of a figure with more open ones the others hold, as if they were closed.
 const MOST_OPEN: usize = 192;
 /// A pivot below this share of its row's diagonal is rounding: the row repeats others.
 const REPEATS: f64 = 1e-10;
@@ -21,8 +32,11 @@ const REPEATS: f64 = 1e-10;
 /// The open rows and their part in the touches' answer.
 #[derive(Clone, Debug)]
 pub(super) struct Open {
-    rows: Vec<usize>,
+    /// The open rows, each with its β.
+    rows: Vec<(usize, f64)>,
     room: usize,
+    /// 1/ω₀ of the figure's stabiliser, s.
+    time: f64,
     factor: Cholesky,
     /// Λ and S⁻¹ Λ, column by column.
     lambda: Vec<f64>,
@@ -31,11 +45,12 @@ pub(super) struct Open {
 
 impl Open {
     /// Room for the open rows of a system with this many rows, and this many rows of touches.
-    pub fn new(rows: usize, touches: usize) -> Self {
+    pub fn new(rows: usize, time: f64, touches: usize) -> Self {
         let room = rows.min(MOST_OPEN);
         Self {
             rows: Vec::with_capacity(room),
             room,
+            time,
             factor: Cholesky::with_room(room, REPEATS),
             lambda: vec![0.0; room * touches],
             solved: vec![0.0; room * touches],
@@ -47,10 +62,11 @@ impl Open {
         self.rows.is_empty()
     }
 
-    /// Finds the open rows of the system's last evaluation, and factors S.
+    /// Finds the open rows of the system's last evaluation, and factors B.
     pub fn find(&mut self, system: &mut System) {
         self.rows.clear();
-        self.rows.extend(system.open_rows().take(self.room));
+        let soft = |(row, pull): (usize, f64)| (row, (pull / WEIGHT).min(SOFTEST));
+        self.rows.extend(system.open_rows(self.time).take(self.room).map(soft));
         let n = self.rows.len();
         self.factor.begin(n);
         for j in 0..n {
@@ -61,12 +77,14 @@ impl Open {
                 system.b.fill([0.0; 6]);
             }
             system.g.fill(0.0);
-            system.g[self.rows[j]] = 1.0;
+            let (row, softness) = self.rows[j];
+            system.g[row] = 1.0;
             system.solve();
             for i in j..n {
-                *self.factor.entry(i, j) = system.lambda[self.rows[i]];
+                *self.factor.entry(i, j) = system.lambda[self.rows[i].0];
             }
-            self.factor.measure(j, system.lambda[self.rows[j]]);
+            *self.factor.entry(j, j) *= 1.0 + 1.0 / softness;
+            self.factor.measure(j, system.lambda[row]);
         }
         if n > 0 {
             self.factor.factor();
@@ -77,14 +95,14 @@ impl Open {
     pub fn take(&mut self, column: usize, system: &System) {
         let n = self.rows.len();
         let (lambda, solved) = (&mut self.lambda[column * n..][..n], &mut self.solved[column * n..][..n]);
-        for (lambda, &row) in lambda.iter_mut().zip(&self.rows) {
+        for (lambda, &(row, _)) in lambda.iter_mut().zip(&self.rows) {
             *lambda = system.lambda[row];
         }
         solved.copy_from_slice(lambda);
         self.factor.solve(solved);
     }
 
-    /// What freeing adds to W between two rows of the touches.
+    /// What softness adds to W between two rows of the touches.
     pub fn adds(&self, row: usize, column: usize) -> f64 {
         let n = self.rows.len();
         let (left, right) = (&self.lambda[row * n..][..n], &self.solved[column * n..][..n]);
@@ -100,7 +118,7 @@ impl Open {
         let n = self.rows.len();
         system.g.fill(0.0);
         for (column, p) in p.iter().enumerate().filter(|(_, p)| **p != 0.0) {
-            for (&row, y) in self.rows.iter().zip(&self.solved[column * n..][..n]) {
+            for (&(row, _), y) in self.rows.iter().zip(&self.solved[column * n..][..n]) {
                 system.g[row] -= y * p;
             }
         }

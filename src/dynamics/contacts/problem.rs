@@ -19,8 +19,9 @@
 
 use super::leap::Active;
 use super::open::Open;
+use super::row::Row;
 use crate::articulation::System;
-use crate::articulation::block::{Vec6, add_scaled, angular, dot, linear, vec6};
+use crate::articulation::block::{angular, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec2, DVec3};
 
@@ -51,42 +52,6 @@ pub(super) enum Source {
     Pair(usize),
     /// A bound of a limit.
     Bound(usize),
-}
-
-/// Most bodies of a row: the two wheels of a gear and what carries their axles.
-pub(in crate::dynamics) const ROW_ENDS: usize = 3;
-
-/// One row: the blocks of the bodies it acts on.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::dynamics) struct Row {
-    pub ends: [Option<(usize, Vec6)>; ROW_ENDS],
-}
-
-impl Row {
-    /// Adds `scale` times a block of a body; nothing for the world.
-    pub fn add(&mut self, body: Option<usize>, scale: f64, block: &Vec6) {
-        let Some(body) = body else { return };
-        let own = |end: &&mut Option<(usize, Vec6)>| end.is_none_or(|(other, _)| other == body);
-        if let Some(slot) = self.ends.iter_mut().find(own) {
-            let mut sum = slot.map_or([0.0; 6], |(_, block)| block);
-            add_scaled(&mut sum, scale, block);
-            *slot = Some((body, sum));
-        }
-    }
-
-    /// Row times the bodies' coordinates.
-    fn along(&self, a: &[Vec6]) -> f64 {
-        self.ends.iter().flatten().fold(0.0, |sum, (body, block)| sum + dot(block, &a[*body]))
-    }
-
-    /// Row times the bodies' velocities.
-    pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
-        let along = |(body, block): &(usize, Vec6)| {
-            let body = &bodies[*body];
-            dot(block, &vec6(body.velocity, body.angular_velocity))
-        };
-        self.ends.iter().flatten().map(along).sum()
-    }
 }
 
 /// A touching point or a reached bound.
@@ -165,13 +130,14 @@ pub(super) struct Problem {
     /// Unknowns and matrix of a leap.
     pub(super) active: Vec<Active>,
     pub(super) matrix: Vec<f64>,
-    /// Rows of the joints that pass nothing on.
+    /// Rows of the joints that give way.
     open: Open,
 }
 
 impl Problem {
-    /// Room for this many touches at a time, of a figure whose joints have this many rows.
-    pub fn new(touches: usize, joint_rows: usize) -> Self {
+    /// Room for this many touches at a time, of a figure whose joints have this many rows and are drawn
+    /// together with this time constant (s).
+    pub fn new(touches: usize, (joint_rows, time): (usize, f64)) -> Self {
         let touches = touches.min(MOST_TOUCHES);
         let rows = 3 * touches;
         Self {
@@ -182,7 +148,7 @@ impl Problem {
             other: vec![0.0; rows],
             active: Vec::with_capacity(rows),
             matrix: vec![0.0; rows * rows],
-            open: Open::new(joint_rows, rows),
+            open: Open::new(joint_rows, time, rows),
         }
     }
 
@@ -300,13 +266,14 @@ impl Problem {
     /// Solves like [`Problem::solve`], and where the rounds do not settle begins anew: without friction, then from nothing.
     /// Friction among redundant feet may have wandered to its cone, whence no round finds back.
     pub fn solve_anew(&mut self) -> bool {
-        self.solve() || [1.0, 0.0].into_iter().any(|share| {
-            for index in 0..self.touches.len() {
-                let normal = share * self.touches[index].begin.x;
-                self.set(index, DVec3::X * normal);
-            }
-            self.solve()
-        })
+        self.solve()
+            || [1.0, 0.0].into_iter().any(|share| {
+                for index in 0..self.touches.len() {
+                    let normal = share * self.touches[index].begin.x;
+                    self.set(index, DVec3::X * normal);
+                }
+                self.solve()
+            })
     }
 
     /// One round over all touches. Answers the largest velocity that it changed, and the largest that any impulse alone
@@ -406,7 +373,7 @@ impl Problem {
         self.open.solve(impulses, system);
     }
 
-    /// Are there joints that pass nothing on, at the last assembly?
+    /// Are there joints that give way, at the last assembly?
     pub fn has_open_joints(&self) -> bool {
         !self.open.is_empty()
     }

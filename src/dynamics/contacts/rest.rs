@@ -78,7 +78,7 @@ impl Contacts {
     /// Lays the forces that hold what rests out for a substep of `h` seconds. While joints are open there are none: the
     /// stabiliser would answer each with its opposite, and both would grow. Impulses at the substep's end do instead.
     pub(in crate::dynamics) fn lay_out(&mut self, h: f64, system: &System) {
-        if self.anything_rests() && system.open_rows().next().is_some() {
+        if self.anything_rests() && system.open_rows(self.gathering_time).next().is_some() {
             self.held.clear();
         }
         if (h - self.span).abs() > SAME_SPAN * h {
@@ -290,7 +290,9 @@ impl Contacts {
     fn take_back(&mut self, held: &Held, h: f64, bodies: &[RigidBody]) {
         let size = held.force.length();
         let row = match held.source {
-            Source::Pair(pair) => point_rows(held.point, held.acting(self.span) / size, self.bodies_of(pair), bodies)[0],
+            Source::Pair(pair) => {
+                point_rows(held.point, held.acting(self.span) / size, self.bodies_of(pair), bodies)[0]
+            }
             Source::Bound(bound) => self.limits.row(bound, bodies).1,
         };
         let mut touch = Touch::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);

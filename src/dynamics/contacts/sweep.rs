@@ -3,8 +3,8 @@
 //! What touches at the beginning and opens there is not hit; if it has sunk in by the end it was thrown and came back
 //! within the substep, and the time at which it did is found by bisection.
 
-use super::problem::Source;
 use super::Contacts;
+use super::problem::Source;
 use crate::bodies::RigidBody;
 use crate::collision::{Pair, Sweep, TOUCH, TimeOfImpact, time_of_impact};
 

@@ -109,7 +109,8 @@ impl Context<'_> {
         let sidecar = self.sidecar;
         let mut pairs: Vec<Exclusion> = Vec::new();
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
-            let joined = constraints.iter().flat_map(|c| joints::pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
+            let joined =
+                constraints.iter().flat_map(|c| joints::pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
             // Wheels that mesh with some play.
             let meshed = limits.iter().filter_map(|limit| match limit.kind {
                 LimitKind::Play { terms: [a, b], .. } => {

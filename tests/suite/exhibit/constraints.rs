@@ -237,10 +237,9 @@ fn a_gear_with_backlash_is_free_between_the_flanks_of_its_teeth() {
         ))
     };
     let (teeth, radii) = (["teeth = 42", "teeth = 6"], ["radius = \"70 mm\"", "radius = \"10 mm\""]);
-    for (size, backlash, coefficients, wanted) in [
-        (teeth, "\"2 deg\"", [7.0, 1.0], PI / 90.0),
-        (radii, "\"0.5 mm\"", [0.07, 0.01], 5e-4),
-    ] {
+    for (size, backlash, coefficients, wanted) in
+        [(teeth, "\"2 deg\"", [7.0, 1.0], PI / 90.0), (radii, "\"0.5 mm\"", [0.07, 0.01], 5e-4)]
+    {
         let loose = gear(size, &format!("backlash = {backlash}"));
         let exhibit = loose.unwrap_or_else(|report| panic!("{}", report.render(false)));
         assert!(exhibit.constraints.is_empty());

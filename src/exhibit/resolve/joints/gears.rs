@@ -66,7 +66,8 @@ impl Context<'_> {
         let Header { name, at, .. } = header;
         if !header.schedule.is_always() || header.breaking.is_some() || header.stabilization_time.is_some() {
             let message = format!("gear \"{name}\" has backlash and comes, goes, breaks or gathers");
-            let help = "teeth with play between them always act: leave out backlash, or window, trigger, break and stabilize";
+            let help =
+                "teeth with play between them always act: leave out backlash, or window, trigger, break and stabilize";
             self.report(at, Diagnostic::new(codes::WRONG_SHAPE, message).help(help));
             return;
         }

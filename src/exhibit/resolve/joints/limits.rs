@@ -157,7 +157,14 @@ impl Context<'_> {
     }
 
     /// A bound of a turn or a way; reports a length where an angle belongs, and the reverse.
-    pub(super) fn bound(&mut self, given: Option<Travel>, otherwise: f64, turn: bool, at: &str, name: &str) -> Option<f64> {
+    pub(super) fn bound(
+        &mut self,
+        given: Option<Travel>,
+        otherwise: f64,
+        turn: bool,
+        at: &str,
+        name: &str,
+    ) -> Option<f64> {
         match given {
             None => Some(otherwise),
             Some(Travel::Bare(value)) => Some(value),

@@ -102,7 +102,13 @@ impl Context<'_> {
     /// Notes a table that is switched off.
     fn enable(&mut self, name: &str, enabled: Option<bool>, at: &str, out: &mut Joints) {
         if enabled == Some(false) {
-            self.trace(&format!("constraint {name}"), "enabled", "false: it does not act".into(), &format!("{at}/enabled"), "");
+            self.trace(
+                &format!("constraint {name}"),
+                "enabled",
+                "false: it does not act".into(),
+                &format!("{at}/enabled"),
+                "",
+            );
             out.disabled.push(name.to_owned());
         }
     }
