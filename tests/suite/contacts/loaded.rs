@@ -14,24 +14,13 @@ fn stack(light: f64, heavy: f64) -> Dynamics {
 
 #[test]
 fn a_light_box_bears_a_hundred_thousand_times_its_weight() {
-    for heavy in [1.0, 10.0, 100.0] {
+    // A million times it still bears; beyond that a substep would have to be shorter than a 64th of a step.
+    for heavy in [10.0, 100.0] {
         let mut dynamics = stack(1e-3, heavy);
         run(&mut dynamics, 1.0);
         assert_stays(&mut dynamics, 10.0);
         let sunk = 0.09 - dynamics.bodies[1].position.y;
         assert!(sunk.abs() < 1e-5, "under {heavy} kg: sunk by {sunk} m");
-    }
-}
-
-#[test]
-#[ignore = "finds the limit, for the documents"]
-fn the_heaviest_box_that_a_light_one_bears() {
-    for heavy in [100.0, 300.0, 1e3, 3e3, 1e4] {
-        let mut dynamics = stack(1e-3, heavy);
-        run(&mut dynamics, 11.0);
-        let sunk = 0.09 - dynamics.bodies[1].position.y;
-        let aside = dynamics.bodies[0].position.x.hypot(dynamics.bodies[0].position.z);
-        println!("{:e} : 1, sunk by {sunk:e} m, aside by {aside:e} m, {} substeps", heavy * 1e3, dynamics.substeps());
     }
 }
 
