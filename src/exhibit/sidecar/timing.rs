@@ -19,7 +19,7 @@ pub struct Timing {
     /// The load at which it gives way.
     #[serde(rename = "break")]
     pub breaking: Option<Break>,
-    /// How it draws itself together while it is open; by default as [solver] stabilize says.
+    /// How it draws itself together while it is open; by default as `stabilize` of the solver says.
     pub stabilize: Option<Stabilize>,
     /// Does it act at all? By default true.
     pub enabled: Option<bool>,
