@@ -20,6 +20,7 @@ mod system;
 pub mod tree;
 
 pub use activity::{Activity, Break};
+pub use cholesky::Cholesky;
 pub use function::{Function, Interpolation, Jet3};
 pub use schedule::{Breaking, Schedule, Trigger, Window};
 pub use system::{Joint, Method, RowState, System};
@@ -131,12 +132,21 @@ pub struct Constraint {
     pub breaking: Option<Breaking>,
     /// Friction of the pivot; `None` turns freely.
     pub friction: Option<PivotFriction>,
+    /// 1/ω₀ of its own stabiliser, s; `None` has the figure's.
+    pub stabilization_time: Option<f64>,
 }
 
 impl Constraint {
     /// One that always acts, never breaks and turns freely.
     pub fn new(name: &str, kind: ConstraintKind) -> Self {
-        Self { name: name.to_owned(), kind, schedule: Schedule::default(), breaking: None, friction: None }
+        Self {
+            name: name.to_owned(),
+            kind,
+            schedule: Schedule::default(),
+            breaking: None,
+            friction: None,
+            stabilization_time: None,
+        }
     }
 
     /// Name of the combination it belongs to: what stands before the `/`.
@@ -194,6 +204,14 @@ pub enum LimitKind {
         measure: Measure,
         /// Angle from tooth to tooth (m for a rack); 0 catches anywhere.
         pitch: f64,
+    },
+    /// Two turns or ways stay in proportion but for some play: |c₁ q₁ + c₂ q₂| ≤ play/2. The backlash of a gear: within
+    /// it the wheels are free of each other, at either end of it a flank of a tooth lies on the other wheel's.
+    Play {
+        /// What is coupled.
+        terms: [Term; 2],
+        /// In the unit of c q.
+        play: f64,
     },
 }
 
@@ -259,12 +277,13 @@ impl ConstraintKind {
 impl LimitKind {
     /// Does it act on this body?
     pub fn touches(&self, body: usize) -> bool {
-        let (a, b) = match self {
-            Self::Tilt { a, b, .. } => (a.body, b.body),
-            Self::Range { measure, .. } | Self::Ratchet { measure, .. } => measure.bodies(),
-            Self::Distance { a, b, .. } => (a.body, b.body),
-        };
-        a == Some(body) || b == Some(body)
+        let either = |(a, b): (Option<usize>, Option<usize>)| a == Some(body) || b == Some(body);
+        match self {
+            Self::Tilt { a, b, .. } => either((a.body, b.body)),
+            Self::Range { measure, .. } | Self::Ratchet { measure, .. } => either(measure.bodies()),
+            Self::Distance { a, b, .. } => either((a.body, b.body)),
+            Self::Play { terms, .. } => terms.iter().any(|term| either(term.measure.bodies())),
+        }
     }
 }
 

@@ -22,7 +22,7 @@ use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 
 /// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
-const PROJECTION_REACH: f64 = 1e-4;
+pub(super) const PROJECTION_REACH: f64 = 1e-4;
 
 /// Most held rows of a pair of bodies, twice over; three of friction may come after them.
 const HELD: usize = MAX_ROWS - 3;
@@ -87,7 +87,7 @@ pub struct RowState {
     /// Is C a length?
     length: bool,
     /// Constraint that it belongs to.
-    constraint: usize,
+    pub(super) constraint: usize,
     /// Share of the force that would hold it.
     pub(super) share: f64,
     /// Is it drawn together by the stabiliser: far from closed, or held in part only?
@@ -377,9 +377,11 @@ impl System {
     /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
         if self.gathering {
+            self.tell_values();
             self.hung.tell_biases(&self.tree, &mut self.states);
             self.rates(bodies);
             for (g, state) in self.g.iter_mut().zip(&self.states) {
+                let omega0 = self.constraints[state.constraint].stabilization_time.map_or(omega0, f64::recip);
                 let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
                 *g = -state.bias - drawn;
             }

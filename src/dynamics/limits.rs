@@ -9,15 +9,18 @@
 //!            C = w − min, max − w         J = ±(d, r×d), ∓(d, (p − x_d)×d)
 //! distance   C = |p − q| − min, max − …   J = ±(e, r×e), ∓(e, s×e)
 //! ratchet    C = φ − floor                J as range;   floor = pitch ⌊φ_most/pitch⌋, or φ_most where pitch = 0
+//! play       C = b/2 ± (c₁ q₁ + c₂ q₂)    J = ±(c₁ J₁ + c₂ J₂)            either flank of a tooth
 //! ```
 //!
-//! Angles about an axis are told apart from their full turns by following them: each substep turns by less than π.
+//! Turns and ways are those of couplings (`rows/coupling.rs`): angles about an axis are told apart from their full turns
+//! by following them, and each substep turns by less than π.
 
 use crate::articulation::block::vec6;
-use crate::articulation::{Anchor, Axis, Limit, LimitKind, Measure};
+use crate::articulation::rows::coupling::{Gauge, Poses, aim, place};
+use crate::articulation::{Limit, LimitKind, Measure};
 use crate::bodies::RigidBody;
 use crate::collision::{Sweep, TOUCH};
-use crate::math::{DQuat, DVec3, PI, Pose, acos, atan2};
+use crate::math::{DVec3, Pose, acos};
 
 use super::contacts::Row;
 
@@ -39,90 +42,23 @@ struct Bound {
     limit: usize,
     end: End,
     resting: bool,
-    since_hit: f64,
-}
-
-/// A measured turn or way.
-#[derive(Clone, Debug)]
-struct Gauge {
-    /// Relative rotation at the start; a way's value there.
-    start: DQuat,
-    origin: f64,
-    /// Value when last followed, and the greatest so far.
-    value: f64,
-    most: f64,
+    /// Time of its last hit, s.
+    last_hit: f64,
 }
 
 /// All limits of a figure.
 #[derive(Clone, Debug)]
 pub(super) struct Limits {
     limits: Vec<Limit>,
-    gauges: Vec<Option<Gauge>>,
+    gauges: Vec<[Option<Gauge>; 2]>,
+    /// Greatest value of each ratchet so far.
+    most: Vec<f64>,
     bounds: Vec<Bound>,
-}
-
-/// Poses of the bodies at one time.
-trait Poses {
-    fn pose(&self, body: usize) -> Pose;
-}
-
-impl Poses for &[RigidBody] {
-    fn pose(&self, body: usize) -> Pose {
-        self[body].pose()
-    }
 }
 
 impl Poses for (&[Sweep], f64) {
     fn pose(&self, body: usize) -> Pose {
         self.0[body].pose(self.1)
-    }
-}
-
-fn place(anchor: &Anchor, poses: &impl Poses) -> DVec3 {
-    anchor.body.map_or(anchor.point, |body| poses.pose(body).point(anchor.point))
-}
-
-fn direction(axis: &Axis, poses: &impl Poses) -> DVec3 {
-    axis.body.map_or(axis.direction, |body| poses.pose(body).vector(axis.direction))
-}
-
-fn turn(body: Option<usize>, poses: &impl Poses) -> DQuat {
-    body.map_or(DQuat::IDENTITY, |body| poses.pose(body).rotation)
-}
-
-/// Rotation of a measured body in the frame it is measured against.
-fn relative(axis: &Axis, frame: Option<usize>, poses: &impl Poses) -> DQuat {
-    turn(frame, poses).conjugate() * turn(axis.body, poses)
-}
-
-/// Way of a point along a direction, m, from the direction's own body.
-fn way(point: &Anchor, along: &Axis, poses: &impl Poses) -> f64 {
-    let origin = along.body.map_or(DVec3::ZERO, |body| poses.pose(body).position);
-    (place(point, poses) - origin).dot(direction(along, poses))
-}
-
-impl Gauge {
-    fn new(measure: &Measure, poses: &impl Poses) -> Self {
-        let (start, origin) = match measure {
-            Measure::Angle { axis, frame } => (relative(axis, *frame, poses), 0.0),
-            Measure::Way { point, direction } => (DQuat::IDENTITY, way(point, direction, poses)),
-        };
-        Self { start, origin, value: 0.0, most: 0.0 }
-    }
-
-    /// The measure's value, nearest to the one last followed.
-    fn read(&self, measure: &Measure, poses: &impl Poses) -> f64 {
-        match measure {
-            Measure::Angle { axis, frame } => {
-                // q = q_start⁻¹ q turns about the body's own axis: half its angle from the parts along it.
-                let q = self.start.conjugate() * relative(axis, *frame, poses);
-                let along = DVec3::new(q.x, q.y, q.z).dot(axis.direction);
-                let wrapped = 2.0 * atan2(along, q.w);
-                let turns = ((self.value - wrapped) / (2.0 * PI)).round();
-                wrapped + 2.0 * PI * turns
-            }
-            Measure::Way { point, direction } => way(point, direction, poses) - self.origin,
-        }
     }
 }
 
@@ -136,18 +72,26 @@ impl Limits {
                 LimitKind::Range { min, max, .. } => (min.is_finite(), max.is_finite()),
                 LimitKind::Distance { min, max, .. } => (min > 0.0, max.is_finite()),
                 LimitKind::Ratchet { .. } => (true, false),
+                LimitKind::Play { .. } => (true, true),
             };
             for (end, there) in [(End::Least, least), (End::Most, most)] {
                 if there {
-                    bounds.push(Bound { limit, end, resting: false, since_hit: f64::INFINITY });
+                    bounds.push(Bound { limit, end, resting: false, last_hit: f64::NEG_INFINITY });
                 }
             }
         }
-        let gauge = |limit: &Limit| match &limit.kind {
-            LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => Some(Gauge::new(measure, &bodies)),
-            _ => None,
+        let gauge = |measure| Some(Gauge::new(measure, bodies));
+        let gauges = |limit: &Limit| match limit.kind {
+            LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => [gauge(measure), None],
+            LimitKind::Play { terms, .. } => terms.map(|term| gauge(term.measure)),
+            LimitKind::Tilt { .. } | LimitKind::Distance { .. } => [None, None],
         };
-        Self { gauges: limits.iter().map(gauge).collect(), limits: limits.to_vec(), bounds }
+        Self {
+            gauges: limits.iter().map(gauges).collect(),
+            most: vec![0.0; limits.len()],
+            limits: limits.to_vec(),
+            bounds,
+        }
     }
 
     /// How many bounds there are.
@@ -155,21 +99,13 @@ impl Limits {
         self.bounds.len()
     }
 
-    /// Begins a step of `dt` seconds.
-    pub fn begin_step(&mut self, dt: f64) {
-        self.bounds.iter_mut().for_each(|bound| bound.since_hit += dt);
-    }
-
     /// Follows turns and ways, and lets pawls fall behind the teeth that have passed.
     pub fn follow(&mut self, bodies: &[RigidBody]) {
-        for (limit, gauge) in self.limits.iter().zip(&mut self.gauges) {
-            let (Some(gauge), LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. }) =
-                (gauge, &limit.kind)
-            else {
-                continue;
-            };
-            gauge.value = gauge.read(measure, &bodies);
-            gauge.most = gauge.most.max(gauge.value);
+        for (gauges, most) in self.gauges.iter_mut().zip(&mut self.most) {
+            gauges.iter_mut().flatten().for_each(|gauge| gauge.count(bodies));
+            if let Some(first) = &gauges[0] {
+                *most = most.max(first.total(bodies));
+            }
         }
     }
 
@@ -189,9 +125,9 @@ impl Limits {
         self.bounds[bound].resting = rests;
     }
 
-    /// Seconds since a bound was last hit.
-    pub fn since_hit(&mut self, bound: usize) -> &mut f64 {
-        &mut self.bounds[bound].since_hit
+    /// Time of a bound's last hit, s.
+    pub fn last_hit(&mut self, bound: usize) -> &mut f64 {
+        &mut self.bounds[bound].last_hit
     }
 
     /// Coefficient of restitution of a bound.
@@ -205,25 +141,31 @@ impl Limits {
             LimitKind::Tilt { a, b, .. } => [a.body, b.body],
             LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => measure.bodies().into(),
             LimitKind::Distance { a, b, .. } => [a.body, b.body],
+            LimitKind::Play { terms, .. } => terms.map(|term| term.measure.bodies().0),
         }
     }
 
     /// What is left to a bound, rad or m; negative beyond it.
     pub fn gap(&self, bound: usize, bodies: &[RigidBody]) -> f64 {
-        self.value(bound, &bodies)
+        self.value(bound, bodies)
     }
 
-    fn value(&self, bound: usize, poses: &impl Poses) -> f64 {
+    fn value(&self, bound: usize, poses: &(impl Poses + ?Sized)) -> f64 {
         let Bound { limit, end, .. } = self.bounds[bound];
         let (value, min, max) = match &self.limits[limit].kind {
             LimitKind::Tilt { a, b, max } => {
-                (acos(direction(a, poses).dot(direction(b, poses)).clamp(-1.0, 1.0)), 0.0, *max)
+                let cosine = aim(a.body, a.direction, poses).dot(aim(b.body, b.direction, poses));
+                (acos(cosine.clamp(-1.0, 1.0)), 0.0, *max)
             }
-            LimitKind::Range { measure, min, max } => (self.read(limit, measure, poses), *min, *max),
+            LimitKind::Range { min, max, .. } => (self.read(limit, 0, poses), *min, *max),
             LimitKind::Distance { a, b, min, max } => ((place(a, poses) - place(b, poses)).length(), *min, *max),
-            LimitKind::Ratchet { measure, pitch } => {
-                let value = self.read(limit, measure, poses);
-                let most = self.gauges[limit].as_ref().map_or(0.0, |gauge| gauge.most).max(value);
+            LimitKind::Play { terms, play } => {
+                let part = |k: usize| terms[k].coefficient * self.read(limit, k, poses);
+                (part(0) + part(1), -0.5 * play, 0.5 * play)
+            }
+            LimitKind::Ratchet { pitch, .. } => {
+                let value = self.read(limit, 0, poses);
+                let most = self.most[limit].max(value);
                 // A tooth counts as passed where it is reached, within rounding.
                 let floor = if *pitch > 0.0 { pitch * (most / pitch + NO_DIRECTION).floor() } else { most };
                 (value, floor, f64::INFINITY)
@@ -235,8 +177,8 @@ impl Limits {
         }
     }
 
-    fn read(&self, limit: usize, measure: &Measure, poses: &impl Poses) -> f64 {
-        self.gauges[limit].as_ref().map_or(0.0, |gauge| gauge.read(measure, poses))
+    fn read(&self, limit: usize, gauge: usize, poses: &(impl Poses + ?Sized)) -> f64 {
+        self.gauges[limit][gauge].as_ref().map_or(0.0, |gauge| gauge.total(poses))
     }
 
     /// What is left to a bound, its row, and where it acts.
@@ -246,51 +188,62 @@ impl Limits {
             End::Least => 1.0,
             End::Most => -1.0,
         };
-        let turning = |[a, b]: [Option<usize>; 2], axis: DVec3| {
-            let end = |body: Option<usize>, sign: f64| body.map(|body| (body, vec6(DVec3::ZERO, sign * axis)));
-            Row { ends: [end(a, sign), end(b, -sign)] }
-        };
-        let sliding = |[a, b]: [Option<usize>; 2], at: [DVec3; 2], along: DVec3| {
-            let end = |body: Option<usize>, at: DVec3, sign: f64| {
-                body.map(|i| (i, vec6(sign * along, (at - bodies[i].position).cross(sign * along))))
-            };
-            Row { ends: [end(a, at[0], sign), end(b, at[1], -sign)] }
-        };
         let two = self.bodies(bound);
         let middle = |body: Option<usize>| body.map_or(DVec3::ZERO, |i| bodies[i].position);
-        let (row, point) = match &self.limits[limit].kind {
+        let mut row = Row::default();
+        let point = match &self.limits[limit].kind {
             LimitKind::Tilt { a, b, .. } => {
-                let across = direction(b, &bodies).cross(direction(a, &bodies)).normalize_or_zero();
-                (turning(two, across), middle(two[0]))
+                let across = aim(b.body, b.direction, bodies).cross(aim(a.body, a.direction, bodies));
+                let block = vec6(DVec3::ZERO, across.normalize_or_zero());
+                row.add(two[0], sign, &block);
+                row.add(two[1], -sign, &block);
+                middle(two[0])
             }
             LimitKind::Distance { a, b, .. } => {
-                let (p, q) = (place(a, &bodies), place(b, &bodies));
-                (sliding(two, [p, q], (p - q).normalize_or_zero()), p)
+                let (p, q) = (place(a, bodies), place(b, bodies));
+                let along = (p - q).normalize_or_zero();
+                let block = |body, at: DVec3| vec6(along, (at - middle(body)).cross(along));
+                row.add(two[0], sign, &block(two[0], p));
+                row.add(two[1], -sign, &block(two[1], q));
+                p
             }
-            LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => match measure {
-                Measure::Angle { axis, .. } => (turning(two, direction(axis, &bodies)), middle(two[0])),
-                Measure::Way { point, direction: along } => {
-                    // The direction turns with its body, so that body's lever is the point's own.
-                    let at = place(point, &bodies);
-                    (sliding(two, [at, at], direction(along, &bodies)), at)
+            LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => {
+                self.add_gauge(limit, 0, sign, bodies, &mut row);
+                match measure {
+                    Measure::Angle { .. } => middle(two[0]),
+                    Measure::Way { point, .. } => place(point, bodies),
                 }
-            },
+            }
+            LimitKind::Play { terms, .. } => {
+                for (k, term) in terms.iter().enumerate() {
+                    self.add_gauge(limit, k, sign * term.coefficient, bodies, &mut row);
+                }
+                0.5 * (middle(two[0]) + middle(two[1]))
+            }
         };
-        (self.value(bound, &bodies), row, point)
+        (self.value(bound, bodies), row, point)
+    }
+
+    /// Adds `scale` times the row of a gauge.
+    fn add_gauge(&self, limit: usize, gauge: usize, scale: f64, bodies: &[RigidBody], row: &mut Row) {
+        let Some(gauge) = &self.gauges[limit][gauge] else { return };
+        let ((on, against), (first, second)) = (gauge.blocks(bodies), gauge.bodies());
+        row.add(first, scale, &on);
+        row.add(second, scale, &against);
     }
 
     /// Is a bound reached, and passed at more than `speed`?
     pub fn approaches(&self, bound: usize, bodies: &[RigidBody], layer: f64, speed: f64) -> bool {
-        self.value(bound, &bodies) <= layer && self.row(bound, bodies).1.rate(bodies) < -speed
+        self.value(bound, bodies) <= layer && self.row(bound, bodies).1.rate(bodies) < -speed
     }
 
     /// The share of a substep at which a bound is reached.
     pub fn crossing(&self, bound: usize, before: &[RigidBody], after: &[RigidBody], sweeps: &[Sweep]) -> Option<f64> {
-        let end = self.value(bound, &after);
+        let end = self.value(bound, after);
         if end > 0.0 {
             return None;
         }
-        let start = self.value(bound, &before);
+        let start = self.value(bound, before);
         if start <= TOUCH {
             let rate = |bodies: &[RigidBody]| self.row(bound, bodies).1.rate(bodies);
             if rate(before) < 0.0 {

@@ -167,7 +167,8 @@ impl Dynamics {
         }
         let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
         system.evaluate(&bodies);
-        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies);
+        let joints = (system.states().len(), settings.stabilization_time);
+        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies, joints);
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,
@@ -218,7 +219,7 @@ impl Dynamics {
         }
         self.given.copy_from_slice(external);
         self.dt = dt;
-        self.contacts.begin_step(dt);
+        self.contacts.begin_step(self.time);
         self.begin_happenings();
         self.substeps = 0;
         let already = impacts.len();
@@ -319,6 +320,7 @@ impl Dynamics {
     fn hold(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
         let mut pass = 1;
         loop {
+            self.contacts.lay_out(h, &self.system);
             self.press();
             h = self.integrate(t, h, if sure || pass > 1 { h } else { least });
             if !self.contacts.anything_rests() {
@@ -521,6 +523,11 @@ impl Dynamics {
         self.contacts.work()
     }
 
+    /// Pairs of colliders that the last step measured: those whose swept boxes overlapped, once a substep each.
+    pub fn measured_pairs(&self) -> usize {
+        self.contacts.measured()
+    }
+
     /// Substeps of the last step.
     pub fn substeps(&self) -> u32 {
         self.substeps
@@ -541,7 +548,7 @@ fn levers(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
 }
 
 /// Smallest moment of inertia about an axis across `arm`, kg m².
-fn least_inertia_across(inertia: &DMat3, arm: DVec3) -> f64 {
+pub(in crate::dynamics) fn least_inertia_across(inertia: &DMat3, arm: DVec3) -> f64 {
     let Some(n) = arm.try_normalize() else { return f64::INFINITY };
     let (t, b) = crate::math::tangents(n);
     let (tt, bb, tb) = (t.dot(*inertia * t), b.dot(*inertia * b), t.dot(*inertia * b));

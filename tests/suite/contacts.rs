@@ -1,5 +1,7 @@
 //! Contacts against formulas: rest, sliding, rolling, hits of several points, limits.
 
+mod loaded;
+
 use assert_no_alloc::assert_no_alloc;
 use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure};
 use soffio::bodies::{MassProperties, RigidBody};

@@ -196,13 +196,14 @@ fn thin_plates_at_speed_never_pass_through_each_other() {
                 .sum::<DVec3>()
         };
         let (p, l, e) = (momentum(&dynamics), spin(&dynamics), dynamics.energy());
-        let impacts = run(&mut dynamics, 0.2);
+        let impacts = run(&mut dynamics, 0.1);
         assert!(!impacts.is_empty(), "trial {trial}: passed through");
-        // Momentum and angular momentum: rounding through hits, and RK4 on the free spin. Plates that roll over each
-        // other at 15 m/s also press for a while; a force that stands still for a substep there turns the pair a little.
+        // Momentum and angular momentum: rounding through hits, and RK4 on the free spin,
+        // 3e-10 a step at 160 rad/s.
         assert!((momentum(&dynamics) - p).length() < 1e-12, "trial {trial}");
         let turned = (spin(&dynamics) - l).length();
-        assert!(turned < 1e-8 + 5e-5 * l.length(), "trial {trial}: {turned} of {}", l.length());
+        println!("{speed} m/s: turned by {turned:e}");
+        assert!(turned < 1e-8, "trial {trial}: {turned} of {}", l.length());
         assert!(dynamics.energy() <= e * (1.0 + 1e-9), "trial {trial}: energy rose");
     }
 }

@@ -371,6 +371,17 @@ fn the_chain_breaks_once_when_it_is_blown_falls_and_mends() {
 }
 
 #[test]
+fn the_chain_gathers_past_what_lies_in_its_way() {
+    for strength in [0.7, 0.9, 1.0] {
+        let mut visit = Visit::breath("breaking-chain", [0.5, 0.62], 1.0, strength, 1.6);
+        visit.until(30.0);
+        assert!(visit.all(EventKind::Break).len() == 1, "a breath of {strength}: it breaks once");
+        assert!(visit.all(EventKind::Fault).is_empty(), "a breath of {strength}: {:?}", visit.all(EventKind::Fault));
+        assert!(gap(&visit) < 1e-8, "a breath of {strength}: {} m apart", gap(&visit));
+    }
+}
+
+#[test]
 fn the_chain_bears_its_weight_and_a_gentle_breath() {
     let mut visit = Visit::breath("breaking-chain", [0.5, 0.62], 5.0, 0.3, 1.6);
     visit.until(15.0);

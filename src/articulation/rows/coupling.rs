@@ -20,14 +20,35 @@
 //! on a drum: way − r q = const; compounded pulleys multiply the way.
 
 use super::plane;
-use super::{Row, Scene, negated};
+use super::{Row, Scene, at, negated};
 use crate::articulation::block::{Vec6, add_scaled, vec6};
-use crate::articulation::{Anchor, Function, Measure};
+use crate::articulation::{Anchor, Axis, Function, Measure};
 use crate::bodies::RigidBody;
-use crate::math::{DMat3, DQuat, DVec3, PI, atan2};
+use crate::math::{DMat3, DQuat, DVec3, PI, Pose, atan2};
 
 /// Below this 1 + n·m the body lies with its axis overturned, where the twist says nothing.
 const OVERTURNED: f64 = 1e-6;
+
+/// Where bodies are at one time.
+pub trait Poses {
+    /// Node frame of a body.
+    fn pose(&self, body: usize) -> Pose;
+
+    /// Its rotation alone.
+    fn rotation(&self, body: usize) -> DQuat {
+        self.pose(body).rotation
+    }
+}
+
+impl Poses for [RigidBody] {
+    fn pose(&self, body: usize) -> Pose {
+        self[body].pose()
+    }
+
+    fn rotation(&self, body: usize) -> DQuat {
+        self[body].rotation
+    }
+}
 
 /// A measure with what it must remember of the start, and its count of turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +100,7 @@ impl Gauge {
         match &measure {
             Measure::Angle { axis, frame } => gauge.start = relative(axis.body, *frame, bodies),
             Measure::Way { point, direction } => {
-                let p = point.body.map_or(point.point, |i| bodies[i].pose().point(point.point));
+                let p = place(point, bodies);
                 let local = direction.body.map_or(p, |i| bodies[i].pose().inverse_point(p));
                 gauge.origin = Anchor { body: direction.body, point: local };
             }
@@ -97,14 +118,7 @@ impl Gauge {
         match &self.measure {
             Measure::Angle { axis, frame } => {
                 let n = scene.direction(axis);
-                let value = self.angle(scene.bodies);
-                // The nearest branch to the last count: a step turns by less than half a turn.
-                let mut turns = self.turns;
-                if value - self.last > PI {
-                    turns -= 1;
-                } else if value - self.last < -PI {
-                    turns += 1;
-                }
+                let (value, turns) = self.angle(axis, *frame, scene.bodies);
                 let against = scene.spin(*frame);
                 let m = frame.map_or(DMat3::IDENTITY, |i| scene.frames[i]) * (self.start * axis.direction);
                 let (e, bias) = twist((n.n, n.spin), (m, against));
@@ -118,32 +132,71 @@ impl Gauge {
         }
     }
 
-    /// Counts turns up to this state; once a step.
-    pub fn count(&mut self, bodies: &[RigidBody]) {
-        if let Measure::Angle { .. } = self.measure {
-            let value = self.angle(bodies);
-            if value - self.last > PI {
-                self.turns -= 1;
-            } else if value - self.last < -PI {
-                self.turns += 1;
+    /// Its value alone where bodies are at these poses: angle with its turns (rad), or the way (m).
+    pub fn total(&self, poses: &(impl Poses + ?Sized)) -> f64 {
+        match &self.measure {
+            Measure::Angle { axis, frame } => {
+                let (value, turns) = self.angle(axis, *frame, poses);
+                value + 2.0 * PI * turns as f64
             }
-            self.last = value;
+            Measure::Way { point, direction } => {
+                let normal = aim(direction.body, direction.direction, poses);
+                normal.dot(place(point, poses) - place(&self.origin, poses))
+            }
         }
     }
 
-    fn angle(&self, bodies: &[RigidBody]) -> f64 {
-        let Measure::Angle { axis, frame } = &self.measure else { return 0.0 };
-        let d = self.start.conjugate() * relative(axis.body, *frame, bodies);
-        let sine = DVec3::new(d.x, d.y, d.z).dot(axis.direction);
-        let angle = 2.0 * atan2(sine, d.w);
-        if angle > PI {
-            angle - 2.0 * PI
-        } else if angle <= -PI {
-            angle + 2.0 * PI
-        } else {
-            angle
+    /// J on the measured body, and on the body it is measured against.
+    pub fn blocks(&self, bodies: &[RigidBody]) -> (Vec6, Vec6) {
+        match &self.measure {
+            Measure::Angle { axis, frame } => {
+                let n = aim(axis.body, axis.direction, bodies);
+                let m = aim(*frame, self.start * axis.direction, bodies);
+                let j = vec6(DVec3::ZERO, twist((n, DVec3::ZERO), (m, DVec3::ZERO)).0);
+                (j, negated(j))
+            }
+            Measure::Way { point, direction } => {
+                let normal = aim(direction.body, direction.direction, bodies);
+                // The plane's body feels the force at the point itself.
+                let p = place(point, bodies);
+                let arm = |body: Option<usize>| p - body.map_or(p, |i| bodies[i].position);
+                (at(normal, arm(point.body)), negated(at(normal, arm(direction.body))))
+            }
         }
     }
+
+    /// Counts turns up to this state; once a step or oftener.
+    pub fn count(&mut self, bodies: &[RigidBody]) {
+        if let Measure::Angle { axis, frame } = self.measure {
+            (self.last, self.turns) = self.angle(&axis, frame, bodies);
+        }
+    }
+
+    /// Wrapped angle, and turns by the branch nearest to the last count: between two counts it grows by less than π.
+    fn angle(&self, axis: &Axis, frame: Option<usize>, poses: &(impl Poses + ?Sized)) -> (f64, i64) {
+        let d = self.start.conjugate() * relative(axis.body, frame, poses);
+        let sine = DVec3::new(d.x, d.y, d.z).dot(axis.direction);
+        let raw = 2.0 * atan2(sine, d.w);
+        let value = if raw > PI {
+            raw - 2.0 * PI
+        } else if raw <= -PI {
+            raw + 2.0 * PI
+        } else {
+            raw
+        };
+        let step = value - self.last;
+        (value, self.turns + i64::from(step < -PI) - i64::from(step > PI))
+    }
+}
+
+/// Where a point is, world, m.
+pub fn place(anchor: &Anchor, poses: &(impl Poses + ?Sized)) -> DVec3 {
+    anchor.body.map_or(anchor.point, |body| poses.pose(body).point(anchor.point))
+}
+
+/// Where a body's direction points, world.
+pub fn aim(body: Option<usize>, direction: DVec3, poses: &(impl Poses + ?Sized)) -> DVec3 {
+    body.map_or(direction, |body| poses.rotation(body) * direction)
 }
 
 /// e and J̇ẋ of the file's head, for the directions n and m with the angular velocities of their bodies.
@@ -159,8 +212,8 @@ fn twist((n, spin): (DVec3, DVec3), (m, against): (DVec3, DVec3)) -> (DVec3, f64
 }
 
 /// Rotation of a body in the axes of another.
-fn relative(body: Option<usize>, frame: Option<usize>, bodies: &[RigidBody]) -> DQuat {
-    let q = |index: Option<usize>| index.map_or(DQuat::IDENTITY, |i| bodies[i].rotation);
+fn relative(body: Option<usize>, frame: Option<usize>, poses: &(impl Poses + ?Sized)) -> DQuat {
+    let q = |index: Option<usize>| index.map_or(DQuat::IDENTITY, |i| poses.rotation(i));
     q(frame).conjugate() * q(body)
 }
 

@@ -13,7 +13,7 @@
 //! Hits travel: what approaches after one is hit next, in a fixed order, so that of a row of balls the last one leaves.
 
 use super::problem::{LOCKED, Problem, Source, Touch};
-use super::sweep::{Hit, Run};
+use super::sweep::Hit;
 use super::{CHATTER_SPEED, CHATTER_TIME, Contacts, Impact, ImpactKind, REST_SPEED, point_rows};
 use crate::articulation::System;
 use crate::bodies::RigidBody;
@@ -23,6 +23,8 @@ use crate::math::{DMat3, DVec3};
 
 /// Points of the same two bodies that meet within this time are hit together, s: one sample of sound.
 const ONE_TIME: f64 = 1.0 / 48_000.0;
+/// 1/ω₀ with which joints of a figure that is struck by hand gather, s: none of them is open.
+const GATHERS: f64 = 0.04;
 /// Hits that travel from one, at most.
 const MOST_ROUNDS: usize = 256;
 
@@ -55,7 +57,7 @@ pub struct Struck {
 /// Resolves one hit at one point: three solves for the effective mass, one for the answer. The joints must be
 /// factored at the bodies' present state. `None` where joints hold the point or nothing approaches.
 pub fn strike(strike: &Strike, system: &mut System, bodies: &mut [RigidBody]) -> Option<Struck> {
-    let mut problem = Problem::new(1);
+    let mut problem = Problem::new(1, (system.states().len(), GATHERS));
     let touch = Touch::new(Source::Pair(0), strike.point, strike.normal, 0.0, strike.friction);
     problem.push(touch, &point_rows(strike.point, strike.normal, strike.bodies, bodies));
     problem.assemble(system, bodies);
@@ -96,6 +98,8 @@ impl Contacts {
         bodies: &mut [RigidBody],
         impacts: &mut Vec<Impact>,
     ) {
+        // Hits change speeds, not places: what is near stays so.
+        self.find_near(bodies, bodies);
         let mut next = Some(hit.source);
         for _ in 0..MOST_ROUNDS {
             let Some(source) = next else { break };
@@ -145,9 +149,12 @@ impl Contacts {
         match source {
             Source::Bound(bound) => self.push_bound(bound, bodies),
             Source::Pair(pair) => {
-                let run = self.runs.iter().find(|run| (run.first..run.end).contains(&pair)).copied();
-                let Some(run) = run else { return };
-                for other in run.first..run.end {
+                // Pairs of the same two bodies stand together.
+                let two = self.bodies_of(pair);
+                let same = |other: &usize| self.bodies_of(*other) == two;
+                let first = (0..pair).rev().take_while(same).last().unwrap_or(pair);
+                let end = (pair + 1..self.pairs.len()).take_while(same).last().unwrap_or(pair);
+                for other in first..=end {
                     if other == pair || self.may_touch(other, bodies) {
                         self.collect_pair(other, other == pair, bodies);
                     }
@@ -225,12 +232,13 @@ impl Contacts {
 
     /// Restitution of a hit at this speed, and whether it is the beginning of rest.
     fn judge(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
-        let since = match source {
-            Source::Pair(pair) => &mut self.since_hit[pair],
-            Source::Bound(bound) => self.limits.since_hit(bound),
+        let now = self.clock + time;
+        let last = match source {
+            Source::Pair(pair) => &mut self.last_hit[pair],
+            Source::Bound(bound) => self.limits.last_hit(bound),
         };
-        let chatters = *since + time < CHATTER_TIME && speed < CHATTER_SPEED;
-        *since = -time;
+        let chatters = now - *last < CHATTER_TIME && speed < CHATTER_SPEED;
+        *last = now;
         let rests = speed < REST_SPEED || chatters || self.impacts_left == 0;
         let e = match source {
             Source::Pair(pair) => self.pairs[pair].restitution,
@@ -266,19 +274,17 @@ impl Contacts {
 
     /// What touches now and approaches too fast to be taken out without bounce.
     fn approaching(&mut self, bodies: &[RigidBody]) -> Option<Source> {
-        for run in 0..self.runs.len() {
-            let Run { first, end, .. } = self.runs[run];
-            for pair in first..end {
-                if !self.may_touch(pair, bodies) {
-                    continue;
-                }
-                let manifold = self.manifold(pair, bodies);
-                let hits = |at: &ManifoldPoint| {
-                    at.gap <= TOUCH && self.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
-                };
-                if manifold.points().iter().any(hits) {
-                    return Some(Source::Pair(pair));
-                }
+        for near in 0..self.near.len() {
+            let pair = self.near[near];
+            if !self.may_touch(pair, bodies) {
+                continue;
+            }
+            let manifold = self.manifold(pair, bodies);
+            let hits = |at: &ManifoldPoint| {
+                at.gap <= TOUCH && self.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
+            };
+            if manifold.points().iter().any(hits) {
+                return Some(Source::Pair(pair));
             }
         }
         (0..self.limits.count()).find(|&b| self.limits.approaches(b, bodies, TOUCH, REST_SPEED)).map(Source::Bound)

@@ -7,23 +7,25 @@
 
 mod hit;
 mod leap;
+mod open;
 mod problem;
 mod rest;
+mod row;
 mod sweep;
 
 use crate::articulation::Limit;
 use crate::articulation::block::{Vec6, vec6};
 use crate::bodies::RigidBody;
-use crate::collision::{Collider, Corners, Manifold, Pair, Sweep};
+use crate::collision::{BroadPhase, Collider, Corners, Manifold, Pair, Sweep};
 use crate::math::{DVec3, Pose, tangents};
 
 use super::limits::Limits;
 use problem::{Problem, Source, Touch};
-use sweep::{Run, ball_around, runs};
+use row::ROW_ENDS;
 
 pub use hit::{Strike, Struck, strike};
-pub(super) use problem::Row;
 pub(super) use rest::Verdict;
+pub(super) use row::Row;
 
 /// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
 const REST_SPEED: f64 = 4e-3;
@@ -88,21 +90,23 @@ struct Held {
     point: DVec3,
     /// World force on the first body, N; a bound's along its row in x.
     force: DVec3,
-    /// Normal where it acted so, and the rotation vector of its turn in a substep of the same length, rad.
+    /// Length of the substep that it was found in, s.
+    span: f64,
+    /// Normal where it acted so, and the rotation vector of its turn in a substep of that length, rad.
     normal: DVec3,
     turn: DVec3,
-    /// How it acts on the one or two bodies.
-    ends: [Option<Lever>; 2],
+    /// How it acts on its bodies.
+    ends: [Option<Lever>; ROW_ENDS],
 }
 
 /// One end of a held force.
 #[derive(Clone, Copy, Debug)]
 struct Lever {
     body: usize,
-    /// Wrench of a bound per unit force, and its change in a substep of the same length.
+    /// Wrench of a bound per unit force, and its change in a substep of that length.
     block: Vec6,
     block_change: Vec6,
-    /// From the body's centre to the point of a contact, m, and its way in a substep of the same length.
+    /// From the body's centre to the point of a contact, m, and its way in a substep of that length.
     arm: DVec3,
     way: DVec3,
 }
@@ -115,29 +119,39 @@ pub struct Contacts {
     reach: Vec<f64>,
     balls: Vec<(DVec3, f64)>,
     pairs: Vec<SurfacePair>,
-    /// Runs of pairs that belong to the same two bodies, a ball around each body's colliders (node
-    /// frame), and their farthest point from the centre of mass.
-    runs: Vec<Run>,
-    body_balls: Vec<(DVec3, f64)>,
-    body_reach: Vec<f64>,
+    broad: BroadPhase,
+    /// Pairs whose boxes overlap, ascending: over the present substep, or where bodies are at a hit.
+    near: Vec<usize>,
+    /// How many pairs were measured in the present step.
+    measured: usize,
+    /// Whether each pair rests, the pairs that do, ascending, and how many bounds do.
     resting: Vec<bool>,
-    /// How many pairs and bounds rest.
-    at_rest: usize,
-    /// Seconds since each pair's last hit.
-    since_hit: Vec<f64>,
+    at_rest: Vec<usize>,
+    bounds_at_rest: usize,
+    /// When the present step began, and each pair's last hit, s.
+    clock: f64,
+    last_hit: Vec<f64>,
     /// How deep each resting pair had sunk in at the last substep's end, m; not above 0.
     depth: Vec<f64>,
     sweeps: Vec<Sweep>,
-    /// Ball that each collider keeps to within the present substep, world.
-    swept: Vec<(DVec3, f64)>,
+    /// Looks at all pairs, near or not.
+    #[cfg(test)]
+    all: bool,
     corners: Corners,
     limits: Limits,
     problem: Problem,
     held: Vec<Held>,
     /// Those before them.
     former: Vec<Held>,
+    /// 1/ω₀ of the figure's stabiliser, s.
+    gathering_time: f64,
+    /// Length of the substep that they are laid out for, s.
+    span: f64,
     /// Slip of the fastest touch that rests, m/s.
     slip: f64,
+    /// Greatest ω² with which a body under the forces that hold it would tip out of its place, 1/s², and those of the bodies.
+    tips: f64,
+    tipping: Vec<f64>,
     /// Work of all hits and resting contacts so far, J; losses make it negative.
     work: f64,
     /// Work of resting contacts over the present substep, J: it may yet be cut by a hit.
@@ -146,53 +160,65 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of a figure with these colliders and limits.
-    pub fn new(colliders: &[Collider], pairs: Vec<SurfacePair>, limits: &[Limit], bodies: &[RigidBody]) -> Self {
+    /// The contacts of a figure with these colliders and limits, whose joints have this many rows and
+    /// are drawn together with this time constant (s).
+    pub fn new(
+        colliders: &[Collider],
+        pairs: Vec<SurfacePair>,
+        limits: &[Limit],
+        bodies: &[RigidBody],
+        joints: (usize, f64),
+    ) -> Self {
         let balls: Vec<_> = colliders.iter().map(Collider::bounds).collect();
         let reach: Vec<f64> =
             colliders.iter().map(|c| c.body.map_or(0.0, |b| c.shape.reach(bodies[b].properties.center))).collect();
-        let own_reach = |body| {
-            let own = colliders.iter().zip(&reach).filter(|(c, _)| c.body == Some(body));
-            own.fold(0.0, |most: f64, (_, r)| most.max(*r))
-        };
-        let body_reach = (0..bodies.len()).map(own_reach).collect();
-        let body_balls = (0..bodies.len()).map(|body| ball_around(colliders, &balls, body)).collect();
         let limits = Limits::new(limits, bodies);
         let touches = crate::collision::MANIFOLD_POINTS * pairs.len() + limits.count();
-        let problem = Problem::new(touches);
+        let problem = Problem::new(touches, joints);
+        let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
             reach,
-            runs: runs(colliders, &pairs),
-            body_balls,
-            body_reach,
+            broad: BroadPhase::new(colliders, &bare),
+            near: Vec::with_capacity(pairs.len()),
+            measured: 0,
             balls,
             resting: vec![false; pairs.len()],
-            at_rest: 0,
-            since_hit: vec![f64::INFINITY; pairs.len()],
+            at_rest: Vec::with_capacity(pairs.len()),
+            bounds_at_rest: 0,
+            clock: 0.0,
+            last_hit: vec![f64::NEG_INFINITY; pairs.len()],
             depth: vec![0.0; pairs.len()],
             sweeps: vec![Sweep::STILL; bodies.len()],
-            swept: vec![(DVec3::ZERO, 0.0); colliders.len()],
+            #[cfg(test)]
+            all: false,
             corners: Corners::new(colliders),
             colliders: colliders.to_vec(),
             pairs,
             limits,
             held: Vec::with_capacity(problem.touches.capacity()),
             former: Vec::with_capacity(problem.touches.capacity()),
+            gathering_time: joints.1,
+            span: 0.0,
             problem,
             slip: 0.0,
+            tips: 0.0,
+            tipping: vec![0.0; bodies.len()],
             work: 0.0,
             recent_work: 0.0,
             impacts_left: MOST_IMPACTS,
         }
     }
 
-    /// Begins a step of `dt` seconds.
-    pub(super) fn begin_step(&mut self, dt: f64) {
+    /// Begins a step at the time `now`, s.
+    pub(super) fn begin_step(&mut self, now: f64) {
         self.impacts_left = MOST_IMPACTS;
-        for since in &mut self.since_hit {
-            *since += dt;
-        }
-        self.limits.begin_step(dt);
+        self.measured = 0;
+        self.clock = now;
+    }
+
+    /// How many pairs of colliders have been measured in the present step: those whose boxes overlapped.
+    pub(super) fn measured(&self) -> usize {
+        self.measured
     }
 
     /// Ends a substep: turns are counted on from where the bodies are now.
@@ -219,20 +245,31 @@ impl Contacts {
     /// Forgets all rest, for bodies that were put elsewhere.
     pub(super) fn forget(&mut self, bodies: &[RigidBody]) {
         self.resting.fill(false);
+        self.depth.fill(0.0);
         self.held.clear();
-        self.at_rest = 0;
+        self.at_rest.clear();
+        self.bounds_at_rest = 0;
         self.limits.forget(bodies);
     }
 
     /// Sets whether a pair rests.
     fn set_resting(&mut self, pair: usize, rests: bool) {
-        self.at_rest = self.at_rest + usize::from(rests) - usize::from(self.resting[pair]);
+        if self.resting[pair] == rests {
+            return;
+        }
         self.resting[pair] = rests;
+        self.depth[pair] = 0.0;
+        match self.at_rest.binary_search(&pair) {
+            Ok(at) => {
+                self.at_rest.remove(at);
+            }
+            Err(at) => self.at_rest.insert(at, pair),
+        }
     }
 
     /// Sets whether a bound rests.
     fn set_bound_resting(&mut self, bound: usize, rests: bool) {
-        self.at_rest = self.at_rest + usize::from(rests) - usize::from(self.limits.resting(bound));
+        self.bounds_at_rest = self.bounds_at_rest + usize::from(rests) - usize::from(self.limits.resting(bound));
         self.limits.set_resting(bound, rests);
     }
 
@@ -291,6 +328,6 @@ fn point_rows(point: DVec3, normal: DVec3, [a, b]: [Option<usize>; 2], bodies: &
             let along = sign * axis;
             body.map(|i| (i, vec6(along, (point - bodies[i].position).cross(along))))
         };
-        Row { ends: [end(a, 1.0), end(b, -1.0)] }
+        Row { ends: [end(a, 1.0), end(b, -1.0), None] }
     })
 }

@@ -18,8 +18,10 @@
 //! nearest to where the rounds began.
 
 use super::leap::Active;
+use super::open::Open;
+use super::row::Row;
 use crate::articulation::System;
-use crate::articulation::block::{Vec6, angular, dot, linear};
+use crate::articulation::block::{angular, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec2, DVec3};
 
@@ -50,28 +52,6 @@ pub(super) enum Source {
     Pair(usize),
     /// A bound of a limit.
     Bound(usize),
-}
-
-/// One row: the blocks of the one or two bodies it acts on.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::dynamics) struct Row {
-    pub ends: [Option<(usize, Vec6)>; 2],
-}
-
-impl Row {
-    /// Row times the bodies' coordinates.
-    fn along(&self, a: &[Vec6]) -> f64 {
-        self.ends.iter().flatten().fold(0.0, |sum, (body, block)| sum + dot(block, &a[*body]))
-    }
-
-    /// Row times the bodies' velocities.
-    pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
-        let along = |(body, block): &(usize, Vec6)| {
-            let body = &bodies[*body];
-            dot(block, &crate::articulation::block::vec6(body.velocity, body.angular_velocity))
-        };
-        self.ends.iter().flatten().map(along).sum()
-    }
 }
 
 /// A touching point or a reached bound.
@@ -150,11 +130,14 @@ pub(super) struct Problem {
     /// Unknowns and matrix of a leap.
     pub(super) active: Vec<Active>,
     pub(super) matrix: Vec<f64>,
+    /// Rows of the joints that give way.
+    open: Open,
 }
 
 impl Problem {
-    /// Room for this many touches at a time.
-    pub fn new(touches: usize) -> Self {
+    /// Room for this many touches at a time, of a figure whose joints have this many rows and are drawn
+    /// together with this time constant (s).
+    pub fn new(touches: usize, (joint_rows, time): (usize, f64)) -> Self {
         let touches = touches.min(MOST_TOUCHES);
         let rows = 3 * touches;
         Self {
@@ -165,6 +148,7 @@ impl Problem {
             other: vec![0.0; rows],
             active: Vec::with_capacity(rows),
             matrix: vec![0.0; rows * rows],
+            open: Open::new(joint_rows, time, rows),
         }
     }
 
@@ -191,6 +175,7 @@ impl Problem {
     /// Finds W and the velocities at the bodies' present state; the joints must be factored there.
     pub fn assemble(&mut self, system: &mut System, bodies: &[RigidBody]) {
         let n = self.rows.len();
+        self.open.find(system);
         for column in 0..n {
             system.b.fill([0.0; 6]);
             for (body, block) in self.rows[column].ends.iter().flatten() {
@@ -201,6 +186,14 @@ impl Problem {
                 let value = self.rows[row].along(&system.a);
                 self.w[row * n + column] = value;
                 self.w[column * n + row] = value;
+            }
+            self.open.take(column, system);
+        }
+        if !self.open.is_empty() {
+            for row in 0..n {
+                for column in 0..n {
+                    self.w[row * n + column] += self.open.adds(row, column);
+                }
             }
         }
         self.u.clear();
@@ -268,6 +261,19 @@ impl Problem {
             }
         }
         rest <= NEARLY + NEARLY_SHARE * scale
+    }
+
+    /// Solves like [`Problem::solve`], and where the rounds do not settle begins anew: without friction, then from nothing.
+    /// Friction among redundant feet may have wandered to its cone, whence no round finds back.
+    pub fn solve_anew(&mut self) -> bool {
+        self.solve()
+            || [1.0, 0.0].into_iter().any(|share| {
+                for index in 0..self.touches.len() {
+                    let normal = share * self.touches[index].begin.x;
+                    self.set(index, DVec3::X * normal);
+                }
+                self.solve()
+            })
     }
 
     /// One round over all touches. Answers the largest velocity that it changed, and the largest that any impulse alone
@@ -342,23 +348,38 @@ impl Problem {
     }
 
     /// Applies P − P₀ to the bodies' velocities.
-    pub fn apply(&self, system: &mut System, bodies: &mut [RigidBody]) {
-        system.b.fill([0.0; 6]);
+    pub fn apply(&mut self, system: &mut System, bodies: &mut [RigidBody]) {
         for touch in &self.touches {
             for i in 0..touch.rows {
-                for (body, block) in self.rows[touch.first + i].ends.iter().flatten() {
-                    system.push_impulse(*body, block, touch.impulse[i] - touch.before[i]);
-                }
+                self.other[touch.first + i] = touch.impulse[i] - touch.before[i];
             }
         }
-        system.solve_impulse();
+        self.answer(system);
         system.apply_velocity(bodies);
         // What rounding has left to the joints where much is taken up by little.
         system.solve_velocity(bodies);
         system.apply_velocity(bodies);
     }
 
+    /// The bodies' answer to the impulses of the rows that stand in `other`.
+    fn answer(&self, system: &mut System) {
+        system.b.fill([0.0; 6]);
+        let impulses = &self.other[..self.rows.len()];
+        for (row, impulse) in self.rows.iter().zip(impulses) {
+            for (body, block) in row.ends.iter().flatten() {
+                system.push_impulse(*body, block, *impulse);
+            }
+        }
+        self.open.solve(impulses, system);
+    }
+
+    /// Are there joints that give way, at the last assembly?
+    pub fn has_open_joints(&self) -> bool {
+        !self.open.is_empty()
+    }
+
     /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
+    /// Momentum and angular momentum are kept.
     pub fn push_out(&mut self, depth: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
         let n = self.rows.len();
         // `other` holds the opening of each row, `before.x` the push of each touch.
@@ -386,16 +407,30 @@ impl Problem {
                 break;
             }
         }
-        system.b.fill([0.0; 6]);
         for touch in &self.touches {
-            for (body, block) in self.rows[touch.first].ends.iter().flatten() {
-                system.push_impulse(*body, block, touch.before.x);
+            for i in 0..touch.rows {
+                self.other[touch.first + i] = if i == 0 { touch.before.x } else { 0.0 };
+            }
+        }
+        self.answer(system);
+        for (body, a) in bodies.iter_mut().zip(&system.a) {
+            // Its spin's momentum stays where it points.
+            let spin = body.inertia_world() * body.angular_velocity;
+            body.displace(linear(a), angular(a));
+            body.angular_velocity = body.inertia_world().inverse() * spin;
+        }
+        // Bodies that pass each other at v are moved by a push p: p × v of angular momentum goes back to them in halves.
+        system.b.fill([0.0; 6]);
+        for touch in self.touches.iter().filter(|touch| matches!(touch.source, Source::Pair(_))) {
+            if let [Some((a, along)), Some((b, _)), _] = self.rows[touch.first].ends {
+                let passes = bodies[a].velocity - bodies[b].velocity;
+                let back = vec6(DVec3::ZERO, (-0.5 * touch.before.x * linear(&along)).cross(passes));
+                system.push_impulse(a, &back, 1.0);
+                system.push_impulse(b, &back, 1.0);
             }
         }
         system.solve_impulse();
-        for (body, a) in bodies.iter_mut().zip(&system.a) {
-            body.displace(linear(a), angular(a));
-        }
+        system.apply_velocity(bodies);
     }
 }
 

@@ -17,6 +17,7 @@ use crate::articulation::System;
 use crate::articulation::block::{Vec6, add_scaled, angular, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::collision::TOUCH;
+use crate::dynamics::least_inertia_across;
 use crate::math::{DQuat, DVec3, rotation, rotation_vector, tangents};
 
 /// Passes over one substep at most, but for one more where a rest proves false.
@@ -27,12 +28,20 @@ const MISSED: f64 = 1e-6;
 const LAYER: f64 = TOUCH;
 /// What rests slides no farther than this in one substep, m.
 const SLIDE: f64 = 2e-3;
+/// Largest phase ω h of a body that tips under the forces that hold it, in one substep, rad: a light body under a heavy one.
+const TIP_PHASE: f64 = 1.0;
 /// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
 const FINE: f64 = 1e-6;
 /// What rests does not sink deeper than this in one substep, m.
 const SUNK: f64 = 2e-5;
 /// Points nearer than this are one, however slow their bodies, m.
 const NEAR: f64 = 1e-4;
+/// Substeps whose lengths differ by less than this share are of one length.
+const SAME_SPAN: f64 = 1e-9;
+/// Ways found in a substep are not drawn out farther than this: what moved in a very short one may be a jump.
+const MOST_STRETCH: f64 = 4.0;
+/// Forces that pass each other by less than this are on one line, m: rounding.
+const IN_LINE: f64 = 1e-14;
 /// No approach is as fast as this, m/s.
 const FREE: f64 = 1e9;
 /// Time in which what rests rises to the middle of the touching layer, s: at micrometres a second, and its work is
@@ -55,19 +64,37 @@ pub(in crate::dynamics) enum Verdict {
 impl Contacts {
     /// Does anything rest, or has a force to be taken back?
     pub(in crate::dynamics) fn anything_rests(&self) -> bool {
-        self.at_rest > 0 || !self.held.is_empty()
+        !self.at_rest.is_empty() || self.bounds_at_rest > 0 || !self.held.is_empty()
     }
 
     /// Longest substep in which what rests passes no feature of what it slides on, s.
     pub(in crate::dynamics) fn longest_substep(&self) -> f64 {
-        if self.at_rest > 0 && self.slip > 0.0 { SLIDE / self.slip } else { f64::INFINITY }
+        if self.at_rest.is_empty() {
+            return f64::INFINITY;
+        }
+        (SLIDE / self.slip).min(TIP_PHASE / self.tips.sqrt())
+    }
+
+    /// Lays the forces that hold what rests out for a substep of `h` seconds. While joints are open there are none: the
+    /// stabiliser would answer each with its opposite, and both would grow. Impulses at the substep's end do instead.
+    pub(in crate::dynamics) fn lay_out(&mut self, h: f64, system: &System) {
+        if self.anything_rests() && system.open_rows(self.gathering_time).next().is_some() {
+            self.held.clear();
+        }
+        if (h - self.span).abs() > SAME_SPAN * h {
+            self.span = h;
+        }
     }
 
     /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
     pub(in crate::dynamics) fn press(&self, external: &mut [Vec6]) {
-        for (body, wrench) in self.held.iter().flat_map(Held::wrenches) {
+        for (body, wrench) in self.wrenches() {
             add_scaled(&mut external[body], 1.0, &wrench);
         }
+    }
+
+    fn wrenches(&self) -> impl Iterator<Item = (usize, Vec6)> {
+        self.held.iter().flat_map(|held| held.wrenches(self.span))
     }
 
     /// Work of those forces between two states of the bodies, J.
@@ -78,7 +105,43 @@ impl Contacts {
             let turn = rotation_vector(if turn.w < 0.0 { -turn } else { turn });
             linear(&wrench).dot(to.position - from.position) + angular(&wrench).dot(turn)
         };
-        self.held.iter().flat_map(Held::wrenches).map(work).sum()
+        self.wrenches().map(work).sum()
+    }
+
+    /// Lets the two forces of each held pair act on one line: turns their bodies by what the levers, which stood still for
+    /// the substep, have missed. With x̄ a body's mean place over it, r the lever that the force F on it had, and
+    /// p̄ = ½ (x̄_a + r_a + x̄_b + r_b), body i lacks h (p̄ − x̄_i − r_i) × F_i; then angular momentum is kept as both turn
+    /// about p̄. For motion of constant acceleration x̄ = ½ (x₀ + x₁) − h (v₁ − v₀)/12 without error. Answers the work, J.
+    fn straighten(&mut self, h: f64, start: &[RigidBody], system: &mut System, bodies: &mut [RigidBody]) -> f64 {
+        system.b.fill([0.0; 6]);
+        let (mut any, mut work) = (false, 0.0);
+        for held in &self.held {
+            let ([Some(a), Some(b), _], Source::Pair(_)) = (&held.ends, held.source) else { continue };
+            let stretch = held.stretch(self.span);
+            let place = |lever: &Lever| {
+                let (from, to) = (&start[lever.body], &bodies[lever.body]);
+                let mean = 0.5 * (from.position + to.position) - (to.velocity - from.velocity) * (h / 12.0);
+                mean + lever.arm + stretch * lever.way
+            };
+            let force = held.acting(self.span);
+            let apart = place(b) - place(a);
+            if apart.length_squared() <= IN_LINE * IN_LINE {
+                continue;
+            }
+            let lacks = (0.5 * h) * apart.cross(force);
+            // Half the way to p̄ for either, with opposite forces: the same torque on both.
+            for lever in [a, b] {
+                system.push_impulse(lever.body, &vec6(DVec3::ZERO, lacks), 1.0);
+                let spin = |bodies: &[RigidBody]| bodies[lever.body].angular_velocity;
+                work += 0.5 * lacks.dot(spin(start) + spin(bodies));
+            }
+            any = true;
+        }
+        if any {
+            system.solve_impulse();
+            system.apply_velocity(bodies);
+        }
+        work
     }
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
@@ -91,19 +154,20 @@ impl Contacts {
         system: &mut System,
         bodies: &mut [RigidBody],
     ) -> Verdict {
+        let straightened = self.straighten(h, start, system, bodies);
         let lost = self.gather(h, bodies);
         self.problem.assemble(system, bodies);
         self.problem.begin();
-        let settled = self.problem.solve();
+        let settled = self.problem.solve_anew();
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
-        let last = pass >= PASSES || !missed;
+        let last = pass >= PASSES || !missed || self.problem.has_open_joints();
         if last && shortens && settled && self.sinks(FINE) {
             return Verdict::Shorter;
         }
         let stands = pass > PASSES || (last && !self.releases_sunken());
         if stands {
             self.slip = self.problem.largest_slip();
-            self.recent_work = self.pressed(start, bodies) + self.problem.work();
+            self.recent_work = self.pressed(start, bodies) + straightened + self.problem.work();
             self.problem.apply(system, bodies);
         }
         self.hold((h, settled, stands), start, bodies);
@@ -129,7 +193,7 @@ impl Contacts {
             let touch = &mut self.problem.touches[index];
             let Source::Pair(pair) = touch.source else { continue };
             // Once a step: a pair hit in this one has been looked at.
-            if touch.gap < self.depth[pair] - SUNK && self.since_hit[pair] > 0.0 {
+            if touch.gap < self.depth[pair] - SUNK && self.last_hit[pair] < self.clock {
                 touch.impulse = DVec3::ZERO;
                 any = true;
                 self.set_resting(pair, false);
@@ -156,16 +220,16 @@ impl Contacts {
     /// opened. Answers whether a force that has acted belongs to no touch any more.
     fn gather(&mut self, h: f64, bodies: &[RigidBody]) -> bool {
         self.problem.clear();
-        for pair in 0..self.pairs.len() {
-            if !self.resting[pair] {
-                continue;
-            }
+        let mut at_rest = 0;
+        while at_rest < self.at_rest.len() {
+            let pair = self.at_rest[at_rest];
             let manifold = self.manifold(pair, bodies);
             let nearest = manifold.points().iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
             if nearest > RELEASE_GAP {
                 self.set_resting(pair, false);
                 continue;
             }
+            at_rest += 1;
             for at in manifold.points() {
                 self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
             }
@@ -226,7 +290,9 @@ impl Contacts {
     fn take_back(&mut self, held: &Held, h: f64, bodies: &[RigidBody]) {
         let size = held.force.length();
         let row = match held.source {
-            Source::Pair(pair) => point_rows(held.point, held.acting() / size, self.bodies_of(pair), bodies)[0],
+            Source::Pair(pair) => {
+                point_rows(held.point, held.acting(self.span) / size, self.bodies_of(pair), bodies)[0]
+            }
             Source::Bound(bound) => self.limits.row(bound, bodies).1,
         };
         let mut touch = Touch::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);
@@ -241,16 +307,20 @@ impl Contacts {
         self.former.clear();
         std::mem::swap(&mut self.former, &mut self.held);
         if stands {
-            self.depth.fill(0.0);
+            for &pair in &self.at_rest {
+                self.depth[pair] = 0.0;
+            }
             for touch in &self.problem.touches {
                 if let Source::Pair(pair) = touch.source {
                     self.depth[pair] = self.depth[pair].min(touch.gap);
                 }
             }
         }
-        if !settled {
+        self.tips = 0.0;
+        if !settled || self.problem.has_open_joints() {
             return;
         }
+        self.tipping.fill(0.0);
         for touch in &self.problem.touches {
             if touch.impulse == DVec3::ZERO {
                 continue;
@@ -278,33 +348,48 @@ impl Contacts {
                 source: touch.source,
                 point: if stands { touch.point } else { touch.point - along },
                 force: back * world(touch) / h,
+                span: h,
                 normal: back * touch.normal,
                 turn,
-                ends: [lever(0), lever(1)],
+                ends: std::array::from_fn(lever),
             });
+        }
+        // A force f that stands still while its body tips about a point at the arm r drives it on with ω² = |f| |r|/I⊥.
+        for held in self.held.iter().filter(|held| matches!(held.source, Source::Pair(_))) {
+            for lever in held.ends.iter().flatten() {
+                let inertia = least_inertia_across(&bodies[lever.body].inertia_world(), lever.arm);
+                let tipping = &mut self.tipping[lever.body];
+                *tipping += held.force.length() * lever.arm.length() / inertia;
+                self.tips = self.tips.max(*tipping);
+            }
         }
     }
 }
 
 impl Held {
-    /// The bodies it acts on and its wrenches there, N and N m about their centres.
-    fn wrenches(&self) -> impl Iterator<Item = (usize, Vec6)> {
-        let force = self.acting();
-        self.ends.iter().zip([1.0, -1.0]).filter_map(move |(lever, sign)| {
+    /// The bodies it acts on and its wrenches there in a substep of `h` seconds, N and N m about their centres.
+    fn wrenches(&self, h: f64) -> impl Iterator<Item = (usize, Vec6)> {
+        let (force, stretch) = (self.acting(h), self.stretch(h));
+        self.ends.iter().zip([1.0, -1.0, 0.0]).filter_map(move |(lever, sign)| {
             let lever = lever.as_ref()?;
             let wrench = match self.source {
-                Source::Pair(_) => vec6(sign * force, (lever.arm + 0.5 * lever.way).cross(sign * force)),
+                Source::Pair(_) => vec6(sign * force, (lever.arm + stretch * lever.way).cross(sign * force)),
                 Source::Bound(_) => {
-                    std::array::from_fn(|k| (lever.block[k] + 0.5 * lever.block_change[k]) * self.force.x)
+                    std::array::from_fn(|k| (lever.block[k] + stretch * lever.block_change[k]) * self.force.x)
                 }
             };
             Some((lever.body, wrench))
         })
     }
 
-    /// Its force as the normal will stand in the middle of the substep, N.
-    fn acting(&self) -> DVec3 {
-        rotation(0.5 * self.turn) * self.force
+    /// Its force as the normal will stand in the middle of a substep of `h` seconds, N.
+    fn acting(&self, h: f64) -> DVec3 {
+        rotation(self.stretch(h) * self.turn) * self.force
+    }
+
+    /// Half a substep of `h` seconds, in spans of the one in which its ways were found.
+    fn stretch(&self, h: f64) -> f64 {
+        0.5 * (h / self.span).min(MOST_STRETCH)
     }
 }
 

@@ -1,13 +1,12 @@
-//! The first hit of a substep: bodies' balls, colliders' balls, then conservative advancement.
+//! The first hit of a substep: swept boxes (the broad phase), then conservative advancement.
 //!
 //! What touches at the beginning and opens there is not hit; if it has sunk in by the end it was thrown and came back
 //! within the substep, and the time at which it did is found by bisection.
 
+use super::Contacts;
 use super::problem::Source;
-use super::{Contacts, SurfacePair};
 use crate::bodies::RigidBody;
-use crate::collision::{Collider, Pair, Sweep, TOUCH, TimeOfImpact, time_of_impact};
-use crate::math::DVec3;
+use crate::collision::{Pair, Sweep, TOUCH, TimeOfImpact, time_of_impact};
 
 /// Halvings that find when a thrown body comes back: to a thousandth of a millisecond.
 const HALVINGS: usize = 12;
@@ -20,35 +19,13 @@ pub(in crate::dynamics) struct Hit {
     pub(super) source: Source,
 }
 
-/// Pairs of the same two bodies: `first` up to `end`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
-    pub a: usize,
-    pub b: Option<usize>,
-    pub first: usize,
-    pub end: usize,
-}
-
 impl Contacts {
     /// The first hit of anything that is apart, between two states of the bodies.
     pub(in crate::dynamics) fn first_impact(&mut self, before: &[RigidBody], after: &[RigidBody]) -> Option<Hit> {
-        for ((sweep, b), a) in self.sweeps.iter_mut().zip(before).zip(after) {
-            *sweep = Sweep::new(b, a);
-        }
-        for index in 0..self.colliders.len() {
-            let (sweep, pose) = (self.sweep(index), self.pose(index, before));
-            let (center, radius) = self.balls[index];
-            let grown = radius + self.colliders[index].shape.radius + sweep.travel(self.reach[index]) + TOUCH;
-            self.swept[index] = (pose.point(center), grown);
-        }
+        self.find_near(before, after);
         let mut first: Option<Hit> = None;
-        for run in 0..self.runs.len() {
-            let run = self.runs[run];
-            if self.bodies_may_meet(&run) {
-                for pair in run.first..run.end {
-                    self.meet(pair, before, after, &mut first);
-                }
-            }
+        for near in 0..self.near.len() {
+            self.meet(self.near[near], before, after, &mut first);
         }
         for bound in 0..self.limits.count() {
             if self.limits.resting(bound) {
@@ -65,15 +42,26 @@ impl Contacts {
         first
     }
 
+    /// Finds the pairs whose boxes overlap on the way between two states of the bodies.
+    pub(super) fn find_near(&mut self, before: &[RigidBody], after: &[RigidBody]) {
+        for ((sweep, b), a) in self.sweeps.iter_mut().zip(before).zip(after) {
+            *sweep = Sweep::new(b, a);
+        }
+        self.broad.candidates(&self.sweeps, &mut self.near);
+        #[cfg(test)]
+        if self.all {
+            self.near.clear();
+            self.near.extend(0..self.pairs.len());
+        }
+    }
+
     /// The earliest hit so far, or an earlier one of this pair.
     fn meet(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody], first: &mut Option<Hit>) {
         if self.resting[pair] {
             return;
         }
         let Pair { a, b } = self.pairs[pair].pair;
-        if !self.may_meet(a, b) {
-            return;
-        }
+        self.measured += 1;
         let (sweep_a, sweep_b) = (self.sweep(a), self.sweep(b));
         let toi = time_of_impact(
             &mut self.corners,
@@ -114,24 +102,6 @@ impl Contacts {
         self.colliders[collider].body.map_or(Sweep::STILL, |body| self.sweeps[body])
     }
 
-    /// Can the balls around two bodies meet during the interval? What stands still may be anywhere.
-    fn bodies_may_meet(&self, run: &Run) -> bool {
-        let Some(b) = run.b else { return true };
-        let place = |body: usize| {
-            let (center, radius) = self.body_balls[body];
-            let sweep = &self.sweeps[body];
-            (sweep.pose(0.0).point(center), radius + sweep.travel(self.body_reach[body]))
-        };
-        let ((at_a, far_a), (at_b, far_b)) = (place(run.a), place(b));
-        at_a.distance_squared(at_b) <= (far_a + far_b + TOUCH) * (far_a + far_b + TOUCH)
-    }
-
-    /// Can the balls around two colliders meet during the interval?
-    fn may_meet(&self, a: usize, b: usize) -> bool {
-        let ((center_a, far_a), (center_b, far_b)) = (self.swept[a], self.swept[b]);
-        center_a.distance_squared(center_b) <= (far_a + far_b) * (far_a + far_b)
-    }
-
     /// Can the balls around two colliders touch where their bodies are?
     pub(super) fn may_touch(&self, pair: usize, bodies: &[RigidBody]) -> bool {
         let Pair { a, b } = self.pairs[pair].pair;
@@ -142,25 +112,75 @@ impl Contacts {
     }
 }
 
-/// Runs of pairs of the same two bodies.
-pub(super) fn runs(colliders: &[Collider], pairs: &[SurfacePair]) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
-    for (index, SurfacePair { pair, .. }) in pairs.iter().enumerate() {
-        let Some(a) = colliders[pair.a].body else { continue };
-        let b = colliders[pair.b].body;
-        match runs.last_mut() {
-            Some(run) if run.a == a && run.b == b => run.end = index + 1,
-            _ => runs.push(Run { a, b, first: index, end: index + 1 }),
-        }
-    }
-    runs
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::MassProperties;
+    use crate::collision::{Collider, Reach, Shape, pairs};
+    use crate::dynamics::forces::Damping;
+    use crate::dynamics::{Dynamics, Figure, Integrator, Settings, Solver, SurfacePair};
+    use crate::math::{DMat3, DQuat, DVec3, Pose, rotation};
+    use crate::noise::Random;
 
-/// A ball around all colliders of a body, node frame, m.
-pub(super) fn ball_around(colliders: &[Collider], balls: &[(DVec3, f64)], body: usize) -> (DVec3, f64) {
-    let own = || colliders.iter().zip(balls).filter(|(c, _)| c.body == Some(body));
-    let count = own().count().max(1) as f64;
-    let center = own().map(|(_, ball)| ball.0).sum::<DVec3>() / count;
-    let radius = own().fold(0.0, |r: f64, (c, ball)| r.max(ball.0.distance(center) + ball.1 + c.shape.radius));
-    (center, radius)
+    /// Plates and balls thrown at each other above a floor.
+    fn crowd(count: usize) -> Dynamics {
+        let mut random = Random::new(11);
+        let mut any = || DVec3::new(random.signed(), random.signed(), random.signed());
+        let (mut bodies, mut colliders) = (Vec::new(), Vec::new());
+        for i in 0..count {
+            let properties =
+                MassProperties { mass: 0.05, center: DVec3::ZERO, inertia: DMat3::from_diagonal(DVec3::splat(2e-5)) };
+            let place = Pose { rotation: DQuat::IDENTITY, position: 0.4 * any() + DVec3::Y * 0.45 };
+            let mut body = RigidBody::at_rest(properties, place);
+            body.rotation = rotation(any());
+            (body.velocity, body.angular_velocity) = (2.0 * any(), 5.0 * any());
+            bodies.push(body);
+            let flat = Shape::cuboid(Pose::IDENTITY, DVec3::new(0.03, 5e-4, 0.03), 5e-4);
+            let shape = if i % 2 == 0 { flat } else { Shape::sphere(DVec3::ZERO, 0.02) };
+            colliders.push(Collider { body: Some(i), shape, material: 0, node: String::new() });
+        }
+        let floor = Shape::plane(DVec3::ZERO, DVec3::Y);
+        colliders.push(Collider { body: None, shape: floor, material: 0, node: String::new() });
+        let surface = |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3 };
+        let figure = Figure {
+            damping: vec![Damping::default(); bodies.len()],
+            bodies,
+            constraints: &[],
+            limits: &[],
+            springs: &[],
+            drives: &[],
+            pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
+            colliders: &colliders,
+        };
+        let settings = Settings {
+            gravity: DVec3::Y * -9.81,
+            friction: true,
+            stabilization_time: 0.04,
+            integrator: Integrator::RungeKutta,
+            solver: Solver::Sparse,
+        };
+        Dynamics::new(figure, settings)
+    }
+
+    #[test]
+    fn only_near_pairs_are_measured_and_nothing_changes_by_it() {
+        let (mut near, mut all) = (crowd(24), crowd(24));
+        all.contacts.all = true;
+        let (mut few, mut many, mut hits) = (0, 0, [Vec::new(), Vec::new()]);
+        for step in 0..120 {
+            for (dynamics, hits) in [&mut near, &mut all].into_iter().zip(&mut hits) {
+                dynamics.step(1.0 / 240.0, &[[0.0; 6]; 24], hits);
+            }
+            (few, many) = (few + near.measured_pairs(), many + all.measured_pairs());
+            for (one, other) in near.bodies.iter().zip(&all.bodies) {
+                let bits = |b: &RigidBody| {
+                    [b.position, b.velocity, b.angular_velocity].map(|v| v.to_array().map(f64::to_bits))
+                };
+                assert_eq!(bits(one), bits(other), "step {step}");
+            }
+        }
+        assert_eq!(hits[0], hits[1]);
+        assert!(hits[0].len() > 20, "{} hits", hits[0].len());
+        assert!(few * 4 < many, "{few} of {many} pairs");
+    }
 }

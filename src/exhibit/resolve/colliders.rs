@@ -6,7 +6,7 @@ use super::super::sidecar::{self, ConstrainedPairs, Fit};
 use super::super::source::join;
 use super::super::{Wire, codes};
 use super::{Context, joints};
-use crate::articulation::Constraint;
+use crate::articulation::{Constraint, Limit, LimitKind};
 use crate::collision::{Collider, Excluded, Exclusion, Shape};
 use crate::math::{DMat3, DVec3};
 
@@ -105,17 +105,24 @@ impl Context<'_> {
     }
 
     /// Pairs that never collide, sorted.
-    pub(super) fn excluded_pairs(&mut self, constraints: &[Constraint]) -> Vec<Exclusion> {
+    pub(super) fn excluded_pairs(&mut self, constraints: &[Constraint], limits: &[Limit]) -> Vec<Exclusion> {
         let sidecar = self.sidecar;
         let mut pairs: Vec<Exclusion> = Vec::new();
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
-            for constraint in constraints {
-                for (a, b) in joints::pairs(&constraint.kind) {
-                    let known = pairs.iter().any(|e| e.bodies == (a.min(b), a.max(b)));
-                    if !known {
-                        let reason = format!("joined by {}", constraint.group());
-                        self.exclude(&mut pairs, (a, b), Excluded::Joined, (&reason, "/-"));
-                    }
+            let joined =
+                constraints.iter().flat_map(|c| joints::pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
+            // Wheels that mesh with some play.
+            let meshed = limits.iter().filter_map(|limit| match limit.kind {
+                LimitKind::Play { terms: [a, b], .. } => {
+                    Some((limit.name.as_str(), (a.measure.bodies().0, b.measure.bodies().0)))
+                }
+                _ => None,
+            });
+            for (name, (a, b)) in joined.chain(meshed) {
+                let known = pairs.iter().any(|e| e.bodies == (a.min(b), a.max(b)));
+                if !known {
+                    let reason = format!("joined by {name}");
+                    self.exclude(&mut pairs, (a, b), Excluded::Joined, (&reason, "/-"));
                 }
             }
         }

@@ -230,7 +230,7 @@ impl<'a> Context<'a> {
         self.check_gear_rings(&constraints);
         self.check_rank(&constraints, &drives);
         self.check_mass_ratios(&constraints, &bodies, &drives);
-        let excluded_pairs = self.excluded_pairs(&constraints);
+        let excluded_pairs = self.excluded_pairs(&constraints, &limits);
         let colliders = self.colliders(&wires);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);

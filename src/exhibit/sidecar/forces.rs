@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::super::quantity::*;
 use super::*;
 
-/// Two wheels mesh: their turns stay in proportion (1 row).
+/// Two wheels mesh: their turns stay in proportion (1 row), or within some backlash of it.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Gear {
@@ -19,6 +19,9 @@ pub struct Gear {
     /// Teeth inside a rim keep the sense of rotation.
     #[serde(default)]
     pub internal: bool,
+    /// Play between the flanks of the teeth: a way along the pitch circle where the wheels have radii, a turn of wheel b
+    /// where they have teeth. By default none.
+    pub backlash: Option<Travel>,
     /// Node of the body that carries both axles; by default the world.
     pub frame: Option<String>,
     /// When it acts.
@@ -121,6 +124,8 @@ pub struct Ratchet {
     pub teeth: Option<u32>,
     /// Instead of `teeth`: way from tooth to tooth; without either it catches anywhere.
     pub pitch: Option<Travel>,
+    /// Does it act at all? By default true.
+    pub enabled: Option<bool>,
 }
 
 /// Stops. Give `of`; or `a`, `b` and an `axis` or `direction`; or `a` and `b` alone for their distance.
@@ -150,6 +155,8 @@ pub struct Bounds {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
+    /// Does it act at all? By default true.
+    pub enabled: Option<bool>,
 }
 
 /// A way or a turn, whichever fits: a bare number is m or rad.

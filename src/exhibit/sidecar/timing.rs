@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::quantity::*;
-use super::Until;
+use super::{Stabilize, Until};
 
 /// When a constraint acts and when it gives way: the same keys for all kinds.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -19,6 +19,10 @@ pub struct Timing {
     /// The load at which it gives way.
     #[serde(rename = "break")]
     pub breaking: Option<Break>,
+    /// How it draws itself together while it is open; by default as `stabilize` of the solver says.
+    pub stabilize: Option<Stabilize>,
+    /// Does it act at all? By default true.
+    pub enabled: Option<bool>,
 }
 
 /// One window, or several in the order of time.

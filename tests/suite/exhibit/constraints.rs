@@ -228,6 +228,73 @@ fn gears_turn_oppositely_unless_one_lies_in_the_other() {
 }
 
 #[test]
+fn a_gear_with_backlash_is_free_between_the_flanks_of_its_teeth() {
+    let gear = |size: [&str; 2], keys: &str| {
+        try_load(&format!(
+            "[[constraint.gear]]\nname = \"mesh\"\na = {{ body = \"Arm\", axis = [0, 1, 0], {} }}\n\
+             b = {{ body = \"Weight\", axis = [0, 1, 0], {} }}\n{keys}\n",
+            size[0], size[1]
+        ))
+    };
+    let (teeth, radii) = (["teeth = 42", "teeth = 6"], ["radius = \"70 mm\"", "radius = \"10 mm\""]);
+    for (size, backlash, coefficients, wanted) in
+        [(teeth, "\"2 deg\"", [7.0, 1.0], PI / 90.0), (radii, "\"0.5 mm\"", [0.07, 0.01], 5e-4)]
+    {
+        let loose = gear(size, &format!("backlash = {backlash}"));
+        let exhibit = loose.unwrap_or_else(|report| panic!("{}", report.render(false)));
+        assert!(exhibit.constraints.is_empty());
+        let LimitKind::Play { terms, play } = exhibit.limits[0].kind else { panic!("{:?}", exhibit.limits) };
+        assert!((play - wanted).abs() < SINGLE * wanted, "{play}");
+        assert_eq!(terms.map(|term| term.coefficient), coefficients);
+        assert_eq!(exhibit.limits[0].name, "mesh");
+        // Wheels that mesh do not collide.
+        assert!(exhibit.excluded_pairs.iter().any(|pair| pair.bodies == (Some(ARM), Some(WEIGHT))));
+    }
+    let code = |size, keys: &str| gear(size, keys).expect_err("a problem").diagnostics[0].code;
+    assert_eq!(code(teeth, "backlash = \"1 mm\""), codes::WRONG_TYPE.name);
+    assert_eq!(code(radii, "backlash = \"1 deg\""), codes::WRONG_TYPE.name);
+    assert_eq!(code(teeth, "backlash = 0.01\nwindow = { start = 1, end = 2 }"), codes::WRONG_SHAPE.name);
+    assert!(gear(teeth, "backlash = -0.01").is_err());
+    assert_eq!(gear(teeth, "backlash = 0").map(|exhibit| exhibit.constraints.len()).ok(), Some(1));
+}
+
+#[test]
+fn what_is_not_enabled_does_not_act_and_can_still_be_pointed_at() {
+    let text = |enabled: &str| {
+        format!(
+            "[[constraint.hinge]]\nname = \"axle\"\nbody = \"Wheel\"\naxis = [0, 0, 1]\nlimit = {{ max = 1 }}\n{enabled}\n\
+             [[constraint.torsion-spring]]\nname = \"hair\"\nof = \"axle\"\nstiffness = 1\n\
+             [[constraint.limit]]\nname = \"stop\"\nof = \"axle\"\nmin = -1\n{enabled}\n"
+        )
+    };
+    let (on, off) = (load(&text("enabled = true")), load(&text("enabled = false")));
+    assert_eq!((on.constraints.len(), on.limits.len(), on.springs.len()), (3, 2, 1));
+    assert_eq!((off.constraints.len(), off.limits.len(), off.springs.len()), (0, 0, 1));
+    assert!(on.excluded_pairs.len() > off.excluded_pairs.len(), "what does not hold may collide");
+    let told = soffio::commands::explain::explain(&off);
+    assert!(told.contains("it does not act"), "{told}");
+    assert!(try_load(&text("enabled = 1")).is_err());
+}
+
+#[test]
+fn a_constraint_may_gather_at_its_own_pace() {
+    let own = load(
+        "[[constraint.nail]]\nname = \"slow\"\nbody = \"Arm\"\nto = [0.1, 1, -0.2]\n\
+         stabilize = { time_constant = \"300 ms\" }\n\
+         [[constraint.nail]]\nname = \"fast\"\nbody = \"Weight\"\nto = [0, 0.5, 0]\n",
+    );
+    let times: Vec<Option<f64>> = own.constraints.iter().map(|c| c.stabilization_time).collect();
+    assert_eq!(times, [Some(0.3), None]);
+    let told = soffio::commands::explain::explain(&own);
+    assert!(told.contains("0.3 s"), "{told}");
+    let spring = "[[constraint.spring]]\nname = \"leaf\"\na = { node = \"Weight\" }\nb = { node = \"Rail\" }\n\
+                  stiffness = 12\nstabilize = { time_constant = 1 }\n";
+    assert_eq!(try_load(spring).expect_err("a problem").diagnostics[0].code, codes::WRONG_SHAPE.name);
+    let still = "[[constraint.nail]]\nname = \"slow\"\nbody = \"Arm\"\nto = [0.1, 1, -0.2]\nstabilize = { time_constant = 0 }\n";
+    assert!(try_load(still).is_err());
+}
+
+#[test]
 fn a_weight_falls_by_the_cord_that_its_drum_pays_out() {
     for pulleys in [1, 2] {
         let exhibit = load(&format!(

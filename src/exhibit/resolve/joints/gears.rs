@@ -8,8 +8,8 @@ use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Wheel};
 use super::super::Context;
-use super::Joints;
-use crate::articulation::{Axis, Constraint, ConstraintKind, Measure, Term};
+use super::{Header, Joints};
+use crate::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
 use crate::math::DVec3;
 
 /// Axles that are further than this from parallel (cosine) are bevel gears: their turns are taken as they are given.
@@ -42,14 +42,41 @@ impl Context<'_> {
         let opposed = if cosine < -PARALLEL { -1.0 } else { 1.0 };
         let sense = if given.internal { -opposed } else { opposed };
         let term = |axis, coefficient| Term { measure: Measure::Angle { axis, frame }, coefficient };
-        let kind = ConstraintKind::Coupling { terms: vec![term(a, size_a), term(b, sense * size_b)] };
-        let first = out.constraints.len();
-        self.push(out, &header, "", kind, None);
-        self.trace_header(&header, "", out, first);
+        let place = format!("{at}/backlash");
+        let Some(play) = self.bound(given.backlash, 0.0, teeth_a, &place, &given.name) else { return };
+        if self.not_negative(play, &place) > 0.0 {
+            // A turn of wheel b where sizes are teeth, a way of the pitch circle where they are radii.
+            let unit = if teeth_a { size_b } else { 1.0 };
+            let terms = [term(a, size_a / unit), term(b, sense * size_b / unit)];
+            self.loose_gear(&header, LimitKind::Play { terms, play }, out);
+        } else {
+            let kind = ConstraintKind::Coupling { terms: vec![term(a, size_a), term(b, sense * size_b)] };
+            let first = out.constraints.len();
+            self.push(out, &header, "", kind, None);
+            self.trace_header(&header, "", out, first);
+        }
         if !teeth_a && cosine.abs() > PARALLEL {
             let wanted = if given.internal { (size_a - size_b).abs() } else { size_a + size_b };
             self.check_distance((a.body, b.body), u, wanted, &given.name, at, out);
         }
+    }
+
+    /// A gear with backlash: its teeth meet on either flank, and do not bounce.
+    fn loose_gear(&mut self, header: &Header, kind: LimitKind, out: &mut Joints) {
+        let Header { name, at, .. } = header;
+        if !header.schedule.is_always() || header.breaking.is_some() || header.stabilization_time.is_some() {
+            let message = format!("gear \"{name}\" has backlash and comes, goes, breaks or gathers");
+            let help =
+                "teeth with play between them always act: leave out backlash, or window, trigger, break and stabilize";
+            self.report(at, Diagnostic::new(codes::WRONG_SHAPE, message).help(help));
+            return;
+        }
+        if let LimitKind::Play { terms: [a, b], play } = &kind {
+            let [one, other] = [a, b].map(|t| format!("{} · {}", t.coefficient, self.shown_measure(&t.measure)));
+            let shown = format!("{one} + {other} within ± {}", 0.5 * play);
+            self.trace(&format!("constraint {name}"), "holds", shown, at, "");
+        }
+        out.limits.push(Limit { name: (*name).to_owned(), kind, restitution: 0.0 });
     }
 
     /// The axle of a wheel, its size, and whether that is a number of teeth.

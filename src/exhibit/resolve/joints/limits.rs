@@ -62,6 +62,7 @@ impl Context<'_> {
 
     pub(super) fn bounds(&mut self, given: &sidecar::Bounds, at: &str, out: &mut Joints) {
         self.name(&given.name, at, out);
+        self.enable(&given.name, given.enabled, at, out);
         let name = &given.name;
         if let Some(of) = &given.of {
             if let Some(measure) = self.free_measure(of, &format!("{at}/of"), out) {
@@ -156,7 +157,14 @@ impl Context<'_> {
     }
 
     /// A bound of a turn or a way; reports a length where an angle belongs, and the reverse.
-    fn bound(&mut self, given: Option<Travel>, otherwise: f64, turn: bool, at: &str, name: &str) -> Option<f64> {
+    pub(super) fn bound(
+        &mut self,
+        given: Option<Travel>,
+        otherwise: f64,
+        turn: bool,
+        at: &str,
+        name: &str,
+    ) -> Option<f64> {
         match given {
             None => Some(otherwise),
             Some(Travel::Bare(value)) => Some(value),
@@ -173,6 +181,7 @@ impl Context<'_> {
 
     pub(super) fn ratchet(&mut self, given: &sidecar::Ratchet, at: &str, out: &mut Joints) {
         self.name(&given.name, at, out);
+        self.enable(&given.name, given.enabled, at, out);
         let Some(mut measure) = self.turn(&given.axle, &given.name, at, out) else { return };
         if given.reverse {
             match &mut measure {

@@ -39,6 +39,8 @@ pub(super) struct Joints {
     /// The turn or way that is left free by a hinge or a slider, for tables that point at it with `of`.
     free: Vec<(String, Measure)>,
     names: Vec<String>,
+    /// Names of what does not act; tables may point at them all the same.
+    disabled: Vec<String>,
 }
 
 /// What all rows of one table have in common.
@@ -48,6 +50,7 @@ struct Header<'n> {
     at: &'n str,
     schedule: Schedule,
     breaking: Option<Breaking>,
+    stabilization_time: Option<f64>,
 }
 
 impl Context<'_> {
@@ -73,6 +76,10 @@ impl Context<'_> {
         self.each("limit", &given.limit, &mut out, Self::bounds);
         self.each("spring", &given.spring, &mut out, Self::spring);
         self.each("torsion-spring", &given.torsion_spring, &mut out, Self::torsion_spring);
+        let acts = |name: &str| !out.disabled.iter().any(|disabled| disabled == name);
+        out.constraints.retain(|constraint| acts(constraint.group()));
+        out.limits.retain(|limit| acts(&limit.name));
+        out.springs.retain(|spring| acts(&spring.name));
         if out.constraints.len() > MAX_CONSTRAINTS {
             let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.constraints.len());
             self.report("/constraint", Diagnostic::new(codes::MODEL_LIMIT, message));
@@ -90,6 +97,20 @@ impl Context<'_> {
     fn name(&mut self, name: &str, at: &str, out: &mut Joints) {
         self.unique(name, out.names.iter().any(|taken| taken == name), &format!("{at}/name"));
         out.names.push(name.to_owned());
+    }
+
+    /// Notes a table that is switched off.
+    fn enable(&mut self, name: &str, enabled: Option<bool>, at: &str, out: &mut Joints) {
+        if enabled == Some(false) {
+            self.trace(
+                &format!("constraint {name}"),
+                "enabled",
+                "false: it does not act".into(),
+                &format!("{at}/enabled"),
+                "",
+            );
+            out.disabled.push(name.to_owned());
+        }
     }
 
     /// Can these two be held together? One of them must be a body that moves freely.
@@ -138,6 +159,7 @@ impl Context<'_> {
             schedule: header.schedule.clone(),
             breaking: header.breaking,
             friction,
+            stabilization_time: header.stabilization_time,
         });
     }
 

@@ -14,7 +14,11 @@ impl Context<'_> {
         self.name(name, at, out);
         let schedule = self.schedule(timing, at, name);
         let breaking = timing.breaking.as_ref().and_then(|given| self.breaking(given, &format!("{at}/break"), name));
-        Header { name, at, schedule, breaking }
+        self.enable(name, timing.enabled, at, out);
+        let place = format!("{at}/stabilize/time_constant");
+        let time = timing.stabilize.as_ref().and_then(|given| given.time_constant);
+        let stabilization_time = time.map(|time| self.positive(time.0, &place));
+        Header { name, at, schedule, breaking, stabilization_time }
     }
 
     fn schedule(&mut self, timing: &Timing, at: &str, name: &str) -> Schedule {
@@ -152,7 +156,10 @@ impl Context<'_> {
 
     /// Notes when the rows of a table act and break.
     pub(super) fn trace_timing(&mut self, of: &str, header: &Header) {
-        let Header { schedule, breaking, at, .. } = header;
+        let Header { schedule, breaking, at, stabilization_time, .. } = header;
+        if let Some(time) = stabilization_time {
+            self.trace(of, "time_constant", format!("{time} s"), &format!("{at}/stabilize/time_constant"), "");
+        }
         if !schedule.windows.is_empty() {
             let spans = schedule.windows.iter().map(|w| format!("{} to {} s", w.start, w.end));
             let repeated = schedule.period.map(|p| format!(", every {p} s")).unwrap_or_default();

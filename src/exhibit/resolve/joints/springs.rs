@@ -53,6 +53,12 @@ impl Context<'_> {
         units: [(&str, &str); 3],
     ) {
         let of = format!("spring {}", header.name);
+        if header.stabilization_time.is_some() {
+            let message = format!("spring \"{}\" has a stabilizer", header.name);
+            let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
+            let help = "a spring draws by its stiffness and damping: leave out stabilize";
+            self.report(&format!("{}/stabilize", header.at), problem.help(help));
+        }
         for (function, (key, unit)) in functions.iter().zip(units) {
             let otherwise = if key == "rest_length" { "derived: length at rest" } else { "default" };
             self.trace(&of, key, functions::shown(function, unit), &format!("{}/{key}", header.at), otherwise);
