@@ -19,18 +19,19 @@ use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
 use crate::exhibit::{Exhibit, View};
-use crate::math::{DVec3, StateHash};
+use crate::math::StateHash;
 use crate::sound::SoundCommand;
 use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
-use crate::wind::force::{Breath, WindField, WindReport};
-use crate::wind::jet::{Front, Jet};
+use crate::wind::breath::Breath;
+use crate::wind::force::{Blown, WindField, WindReport};
+use crate::wind::front::Front;
 
-use aim::{Aim, AimTarget};
+use aim::{Aim, AimTarget, Pointing};
 pub use event::{Event, EventKind, Part};
 use motes::Motes;
 pub use script::{Script, ScriptError};
-pub use snapshot::{BreathView, Diagnostics, Mote, Snapshot};
+pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
 use sonify::Listener;
 use source::BreathSource;
 
@@ -44,6 +45,9 @@ pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+
+/// Source speed that fills the breath meter, m/s: a strong breath.
+const FULL_METER: f64 = 16.0;
 
 /// Room for what happens in one step: more makes its list grow, once.
 const LISTED: usize = 64;
@@ -144,6 +148,8 @@ pub struct StepInput<'a> {
     pub hold: bool,
     /// Pointer in picture coordinates, (0,0) top left, (1,1) bottom right; `None` is the centre.
     pub pointer: Option<[f64; 2]>,
+    /// Deflection of a stick, right and down, −1 … 1: it pushes the place that the breath is pointed at.
+    pub stick: [f64; 2],
     /// Width over height of the picture; 0 is 16:9.
     pub aspect: f64,
     /// Commands, carried out in order before the step.
@@ -158,6 +164,7 @@ pub struct Simulation {
     /// Step at which the exhibit last started.
     start_step: u64,
     source: BreathSource,
+    pointing: Pointing,
     aim: Aim,
     aim_targets: Vec<AimTarget>,
     front: Front,
@@ -182,7 +189,13 @@ impl Simulation {
         let view = exhibit.view(DEFAULT_ASPECT);
         Self {
             dynamics: start_dynamics(&exhibit, &settings),
-            wind: WindField::new(&exhibit.wind_surfaces, exhibit.bodies.len(), settings.seed),
+            wind: WindField::new(
+                &exhibit.wind_surfaces,
+                &exhibit.shelters,
+                &exhibit.winds,
+                exhibit.bodies.len(),
+                settings.seed,
+            ),
             motes: Motes::new(view.target, settings.seed),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
@@ -191,6 +204,7 @@ impl Simulation {
             step: 0,
             start_step: 0,
             source: BreathSource::default(),
+            pointing: Pointing::default(),
             aim: Aim::default(),
             aim_targets: Vec::new(),
             front: Front::default(),
@@ -253,7 +267,7 @@ impl Simulation {
             }
             SurfaceShape::Wire { .. } => None,
         }));
-        let pointer = input.pointer.unwrap_or([0.5, 0.5]);
+        let pointer = self.pointing.follow(input.pointer, input.stick, aspect, DT);
         let Settings { distance, profile, .. } = self.settings;
         let view = &self.view.1;
         self.aim.follow(view, view.ray(pointer, aspect), distance, profile, &self.aim_targets, DT);
@@ -267,8 +281,9 @@ impl Simulation {
             return;
         }
         self.front.advance(self.speed, DT);
-        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
-        self.report = self.wind.push(&self.dynamics.bodies, breath.as_ref(), &mut self.wrenches);
+        let time = (self.step - self.start_step) as f64 * DT;
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        self.report = self.wind.push(&self.dynamics.bodies, time, blown.as_ref(), &mut self.wrenches);
     }
 
     /// Turns what happened into events and sounds.
@@ -298,18 +313,18 @@ impl Simulation {
             self.fault_count += 1;
             enter(&mut self.events, Event::fault(began, body, bodies));
         }
-        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         // What is heard is the wind the sculpture feels: a gain on the force is its root on the speed.
-        let air = breath.map_or(0.0, |breath| breath.gain.sqrt() * self.wind.air(&breath, self.aim.target).length());
+        let air = blown.map_or(0.0, |blown| blown.gain.sqrt() * self.wind.breath_at(&blown, self.aim.target).length());
         let sample = (self.step + 1) * SAMPLES_PER_STEP;
         self.sounds.push(sonify::wind(sample, air, self.report.gust, self.aim.target, &listener));
     }
 
     /// Lets the dust drift.
     fn drift(&mut self) {
-        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
-        let jet = breath.as_ref().map(|b| &b.jet).filter(|jet| jet.speed > 0.0);
-        self.motes.advance(jet, |p| breath.as_ref().map_or(DVec3::ZERO, |b| self.wind.air(b, p)), DT);
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        let breath = blown.as_ref().map(|blown| &blown.breath).filter(|breath| breath.speed > 0.0);
+        self.motes.advance(breath, |point| self.wind.air(blown.as_ref(), point), DT);
     }
 
     /// Events of the last step, in time order.
@@ -369,6 +384,8 @@ impl Simulation {
                 mouth: self.aim.mouth,
                 direction: self.aim.direction,
                 target: self.aim.target,
+                ring: self.aim_ring(),
+                meter: (self.speed / FULL_METER).clamp(0.0, 1.0),
             },
             motes: self.motes.view().collect(),
             diagnostics: Diagnostics {
@@ -380,6 +397,13 @@ impl Simulation {
                 wind_force: self.report.force,
             },
         }
+    }
+
+    /// The breath's own width where it is aimed.
+    fn aim_ring(&self) -> AimRing {
+        let breath = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
+        let radius = breath.half_width(self.aim.target.distance(self.aim.mouth));
+        AimRing { center: self.aim.target, axis: self.aim.direction, radius }
     }
 
     /// The camera of the exhibit for a picture of this aspect (width / height).
@@ -405,16 +429,27 @@ fn enter(events: &mut Vec<Event>, event: Event) {
     events.insert(place, event);
 }
 
-/// The breath of this step; `None` where no air of one is anywhere, or wind is off.
-fn breath<'a>(settings: &Settings, aim: &Aim, front: &'a Front, speed: f64, step: u64) -> Option<Breath<'a>> {
-    let jet = Jet { mouth: aim.mouth, direction: aim.direction, lip_diameter: settings.lip_diameter, speed };
+/// The breath as it is pointed now.
+fn breath(exhibit: &Exhibit, settings: &Settings, aim: &Aim, speed: f64) -> Breath {
+    let tuning = &exhibit.breath;
+    Breath {
+        mouth: aim.mouth,
+        direction: aim.direction,
+        lip_diameter: tuning.lip_diameter.unwrap_or(settings.lip_diameter),
+        speed,
+        law: tuning.law,
+    }
+}
+
+/// What the breath does in this step; `None` where no air of one is anywhere, or wind is off.
+fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front, speed: f64) -> Option<Blown<'a>> {
     let front = match settings.profile {
         Profile::Gallery => None,
         Profile::True => Some(front),
     };
-    let gain = settings.breath_gain * settings.profile.gain(speed);
+    let gain = exhibit.breath.gain * settings.breath_gain * settings.profile.gain(speed);
     let blows = speed > 0.0 || front.is_some_and(Front::in_flight);
-    (blows && settings.wind).then_some(Breath { jet, front, gain, time: step as f64 * DT })
+    (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
 /// The exhibit's figure at its start.
