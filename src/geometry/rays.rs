@@ -5,9 +5,12 @@
 //! moved. A ray goes through the upper one in the world and is carried into the frames of the few parts whose boxes it
 //! meets, instead of carrying triangles into the world.
 //!
+//! Whoever asks again keeps a [`Hint`] of what stood in the way: as a rule it still does, and no hierarchy is asked.
+//!
 //! Hierarchies are single precision (obvhs); boxes of parts are rounded outwards. A shadow's edge is off by less than
 //! a micrometre a metre from the origin.
 
+use std::cell::Cell;
 use std::time::Duration;
 
 use glam::Vec3A;
@@ -31,6 +34,10 @@ pub struct Occluders {
     top: Bvh2,
 }
 
+/// What last stood in somebody's way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Hint(Option<(u32, u32)>);
+
 /// One rigid part.
 struct Part {
     /// The body that carries it; `None` stands still.
@@ -40,8 +47,9 @@ struct Part {
     /// Its box in its own frame: centre and half extents, m.
     center: DVec3,
     half: DVec3,
-    /// Part axes to world axes, and the frame's origin, m.
+    /// Part axes to world axes and back, and the frame's origin, m.
     axes: DMat3,
+    inverse: DMat3,
     origin: DVec3,
 }
 
@@ -57,7 +65,7 @@ impl Part {
             mesh.triangles.iter().map(|t| Triangle { v0: corner(t[0]), v1: corner(t[1]), v2: corner(t[2]) }).collect();
         let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
         let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
-        Some(Self { body, triangles, bvh, center, half, axes: DMat3::IDENTITY, origin: DVec3::ZERO })
+        Some(Self { body, triangles, bvh, center, half, axes: DMat3::IDENTITY, inverse: DMat3::IDENTITY, origin: DVec3::ZERO })
     }
 
     /// The box in the world, rounded outwards.
@@ -71,8 +79,7 @@ impl Part {
 
     /// A world ray in the part's frame.
     fn local(&self, origin: DVec3, direction: DVec3, far: f32) -> Ray {
-        let transposed = self.axes.transpose();
-        Ray::new(single(transposed * (origin - self.origin)), single(transposed * direction), 0.0, far)
+        Ray::new(single(self.inverse * (origin - self.origin)), single(self.inverse * direction), 0.0, far)
     }
 }
 
@@ -100,20 +107,35 @@ impl Occluders {
             if let Some(body) = part.body {
                 let Pose { rotation, position } = pose(body);
                 (part.axes, part.origin) = (DMat3::from_quat(rotation), position);
+                part.inverse = part.axes.transpose();
                 self.top.nodes[self.top.primitives_to_nodes[index] as usize].set_aabb(part.aabb());
             }
         }
         self.top.refit_all();
     }
 
-    /// Is there a triangle between `origin` and the point `far` metres away along `direction` (unit, world)?
-    pub fn block(&self, origin: DVec3, direction: DVec3, far: f64) -> bool {
+    /// Is there a triangle between `origin` and the point `far` metres away along `direction` (unit, world)? The one
+    /// that `hint` names is asked first, and the hint is set to the one that was found.
+    pub fn block(&self, origin: DVec3, direction: DVec3, far: f64, hint: &Cell<Hint>) -> bool {
         let far = far as f32;
+        if let Hint(Some((part, triangle))) = hint.get()
+            && let Some(part) = self.parts.get(part as usize)
+            && let Some(triangle) = part.triangles.get(triangle as usize)
+            && triangle.intersect(&part.local(origin, direction, far)) < far
+        {
+            return true;
+        }
         let through = Ray::new(single(origin), single(direction), 0.0, far);
         !self.top.ray_traverse_miss(through, |_, id| {
-            let part = &self.parts[self.top.primitive_indices[id] as usize];
+            let index = self.top.primitive_indices[id];
+            let part = &self.parts[index as usize];
             let clear = part.bvh.ray_traverse_miss(part.local(origin, direction, far), |ray, id| {
-                part.triangles[part.bvh.primitive_indices[id] as usize].intersect(ray)
+                let triangle = part.bvh.primitive_indices[id];
+                let t = part.triangles[triangle as usize].intersect(ray);
+                if t < far {
+                    hint.set(Hint(Some((index, triangle))));
+                }
+                t
             });
             if clear { f32::INFINITY } else { 0.0 }
         })

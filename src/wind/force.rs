@@ -24,6 +24,9 @@
 //! gain         F_i ← gain · F_i                     the profile's, after the bound
 //! ```
 
+use std::cell::Cell;
+use std::ops::Range;
+
 use super::breath::{AIR_DENSITY, Breath};
 use super::front::Front;
 use super::patches::{Face, Patch, split};
@@ -32,8 +35,8 @@ use super::{Shelter, Surface};
 use crate::articulation::block::{Vec6, vec6};
 use crate::articulation::spatial::matrix;
 use crate::bodies::RigidBody;
-use crate::geometry::rays::Occluders;
-use crate::math::{DMat3, DVec3, PI};
+use crate::geometry::rays::{Hint, Occluders};
+use crate::math::{DVec3, PI};
 use crate::noise::perlin3_vector;
 
 /// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
@@ -57,23 +60,25 @@ const FAR: f64 = 50.0;
 struct Feeler {
     body: usize,
     patches: Vec<Patch>,
-    /// Ball around the patches in the node frame, m.
-    center: DVec3,
-    radius: f64,
+    /// What hid each patch the last time.
+    hints: Vec<Cell<Hint>>,
+    /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
+    groups: Vec<(DVec3, Range<usize>)>,
     drag_normal: f64,
     drag_tangential: f64,
     gain: f64,
 }
 
 impl Feeler {
-    fn new(surface: &Surface) -> Self {
-        let patches = split(surface);
-        let count = patches.len().max(1) as f64;
-        let center = patches.iter().map(|patch| patch.point).sum::<DVec3>() / count;
+    /// Patches within `alike` metres of each other's middle are one group.
+    fn new(surface: &Surface, alike: f64) -> Self {
+        let mut patches = split(surface);
+        let mut groups = Vec::new();
+        gather(&mut patches, 0, alike, &mut groups);
         Self {
             body: surface.body,
-            radius: patches.iter().fold(0.0, |radius: f64, patch| radius.max(patch.point.distance(center))),
-            center,
+            hints: vec![Cell::default(); patches.len()],
+            groups,
             patches,
             drag_normal: surface.drag_normal,
             drag_tangential: surface.drag_tangential,
@@ -93,6 +98,21 @@ impl Feeler {
         };
         pressure * (c_along * along.abs() * along * axis + c_across * across.length() * across)
     }
+}
+
+/// Sorts patches, which begin at `start`, into groups of radius `alike` by halving them along their longest way.
+fn gather(patches: &mut [Patch], start: usize, alike: f64, groups: &mut Vec<(DVec3, Range<usize>)>) {
+    let Some(first) = patches.first().map(|patch| patch.point) else { return };
+    let (low, high) = patches.iter().fold((first, first), |(l, h), p| (l.min(p.point), h.max(p.point)));
+    if (high - low).length() <= 2.0 * alike || patches.len() == 1 {
+        groups.push((0.5 * (low + high), start..start + patches.len()));
+        return;
+    }
+    let longest = (high - low).max_position();
+    patches.sort_by(|a, b| a.point[longest].total_cmp(&b.point[longest]));
+    let (near, far) = patches.split_at_mut(patches.len() / 2);
+    gather(near, start, alike, groups);
+    gather(far, start + near.len(), alike, groups);
 }
 
 /// The breath of one step.
@@ -163,9 +183,10 @@ pub struct WindField {
 impl WindField {
     /// Surfaces, shelters and winds of an exhibit with `bodies` bodies.
     pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
+        let weather = Weather::new(winds);
         Self {
-            feelers: surfaces.iter().map(Feeler::new).collect(),
-            weather: Weather::new(winds),
+            feelers: surfaces.iter().map(|surface| Feeler::new(surface, weather.alike())).collect(),
+            weather,
             occluders: Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh))),
             seed,
             blown: vec![[0.0; 6]; bodies],
@@ -184,16 +205,20 @@ impl WindField {
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
             let frame = matrix(body.rotation);
-            let aloft = self.aloft(feeler, body, &frame);
             let mut sum = [0.0; 6];
             let mut sum_blown = [0.0; 6];
-            for patch in &feeler.patches {
+            let each = feeler.groups.iter().flat_map(|(center, range)| {
+                let aimless = self.aimless(body.position + frame * (*center - body.properties.center));
+                range.clone().map(move |index| (index, aimless))
+            });
+            for (index, aimless) in each {
+                let patch = &feeler.patches[index];
                 let arm = frame * (patch.point - body.properties.center);
                 let point = body.position + arm;
                 let axis = frame * patch.axis;
                 let own = body.velocity + body.angular_velocity.cross(arm);
-                let open = |from| open(&self.occluders, patch.face, point, axis, from);
-                let wind = aloft + self.near(feeler, point, open);
+                let open = |from| open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
+                let wind = aimless + self.aimed(point, open);
                 let before = feeler.drag(patch, axis, wind - own);
                 add_wrench(&mut sum, arm, before);
                 let Some(blown) = blown else { continue };
@@ -230,18 +255,17 @@ impl WindField {
         report
     }
 
-    /// Air of the winds that are the same all over a surface, m/s.
-    fn aloft(&self, feeler: &Feeler, body: &RigidBody, frame: &DMat3) -> DVec3 {
-        let center = body.position + *frame * (feeler.center - body.properties.center);
-        let coarse = (0..self.weather.len()).filter(|&index| self.weather.detail(index) > feeler.radius);
-        coarse.map(|index| self.weather.air(index, center).0).sum()
+    /// Air at a point of the winds that come from all sides, m/s.
+    fn aimless(&self, point: DVec3) -> DVec3 {
+        let aimless = (0..self.weather.len()).filter(|&index| self.weather.is_aimless(index));
+        aimless.map(|index| self.weather.air(index, point).0).sum()
     }
 
     /// Air of all other winds at a patch that sees where they come from, m/s.
-    fn near(&self, feeler: &Feeler, point: DVec3, open: impl Fn(Upwind) -> bool) -> DVec3 {
+    fn aimed(&self, point: DVec3, open: impl Fn(Upwind) -> bool) -> DVec3 {
         let mut wind = DVec3::ZERO;
         for index in 0..self.weather.len() {
-            if self.weather.detail(index) <= feeler.radius {
+            if !self.weather.is_aimless(index) {
                 let (air, from) = self.weather.air(index, point);
                 if air.length_squared() > STILL_AIR * STILL_AIR && open(from) {
                     wind += air;
@@ -283,7 +307,8 @@ impl WindField {
             let pose = bodies[feeler.body].pose();
             for (index, patch) in feeler.patches.iter().enumerate() {
                 let (point, axis) = (pose.point(patch.point), pose.vector(patch.axis));
-                let seen = open(&self.occluders, patch.face, point, axis, Upwind::Place(breath.vertex()));
+                let from = Upwind::Place(breath.vertex());
+                let seen = open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
                 samples.push(Sample { surface, patch: index, point, axis, area: patch.area, seen });
             }
         }
@@ -302,7 +327,7 @@ impl WindField {
 }
 
 /// Does a patch face and see where a wind comes from?
-fn open(occluders: &Occluders, face: Face, point: DVec3, axis: DVec3, from: Upwind) -> bool {
+fn open(occluders: &Occluders, hint: &Cell<Hint>, face: Face, point: DVec3, axis: DVec3, from: Upwind) -> bool {
     let toward = match from {
         Upwind::Place(place) => place - point,
         Upwind::Afar(direction) => direction,
@@ -323,7 +348,7 @@ fn open(occluders: &Occluders, face: Face, point: DVec3, axis: DVec3, from: Upwi
         }
         _ => (toward, FAR),
     };
-    !occluders.block(start, direction, far)
+    !occluders.block(start, direction, far, hint)
 }
 
 fn add_wrench(sum: &mut Vec6, arm: DVec3, force: DVec3) {

@@ -3,7 +3,7 @@
 //! The head of a starting jet travels at half the speed of its centre line, dx/dt = 3 U₀ d/x, so that air found at x
 //! left the lips when the blown length Φ(t) = ∫ U₀ dt was smaller by x²/(6 d). With Φ kept as a history, the speed at
 //! x is that of the air that left at that time: a breath that swells and fades reaches a plate in the same order, and
-//! its tail still arrives after the lips have closed. Both laws of the breath travel so: how fast a head of air comes
+//! its tail still arrives after the lips have closed, ever slower as nothing drives it on. Both laws of the breath travel so: how fast a head of air comes
 //! is a matter of the air, and how much of it arrives that of the law.
 
 use std::collections::VecDeque;
@@ -49,7 +49,7 @@ impl Front {
         if index == 0 && self.history.front().is_some_and(|&(phi, _)| phi > left) {
             return 0.0;
         }
-        self.history.get(index).map_or(0.0, |&(_, speed)| speed)
+        self.history.get(index).map_or(0.0, |&(_, speed)| speed.min(self.drive))
     }
 
     /// Is air still on its way?

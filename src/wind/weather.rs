@@ -105,8 +105,8 @@ const QUICKER: f64 = 1.587_401_051_968_199_5;
 const ROOM_RMS: f64 = 0.62;
 /// The way in which eddies pass through a place: oblique to the lattice of the noise. Unit.
 const PASSING: DVec3 = DVec3::new(0.602, 0.437, 0.669);
-/// A surface whose radius is a smaller part of the largest eddies than this moves in one of them.
-const ALIKE: f64 = 0.25;
+/// Within a ball whose radius is this part of the largest eddies the air is taken for the same.
+const ALIKE: f64 = 0.2;
 /// Least speed at which gusts travel, m/s: a wind that hardly blows does not carry them at all.
 const SLOWEST: f64 = 0.05;
 
@@ -211,12 +211,18 @@ impl Weather {
         self.winds.is_empty()
     }
 
-    /// A wind that nothing shelters from is the same all over a surface of this radius, m: 0 where it is not.
-    pub fn detail(&self, index: usize) -> f64 {
-        match self.winds[index].kind {
+    /// The aimless winds are nearly the same all over a ball of this radius, m.
+    pub fn alike(&self) -> f64 {
+        let scale = |wind: &Wind| match wind.kind {
             WindKind::Room { scale, .. } => ALIKE * scale,
-            _ => 0.0,
-        }
+            _ => f64::INFINITY,
+        };
+        self.winds.iter().map(scale).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Does a wind come from all sides, so that nothing shelters from it?
+    pub fn is_aimless(&self, index: usize) -> bool {
+        matches!(self.winds[index].kind, WindKind::Room { .. })
     }
 
     /// Velocity of a wind at a point (m/s), and from where it comes.

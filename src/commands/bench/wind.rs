@@ -109,7 +109,7 @@ fn best(steps: &[Vec<RigidBody>], mut step: impl FnMut(usize, &[RigidBody])) -> 
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Where everything is in each step: in the breath's cone, a fiftieth of a turn on from step to step.
+/// Where everything is in each step: in the breath's cone, turning once a second.
 fn crowd(random: &mut Random) -> Vec<Vec<RigidBody>> {
     let properties =
         MassProperties { mass: 0.01, center: DVec3::ZERO, inertia: DMat3::from_diagonal(DVec3::splat(1e-5)) };
@@ -119,7 +119,7 @@ fn crowd(random: &mut Random) -> Vec<Vec<RigidBody>> {
     (0..STEPS)
         .map(|step| {
             let turned = |&(position, axis): &(DVec3, DVec3)| {
-                let pose = Pose { rotation: rotation(axis * (1.0 + 2.0 * PI * step as f64 / 50.0)), position };
+                let pose = Pose { rotation: rotation(axis + axis.normalize() * (2.0 * PI * step as f64 / 240.0)), position };
                 RigidBody::at_rest(properties, pose)
             };
             starts.iter().map(turned).collect()

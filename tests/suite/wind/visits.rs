@@ -77,6 +77,27 @@ fn a_childs_breath_is_seen_within_a_second() {
     }
 }
 
+#[test]
+fn the_rooms_air_keeps_it_alive() {
+    /// On the glass within ten seconds, mm: it stirs, and does not dance.
+    const ALIVE: std::ops::Range<f64> = 2.0..60.0;
+    let mut simulation = Simulation::new(steel_fish(), Settings::default());
+    for round in 0..4 {
+        let before = plates(&simulation);
+        let mut most: f64 = 0.0;
+        let mut energy = 0.0;
+        for _ in 0..steps(10.0) {
+            simulation.step(&StepInput::default());
+            for (a, b) in before.iter().zip(plates(&simulation)) {
+                most = most.max(((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt());
+            }
+            energy += simulation.bodies().iter().map(|body| body.kinetic_energy()).sum::<f64>() / steps(10.0) as f64;
+        }
+        println!("round {round}: a plate moves {most:.1} mm, kinetic energy {:.3} uJ", 1e6 * energy);
+        assert!(ALIVE.contains(&most), "{most} mm in round {round}");
+    }
+}
+
 /// One visit: kinetic energy in each step, J, and the step in which the visitor blows.
 struct Visit {
     energy: Vec<f64>,
