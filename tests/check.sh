@@ -30,7 +30,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live; do
+    for part in soak-blow soak-still soak-live visits wind; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue
@@ -39,6 +39,8 @@ long() {
         case $part in
             soak-blow)  "$built/soffio" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
             soak-still) "$built/soffio" play steel-fish --seconds 7200 ;;
+            visits)     cargo test --release --locked --quiet --no-default-features --test suite two_hundred_visits -- --ignored --nocapture ;;
+            wind)       "$built/soffio" bench --wind ;;
             soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh "$built/soffio" ;;
         esac
         echo "$stamp" >"out/long/$part"

@@ -65,7 +65,16 @@ impl Part {
             mesh.triangles.iter().map(|t| Triangle { v0: corner(t[0]), v1: corner(t[1]), v2: corner(t[2]) }).collect();
         let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
         let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
-        Some(Self { body, triangles, bvh, center, half, axes: DMat3::IDENTITY, inverse: DMat3::IDENTITY, origin: DVec3::ZERO })
+        Some(Self {
+            body,
+            triangles,
+            bvh,
+            center,
+            half,
+            axes: DMat3::IDENTITY,
+            inverse: DMat3::IDENTITY,
+            origin: DVec3::ZERO,
+        })
     }
 
     /// The box in the world, rounded outwards.

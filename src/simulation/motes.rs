@@ -167,8 +167,13 @@ mod tests {
     #[test]
     fn none_is_lost_however_the_wind_blows() {
         let mut motes = Motes::new(DVec3::X, SEED);
-        let breath =
-            Breath { mouth: DVec3::new(1.0, 0.0, 0.5), direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 17.0, law: Law::Jet };
+        let breath = Breath {
+            mouth: DVec3::new(1.0, 0.0, 0.5),
+            direction: DVec3::NEG_Z,
+            lip_diameter: 0.01,
+            speed: 17.0,
+            law: Law::Jet,
+        };
         for step in 0..2400 {
             let blows = Some(&breath).filter(|_| step / 240 % 2 == 0);
             motes.advance(blows, |p| DVec3::X * 0.8 + blows.map_or(DVec3::ZERO, |b| b.velocity(p)), DT);

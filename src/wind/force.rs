@@ -294,8 +294,7 @@ impl WindField {
     fn eddy(&self, breath: &Breath, point: DVec3) -> DVec3 {
         let time = self.weather.time();
         let carried = point - breath.direction * (EDDY_SPEED * time);
-        let noise =
-            EDDY_STRENGTH * perlin3_vector(carried / EDDY + DVec3::splat(EDDY_CHANGE * time), self.seed);
+        let noise = EDDY_STRENGTH * perlin3_vector(carried / EDDY + DVec3::splat(EDDY_CHANGE * time), self.seed);
         noise / (1.0 + noise.length_squared()).sqrt()
     }
 

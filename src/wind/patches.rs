@@ -68,13 +68,7 @@ pub fn split(surface: &Surface) -> Vec<Patch> {
     }
 }
 
-fn sample_mesh(
-    mesh: &TriangleMesh,
-    per_area: f64,
-    (least, most): (usize, usize),
-    seed: u64,
-    face: Face,
-) -> Vec<Patch> {
+fn sample_mesh(mesh: &TriangleMesh, per_area: f64, (least, most): (usize, usize), seed: u64, face: Face) -> Vec<Patch> {
     let areas: Vec<f64> = mesh.corners().map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).collect();
     let total: f64 = areas.iter().sum();
     if total <= 0.0 {

@@ -135,9 +135,8 @@ fn beat(rhythm: &Rhythm, left: f64) -> f64 {
         }
         Rhythm::Puffs { every, lasts, seed } => {
             let round = (left / every).floor();
-            let unit = |word: u64| {
-                (hash_words(&[seed, round as i64 as u64, word]) >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
-            };
+            let unit =
+                |word: u64| (hash_words(&[seed, round as i64 as u64, word]) >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
             let since = left - round * every - unit(0) * (every - lasts);
             if (0.0..lasts).contains(&since) {
                 let s = sin(PI * since / lasts);
@@ -330,8 +329,9 @@ mod tests {
         const STEP: f64 = 1e-3;
         let mut puffs = weather(EAST, 1.0, Rhythm::Puffs { every: 5.0, lasts: 1.0, seed: 3 });
         for round in 0..20 {
-            let speeds: Vec<f64> =
-                (0..5000).map(|i| at(&mut puffs, 5.0 * f64::from(round) + STEP * f64::from(i), DVec3::ZERO).x).collect();
+            let speeds: Vec<f64> = (0..5000)
+                .map(|i| at(&mut puffs, 5.0 * f64::from(round) + STEP * f64::from(i), DVec3::ZERO).x)
+                .collect();
             let blowing = STEP * speeds.iter().filter(|v| **v > 0.0).count() as f64;
             assert!((blowing - 1.0).abs() < 3.0 * STEP, "blows for {blowing} s in round {round}");
             let most = speeds.iter().fold(0.0, |m: f64, v| m.max(*v));
@@ -357,7 +357,8 @@ mod tests {
 
     #[test]
     fn a_speed_may_change_with_time() {
-        let speed = Function::Keys { keys: vec![(0.0, 0.0), (2.0, 1.0)], interpolation: Default::default(), repeat: false };
+        let speed =
+            Function::Keys { keys: vec![(0.0, 0.0), (2.0, 1.0)], interpolation: Default::default(), repeat: false };
         let wind = Wind { name: "dawn".into(), kind: EAST, speed, rhythm: Rhythm::Even };
         let mut weather = Weather::new(&[wind]);
         assert_eq!(at(&mut weather, 0.0, DVec3::ZERO), DVec3::ZERO);

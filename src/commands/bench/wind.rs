@@ -48,7 +48,10 @@ pub fn run(json: bool) -> Outcome {
     if json {
         println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
     } else {
-        println!("{} patches, {} triangles, {} parts; {:.0} see the lips", row.patches, row.triangles, row.parts, row.seen);
+        println!(
+            "{} patches, {} triangles, {} parts; {:.0} see the lips",
+            row.patches, row.triangles, row.parts, row.seen
+        );
         println!("a step   {:>9.3} ms, of it sight {:.3} ms", row.ms_per_step, row.sight_ms);
         println!("each     {:>9.3} ms, every patch against every triangle", row.each_triangle_ms);
         println!("ratio    {:>9.1}", row.ratio);
@@ -60,13 +63,8 @@ fn measure() -> Row {
     let mut random = Random::new(SEED);
     let surfaces: Vec<Surface> = (0..PARTS).map(surface).collect();
     let steps: Vec<Vec<RigidBody>> = crowd(&mut random);
-    let breath = Breath {
-        mouth: DVec3::Z * 0.5,
-        direction: DVec3::NEG_Z,
-        lip_diameter: 0.01,
-        speed: 17.0,
-        law: Law::Jet,
-    };
+    let breath =
+        Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 17.0, law: Law::Jet };
     let mut field = WindField::new(&surfaces, &Shelter::of(&surfaces), &[], PARTS, SEED);
     let blown = Blown { breath, front: None, gain: 1.0 };
     let mut out = vec![[0.0; 6]; PARTS];
@@ -119,7 +117,8 @@ fn crowd(random: &mut Random) -> Vec<Vec<RigidBody>> {
     (0..STEPS)
         .map(|step| {
             let turned = |&(position, axis): &(DVec3, DVec3)| {
-                let pose = Pose { rotation: rotation(axis + axis.normalize() * (2.0 * PI * step as f64 / 240.0)), position };
+                let pose =
+                    Pose { rotation: rotation(axis + axis.normalize() * (2.0 * PI * step as f64 / 240.0)), position };
                 RigidBody::at_rest(properties, pose)
             };
             starts.iter().map(turned).collect()

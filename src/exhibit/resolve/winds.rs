@@ -134,7 +134,12 @@ impl Context<'_> {
         Some(WindKind::Draught { direction: direction?, place: place? })
     }
 
-    fn wind_speed(&mut self, given: &sidecar::Function<super::super::quantity::Speed>, at: &str, name: &str) -> Function {
+    fn wind_speed(
+        &mut self,
+        given: &sidecar::Function<super::super::quantity::Speed>,
+        at: &str,
+        name: &str,
+    ) -> Function {
         let place = format!("{at}/speed");
         let speed = self.function_from_zero(given, &place);
         if let Function::Constant(speed) = speed {

@@ -86,13 +86,7 @@ pub fn field(surfaces: &[Surface], bodies: usize) -> WindField {
 
 /// A breath from half a metre up the z axis, down it.
 pub fn breath(speed: f64) -> Breath {
-    Breath {
-        mouth: DVec3::new(0.0, 0.0, 0.5),
-        direction: DVec3::NEG_Z,
-        lip_diameter: 0.01,
-        speed,
-        law: Law::Jet,
-    }
+    Breath { mouth: DVec3::new(0.0, 0.0, 0.5), direction: DVec3::NEG_Z, lip_diameter: 0.01, speed, law: Law::Jet }
 }
 
 /// The same, everywhere at once.

@@ -41,7 +41,8 @@ impl IdBuffer {
     pub fn draw(&mut self, id: u32, mesh: &TriangleMesh, pose: &Pose) {
         for corners in mesh.corners() {
             let [a, b, c] = corners.map(|p| self.project(pose.point(p)));
-            let edge = |p: [f64; 3], q: [f64; 3], x: f64, y: f64| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+            let edge =
+                |p: [f64; 3], q: [f64; 3], x: f64, y: f64| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
             let area = edge(a, b, c[0], c[1]);
             if area == 0.0 {
                 continue;

@@ -79,21 +79,19 @@ fn a_childs_breath_is_seen_within_a_second() {
 
 #[test]
 fn the_rooms_air_keeps_it_alive() {
-    /// On the glass within ten seconds, mm: it stirs, and does not dance.
-    const ALIVE: std::ops::Range<f64> = 2.0..60.0;
+    /// Way of a plate on the glass within half a minute, mm: it stirs, and does not dance.
+    const ALIVE: std::ops::Range<f64> = 5.0..300.0;
     let mut simulation = Simulation::new(steel_fish(), Settings::default());
-    for round in 0..4 {
+    for round in 0..3 {
         let before = plates(&simulation);
         let mut most: f64 = 0.0;
-        let mut energy = 0.0;
-        for _ in 0..steps(10.0) {
+        for _ in 0..steps(30.0) {
             simulation.step(&StepInput::default());
             for (a, b) in before.iter().zip(plates(&simulation)) {
                 most = most.max(((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt());
             }
-            energy += simulation.bodies().iter().map(|body| body.kinetic_energy()).sum::<f64>() / steps(10.0) as f64;
         }
-        println!("round {round}: a plate moves {most:.1} mm, kinetic energy {:.3} uJ", 1e6 * energy);
+        println!("half a minute without a breath: a plate moves {most:.1} mm");
         assert!(ALIVE.contains(&most), "{most} mm in round {round}");
     }
 }
@@ -116,7 +114,7 @@ fn visit(exhibit: &Arc<Exhibit>, seed: u64, seconds: f64) -> Visit {
     let end = blow + steps(random.range(0.6, 1.5));
     let speed = lip_speed(CHILD) * random.range(1.0, 3.5);
     // The draught has stirred it before the visitor comes, each time another while.
-    for _ in 0..steps(random.range(4.0, 12.0)) {
+    for _ in 0..steps(random.range(2.0, 8.0)) {
         simulation.step(&StepInput { pointer, ..StepInput::default() });
     }
     let mut energy = Vec::new();
@@ -167,7 +165,7 @@ const SHUFFLED: std::ops::Range<f64> = 0.6..1.6;
 
 #[test]
 fn what_moves_is_the_visitors_doing() {
-    let (own, shuffled) = medians(7, 9.0);
+    let (own, shuffled) = medians(6, 14.0);
     assert!(own >= CONTINGENT, "{own}");
     assert!(SHUFFLED.contains(&shuffled), "{shuffled}");
 }
