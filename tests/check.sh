@@ -39,7 +39,7 @@ long() {
         case $part in
             soak-blow)  "$built/soffio" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
             soak-still) "$built/soffio" play steel-fish --seconds 7200 ;;
-            visits)     cargo test --release --locked --quiet --no-default-features --test suite two_hundred_visits -- --ignored --nocapture ;;
+            visits)     cargo test --locked --quiet --no-default-features --test suite two_hundred_visits -- --ignored --nocapture ;;
             wind)       "$built/soffio" bench --wind ;;
             soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh "$built/soffio" ;;
         esac

@@ -102,7 +102,7 @@ const FALL: f64 = 0.793_700_525_984_099_7;
 /// 2^(2/3): how much quicker an octave changes.
 const QUICKER: f64 = 1.587_401_051_968_199_5;
 /// Root mean square of the room's octaves before they are scaled to 1 (a test measures it).
-const ROOM_RMS: f64 = 0.62;
+const ROOM_RMS: f64 = 0.666;
 /// The way in which eddies pass through a place: oblique to the lattice of the noise. Unit.
 const PASSING: DVec3 = DVec3::new(0.602, 0.437, 0.669);
 /// Within a ball whose radius is this part of the largest eddies the air is taken for the same.

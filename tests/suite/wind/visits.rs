@@ -7,6 +7,7 @@ use soffio::math::PI;
 use soffio::noise::Random;
 use soffio::simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio::wind::SurfaceShape;
+use soffio::wind::weather::WindKind;
 
 /// Size of a 55-inch picture, mm.
 const PICTURE: [f64; 2] = [1210.0, 680.0];
@@ -102,19 +103,25 @@ struct Visit {
     blow: usize,
 }
 
-/// Somebody comes while the sculpture stirs in the draught, points at a plate, and blows at a moment of their own: a
-/// child's gentle breath to an adult's strong one.
-fn visit(exhibit: &Arc<Exhibit>, seed: u64, seconds: f64) -> Visit {
+/// Somebody comes while the sculpture stirs in the draught, points at a plate, and blows at a moment of their own within
+/// `seconds`: a child's gentle breath to an adult's strong one. The draught is another one each time, and has had some
+/// time to stir.
+fn visit(exhibit: &Exhibit, seed: u64, (stirred, seconds): (f64, f64)) -> Visit {
     let mut random = Random::new(seed);
-    let mut simulation = Simulation::new(exhibit.clone(), Settings { seed, ..Settings::default() });
+    let mut exhibit = exhibit.clone();
+    for wind in &mut exhibit.winds {
+        if let WindKind::Room { seed, .. } = &mut wind.kind {
+            *seed = random.word();
+        }
+    }
+    let mut simulation = Simulation::new(Arc::new(exhibit), Settings { seed, ..Settings::default() });
     let places = plates(&simulation);
     let [x, y] = places[(random.unit() * places.len() as f64) as usize];
     let pointer = Some([x / PICTURE[0], y / PICTURE[1]]);
     let blow = steps(random.range(2.0, seconds - 1.0));
     let end = blow + steps(random.range(0.6, 1.5));
     let speed = lip_speed(CHILD) * random.range(1.0, 3.5);
-    // The draught has stirred it before the visitor comes, each time another while.
-    for _ in 0..steps(random.range(2.0, 8.0)) {
+    for _ in 0..steps(stirred) {
         simulation.step(&StepInput { pointer, ..StepInput::default() });
     }
     let mut energy = Vec::new();
@@ -142,9 +149,9 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// Medians of the contingency: with the visits' own moments of blowing, and with each other's.
-fn medians(visits: u64, seconds: f64) -> (f64, f64) {
+fn medians(visits: u64, times: (f64, f64)) -> (f64, f64) {
     let exhibit = steel_fish();
-    let visits: Vec<Visit> = (0..visits).map(|seed| visit(&exhibit, seed, seconds)).collect();
+    let visits: Vec<Visit> = (0..visits).map(|seed| visit(&exhibit, seed, times)).collect();
     let own = median(visits.iter().map(|visit| contingency(visit, visit.blow)).collect());
     let mut others = Vec::new();
     for (i, visit) in visits.iter().enumerate() {
@@ -160,20 +167,21 @@ fn medians(visits: u64, seconds: f64) -> (f64, f64) {
 
 /// What the visitor does is what makes it move.
 const CONTINGENT: f64 = 5.0;
-/// At moments of no meaning, as much moves before as after.
-const SHUFFLED: std::ops::Range<f64> = 0.6..1.6;
+/// At moments of no meaning, as much moves before as after; a few visits say so less exactly than two hundred.
+const SHUFFLED: std::ops::Range<f64> = 0.7..1.4;
+const SHUFFLED_FEW: std::ops::Range<f64> = 0.4..2.5;
 
 #[test]
 fn what_moves_is_the_visitors_doing() {
-    let (own, shuffled) = medians(6, 14.0);
+    let (own, shuffled) = medians(6, (8.0, 12.0));
     assert!(own >= CONTINGENT, "{own}");
-    assert!(SHUFFLED.contains(&shuffled), "{shuffled}");
+    assert!(SHUFFLED_FEW.contains(&shuffled), "{shuffled}");
 }
 
 #[test]
 #[ignore = "200 visits: part `visits` of tests/check.sh --long"]
 fn what_moves_is_the_visitors_doing_in_two_hundred_visits() {
-    let (own, shuffled) = medians(200, 20.0);
+    let (own, shuffled) = medians(200, (15.0, 20.0));
     assert!(own >= CONTINGENT, "{own}");
     assert!(SHUFFLED.contains(&shuffled), "{shuffled}");
 }
