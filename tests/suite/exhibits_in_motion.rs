@@ -379,7 +379,7 @@ fn the_chain_bears_its_weight_and_a_gentle_breath() {
 
 #[test]
 fn the_plates_meet_under_a_breath_and_ring() {
-    for (aim, strength) in [([0.45, 0.6], 0.4), ([0.5, 0.55], 0.6), ([0.55, 0.6], 0.8)] {
+    for (aim, strength) in [([0.5, 0.55], 0.4), ([0.5, 0.55], 0.6), ([0.55, 0.6], 0.8)] {
         let mut visit = Visit::breath("plates", aim, 1.0, strength, 1.5);
         visit.until(1.0);
         assert!(visit.events.is_empty(), "they touch at rest: {:?}", visit.events);

@@ -1,5 +1,6 @@
 //! Wind: forces against formulas, sight against a depth buffer, and what a visitor's breath does to a sculpture.
 
+mod aim;
 mod bodies;
 mod depth_buffer;
 mod forces;
