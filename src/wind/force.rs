@@ -17,8 +17,10 @@
 //! the breath adds to the force of all else has three further rules:
 //!
 //! ```text
-//! turbulence   F_i += β |F_i| g(x_i − U_e t, t)     |g| < 1 seeded vector noise carried downstream: |F_random| < β |F|,
-//!                                                   nearly the same in neighbours, and the same from run to run
+//! turbulence   F_i += β |F_i| H g(x_i − U_e t, t)   |g| < 1 seeded vector noise of any direction, carried downstream:
+//!                                                   nearly the same in neighbours, and the same from run to run; H is
+//!                                                   what a patch takes of it, as of the wind: of what presses on a face
+//!                                                   all and of what slips along it C_f/C_D. So |F_random| < β |F|
 //! bound        Σ |F_i| ≤ ρ Q v₀                     v₀ of the fastest air that arrives: a breath cannot push harder than
 //!                                                   its own momentum, whatever it meets
 //! gain         F_i ← gain · F_i                     the profile's, after the bound
@@ -40,7 +42,7 @@ use crate::math::{DVec3, PI};
 use crate::noise::perlin3_vector;
 
 /// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
-/// fluctuates by a third, as that of a jet whose speed fluctuates by a sixth.
+/// on a face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
 pub const TURBULENCE: f64 = 0.6;
 /// Size of the eddies in a breath, m.
 const EDDY: f64 = 0.06;
@@ -91,12 +93,30 @@ impl Feeler {
         let pressure = 0.5 * AIR_DENSITY * patch.area * self.gain;
         let along = v.dot(axis);
         let across = v - along * axis;
-        let (c_along, c_across) = match patch.face {
-            Face::Side if along >= 0.0 => (0.0, self.drag_tangential),
+        let (mut c_along, c_across) = self.coefficients(patch.face);
+        if patch.face == Face::Side && along >= 0.0 {
+            c_along = 0.0;
+        }
+        pressure * (c_along * along.abs() * along * axis + c_across * across.length() * across)
+    }
+
+    /// Drag coefficients along a patch's axis and across it.
+    fn coefficients(&self, face: Face) -> (f64, f64) {
+        match face {
             Face::Side | Face::Sheet => (self.drag_normal, self.drag_tangential),
             Face::Wire => (PI * self.drag_tangential, self.drag_normal),
-        };
-        pressure * (c_along * along.abs() * along * axis + c_across * across.length() * across)
+        }
+    }
+
+    /// H g: what a patch takes of the turbulence `g`, never more than all of it.
+    fn shaken(&self, patch: &Patch, axis: DVec3, g: DVec3) -> DVec3 {
+        let (c_along, c_across) = self.coefficients(patch.face);
+        let most = c_along.max(c_across);
+        if most <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let along = g.dot(axis) * axis;
+        (c_along * along + c_across * (g - along)) / most
     }
 }
 
@@ -227,7 +247,8 @@ impl WindField {
                     continue;
                 }
                 let added = feeler.drag(patch, axis, wind + air - own) - before;
-                let added = added + TURBULENCE * added.length() * self.eddy(&blown.breath, point);
+                let shaken = feeler.shaken(patch, axis, self.eddy(&blown.breath, point));
+                let added = added + TURBULENCE * added.length() * shaken;
                 total += added.length();
                 fastest = source.max(fastest);
                 add_wrench(&mut sum_blown, arm, added);

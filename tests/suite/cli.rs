@@ -440,9 +440,7 @@ fn a_scene_is_measured_with_every_field() {
 fn the_wind_on_ten_thousand_patches_is_twenty_times_faster_than_asking_every_triangle() {
     /// ms on one core; a debug build may take twice as long as the release build is allowed.
     const BUDGET: f64 = 8.0;
-    let run = Desk::new().soffio(&["bench", "--wind", "--json"]);
-    let row: serde_json::Value =
-        serde_json::from_str(run.stdout.trim()).unwrap_or_else(|e| panic!("{e}: {}", run.stdout));
+    let row = Desk::new().soffio(&["bench", "--wind", "--json"]).json();
     println!("{row}");
     assert!(row["patches"].as_u64() >= Some(10_000) && row["triangles"].as_u64() >= Some(5_000), "{row}");
     assert!(
