@@ -65,19 +65,26 @@ impl Motes {
         Self { specks, random, center, time: 0.0, step: 0 }
     }
 
-    /// Lets the air carry the dust for `dt` seconds; `air` is its velocity at a point, of all winds together. The breath,
-    /// where there is one, draws specks into itself.
-    pub fn advance(&mut self, breath: Option<&Breath>, air: impl Fn(DVec3) -> DVec3, dt: f64) {
+    /// Lets the air carry the dust for `dt` seconds. Its velocity at a point is that of the `streams` (breath, fans,
+    /// draughts) and of the air that the room `stirs`, which changes slowly. The breath, where there is one, draws specks
+    /// into itself.
+    pub fn advance(
+        &mut self,
+        breath: Option<&Breath>,
+        streams: impl Fn(DVec3) -> DVec3,
+        stirs: impl Fn(DVec3) -> DVec3,
+        dt: f64,
+    ) {
         self.time += dt;
         self.step += 1;
         let share = 1.0 - exp(-dt / CARRIED);
         for (index, speck) in self.specks.iter_mut().enumerate() {
-            // The room's air changes slowly: each speck asks it now and then, in turn.
+            // Each speck asks for the room's air now and then, in turn.
             if (index + self.step).is_multiple_of(DRIFT_STEPS) {
                 let at = speck.position / 0.2 + DVec3::splat(0.1 * self.time);
-                speck.drift = perlin3_vector(at, DRIFT_SEED) * DRIFT;
+                speck.drift = perlin3_vector(at, DRIFT_SEED) * DRIFT + stirs(speck.position);
             }
-            speck.velocity = speck.velocity.lerp(air(speck.position) + speck.drift, share);
+            speck.velocity = speck.velocity.lerp(streams(speck.position) + speck.drift, share);
             speck.position += dt * speck.velocity;
             speck.age += dt;
             let in_breath = breath.filter(|_| index < IN_BREATH);
@@ -137,6 +144,10 @@ mod tests {
     const DT: f64 = 1.0 / 240.0;
     const SEED: u64 = 4;
 
+    fn still(_: DVec3) -> DVec3 {
+        DVec3::ZERO
+    }
+
     #[test]
     fn every_speck_goes_with_the_air() {
         // A vortex: after some time constants each speck has the velocity of the air where it is, but for its own drift
@@ -144,7 +155,7 @@ mod tests {
         let vortex = |p: DVec3| DVec3::Y.cross(p) * 0.5 + DVec3::Y * 0.1;
         let mut motes = Motes::new(DVec3::ZERO, SEED);
         for _ in 0..60 {
-            motes.advance(None, vortex, DT);
+            motes.advance(None, vortex, still, DT);
         }
         let lag = CARRIED * 0.5 * 0.5 * REACH;
         let young = |speck: &&Speck| speck.age > 8.0 * CARRIED;
@@ -156,12 +167,22 @@ mod tests {
         }
         assert!(seen > COUNT / 2, "{seen} specks");
         let before: Vec<(DVec3, f64)> = motes.specks.iter().map(|s| (s.position, s.age)).collect();
-        motes.advance(None, vortex, DT);
+        motes.advance(None, vortex, still, DT);
         for (speck, (position, age)) in motes.specks.iter().zip(before) {
             if speck.age > age {
                 assert!((speck.position - position - DT * speck.velocity).length() < 1e-12);
             }
         }
+    }
+
+    #[test]
+    fn what_the_room_stirs_carries_dust_too() {
+        let mut motes = Motes::new(DVec3::ZERO, SEED);
+        for _ in 0..2 * DRIFT_STEPS {
+            motes.advance(None, still, |_| DVec3::X * 0.2, DT);
+        }
+        let mean = motes.specks.iter().map(|s| s.velocity.x).sum::<f64>() / COUNT as f64;
+        assert!((mean - 0.2).abs() < 0.03, "seed {SEED}: {mean} m/s");
     }
 
     #[test]
@@ -176,7 +197,7 @@ mod tests {
         };
         for step in 0..2400 {
             let blows = Some(&breath).filter(|_| step / 240 % 2 == 0);
-            motes.advance(blows, |p| DVec3::X * 0.8 + blows.map_or(DVec3::ZERO, |b| b.velocity(p)), DT);
+            motes.advance(blows, |p| DVec3::X * 0.8 + blows.map_or(DVec3::ZERO, |b| b.velocity(p)), still, DT);
             assert_eq!(motes.specks.len(), COUNT);
             for mote in motes.view() {
                 let far = DVec3::from(mote.position.map(f64::from)).distance(DVec3::X);
@@ -192,7 +213,7 @@ mod tests {
         let breath =
             Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 9.0, law: Law::Jet };
         for _ in 0..24 {
-            motes.advance(Some(&breath), |p| breath.velocity(p), DT);
+            motes.advance(Some(&breath), |p| breath.velocity(p), still, DT);
         }
         let carried = motes.specks.iter().filter(|s| s.velocity.length() > 0.2).count();
         assert!(carried > COUNT / 4, "seed {SEED}: {carried} specks show the breath after a tenth of a second");

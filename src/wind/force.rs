@@ -228,7 +228,7 @@ impl WindField {
             let mut sum = [0.0; 6];
             let mut sum_blown = [0.0; 6];
             let each = feeler.groups.iter().flat_map(|(center, range)| {
-                let aimless = self.aimless(body.position + frame * (*center - body.properties.center));
+                let aimless = self.stirs(body.position + frame * (*center - body.properties.center));
                 range.clone().map(move |index| (index, aimless))
             });
             for (index, aimless) in each {
@@ -276,8 +276,8 @@ impl WindField {
         report
     }
 
-    /// Air at a point of the winds that come from all sides, m/s.
-    fn aimless(&self, point: DVec3) -> DVec3 {
+    /// Velocity at a point of the winds that come from all sides, m/s.
+    pub fn stirs(&self, point: DVec3) -> DVec3 {
         let aimless = (0..self.weather.len()).filter(|&index| self.weather.is_aimless(index));
         aimless.map(|index| self.weather.air(index, point).0).sum()
     }
@@ -296,9 +296,9 @@ impl WindField {
         wind
     }
 
-    /// Velocity of the air at a point, all winds and the breath together, m/s.
-    pub fn air(&self, blown: Option<&Blown>, point: DVec3) -> DVec3 {
-        self.weather.all(point) + blown.map_or(DVec3::ZERO, |blown| self.breath_at(blown, point))
+    /// Velocity at a point of the breath and of all winds that go somewhere, m/s.
+    pub fn streams(&self, blown: Option<&Blown>, point: DVec3) -> DVec3 {
+        self.aimed(point, |_| true) + blown.map_or(DVec3::ZERO, |blown| self.breath_at(blown, point))
     }
 
     /// Velocity of the breath's air at a point, gusts included, m/s. Force goes with its square, so half of the force's

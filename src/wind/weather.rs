@@ -256,11 +256,6 @@ impl Weather {
             }
         }
     }
-
-    /// Velocity of all winds together at a point, whatever stands in their way, m/s.
-    pub fn all(&self, point: DVec3) -> DVec3 {
-        (0..self.len()).map(|index| self.air(index, point).0).sum()
-    }
 }
 
 #[cfg(test)]
@@ -276,7 +271,7 @@ mod tests {
 
     fn at(weather: &mut Weather, time: f64, point: DVec3) -> DVec3 {
         weather.turn_to(time);
-        weather.all(point)
+        (0..weather.len()).map(|index| weather.air(index, point).0).sum()
     }
 
     #[test]
