@@ -57,33 +57,67 @@ pub fn perlin1(x: f64, seed: u64) -> f64 {
 
 /// Perlin's gradient noise in space, about ±1, C².
 pub fn perlin3(p: glam::DVec3, seed: u64) -> f64 {
+    let (cell, t) = split(p);
+    let corners = corner_hashes(cell, seed);
+    blend(t, |i, d| along_edge(corners[i], d))
+}
+
+/// Gradient noise of three components at once, each about ±1, C²: they share the lattice, and draw their gradients
+/// from different bits of its hashes.
+pub fn perlin3_vector(p: glam::DVec3, seed: u64) -> glam::DVec3 {
+    let (cell, t) = split(p);
+    let corners = corner_hashes(cell, seed);
+    blend(t, |i, d| {
+        let h = corners[i];
+        glam::DVec3::new(along_edge(h, d), along_edge(h >> 16, d), along_edge(h >> 32, d))
+    })
+}
+
+/// Cell of the lattice, and where in it.
+fn split(p: glam::DVec3) -> (glam::DVec3, glam::DVec3) {
     let cell = p.floor();
-    let t = p - cell;
+    (cell, p - cell)
+}
+
+/// Hashes of a cell's corners, as [`hash_words`] of seed, x, y and z; corner i is off by the bits of i.
+fn corner_hashes(cell: glam::DVec3, seed: u64) -> [u64; 8] {
+    let word = |x: f64, i: usize| (x + i as f64) as i64 as u64;
+    let start = hash_words(&[seed]);
+    let x = [0, 1].map(|i| hash(start ^ word(cell.x, i)));
+    let y = [0, 1, 2, 3].map(|i: usize| hash(x[i & 1] ^ word(cell.y, i >> 1)));
+    [0, 1, 2, 3, 4, 5, 6, 7].map(|i: usize| hash(y[i & 3] ^ word(cell.z, i >> 2)))
+}
+
+/// Product of `d` with one of the twelve edge directions of a cube (Perlin 2002), picked by the four lowest bits.
+fn along_edge(bits: u64, d: glam::DVec3) -> f64 {
+    let glam::DVec3 { x, y, z } = d;
+    match bits & 15 {
+        0 | 12 => x + y,
+        1 | 13 => y - x,
+        2 => x - y,
+        3 => -x - y,
+        4 => x + z,
+        5 => z - x,
+        6 => x - z,
+        7 => -x - z,
+        8 => y + z,
+        9 | 14 => z - y,
+        10 => y - z,
+        _ => -y - z,
+    }
+}
+
+/// Blends what the eight corners of a cell say at `t` in it; they are asked with their number and the way from them.
+fn blend<V>(t: glam::DVec3, corner: impl Fn(usize, glam::DVec3) -> V) -> V
+where
+    V: Copy + std::ops::Add<Output = V> + std::ops::Sub<Output = V>,
+    f64: std::ops::Mul<V, Output = V>,
+{
     let (u, v, w) = (fade(t.x), fade(t.y), fade(t.z));
-    let corner = |dx: f64, dy: f64, dz: f64| {
-        let at = [(cell.x + dx) as i64 as u64, (cell.y + dy) as i64 as u64, (cell.z + dz) as i64 as u64];
-        // The twelve edge directions of a cube (Perlin 2002), picked by four bits.
-        let (x, y, z) = (t.x - dx, t.y - dy, t.z - dz);
-        match hash_words(&[seed, at[0], at[1], at[2]]) & 15 {
-            0 | 12 => x + y,
-            1 | 13 => y - x,
-            2 => x - y,
-            3 => -x - y,
-            4 => x + z,
-            5 => z - x,
-            6 => x - z,
-            7 => -x - z,
-            8 => y + z,
-            9 | 14 => z - y,
-            10 => y - z,
-            _ => -y - z,
-        }
-    };
-    let mix = |a: f64, b: f64, s: f64| a + s * (b - a);
-    let x00 = mix(corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), u);
-    let x10 = mix(corner(0.0, 1.0, 0.0), corner(1.0, 1.0, 0.0), u);
-    let x01 = mix(corner(0.0, 0.0, 1.0), corner(1.0, 0.0, 1.0), u);
-    let x11 = mix(corner(0.0, 1.0, 1.0), corner(1.0, 1.0, 1.0), u);
+    let at = |i: usize| corner(i, t - glam::DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64));
+    let mix = |a: V, b: V, s: f64| a + s * (b - a);
+    let (x00, x10) = (mix(at(0), at(1), u), mix(at(2), at(3), u));
+    let (x01, x11) = (mix(at(4), at(5), u), mix(at(6), at(7), u));
     mix(mix(x00, x10, v), mix(x01, x11, v), w)
 }
 

@@ -305,6 +305,10 @@ impl System {
             let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
             self.states[coupling.at].set(&row, coupling.constraint, share);
         }
+        // Whoever draws open joints together, or lets them yield, asks how far they are open.
+        if self.gathering {
+            self.tell_values();
+        }
     }
 
     /// Adds the soft rows of pivot friction for a time `h` (s), with the loads (N) that the joints carry.
@@ -377,7 +381,6 @@ impl System {
     /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
         if self.gathering {
-            self.tell_values();
             self.hung.tell_biases(&self.tree, &mut self.states);
             self.rates(bodies);
             for (g, state) in self.g.iter_mut().zip(&self.states) {

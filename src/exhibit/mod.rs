@@ -11,7 +11,9 @@ use crate::collision::{Collider, Exclusion};
 use crate::dynamics::{Drive, Integrator, Solver};
 use crate::math::{DVec3, Pose};
 use crate::sound::InstrumentSpec;
-use crate::wind::Surface;
+use crate::wind::breath::Law;
+use crate::wind::weather::Wind;
+use crate::wind::{Shelter, Surface};
 
 pub mod codes;
 pub mod diagnostic;
@@ -79,6 +81,12 @@ pub struct Exhibit {
     pub excluded_pairs: Vec<Exclusion>,
     /// What feels the wind.
     pub wind_surfaces: Vec<Surface>,
+    /// What stands in the wind's way.
+    pub shelters: Vec<Shelter>,
+    /// Winds that blow by themselves.
+    pub winds: Vec<Wind>,
+    /// What a breath is to this exhibit.
+    pub breath: BreathTuning,
     /// Sounding bodies.
     pub instruments: Vec<InstrumentSpec>,
     /// Which motion plays which instrument.
@@ -204,6 +212,23 @@ pub struct Wire {
     pub metallic: f32,
     /// Perceptual roughness 0…1.
     pub roughness: f32,
+}
+
+/// What a breath is to an exhibit, besides what the site's configuration says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BreathTuning {
+    /// How it spreads.
+    pub law: Law,
+    /// Multiplies its force on top of the site's and the profile's gain.
+    pub gain: f64,
+    /// Diameter of the lips, m, where it is not the site's.
+    pub lip_diameter: Option<f64>,
+}
+
+impl Default for BreathTuning {
+    fn default() -> Self {
+        Self { law: Law::default(), gain: 1.0, lip_diameter: None }
+    }
 }
 
 /// Which motion of which body plays which instrument.

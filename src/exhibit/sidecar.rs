@@ -11,6 +11,7 @@ mod function;
 mod joints;
 mod surfaces;
 mod timing;
+mod wind;
 mod words;
 
 use std::collections::BTreeMap;
@@ -27,6 +28,7 @@ pub use function::*;
 pub use joints::*;
 pub use surfaces::*;
 pub use timing::*;
+pub use wind::*;
 pub use words::*;
 
 /// A name: lower-case letters, digits and hyphens.
@@ -73,6 +75,9 @@ pub struct Sidecar {
     /// What feels the wind.
     #[serde(default)]
     pub wind_surface: Vec<WindSurface>,
+    /// What a breath is to the exhibit, and what blows by itself.
+    #[serde(default)]
+    pub wind: Winds,
     /// Which motion of which body plays which sound.
     #[serde(default)]
     pub sound: Vec<Sound>,

@@ -14,10 +14,6 @@ use crate::simulation::{BreathView, Snapshot};
 use super::input::Request;
 use super::words::{language_name, words};
 
-/// Half-width of a round jet over its length: where it is half as fast as on its axis (method 4.1).
-const JET_HALF_WIDTH: f64 = 0.094;
-/// Speed that fills the breath meter, m/s: a strong breath at the lips.
-const FULL_METER: f64 = 16.0;
 /// Quiet time after which the invitation comes back, s.
 const INVITE_AGAIN: f64 = 8.0;
 /// Time in which the invitation fades, s.
@@ -179,33 +175,31 @@ impl Page<'_> {
 
     /// The aim ring where the jet meets the sculpture, and the breath as an arc along it.
     fn ring(&self, picture: Rect, view: &View, breath: &BreathView) {
-        let distance = breath.mouth.distance(breath.target);
-        if distance < 1e-6 {
+        let ring = &breath.ring;
+        if ring.radius <= 0.0 {
             return;
         }
         let aspect = f64::from(picture.width() / picture.height());
-        let (across, along) = tangents(breath.direction);
-        let upright = view.up - breath.direction * view.up.dot(breath.direction);
+        let (across, along) = tangents(ring.axis);
+        let upright = view.up - ring.axis * view.up.dot(ring.axis);
         let along = upright.try_normalize().unwrap_or(along);
         // Clockwise for whoever looks along the breath.
-        let across = if upright.length() > 0.0 { breath.direction.cross(along) } else { across };
+        let across = if upright.length() > 0.0 { ring.axis.cross(along) } else { across };
         let circle = |radius: f64, share: f64| -> Vec<Pos2> {
             let corners = (96.0 * share).ceil().max(2.0);
             let at = |i: f64| {
                 let (s, c) = (2.0 * PI * share * i / corners).sin_cos();
-                let world = breath.target + radius * (along * c + across * s);
+                let world = ring.center + radius * (along * c + across * s);
                 let [x, y] = view.project(world, aspect)?;
                 Some(picture.lerp_inside(vec2(x as f32, y as f32)))
             };
             (0..=corners as u32).filter_map(|i| at(f64::from(i))).collect()
         };
-        let radius = JET_HALF_WIDTH * distance;
-        self.line(circle(radius, 1.0), 0.07, INK.gamma_multiply(0.75));
-        let meter = (breath.speed / FULL_METER).clamp(0.0, 1.0);
-        if meter > 0.0 {
-            self.line(circle(1.12 * radius, meter), 0.22, VERMILION);
+        self.line(circle(ring.radius, 1.0), 0.07, INK.gamma_multiply(0.75));
+        if breath.meter > 0.0 {
+            self.line(circle(1.12 * ring.radius, breath.meter), 0.22, VERMILION);
         }
-        if let Some([x, y]) = view.project(breath.target, aspect) {
+        if let Some([x, y]) = view.project(ring.center, aspect) {
             let at = picture.lerp_inside(vec2(x as f32, y as f32));
             self.painter.circle_filled(at, 0.16 * self.em, HALO);
             self.painter.circle_filled(at, 0.09 * self.em, INK);

@@ -19,18 +19,19 @@ use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
 use crate::exhibit::{Exhibit, View};
-use crate::math::{DVec3, StateHash};
+use crate::math::StateHash;
 use crate::sound::SoundCommand;
 use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
-use crate::wind::force::{Breath, WindField, WindReport};
-use crate::wind::jet::{Front, Jet};
+use crate::wind::breath::Breath;
+use crate::wind::force::{Blown, WindField, WindReport};
+use crate::wind::front::Front;
 
 use aim::{Aim, AimTarget};
 pub use event::{Event, EventKind, Part};
 use motes::Motes;
 pub use script::{Script, ScriptError};
-pub use snapshot::{BreathView, Diagnostics, Mote, Snapshot};
+pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
 use sonify::Listener;
 use source::BreathSource;
 
@@ -44,6 +45,9 @@ pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+
+/// Source speed that fills the breath meter, m/s: a strong breath.
+const FULL_METER: f64 = 16.0;
 
 /// Room for what happens in one step: more makes its list grow, once.
 const LISTED: usize = 64;
@@ -59,10 +63,12 @@ pub enum Profile {
 }
 
 /// The gallery's gain is this speed over the breath's own, so that its force grows with the speed and not with its
-/// square: a gentle 3.8 m/s counts eightfold, a hard 17 m/s less than twofold.
-const GALLERY_SPEED: f64 = 30.0;
-/// Bounds of that gain.
-const GALLERY_GAIN: (f64, f64) = (1.0, 8.0);
+/// square: a gentle 3.8 m/s counts nine times, a hard 17 m/s twice. A child's 0.3 L/s from half a metre (1.4 mN at the
+/// most) so pushes with 13 mN at the most, and moves a plate of *Steel Fish* by 17 mm and more on a 55-inch picture
+/// within a second.
+const GALLERY_SPEED: f64 = 36.0;
+/// Bounds of that gain: below 3.6 m/s it is no breath that is meant to be seen, and no breath is ever weakened.
+const GALLERY_GAIN: (f64, f64) = (1.0, 10.0);
 
 impl Profile {
     /// Force gain at a source speed (m/s).
@@ -187,7 +193,13 @@ impl Simulation {
         let view = exhibit.view(DEFAULT_ASPECT);
         Self {
             dynamics: start_dynamics(&exhibit, &settings),
-            wind: WindField::new(&exhibit.wind_surfaces, exhibit.bodies.len(), settings.seed),
+            wind: WindField::new(
+                &exhibit.wind_surfaces,
+                &exhibit.shelters,
+                &exhibit.winds,
+                exhibit.bodies.len(),
+                settings.seed,
+            ),
             motes: Motes::new(view.target, settings.seed),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
@@ -272,8 +284,9 @@ impl Simulation {
             return;
         }
         self.front.advance(self.speed, DT);
-        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
-        self.report = self.wind.push(&self.dynamics.bodies, breath.as_ref(), &mut self.wrenches);
+        let time = (self.step - self.start_step) as f64 * DT;
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        self.report = self.wind.push(&self.dynamics.bodies, time, blown.as_ref(), &mut self.wrenches);
     }
 
     /// Turns what happened into events and sounds.
@@ -303,18 +316,19 @@ impl Simulation {
             self.fault_count += 1;
             enter(&mut self.events, Event::fault(began, body, bodies));
         }
-        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         // What is heard is the wind the sculpture feels: a gain on the force is its root on the speed.
-        let air = breath.map_or(0.0, |breath| breath.gain.sqrt() * self.wind.air(&breath, self.aim.target).length());
+        let air = blown.map_or(0.0, |blown| blown.gain.sqrt() * self.wind.breath_at(&blown, self.aim.target).length());
         let sample = (self.step + 1) * SAMPLES_PER_STEP;
         self.sounds.push(sonify::wind(sample, air, self.report.gust, self.aim.target, &listener));
     }
 
     /// Lets the dust drift.
     fn drift(&mut self) {
-        let breath = breath(&self.settings, &self.aim, &self.front, self.speed, self.step);
-        let jet = breath.as_ref().map(|b| &b.jet).filter(|jet| jet.speed > 0.0);
-        self.motes.advance(jet, |p| breath.as_ref().map_or(DVec3::ZERO, |b| self.wind.air(b, p)), DT);
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        let breath = blown.as_ref().map(|blown| &blown.breath).filter(|breath| breath.speed > 0.0);
+        let streams = |point| self.wind.streams(blown.as_ref(), point);
+        self.motes.advance(breath, streams, |point| self.wind.stirs(point), DT);
     }
 
     /// Events of the last step, in time order.
@@ -374,6 +388,8 @@ impl Simulation {
                 mouth: self.aim.mouth,
                 direction: self.aim.direction,
                 target: self.aim.target,
+                ring: self.aim_ring(),
+                meter: (self.speed / FULL_METER).clamp(0.0, 1.0),
             },
             motes: self.motes.view().collect(),
             diagnostics: Diagnostics {
@@ -385,6 +401,13 @@ impl Simulation {
                 wind_force: self.report.force,
             },
         }
+    }
+
+    /// The breath's own width where it is aimed.
+    fn aim_ring(&self) -> AimRing {
+        let breath = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
+        let radius = breath.half_width(self.aim.target.distance(self.aim.mouth));
+        AimRing { center: self.aim.target, axis: self.aim.direction, radius }
     }
 
     /// The camera of the exhibit for a picture of this aspect (width / height).
@@ -410,16 +433,27 @@ fn enter(events: &mut Vec<Event>, event: Event) {
     events.insert(place, event);
 }
 
-/// The breath of this step; `None` where no air of one is anywhere, or wind is off.
-fn breath<'a>(settings: &Settings, aim: &Aim, front: &'a Front, speed: f64, step: u64) -> Option<Breath<'a>> {
-    let jet = Jet { mouth: aim.mouth, direction: aim.direction, lip_diameter: settings.lip_diameter, speed };
+/// The breath as it is pointed now.
+fn breath(exhibit: &Exhibit, settings: &Settings, aim: &Aim, speed: f64) -> Breath {
+    let tuning = &exhibit.breath;
+    Breath {
+        mouth: aim.mouth,
+        direction: aim.direction,
+        lip_diameter: tuning.lip_diameter.unwrap_or(settings.lip_diameter),
+        speed,
+        law: tuning.law,
+    }
+}
+
+/// What the breath does in this step; `None` where no air of one is anywhere, or wind is off.
+fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front, speed: f64) -> Option<Blown<'a>> {
     let front = match settings.profile {
         Profile::Gallery => None,
         Profile::True => Some(front),
     };
-    let gain = settings.breath_gain * settings.profile.gain(speed);
+    let gain = exhibit.breath.gain * settings.breath_gain * settings.profile.gain(speed);
     let blows = speed > 0.0 || front.is_some_and(Front::in_flight);
-    (blows && settings.wind).then_some(Breath { jet, front, gain, time: step as f64 * DT })
+    (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
 /// The exhibit's figure at its start.

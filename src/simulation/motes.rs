@@ -1,18 +1,27 @@
-//! Dust in the air: specks that drift, and are carried and lit where a breath passes, so that wind can be seen.
+//! Dust in the air: specks that every wind carries with it, lit where they are fast, so that wind can be seen.
+//!
+//! A speck follows the air at its place within a few hundredths of a second, and settles in still air's own slow drift.
+//! Their number is constant: a speck that has lived its life, or was carried too far, comes back elsewhere in the room,
+//! or in the breath where there is one. It fades out before and in after, and so is never seen to jump.
 
 use super::snapshot::Mote;
 use crate::math::{DVec3, exp, tangents};
-use crate::noise::{Random, perlin3};
-use crate::wind::jet::{Jet, SPREAD};
+use crate::noise::{Random, perlin3_vector};
+use crate::wind::breath::Breath;
 
 /// Specks in the room.
 const COUNT: usize = 120;
 /// Half-width of the cube they float in around the view's target, m.
 const ROOM: f64 = 0.5;
+/// A speck carried farther than this from the view's target comes back, m.
+const REACH: f64 = 1.2;
 /// A speck takes on the air's velocity within this time, s.
 const CARRIED: f64 = 0.03;
 /// Drift of the room's air that carries dust (not sculptures), m/s.
 const DRIFT: f64 = 0.012;
+const DRIFT_SEED: u64 = 11;
+/// A speck slower than this shows nothing of a breath, m/s.
+const DULL: f64 = 0.05;
 /// Steps between two looks at that drift.
 const DRIFT_STEPS: usize = 24;
 /// Lives end after this long, s: in the room, and in a breath.
@@ -56,26 +65,35 @@ impl Motes {
         Self { specks, random, center, time: 0.0, step: 0 }
     }
 
-    /// Lets the air carry the dust for `dt` seconds; `air` is the breath's velocity at a point.
-    pub fn advance(&mut self, jet: Option<&Jet>, air: impl Fn(DVec3) -> DVec3, dt: f64) {
+    /// Lets the air carry the dust for `dt` seconds. Its velocity at a point is that of the `streams` (breath, fans,
+    /// draughts) and of the air that the room `stirs`, which changes slowly. The breath, where there is one, draws specks
+    /// into itself.
+    pub fn advance(
+        &mut self,
+        breath: Option<&Breath>,
+        streams: impl Fn(DVec3) -> DVec3,
+        stirs: impl Fn(DVec3) -> DVec3,
+        dt: f64,
+    ) {
         self.time += dt;
         self.step += 1;
         let share = 1.0 - exp(-dt / CARRIED);
         for (index, speck) in self.specks.iter_mut().enumerate() {
-            // The room's air changes slowly: each speck asks it now and then, in turn.
+            // Each speck asks for the room's air now and then, in turn.
             if (index + self.step).is_multiple_of(DRIFT_STEPS) {
                 let at = speck.position / 0.2 + DVec3::splat(0.1 * self.time);
-                speck.drift = DVec3::new(perlin3(at, 11), perlin3(at, 12), perlin3(at, 13)) * DRIFT;
+                speck.drift = perlin3_vector(at, DRIFT_SEED) * DRIFT + stirs(speck.position);
             }
-            speck.velocity = speck.velocity.lerp(air(speck.position) + speck.drift, share);
+            speck.velocity = speck.velocity.lerp(streams(speck.position) + speck.drift, share);
             speck.position += dt * speck.velocity;
             speck.age += dt;
-            let in_breath = jet.filter(|_| index < IN_BREATH);
+            let in_breath = breath.filter(|_| index < IN_BREATH);
             // A breath draws dust in at once; without one, a speck lives its life.
-            let dull = in_breath.is_some() && speck.life > LIFE.1 && speck.velocity.length() < 0.05;
-            if speck.age > speck.life || dull {
+            let dull = in_breath.is_some() && speck.life > LIFE.1 && speck.velocity.length() < DULL;
+            let gone = speck.position.distance_squared(self.center) > REACH * REACH;
+            if speck.age > speck.life || dull || gone {
                 *speck = match in_breath {
-                    Some(jet) => in_jet(&mut self.random, jet),
+                    Some(breath) => in_stream(&mut self.random, breath),
                     None => in_room(&mut self.random, self.center),
                 };
             }
@@ -103,17 +121,101 @@ fn in_room(random: &mut Random, center: DVec3) -> Speck {
     Speck { position: center + offset, velocity: DVec3::ZERO, drift: DVec3::ZERO, age: 0.0, life }
 }
 
-/// Somewhere in the core of the jet, from a hand before the lips to past the sculpture.
-fn in_jet(random: &mut Random, jet: &Jet) -> Speck {
+/// Somewhere in the core of the breath, from a hand before the lips to past the sculpture.
+fn in_stream(random: &mut Random, breath: &Breath) -> Speck {
     let x = random.range(0.08, 0.75);
-    let (t, b) = tangents(jet.direction);
-    let across = (t * random.signed() + b * random.signed()) * (SPREAD * x);
-    let position = jet.mouth + x * jet.direction + across;
+    let (t, b) = tangents(breath.direction);
+    let across = (t * random.signed() + b * random.signed()) * breath.half_width(x);
+    let position = breath.mouth + x * breath.direction + across;
     Speck {
         position,
-        velocity: jet.velocity(position),
+        velocity: breath.velocity(position),
         drift: DVec3::ZERO,
         age: 0.0,
         life: LIFE.1 * random.range(0.5, 1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wind::breath::Law;
+
+    const DT: f64 = 1.0 / 240.0;
+    const SEED: u64 = 4;
+
+    fn still(_: DVec3) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    #[test]
+    fn every_speck_goes_with_the_air() {
+        // A vortex: after some time constants each speck has the velocity of the air where it is, but for its own drift
+        // and for what the air changes within the time constant.
+        let vortex = |p: DVec3| DVec3::Y.cross(p) * 0.5 + DVec3::Y * 0.1;
+        let mut motes = Motes::new(DVec3::ZERO, SEED);
+        for _ in 0..60 {
+            motes.advance(None, vortex, still, DT);
+        }
+        let lag = CARRIED * 0.5 * 0.5 * REACH;
+        let young = |speck: &&Speck| speck.age > 8.0 * CARRIED;
+        let mut seen = 0;
+        for speck in motes.specks.iter().filter(young) {
+            let off = speck.velocity.distance(vortex(speck.position));
+            assert!(off < 2.0 * DRIFT + lag, "seed {SEED}: {off} m/s off the air");
+            seen += 1;
+        }
+        assert!(seen > COUNT / 2, "{seen} specks");
+        let before: Vec<(DVec3, f64)> = motes.specks.iter().map(|s| (s.position, s.age)).collect();
+        motes.advance(None, vortex, still, DT);
+        for (speck, (position, age)) in motes.specks.iter().zip(before) {
+            if speck.age > age {
+                assert!((speck.position - position - DT * speck.velocity).length() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_room_stirs_carries_dust_too() {
+        let mut motes = Motes::new(DVec3::ZERO, SEED);
+        for _ in 0..2 * DRIFT_STEPS {
+            motes.advance(None, still, |_| DVec3::X * 0.2, DT);
+        }
+        let mean = motes.specks.iter().map(|s| s.velocity.x).sum::<f64>() / COUNT as f64;
+        assert!((mean - 0.2).abs() < 0.03, "seed {SEED}: {mean} m/s");
+    }
+
+    #[test]
+    fn none_is_lost_however_the_wind_blows() {
+        let mut motes = Motes::new(DVec3::X, SEED);
+        let breath = Breath {
+            mouth: DVec3::new(1.0, 0.0, 0.5),
+            direction: DVec3::NEG_Z,
+            lip_diameter: 0.01,
+            speed: 17.0,
+            law: Law::Jet,
+        };
+        for step in 0..2400 {
+            let blows = Some(&breath).filter(|_| step / 240 % 2 == 0);
+            motes.advance(blows, |p| DVec3::X * 0.8 + blows.map_or(DVec3::ZERO, |b| b.velocity(p)), still, DT);
+            assert_eq!(motes.specks.len(), COUNT);
+            for mote in motes.view() {
+                let far = DVec3::from(mote.position.map(f64::from)).distance(DVec3::X);
+                assert!(far <= REACH + 1e-6, "seed {SEED}: {far} m off in step {step}");
+                assert!((0.0..=1.0).contains(&mote.brightness));
+            }
+        }
+    }
+
+    #[test]
+    fn a_breath_is_seen_at_once() {
+        let mut motes = Motes::new(DVec3::ZERO, SEED);
+        let breath =
+            Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 9.0, law: Law::Jet };
+        for _ in 0..24 {
+            motes.advance(Some(&breath), |p| breath.velocity(p), still, DT);
+        }
+        let carried = motes.specks.iter().filter(|s| s.velocity.length() > 0.2).count();
+        assert!(carried > COUNT / 4, "seed {SEED}: {carried} specks show the breath after a tenth of a second");
     }
 }

@@ -27,6 +27,21 @@ pub struct BreathView {
     pub direction: DVec3,
     /// Where it is aimed, world, m.
     pub target: DVec3,
+    /// The ring that shows the aim.
+    pub ring: AimRing,
+    /// How full the breath meter is, 0 … 1: exactly 0 when nobody blows.
+    pub meter: f64,
+}
+
+/// A circle of air, as wide as the breath is where it meets the sculpture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AimRing {
+    /// World, m.
+    pub center: DVec3,
+    /// Unit, downstream.
+    pub axis: DVec3,
+    /// m.
+    pub radius: f64,
 }
 
 /// Numbers for staff and for the summary of a run.

@@ -1,224 +1,379 @@
 //! The wind's force on moving patches.
 //!
-//! Per patch, with w the air's velocity and u the patch's own, v = w − u the relative wind, n the outward normal:
+//! Per patch, with w the air's velocity and u the patch's own, v = w − u the relative wind, n the outward normal, t the
+//! direction of a wire:
 //!
 //! ```text
-//! side:   F = ½ ρ C_D A |v_n| v_n n             where v_n = v·n < 0 (the windward side carries the plate's whole C_D)
-//!           + ½ ρ C_f A |v_t| v_t               skin friction along the face
-//! sheet:  the same for either sign of v_n      (a mesh that is one face of a thin sheet)
-//! wire:   F = ½ ρ C_D A |v_⊥| v_⊥               v_⊥ across the wire
+//! side    F = ½ ρ A (C_D |v_n| v_n n + C_f |v_t| v_t)     v_n = v·n < 0 (the windward side carries the plate's whole C_D)
+//! sheet   the same for either sign of v_n                 (a mesh that is one face of a thin sheet)
+//! wire    F = ½ ρ A (C_D |v_⊥| v_⊥ + π C_f |v_∥| v_∥)     across and along a cylinder of A = length · diameter
 //! ```
 //!
 //! This is quadratic drag at Reynolds numbers of 10³–10⁵ (the source calls it Stokes drag). Because v is relative,
 //! still air damps; because plates have many patches, rotation is damped too.
 //!
-//! Breath reaches only patches that face the lips and see them: a ray from the patch to the lips must pass every
-//! other body. Turbulence multiplies the breath by 1 + β n(x − U t), a seeded gradient noise carried downstream: the
-//! same in two neighbouring patches and from run to run. The sum of the breath's forces never exceeds its momentum
-//! flow ρ Q U₀.
+//! The air w is the sum of the winds of `weather.rs` and of the breath. Breath, fans and draughts reach only patches
+//! that face them and see where they come from, past every shelter: for the breath that is the vertex of its cone. What
+//! the breath adds to the force of all else has three further rules:
+//!
+//! ```text
+//! turbulence   F_i += β |F_i| H g(x_i − U_e t, t)   |g| < 1 seeded vector noise of any direction, carried downstream:
+//!                                                   nearly the same in neighbours, and the same from run to run; H is
+//!                                                   what a patch takes of it, as of the wind: of what presses on a face
+//!                                                   all and of what slips along it C_f/C_D. So |F_random| < β |F|
+//! bound        Σ |F_i| ≤ ρ Q v₀                     v₀ of the fastest air that arrives: a breath cannot push harder than
+//!                                                   its own momentum, whatever it meets
+//! gain         F_i ← gain · F_i                     the profile's, after the bound
+//! ```
 
-use super::jet::{AIR_DENSITY, Front, Jet};
+use std::cell::Cell;
+use std::ops::Range;
+
+use super::breath::{AIR_DENSITY, Breath};
+use super::front::Front;
 use super::patches::{Face, Patch, split};
-use super::{Surface, SurfaceShape};
+use super::weather::{Upwind, Weather, Wind};
+use super::{Shelter, Surface};
 use crate::articulation::block::{Vec6, vec6};
+use crate::articulation::spatial::matrix;
 use crate::bodies::RigidBody;
-use crate::geometry::rays::RayMesh;
-use crate::math::{DVec3, Pose};
-use crate::noise::perlin3;
+use crate::geometry::rays::{Hint, Occluders};
+use crate::math::{DVec3, PI};
+use crate::noise::perlin3_vector;
 
-/// Relative strength of the gusts within a breath, rms about a quarter.
-const TURBULENCE: f64 = 0.45;
-/// Size of the eddies, m.
+/// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
+/// on a face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
+pub const TURBULENCE: f64 = 0.6;
+/// Size of the eddies in a breath, m.
 const EDDY: f64 = 0.06;
+/// How fast they are carried downstream, m/s, and how fast they change, 1/s.
+const EDDY_SPEED: f64 = 0.5;
+const EDDY_CHANGE: f64 = 0.37;
+/// The noise is drawn out by this before it is bent below 1: else it would hardly ever come near.
+const EDDY_STRENGTH: f64 = 2.0;
 /// Wind below this needs no ray, m/s.
 const STILL_AIR: f64 = 0.01;
 /// Rays start this far off their own face, m.
 const RAY_START: f64 = 1e-4;
+/// What stands farther off than this shelters from no wind, m.
+const FAR: f64 = 50.0;
 
 /// A surface's patches and coefficients.
 struct Feeler {
     body: usize,
     patches: Vec<Patch>,
+    /// What hid each patch the last time.
+    hints: Vec<Cell<Hint>>,
+    /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
+    groups: Vec<(DVec3, Range<usize>)>,
     drag_normal: f64,
     drag_tangential: f64,
     gain: f64,
 }
 
-/// What the breath does in one step, ready for every patch.
-pub struct Breath<'a> {
-    /// The jet at the source's present speed.
-    pub jet: Jet,
+impl Feeler {
+    /// Patches within `alike` metres of each other's middle are one group.
+    fn new(surface: &Surface, alike: f64) -> Self {
+        let mut patches = split(surface);
+        let mut groups = Vec::new();
+        gather(&mut patches, 0, alike, &mut groups);
+        Self {
+            body: surface.body,
+            hints: vec![Cell::default(); patches.len()],
+            groups,
+            patches,
+            drag_normal: surface.drag_normal,
+            drag_tangential: surface.drag_tangential,
+            gain: surface.gain,
+        }
+    }
+
+    /// Drag of a patch that lies along `axis` in the world in the relative wind `v` (m/s), N.
+    fn drag(&self, patch: &Patch, axis: DVec3, v: DVec3) -> DVec3 {
+        let pressure = 0.5 * AIR_DENSITY * patch.area * self.gain;
+        let along = v.dot(axis);
+        let across = v - along * axis;
+        let (mut c_along, c_across) = self.coefficients(patch.face);
+        if patch.face == Face::Side && along >= 0.0 {
+            c_along = 0.0;
+        }
+        pressure * (c_along * along.abs() * along * axis + c_across * across.length() * across)
+    }
+
+    /// Drag coefficients along a patch's axis and across it.
+    fn coefficients(&self, face: Face) -> (f64, f64) {
+        match face {
+            Face::Side | Face::Sheet => (self.drag_normal, self.drag_tangential),
+            Face::Wire => (PI * self.drag_tangential, self.drag_normal),
+        }
+    }
+
+    /// H g: what a patch takes of the turbulence `g`, never more than all of it.
+    fn shaken(&self, patch: &Patch, axis: DVec3, g: DVec3) -> DVec3 {
+        let (c_along, c_across) = self.coefficients(patch.face);
+        let most = c_along.max(c_across);
+        if most <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let along = g.dot(axis) * axis;
+        (c_along * along + c_across * (g - along)) / most
+    }
+}
+
+/// Sorts patches, which begin at `start`, into groups of radius `alike` by halving them along their longest way.
+fn gather(patches: &mut [Patch], start: usize, alike: f64, groups: &mut Vec<(DVec3, Range<usize>)>) {
+    let Some(first) = patches.first().map(|patch| patch.point) else { return };
+    let (low, high) = patches.iter().fold((first, first), |(l, h), p| (l.min(p.point), h.max(p.point)));
+    if (high - low).length() <= 2.0 * alike || patches.len() == 1 {
+        groups.push((0.5 * (low + high), start..start + patches.len()));
+        return;
+    }
+    let longest = (high - low).max_position();
+    patches.sort_by(|a, b| a.point[longest].total_cmp(&b.point[longest]));
+    let (near, far) = patches.split_at_mut(patches.len() / 2);
+    gather(near, start, alike, groups);
+    gather(far, start + near.len(), alike, groups);
+}
+
+/// The breath of one step.
+pub struct Blown<'a> {
+    /// At the source's present speed.
+    pub breath: Breath,
     /// Air in flight; `None`: the breath is everywhere at once.
     pub front: Option<&'a Front>,
     /// Multiplies the breath's force.
     pub gain: f64,
-    /// Seconds, for the gusts.
-    pub time: f64,
+}
+
+impl Blown<'_> {
+    /// Velocity of the breath's air at a point without gusts, and the speed at which it left the lips, m/s.
+    fn air(&self, point: DVec3) -> (DVec3, f64) {
+        let Some((x, share)) = self.breath.share(point) else { return (DVec3::ZERO, 0.0) };
+        let source = match self.front {
+            Some(front) => front.speed_at(x, self.breath.lip_diameter),
+            None => self.breath.speed,
+        };
+        let speed = share * source;
+        if speed < STILL_AIR {
+            return (DVec3::ZERO, 0.0);
+        }
+        (self.breath.flow_direction(point) * speed, source)
+    }
 }
 
 /// What the wind did in one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WindReport {
-    /// Sum of all forces, N.
+    /// Sum of all forces, still air's among them, N.
     pub force: DVec3,
-    /// Relative gust at the target, about ±1.
+    /// The breath's part of it, N.
+    pub breath: DVec3,
+    /// What the breath's part cannot exceed, N: momentum flow times gain.
+    pub bound: f64,
+    /// Relative gust in the breath half a metre before the lips, within ±1.
     pub gust: f64,
 }
 
-/// All that feels the wind in an exhibit.
-#[derive(Default)]
+/// A patch as it stands in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Index of its surface.
+    pub surface: usize,
+    /// Index of the patch on it.
+    pub patch: usize,
+    /// World, m.
+    pub point: DVec3,
+    /// Outward normal or direction of the wire, world, unit.
+    pub axis: DVec3,
+    /// m².
+    pub area: f64,
+    /// Does it face the vertex of the breath's cone, and see it?
+    pub seen: bool,
+}
+
+/// All that feels the wind in an exhibit, and all winds of it.
 pub struct WindField {
     feelers: Vec<Feeler>,
-    /// Per body: what casts wind shadow.
-    shelters: Vec<Option<RayMesh>>,
+    weather: Weather,
+    occluders: Occluders,
     seed: u64,
-    breath: Vec<Vec6>,
+    blown: Vec<Vec6>,
 }
 
 impl WindField {
-    /// The surfaces of an exhibit with `bodies` bodies.
-    pub fn new(surfaces: &[Surface], bodies: usize, seed: u64) -> Self {
-        let mut shelters: Vec<Option<RayMesh>> = (0..bodies).map(|_| None).collect();
-        let feelers = surfaces
-            .iter()
-            .map(|surface| {
-                if let SurfaceShape::Mesh { mesh, .. } = &surface.shape {
-                    shelters[surface.body] = RayMesh::new(mesh);
-                }
-                Feeler {
-                    body: surface.body,
-                    patches: split(surface),
-                    drag_normal: surface.drag_normal,
-                    drag_tangential: surface.drag_tangential,
-                    gain: surface.gain,
-                }
-            })
-            .collect();
-        Self { feelers, shelters, seed, breath: vec![[0.0; 6]; bodies] }
+    /// Surfaces, shelters and winds of an exhibit with `bodies` bodies.
+    pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
+        let weather = Weather::new(winds);
+        Self {
+            feelers: surfaces.iter().map(|surface| Feeler::new(surface, weather.alike())).collect(),
+            weather,
+            occluders: Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh))),
+            seed,
+            blown: vec![[0.0; 6]; bodies],
+        }
     }
 
-    /// Adds the wind's wrenches (N, N m about each centre of mass) to `out`.
-    pub fn push(&mut self, bodies: &[RigidBody], breath: Option<&Breath>, out: &mut [Vec6]) -> WindReport {
+    /// Adds the wrenches (N, N m about each centre of mass) of all winds at `time` (s since the reset) to `out`.
+    pub fn push(&mut self, bodies: &[RigidBody], time: f64, blown: Option<&Blown>, out: &mut [Vec6]) -> WindReport {
+        self.weather.turn_to(time);
+        if blown.is_some() || !self.weather.is_empty() {
+            self.occluders.refit(|body| bodies[body].pose());
+        }
         let mut report = WindReport::default();
-        self.breath.fill([0.0; 6]);
-        let mut breath_total = 0.0;
-        let poses = |body: usize| bodies[body].pose();
+        self.blown.fill([0.0; 6]);
+        let (mut total, mut fastest) = (0.0, 0.0);
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
-            let pose = body.pose();
-            for patch in &feeler.patches {
-                let point = pose.point(patch.point);
-                let own = body.velocity_at(point);
-                let still = patch_force(patch, &pose, -own, feeler);
-                add_wrench(&mut out[feeler.body], body, point, still);
-                report.force += still;
-                let Some(breath) = breath.filter(|b| faces(patch, &pose, b.jet.mouth - point)) else { continue };
-                let air = self.air(breath, point);
-                if air.length() < STILL_AIR {
+            let frame = matrix(body.rotation);
+            let mut sum = [0.0; 6];
+            let mut sum_blown = [0.0; 6];
+            let each = feeler.groups.iter().flat_map(|(center, range)| {
+                let aimless = self.stirs(body.position + frame * (*center - body.properties.center));
+                range.clone().map(move |index| (index, aimless))
+            });
+            for (index, aimless) in each {
+                let patch = &feeler.patches[index];
+                let arm = frame * (patch.point - body.properties.center);
+                let point = body.position + arm;
+                let axis = frame * patch.axis;
+                let own = body.velocity + body.angular_velocity.cross(arm);
+                let open = |from| open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
+                let wind = aimless + self.aimed(point, open);
+                let before = feeler.drag(patch, axis, wind - own);
+                add_wrench(&mut sum, arm, before);
+                let Some(blown) = blown else { continue };
+                let (air, source) = blown.air(point);
+                if source <= 0.0 || !open(Upwind::Place(blown.breath.vertex())) {
                     continue;
                 }
-                if !self.sees(&poses, feeler.body, patch, &pose, point, breath.jet.mouth) {
-                    continue;
-                }
-                // What the breath adds to still air's own drag.
-                let blown = patch_force(patch, &pose, air - own, feeler) - still;
-                breath_total += blown.length();
-                add_wrench(&mut self.breath[feeler.body], body, point, blown);
+                let added = feeler.drag(patch, axis, wind + air - own) - before;
+                let shaken = feeler.shaken(patch, axis, self.eddy(&blown.breath, point));
+                let added = added + TURBULENCE * added.length() * shaken;
+                total += added.length();
+                fastest = source.max(fastest);
+                add_wrench(&mut sum_blown, arm, added);
             }
+            for k in 0..6 {
+                out[feeler.body][k] += sum[k];
+                self.blown[feeler.body][k] += sum_blown[k];
+            }
+            report.force += DVec3::new(sum[0], sum[1], sum[2]);
         }
-        if let Some(breath) = breath {
-            let cap = breath.jet.momentum_flow();
-            let share = breath.gain * if breath_total > cap { cap / breath_total } else { 1.0 };
-            for (out, blown) in out.iter_mut().zip(&self.breath) {
+        if let Some(blown) = blown {
+            let most = blown.breath.momentum_flow(fastest);
+            let share = blown.gain * if total > most { most / total } else { 1.0 };
+            for (out, wrench) in out.iter_mut().zip(&self.blown) {
                 for k in 0..6 {
-                    out[k] += share * blown[k];
+                    out[k] += share * wrench[k];
                 }
-                report.force += share * crate::articulation::block::linear(blown);
+                report.breath += share * DVec3::new(wrench[0], wrench[1], wrench[2]);
             }
-            report.gust = self.gust(breath, breath.jet.mouth + 0.5 * breath.jet.direction);
+            report.force += report.breath;
+            report.bound = blown.gain * most;
+            let ahead = blown.breath.mouth + 0.5 * blown.breath.direction;
+            report.gust = self.eddy(&blown.breath, ahead).dot(blown.breath.direction);
         }
         report
     }
 
-    /// Velocity of the breath's air at a point, gusts included, m/s.
-    pub fn air(&self, breath: &Breath, point: DVec3) -> DVec3 {
-        let Some((x, share)) = breath.jet.profile(point) else { return DVec3::ZERO };
-        let source = match breath.front {
-            Some(front) => front.speed_at(x, breath.jet.lip_diameter),
-            None => breath.jet.speed,
-        };
-        let mean = share * breath.jet.center_speed(x, source);
-        if mean < STILL_AIR {
+    /// Velocity at a point of the winds that come from all sides, m/s.
+    pub fn stirs(&self, point: DVec3) -> DVec3 {
+        let aimless = (0..self.weather.len()).filter(|&index| self.weather.is_aimless(index));
+        aimless.map(|index| self.weather.air(index, point).0).sum()
+    }
+
+    /// Air of all other winds at a patch that sees where they come from, m/s.
+    fn aimed(&self, point: DVec3, open: impl Fn(Upwind) -> bool) -> DVec3 {
+        let mut wind = DVec3::ZERO;
+        for index in 0..self.weather.len() {
+            if !self.weather.is_aimless(index) {
+                let (air, from) = self.weather.air(index, point);
+                if air.length_squared() > STILL_AIR * STILL_AIR && open(from) {
+                    wind += air;
+                }
+            }
+        }
+        wind
+    }
+
+    /// Velocity at a point of the breath and of all winds that go somewhere, m/s.
+    pub fn streams(&self, blown: Option<&Blown>, point: DVec3) -> DVec3 {
+        self.aimed(point, |_| true) + blown.map_or(DVec3::ZERO, |blown| self.breath_at(blown, point))
+    }
+
+    /// Velocity of the breath's air at a point, gusts included, m/s. Force goes with its square, so half of the force's
+    /// turbulence is the air's.
+    pub fn breath_at(&self, blown: &Blown, point: DVec3) -> DVec3 {
+        let (air, source) = blown.air(point);
+        if source <= 0.0 {
             return DVec3::ZERO;
         }
-        breath.jet.flow_direction(point) * (mean * (1.0 + TURBULENCE * self.gust(breath, point)))
+        air + 0.5 * TURBULENCE * air.length() * self.eddy(&blown.breath, point)
     }
 
-    /// Noise of the gusts at a point, about ±1: eddies carried downstream.
-    fn gust(&self, breath: &Breath, point: DVec3) -> f64 {
-        let carried = point - breath.jet.direction * (0.5 * breath.time);
-        perlin3(carried / EDDY + DVec3::splat(0.37 * breath.time), self.seed)
+    /// Noise of the breath's gusts at a point, shorter than 1: eddies carried downstream.
+    fn eddy(&self, breath: &Breath, point: DVec3) -> DVec3 {
+        let time = self.weather.time();
+        let carried = point - breath.direction * (EDDY_SPEED * time);
+        let noise = EDDY_STRENGTH * perlin3_vector(carried / EDDY + DVec3::splat(EDDY_CHANGE * time), self.seed);
+        noise / (1.0 + noise.length_squared()).sqrt()
     }
 
-    /// Does a patch see the lips past every other body, and past its own?
-    fn sees(
-        &self,
-        poses: &impl Fn(usize) -> Pose,
-        own: usize,
-        patch: &Patch,
-        pose: &Pose,
-        point: DVec3,
-        mouth: DVec3,
-    ) -> bool {
-        let lift = match patch.face {
-            Face::Side(normal) => pose.vector(normal) * RAY_START,
-            Face::Sheet(normal) => {
-                let n = pose.vector(normal);
-                n * (RAY_START * n.dot(mouth - point).signum())
+    /// Every patch, and whether it sees the breath.
+    pub fn samples(&mut self, bodies: &[RigidBody], breath: &Breath) -> Vec<Sample> {
+        self.occluders.refit(|body| bodies[body].pose());
+        let mut samples = Vec::new();
+        for (surface, feeler) in self.feelers.iter().enumerate() {
+            let pose = bodies[feeler.body].pose();
+            for (index, patch) in feeler.patches.iter().enumerate() {
+                let (point, axis) = (pose.point(patch.point), pose.vector(patch.axis));
+                let from = Upwind::Place(breath.vertex());
+                let seen = open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
+                samples.push(Sample { surface, patch: index, point, axis, area: patch.area, seen });
             }
-            Face::Wire(_) => DVec3::ZERO,
-        };
-        let way = mouth - (point + lift);
-        let far = way.length();
-        let direction = way / far;
-        self.shelters.iter().enumerate().all(|(body, shelter)| {
-            let pose = if body == own { *pose } else { poses(body) };
-            shelter.as_ref().is_none_or(|s| s.hit(&pose, point + lift, direction, 0.0, far).is_none())
-        })
-    }
-}
-
-/// Is the patch turned towards `to`?
-fn faces(patch: &Patch, pose: &Pose, to: DVec3) -> bool {
-    match patch.face {
-        Face::Side(normal) => pose.vector(normal).dot(to) > 0.0,
-        Face::Sheet(_) | Face::Wire(_) => true,
-    }
-}
-
-/// Drag of a patch in the relative wind `v` (m/s), N.
-fn patch_force(patch: &Patch, pose: &Pose, v: DVec3, feeler: &Feeler) -> DVec3 {
-    let pressure = 0.5 * AIR_DENSITY * patch.area * feeler.gain;
-    match patch.face {
-        Face::Side(normal) | Face::Sheet(normal) => {
-            let n = pose.vector(normal);
-            let along = v.dot(n);
-            let slip = v - along * n;
-            let lee = along >= 0.0 && matches!(patch.face, Face::Side(_));
-            let push = if lee { DVec3::ZERO } else { feeler.drag_normal * along.abs() * along * n };
-            pressure * (push + feeler.drag_tangential * slip.length() * slip)
         }
-        Face::Wire(axis) => {
-            let axis = pose.vector(axis);
-            let across = v - v.dot(axis) * axis;
-            pressure * feeler.drag_normal * across.length() * across
-        }
+        samples
+    }
+
+    /// Patches of all surfaces.
+    pub fn patches(&self) -> usize {
+        self.feelers.iter().map(|feeler| feeler.patches.len()).sum()
+    }
+
+    /// What shelters them, as it stood in the last step.
+    pub fn occluders(&self) -> &Occluders {
+        &self.occluders
     }
 }
 
-fn add_wrench(out: &mut Vec6, body: &RigidBody, point: DVec3, force: DVec3) {
-    let wrench = vec6(force, (point - body.position).cross(force));
+/// Does a patch face and see where a wind comes from?
+fn open(occluders: &Occluders, hint: &Cell<Hint>, face: Face, point: DVec3, axis: DVec3, from: Upwind) -> bool {
+    let toward = match from {
+        Upwind::Place(place) => place - point,
+        Upwind::Afar(direction) => direction,
+        Upwind::Everywhere => return true,
+    };
+    let facing = axis.dot(toward);
+    let lift = match face {
+        Face::Side if facing <= 0.0 => return false,
+        Face::Side | Face::Sheet => axis * (RAY_START * facing.signum()),
+        Face::Wire => DVec3::ZERO,
+    };
+    let start = point + lift;
+    let (direction, far) = match from {
+        Upwind::Place(place) => {
+            let way = place - start;
+            let far = way.length();
+            (way / far, far)
+        }
+        _ => (toward, FAR),
+    };
+    !occluders.block(start, direction, far, hint)
+}
+
+fn add_wrench(sum: &mut Vec6, arm: DVec3, force: DVec3) {
+    let wrench = vec6(force, arm.cross(force));
     for k in 0..6 {
-        out[k] += wrench[k];
+        sum[k] += wrench[k];
     }
 }

@@ -3,10 +3,12 @@
 use crate::geometry::TriangleMesh;
 
 pub mod blow;
+pub mod breath;
 pub mod force;
+pub mod front;
 pub mod generate;
-pub mod jet;
 pub mod patches;
+pub mod weather;
 
 /// A surface that feels the wind.
 #[derive(Clone, Debug)]
@@ -41,11 +43,31 @@ pub enum SurfaceShape {
         /// Seed of the sampling.
         seed: u64,
     },
-    /// A round wire: cross-flow drag along a polyline.
+    /// A round wire: drag of a cylinder along a polyline.
     Wire {
         /// Node frame of the body, m.
         points: Vec<crate::math::DVec3>,
         /// m.
         radius: f64,
     },
+}
+
+/// A mesh in the wind's way: what lies behind it feels none.
+#[derive(Clone, Debug)]
+pub struct Shelter {
+    /// Index of the body that carries it; `None` stands still.
+    pub body: Option<usize>,
+    /// Node frame of the body, or the world's, m.
+    pub mesh: TriangleMesh,
+}
+
+impl Shelter {
+    /// The shelters that the surfaces themselves are. Wires are too thin to give any.
+    pub fn of(surfaces: &[Surface]) -> Vec<Self> {
+        let shelter = |surface: &Surface| match &surface.shape {
+            SurfaceShape::Mesh { mesh, .. } => Some(Self { body: Some(surface.body), mesh: mesh.clone() }),
+            SurfaceShape::Wire { .. } => None,
+        };
+        surfaces.iter().filter_map(shelter).collect()
+    }
 }

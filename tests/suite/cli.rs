@@ -437,6 +437,20 @@ fn a_scene_is_measured_with_every_field() {
 }
 
 #[test]
+fn the_wind_on_ten_thousand_patches_is_twenty_times_faster_than_asking_every_triangle() {
+    /// ms on one core; a debug build may take twice as long as the release build is allowed.
+    const BUDGET: f64 = 8.0;
+    let row = Desk::new().soffio(&["bench", "--wind", "--json"]).json();
+    println!("{row}");
+    assert!(row["patches"].as_u64() >= Some(10_000) && row["triangles"].as_u64() >= Some(5_000), "{row}");
+    assert!(
+        row["ms_per_step"].as_f64().expect("ms") <= BUDGET && row["ratio"].as_f64().expect("a ratio") >= 20.0,
+        "{row}"
+    );
+    assert!(row["seen"].as_f64().expect("a count") > 1_000.0, "{row}");
+}
+
+#[test]
 fn a_scene_that_is_none_is_refused() {
     let desk = Desk::new();
     desk.write("words.json", "not a scene");

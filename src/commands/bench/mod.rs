@@ -2,6 +2,7 @@
 
 mod exhibits;
 mod scenes;
+mod wind;
 
 use std::path::PathBuf;
 
@@ -16,15 +17,15 @@ use crate::offline::scene::Limits;
 const EXHIBIT_SECONDS: f64 = 10.0;
 
 /// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, and its sound), of an
-/// articulated scene beside how well it keeps energy and joints, or of a body as figures grow.
+/// articulated scene beside how well it keeps energy and joints, of a body as figures grow, or of wind on many parts.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
-                        soffio bench --linear"
+                        soffio bench --linear\n  soffio bench --wind"
 )]
 pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
-    #[arg(conflicts_with_all = ["scene", "linear"])]
+    #[arg(conflicts_with_all = ["scene", "linear", "wind"])]
     exhibits: Vec<String>,
     /// An articulated scene, JSON of the format `isaac-bench-scene/1`; more than one may be given.
     #[arg(long, value_name = "FILE.json")]
@@ -32,6 +33,9 @@ pub struct Args {
     /// What a body costs in chains and binary trees of 10, 100, 1,000 and 10,000.
     #[arg(long, conflicts_with = "scene")]
     linear: bool,
+    /// What the wind costs on 10,000 patches among 5,000 triangles, beside asking every triangle.
+    #[arg(long, conflicts_with_all = ["scene", "linear"])]
+    wind: bool,
     /// Step of a scene, s; default are those that it names.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
     dt: Option<f64>,
@@ -70,6 +74,9 @@ enum SolverArg {
 pub fn run(args: Args) -> Outcome {
     if args.linear {
         return scenes::linear(args.json);
+    }
+    if args.wind {
+        return wind::run(args.json);
     }
     if args.scene.is_empty() {
         return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);

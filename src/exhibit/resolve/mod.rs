@@ -11,6 +11,7 @@ mod materials;
 mod motion;
 mod nodes;
 mod surfaces;
+mod winds;
 mod wires;
 mod words;
 
@@ -141,6 +142,9 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         colliders: Vec::new(),
         excluded_pairs: Vec::new(),
         wind_surfaces: Vec::new(),
+        shelters: Vec::new(),
+        winds: Vec::new(),
+        breath: super::BreathTuning::default(),
         instruments: Vec::new(),
         sounds: Vec::new(),
         attract: super::Attract::default(),
@@ -234,6 +238,9 @@ impl<'a> Context<'a> {
         let colliders = self.colliders(&wires);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
+        let shelters = self.shelters(&wind_surfaces);
+        let winds = self.winds();
+        let breath = self.breath_tuning();
         let (instruments, sounds) = self.sounds(&bodies, &colliders);
         let (integrator, solver, stabilization_time) = self.solver();
         let labels = self.labels();
@@ -257,6 +264,9 @@ impl<'a> Context<'a> {
             colliders,
             excluded_pairs,
             wind_surfaces,
+            shelters,
+            winds,
+            breath,
             instruments,
             sounds,
             attract,

@@ -103,17 +103,21 @@ impl Context<'_> {
     fn wire_point(&mut self, node: Option<usize>, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
         match (node, point) {
             (Some(node), point) => self.point(node, Some(point), at, used_for).map(|anchor| anchor.point),
-            (None, Point::Position(p)) => Some(DVec3::from(p.map(|x| x.0))),
-            (None, Point::Node(name)) => {
+            (None, point) => self.still_point(point, at, used_for),
+        }
+    }
+
+    /// A point of the world, or the place of a node that stands still.
+    pub(super) fn still_point(&mut self, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
+        match point {
+            Point::Position(p) => Some(DVec3::from(p.map(|x| x.0))),
+            Point::Node(name) => {
                 let mark = self.node(name, at, used_for)?;
                 if self.owner[mark].is_some() {
                     let body = self.body_name(self.owner[mark]);
                     let message = format!("node \"{name}\" moves with {body}, and {used_for} stands still");
-                    self.report(
-                        at,
-                        Diagnostic::new(codes::NOT_DESCENDANT, message)
-                            .help(format!("add body = \"{body}\" to the wire")),
-                    );
+                    let help = "name a node that stands still, or give [x, y, z]; a wire takes body = \"…\"";
+                    self.report(at, Diagnostic::new(codes::NOT_DESCENDANT, message).help(help));
                     return None;
                 }
                 Some(self.model.nodes[mark].world.transform_point3(DVec3::ZERO))

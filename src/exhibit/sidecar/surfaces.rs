@@ -125,6 +125,13 @@ pub struct WindSurface {
     /// Coefficients.
     #[serde(default)]
     pub drag: Drag,
+    /// Does it shelter what lies behind it?
+    #[serde(default = "yes")]
+    pub shadow: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// How densely a wind surface is sampled.

@@ -37,7 +37,11 @@ impl Context<'_> {
     }
 
     /// A function that must never be below zero.
-    pub(super) fn function_from_zero<Q: Quantity>(&mut self, given: &sidecar::Function<Q>, at: &str) -> Function {
+    pub(in super::super) fn function_from_zero<Q: Quantity>(
+        &mut self,
+        given: &sidecar::Function<Q>,
+        at: &str,
+    ) -> Function {
         let function = self.function(given, at);
         let least = match &function {
             Function::Constant(value) => *value,

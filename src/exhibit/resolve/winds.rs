@@ -1,0 +1,197 @@
+//! The winds of an exhibit, and what stands in their way.
+
+use super::super::BreathTuning;
+use super::super::codes;
+use super::super::diagnostic::Diagnostic;
+use super::super::sidecar::{self, Gusts, Point};
+use super::Context;
+use crate::articulation::Function;
+use crate::geometry::TriangleMesh;
+use crate::math::DVec3;
+use crate::wind::breath::Law;
+use crate::wind::weather::{Rhythm, Wind, WindKind};
+use crate::wind::{Shelter, Surface};
+
+/// Size of the room's largest eddies (m) and time in which they change (s), where the sidecar does not say.
+const ROOM_SCALE: f64 = 0.6;
+const ROOM_PERIOD: f64 = 6.0;
+/// Name of the room's own air among the winds.
+const ROOM: &str = "room";
+
+impl Context<'_> {
+    /// What a breath is to the exhibit.
+    pub(super) fn breath_tuning(&mut self) -> BreathTuning {
+        let given = self.sidecar.wind.breath;
+        let law = match given.law {
+            sidecar::Law::Cone => Law::Cone,
+            sidecar::Law::Jet => Law::Jet,
+        };
+        let place = "/wind/breath/lip_diameter";
+        let lip_diameter = given.lip_diameter.map(|d| self.positive(d.0, place));
+        self.trace("breath", "law", format!("{law:?}"), "/wind/breath/law", "default");
+        self.trace("breath", "gain", given.gain.to_string(), "/wind/breath/gain", "default");
+        if let Some(d) = lip_diameter {
+            self.trace("breath", "lip_diameter", format!("{} mm", d * 1e3), place, "");
+        }
+        BreathTuning { law, gain: given.gain, lip_diameter }
+    }
+
+    /// The room's air, fans, draughts and gusts.
+    pub(super) fn winds(&mut self) -> Vec<Wind> {
+        let sidecar = self.sidecar;
+        let mut winds: Vec<Wind> = Vec::new();
+        if let Some(room) = &sidecar.wind.room {
+            winds.push(self.room(room, "/wind/room"));
+        }
+        for (i, fan) in sidecar.wind.fan.iter().enumerate() {
+            let at = format!("/wind/fan/{i}");
+            self.unique_wind(&fan.name, &winds, &at);
+            winds.extend(self.fan(fan, &at));
+        }
+        for (i, draught) in sidecar.wind.draught.iter().enumerate() {
+            let at = format!("/wind/draught/{i}");
+            self.unique_wind(&draught.name, &winds, &at);
+            winds.extend(self.draught(draught, &at));
+        }
+        for (i, gust) in sidecar.wind.gust.iter().enumerate() {
+            let at = format!("/wind/gust/{i}");
+            self.unique_wind(&gust.name, &winds, &at);
+            winds.extend(self.gust(gust, &at));
+        }
+        winds
+    }
+
+    fn unique_wind(&mut self, name: &str, winds: &[Wind], at: &str) {
+        self.unique(name, name == ROOM || winds.iter().any(|wind| wind.name == name), &format!("{at}/name"));
+    }
+
+    fn room(&mut self, given: &sidecar::Room, at: &str) -> Wind {
+        let scale = given.scale.map_or(ROOM_SCALE, |l| self.positive(l.0, &format!("{at}/scale")));
+        let period = given.period.map_or(ROOM_PERIOD, |t| self.positive(t.0, &format!("{at}/period")));
+        self.trace("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
+        self.trace("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
+        let kind = WindKind::Room { scale, period, seed: given.seed };
+        Wind { name: ROOM.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), rhythm: Rhythm::Even }
+    }
+
+    fn fan(&mut self, given: &sidecar::Fan, at: &str) -> Option<Wind> {
+        let used_for = format!("fan \"{}\"", given.name);
+        let place = self.still_point(&given.at, &format!("{at}/at"), &used_for);
+        let direction = self.unit(DVec3::from(given.direction), &format!("{at}/direction"));
+        let diameter = self.positive(given.diameter.0, &format!("{at}/diameter"));
+        let speed = self.wind_speed(&given.speed, at, &given.name);
+        let rhythm = self.gusts(given.gusts, at);
+        let kind = WindKind::Fan { at: place?, direction: direction?, diameter };
+        Some(Wind { name: given.name.clone(), kind, speed, rhythm })
+    }
+
+    fn draught(&mut self, given: &sidecar::Draught, at: &str) -> Option<Wind> {
+        let used_for = format!("draught \"{}\"", given.name);
+        let kind = self.one_way(given.direction, given.at.as_ref(), given.width.map(|w| w.0), at, &used_for);
+        let speed = self.wind_speed(&given.speed, at, &given.name);
+        let rhythm = self.gusts(given.gusts, at);
+        Some(Wind { name: given.name.clone(), kind: kind?, speed, rhythm })
+    }
+
+    fn gust(&mut self, given: &sidecar::Gust, at: &str) -> Option<Wind> {
+        let used_for = format!("gust \"{}\"", given.name);
+        let kind = self.one_way(given.direction, given.at.as_ref(), given.width.map(|w| w.0), at, &used_for);
+        let speed = self.wind_speed(&given.speed, at, &given.name);
+        let every = self.positive(given.every.0, &format!("{at}/every"));
+        let lasts = self.positive(given.lasts.0, &format!("{at}/lasts"));
+        if lasts > every {
+            let message = format!("{used_for} lasts {lasts} s and comes every {every} s");
+            let problem = Diagnostic::new(codes::RANGE, message).help("puffs do not overlap: lasts ≤ every");
+            self.report(&format!("{at}/lasts"), problem);
+        }
+        let rhythm = Rhythm::Puffs { every, lasts, seed: given.seed };
+        Some(Wind { name: given.name.clone(), kind: kind?, speed, rhythm })
+    }
+
+    /// A wind that blows one way: everywhere, or from a place and so wide.
+    fn one_way(
+        &mut self,
+        direction: [f64; 3],
+        place: Option<&Point>,
+        width: Option<f64>,
+        at: &str,
+        used_for: &str,
+    ) -> Option<WindKind> {
+        let direction = self.unit(DVec3::from(direction), &format!("{at}/direction"));
+        let place = match (place, width) {
+            (None, None) => Some(None),
+            (Some(place), Some(width)) => {
+                let width = self.positive(width, &format!("{at}/width"));
+                self.still_point(place, &format!("{at}/at"), used_for).map(|place| Some((place, width)))
+            }
+            _ => {
+                let message = format!("{used_for} needs both a place and a width, or neither");
+                let help = "add at = [x, y, z] and width = \"0.5 m\", or leave both out: it is then everywhere";
+                self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help(help));
+                None
+            }
+        };
+        Some(WindKind::Draught { direction: direction?, place: place? })
+    }
+
+    fn wind_speed(
+        &mut self,
+        given: &sidecar::Function<super::super::quantity::Speed>,
+        at: &str,
+        name: &str,
+    ) -> Function {
+        let place = format!("{at}/speed");
+        let speed = self.function_from_zero(given, &place);
+        if let Function::Constant(speed) = speed {
+            self.trace(&format!("wind {name}"), "speed", format!("{speed} m/s"), &place, "");
+        }
+        speed
+    }
+
+    fn gusts(&mut self, given: Option<Gusts>, at: &str) -> Rhythm {
+        given.map_or(Rhythm::Even, |gusts| Rhythm::Gusty {
+            strength: gusts.strength,
+            period: self.positive(gusts.period.0, &format!("{at}/gusts/period")),
+            seed: gusts.seed,
+        })
+    }
+
+    /// What stands in the wind's way: wind surfaces as they feel it, all other meshes of the model as they are, one
+    /// shelter a body.
+    pub(super) fn shelters(&mut self, surfaces: &[Surface]) -> Vec<Shelter> {
+        let sidecar = self.sidecar;
+        let mut taken: Vec<bool> = vec![false; self.model.nodes.len()];
+        for (i, name) in sidecar.wind.open.iter().enumerate() {
+            if let Some(root) = self.node(name, &format!("/wind/open/{i}"), "what lets the wind through") {
+                for node in 0..taken.len() {
+                    taken[node] |= self.is_below(node, root);
+                }
+            }
+        }
+        let opened = taken.clone();
+        let mut shelters = Vec::new();
+        for given in &sidecar.wind_surface {
+            let Some(&root) = self.nodes_named(&given.node).first() else { continue };
+            for node in self.subtree(root, &[]) {
+                taken[node] = true;
+            }
+            let own = surfaces.iter().filter(|surface| surface.node == given.node && given.shadow && !opened[root]);
+            shelters.extend(Shelter::of(own.cloned().collect::<Vec<_>>().as_slice()));
+        }
+        for owner in std::iter::once(None).chain((0..self.body_nodes.len()).map(Some)) {
+            let mut mesh = TriangleMesh::default();
+            for node in 0..taken.len() {
+                if self.owner[node] == owner
+                    && !taken[node]
+                    && let Some(own) = self.node_mesh(node)
+                {
+                    mesh.append(&own);
+                }
+            }
+            if !mesh.triangles.is_empty() {
+                shelters.push(Shelter { body: owner, mesh });
+            }
+        }
+        shelters
+    }
+}
