@@ -6,6 +6,7 @@
 //!                                            → score → table with 95 % bounds
 //! ```
 
+pub mod course;
 pub mod noises;
 pub mod own;
 pub mod recordings;

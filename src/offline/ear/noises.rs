@@ -247,10 +247,17 @@ pub fn applause(seconds: f64, random: &mut Random) -> Vec<f64> {
     peaked(out)
 }
 
-/// One clap of two hands.
+/// One clap of two hands: one resonance of the hollow between them, or two.
 pub fn clap(centre_hz: f64, random: &mut Random) -> Vec<f64> {
-    let burst = resonance(&white(samples(0.08), random), R, centre_hz, centre_hz);
-    peaked(decaying(burst, 0.0005, random.range(0.004, 0.02)))
+    let noise = white(samples(0.12), random);
+    let narrow = random.range(0.3, 1.6);
+    let mut burst = resonance(&noise, R, centre_hz, narrow * centre_hz);
+    if random.unit() < 0.4 {
+        let second = resonance(&noise, R, 0.5 * centre_hz, 0.5 * centre_hz);
+        let gain = random.range(0.0, 1.0);
+        burst.iter_mut().zip(&second).for_each(|(y, x)| *y += gain * x);
+    }
+    peaked(decaying(burst, 0.0005, random.range(0.003, 0.02)))
 }
 
 /// A chair, a shoe, a case dragged over the floor: stick and slip, broad or squeaking.

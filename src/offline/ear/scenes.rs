@@ -53,6 +53,8 @@ pub struct World {
     seed: u64,
     voices: Vec<(Voice, Vec<f64>)>,
     rooms: Vec<(Room, Vec<[Vec<f64>; 2]>)>,
+    /// Recorded noises, dry, unit RMS.
+    recorded: Vec<Vec<f64>>,
 }
 
 /// Dry sounds by place; place [`PLACES`] is the table itself, which no room colours.
@@ -81,7 +83,14 @@ impl World {
             (room, responses)
         };
         let rooms = (0..ROOMS).map(|_| room(&mut random)).collect();
-        Self { seed, voices, rooms }
+        Self { seed, voices, rooms, recorded: Vec::new() }
+    }
+
+    /// The same with recorded noises, which then take part in scenes of museums.
+    pub fn with_recordings<'a>(mut self, takes: impl IntoIterator<Item = &'a Take>) -> Self {
+        let noises = takes.into_iter().filter(|take| take.kind == Kind::Noise && take.duration() > 2.0);
+        self.recorded.extend(noises.map(resampled).filter(|sound| power(sound) > 0.0).map(normalised));
+        self
     }
 
     /// One scene of a condition.
@@ -141,6 +150,14 @@ impl World {
                 add(&mut dry[PLACES], random.range(0.0, 0.3 * seconds), &puffs, decibel(random, -30.0, -6.0));
             }
         }
+        if !self.recorded.is_empty() && random.unit() < 0.35 * busy {
+            let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
+            let (at, gain) = (place(random), decibel(random, -50.0, -16.0));
+            let (from, length) = (random.unit() * track.len() as f64, dry[0].len() as f64 * random.range(0.3, 1.5));
+            let sound: Vec<f64> = track.iter().cycle().skip(from as usize).take(length as usize).copied().collect();
+            let at = if random.unit() < 0.5 { PLACES } else { at };
+            add(&mut dry[at], random.range(-0.2, 0.5) * seconds, &sound, gain);
+        }
         let lasting = (random.unit() * 2.5 * busy * seconds / 60.0 + random.unit()) as u32;
         for _ in 0..lasting {
             let length = random.range(3.0, 25.0).min(seconds);
@@ -160,7 +177,7 @@ impl World {
         let sudden = (random.range(0.0, 10.0) * busy * seconds / 60.0 + random.unit()) as u32;
         for _ in 0..sudden {
             let voice = self.voice(random);
-            let sound = match (random.unit() * 10.0) as u32 {
+            let sound = match (random.unit() * 12.0) as u32 {
                 0 => voices::laughter(&voice, random),
                 1 => voices::cough(&voice, random),
                 2 => voices::speech(&voice.shouting(), random.range(0.3, 2.5), random),
@@ -170,6 +187,8 @@ impl World {
                 6 => noises::thunder(random),
                 7 => noises::footsteps(random.range(0.5, 3.0), random),
                 8 => noises::handling(random),
+                9 => voices::tone(random.range(0.1, 2.0), random),
+                10 => noises::applause(random.range(0.2, 3.0), random),
                 _ => noises::bump(random),
             };
             let table = random.unit() < 0.15;
@@ -177,6 +196,35 @@ impl World {
             let sound = crate::wind::generate::filter::peaked(sound);
             add(&mut dry[at], random.range(0.0, seconds), &sound, decibel(random, -42.0, -2.0));
         }
+        dry
+    }
+
+    /// A noise that goes on evenly: a full hall, a machine, rain, a recording.
+    fn throng(&self, seconds: f64, random: &mut Random) -> Dry {
+        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
+        if !self.recorded.is_empty() && random.unit() < 0.5 {
+            let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
+            let from = (random.unit() * track.len() as f64) as usize;
+            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry[0].len()).copied().collect();
+            let at = if random.unit() < 0.7 { PLACES } else { place(random) };
+            add(&mut dry[at], 0.0, &sound, 0.1);
+            return dry;
+        }
+        if random.unit() < 0.7 {
+            for _ in 0..random.range(5.0, 25.0) as u32 {
+                let (at, gain) = (place(random), from_decibels(random.range(-8.0, 3.0)));
+                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain * 0.03);
+            }
+        }
+        let even = match (random.unit() * 4.0) as u32 {
+            0 => noises::rain(seconds, random),
+            1 => noises::music(seconds, random),
+            2 => noises::machine(seconds, random),
+            _ => noises::air(seconds, random),
+        };
+        let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
+        add(&mut dry[at], 0.0, &even, gain);
         dry
     }
 
@@ -218,7 +266,7 @@ impl World {
         let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
         let mut at = random.range(0.6, 1.5);
         while at < seconds - 1.0 {
-            let (sound, table) = match (random.unit() * 8.0) as u32 {
+            let (sound, table) = match (random.unit() * 9.0) as u32 {
                 0 => (noises::door(random), false),
                 1 => (noises::bump(random), true),
                 2 => (noises::drop(random), random.unit() < 0.5),
@@ -226,7 +274,8 @@ impl World {
                 4 => (noises::footsteps(random.range(0.4, 2.0), random), false),
                 5 => (noises::handling(random), true),
                 6 => (noises::applause(random.range(0.5, 3.0), random), false),
-                _ => (noises::clap(random.range(600.0, 2400.0), random), false),
+                7 => (noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
+                _ => (noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
             };
             let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
             add(&mut dry[place], at, &sound, from_decibels(random.range(-30.0, 0.0)));
@@ -275,13 +324,17 @@ impl World {
             .collect();
         let noisy = matches!(condition, Condition::Noisy(_));
         let dry = if noisy {
-            self.museum_sounds(shape.duration(), 2.0, random)
+            if random.unit() < 0.5 {
+                self.throng(shape.duration(), random)
+            } else {
+                self.museum_sounds(shape.duration(), random.range(0.5, 2.5), random)
+            }
         } else {
             vec![vec![0.0; streams[0].len()]; PLACES + 1]
         };
         let mut channels = self.heard(&dry, hearing.stereo, random);
         channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
-        let air_dbfs = if noisy { random.range(-70.0, -45.0) } else { random.range(-72.0, -58.0) };
+        let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
         Self::add_air(&mut channels, air_dbfs, random);
         let (onset, offset) = shape.span();
         let body = (onset * R) as usize..(offset * R) as usize;
@@ -354,6 +407,19 @@ impl World {
             sample_rate: RATE,
         }
     }
+}
+
+/// A recording at [`RATE`], by straight lines between samples that are low-passed first: good enough for a noise.
+fn resampled(take: &Take) -> Vec<f64> {
+    let from = f64::from(take.sample_rate);
+    let samples = take.left.iter().map(|x| f64::from(*x)).collect();
+    let samples = if from > R { low_passed(samples, from, 0.4 * R, 2) } else { samples };
+    let at = |i: usize| {
+        let t = i as f64 * from / R;
+        let (i, part) = (t as usize, t.fract());
+        samples[i] + part * (samples.get(i + 1).copied().unwrap_or(0.0) - samples[i])
+    };
+    (0..(samples.len() as f64 * R / from) as usize).map(at).collect()
 }
 
 /// A breath that nowhere rises by this much above the noise cannot be heard, dB.

@@ -166,6 +166,18 @@ impl Table {
         self.0.entry(row.to_owned()).or_default().add(take, verdict);
     }
 
+    /// Takes in the marks of another table.
+    pub fn join(&mut self, other: Self) {
+        for (row, marks) in other.0 {
+            let mine = self.0.entry(row).or_default();
+            mine.heard = (mine.heard.0 + marks.heard.0, mine.heard.1 + marks.heard.1);
+            mine.latency.extend(marks.latency);
+            mine.release.extend(marks.release);
+            mine.ghosts += marks.ghosts;
+            mine.hours += marks.hours;
+        }
+    }
+
     /// Row of a recording: breaths by their noise, the rest by their kind; ambiguous ones have none.
     pub fn row(take: &Take) -> Option<&'static str> {
         let snr = take.breaths.first().and_then(|b| b.snr_db);

@@ -137,28 +137,30 @@ fn descend(model: &Model, example: &Example, gradient: &mut [f64; PARAMETERS]) -
     let slope = weight * (p - y);
     // dσ/dz = (1 − |σ|)².
     let bend = |s: f64| (1.0 - s.abs()) * (1.0 - s.abs());
-    let mut back = [0.0; FIRST];
+    let mut d2 = [0.0; SECOND];
     for j in 0..SECOND {
         gradient[C + j] += slope * layers.second[j];
-        let d = slope * model.weights[C + j] * bend(layers.second[j]);
-        let row = B + j * (FIRST + 1);
-        for i in 0..FIRST {
-            gradient[row + i] += d * layers.first[i];
-            back[i] += d * model.weights[row + i];
-        }
-        gradient[row + FIRST] += d;
+        d2[j] = slope * model.weights[C + j] * bend(layers.second[j]);
     }
     gradient[C + SECOND] += slope;
-    for j in 0..FIRST {
-        let d = back[j] * bend(layers.first[j]);
-        let row = &mut gradient[j * (COUNT + 1)..(j + 1) * (COUNT + 1)];
-        for (g, x) in row.iter_mut().zip(&layers.input) {
-            *g += d * x;
-        }
-        row[COUNT] += d;
+    let mut d1 = [0.0; FIRST];
+    for i in 0..FIRST {
+        let row = &model.weights[B + i * SECOND..][..SECOND];
+        d1[i] = row.iter().zip(&d2).map(|(w, d)| w * d).sum::<f64>() * bend(layers.first[i]);
     }
+    add_outer(&mut gradient[B..C], &layers.first, &d2);
+    add_outer(&mut gradient[..B], &layers.input, &d1);
     let likely = if example.breath { p } else { 1.0 - p };
     -weight * crate::math::ln(likely.max(1e-12))
+}
+
+/// Adds the outer product x dᵀ, and d for the row after it.
+fn add_outer<const N: usize, const M: usize>(gradient: &mut [f64], x: &[f64; N], d: &[f64; M]) {
+    for (row, x) in gradient.as_chunks_mut::<M>().0.iter_mut().zip(x.iter().chain(&[1.0])) {
+        for (g, d) in row.iter_mut().zip(d) {
+            *g += d * x;
+        }
+    }
 }
 
 /// The model as the source of `src/wind/blow/table.rs`.

@@ -155,6 +155,24 @@ pub fn cough(voice: &Voice, random: &mut Random) -> Vec<f64> {
     normalised(out)
 }
 
+/// Whistles, howls, sung notes, telephones, squeaks: a tone that glides, with or without harmonics and breath.
+pub fn tone(seconds: f64, random: &mut Random) -> Vec<f64> {
+    let f = crate::math::pow(10.0, random.range(1.9, 3.5));
+    let (glide, vibrato, rate) = (random.range(-0.5, 0.5), random.range(0.0, 0.06), random.range(3.0, 8.0));
+    let (second, third) = (random.range(0.0, 0.6), random.range(0.0, 0.4));
+    let breath = high_passed(white((seconds * R) as usize, random), R, 400.0, 1);
+    let airy = random.range(0.0, 0.15);
+    let mut angle = 0.0;
+    let sound = breath.iter().enumerate().map(|(i, air)| {
+        let t = i as f64 / R;
+        let now = (f * (1.0 + glide * t / seconds + vibrato * sin(2.0 * PI * rate * t))).min(0.4 * R);
+        angle += 2.0 * PI * now / R;
+        sin(angle) + second * sin(2.0 * angle) + third * sin(3.0 * angle) + airy * air
+    });
+    let (rise, fall) = (random.range(0.02, 0.4), random.range(0.05, 0.5));
+    normalised(shaped(sound.collect(), rise, fall))
+}
+
 /// Puffs of p and b of somebody who speaks into the microphone, peaks of 1.
 pub fn plosives(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; (seconds * R) as usize];

@@ -10,9 +10,9 @@
 use super::features::{COUNT, Features};
 
 /// Width of the first layer.
-pub const FIRST: usize = 20;
+pub const FIRST: usize = 28;
 /// Width of the second layer.
-pub const SECOND: usize = 10;
+pub const SECOND: usize = 12;
 /// Parameters that are trained.
 pub const PARAMETERS: usize = FIRST * (COUNT + 1) + SECOND * (FIRST + 1) + SECOND + 1;
 /// Standardised features are cut here: what was never met in training says no more than the farthest that was.
@@ -23,7 +23,7 @@ const FARTHEST: f64 = 3.0;
 pub struct Model {
     /// Mean and deviation of each feature, m and s.
     pub scale: [[f64; 2]; COUNT],
-    /// Rows of A, each with its a at the end; rows of B with b; C with c.
+    /// Aᵀ row by row, then a; Bᵀ, b; C, c.
     pub weights: [f64; PARAMETERS],
 }
 
@@ -40,7 +40,7 @@ pub struct Layers {
     pub log_odds: f64,
 }
 
-/// Where the rows of B, and C, begin among the weights.
+/// Where Bᵀ, and C, begin among the weights.
 pub const B: usize = FIRST * (COUNT + 1);
 /// See [`B`].
 pub const C: usize = B + SECOND * (FIRST + 1);
@@ -58,18 +58,22 @@ impl Model {
 
     /// All layers at standardised features.
     pub fn layers(&self, input: &[f64; COUNT]) -> Layers {
-        let first: [f64; FIRST] = std::array::from_fn(|j| bend(affine(&self.weights[j * (COUNT + 1)..], input)));
-        let second: [f64; SECOND] = std::array::from_fn(|j| bend(affine(&self.weights[B + j * (FIRST + 1)..], &first)));
-        let log_odds = affine(&self.weights[C..], &second);
+        let first = affine(&self.weights[..B], input).map(bend);
+        let second = affine(&self.weights[B..C], &first).map(bend);
+        let [log_odds] = affine(&self.weights[C..], &second);
         Layers { input: *input, first, second, log_odds }
     }
 }
 
-/// A row of weights times a vector, plus the weight after the row.
-fn affine<const N: usize>(row: &[f64], x: &[f64; N]) -> f64 {
-    let mut sum = row[N];
-    for (w, x) in row[..N].iter().zip(x) {
-        sum += w * x;
+/// Wᵀ x + w, of which the rows of W come first and w last: column by column, so that the sums go on side by side.
+fn affine<const N: usize, const M: usize>(weights: &[f64], x: &[f64; N]) -> [f64; M] {
+    let (rows, rest) = weights.as_chunks::<M>();
+    debug_assert!(rows.len() == N + 1 && rest.is_empty());
+    let mut sum = rows[N];
+    for (row, x) in rows.iter().zip(x) {
+        for (s, w) in sum.iter_mut().zip(row) {
+            *s += w * x;
+        }
     }
     sum
 }

@@ -1,10 +1,8 @@
 //! The blow detector: scores on labelled recordings, what must hold for any microphone, and the kiosk hearing itself.
 
-mod dataset;
 mod own_voice;
 mod recordings;
 mod scores;
-mod train;
 
 use soffio::noise::Random;
 use soffio::wind::blow::{BlowDetector, BlowEstimate, Reason};
