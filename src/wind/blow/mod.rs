@@ -219,7 +219,8 @@ impl BlowDetector {
         if levels.rise_db.max(levels.middle_rise_db) < decision::LEAST_RISE_DB {
             // It rises above the room, but not above what the kiosk itself explains.
             let heard = decibels(band(&self.front.framer.microphone, features::LOW.0, features::LOW.1));
-            let explained = heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
+            let own = band(&self.front.own_voice.predicted, features::LOW.0, features::MIDDLE.1) > 0.0;
+            let explained = own && heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
             return if explained { Reason::OwnVoice } else { Reason::Quiet };
         }
         let fall = if levels.rise_db > levels.middle_rise_db { f[features::FALL[0]] } else { f[features::FALL[1]] };
@@ -231,15 +232,22 @@ impl BlowDetector {
         against.iter().fold((0.0, Reason::MidBand), |most, &next| if next.0 > most.0 { next } else { most }).1
     }
 
-    /// Speed at the lips from the excess of the low band, or of the hiss where the stream misses the microphone. The
-    /// pressure of turbulence goes with the square of the speed, that of the hiss with its power of 2.5:
-    /// U = 17 m/s · 10^((L − L₁₇)/40), 10^((H − H₁₇)/50). Near full scale a capsule saturates, which the decibels
-    /// flatten of themselves.
+    /// Speed at the lips from the excess of rumble and of hiss. The pressure of turbulence goes with the square of the
+    /// speed, that of the hiss with its power of 2.5:
+    ///
+    /// ```text
+    /// R = 17 m/s · 10^((L − L₁₇)/40),   H = 17 m/s · 10^((L' − L'₁₇)/50),   U = max(√(R H), 0.8 H, 0.6 R)
+    /// ```
+    ///
+    /// Both together forgive more than each: distance takes the rumble, a stream that misses the microphone leaves the
+    /// hiss alone, foam and noise hide the hiss, and a gain control that levels the rumble leaves how the two compare.
+    /// Near full scale a capsule saturates, which the decibels flatten of themselves.
     fn speed(&self) -> f64 {
         let [rumble, hiss] = self.intensity_dbfs.map(|level| level + self.settings.sensitivity_db);
         let rumble = pow(10.0, (rumble - HARDEST_DBFS) / 40.0);
         let hiss = pow(10.0, (hiss - HARDEST_HISS_DBFS) / 50.0);
-        (HARDEST_M_S * rumble.max(hiss)).clamp(FAINTEST_M_S, HARDEST_M_S)
+        let speed = (rumble * hiss).sqrt().max(0.8 * hiss).max(0.6 * rumble);
+        (HARDEST_M_S * speed).clamp(FAINTEST_M_S, HARDEST_M_S)
     }
 
     fn conclude(&mut self, reason: Reason, speed: f64) {

@@ -98,35 +98,32 @@ fn scenes(condition: Condition, count: u64, hearing: Hearing) -> Marks {
 }
 
 const PLAIN: Hearing = Hearing { gain_db: 0.0, stereo: false };
-/// Of 30 breaths, at least so many: 90 % and one more that chance may take.
-const HEARD_OF_30: usize = 26;
 
 #[test]
 fn a_made_breath_is_heard_and_a_made_museum_is_not() {
-    let near = scenes(Condition::Cell(0.1, 0.0, false), 30, PLAIN);
-    assert!(near.heard.0 >= 29 && quantile(&near.latency, 0.5) <= 0.14, "{near}");
-    let beside = scenes(Condition::Cell(0.2, 60.0, true), 30, PLAIN);
-    assert!(beside.heard.0 >= HEARD_OF_30, "a child beside the microphone: {beside}");
-    // A quarter of an hour; at four an hour, one ghost is as likely as none.
-    let museum = scenes(Condition::Museum, 15, PLAIN);
-    assert!(museum.ghosts <= 1, "{museum}");
-    assert_eq!(scenes(Condition::Impulses, 15, PLAIN).ghosts, 0, "knocks, claps, pops, doors");
+    // Of these few, as many as 95 % and 90 % leave a fair chance for.
+    let near = scenes(Condition::Cell(0.1, 0.0, false), 10, PLAIN);
+    assert!(near.heard.0 >= 10 && quantile(&near.latency, 0.5) <= 0.14, "{near}");
+    let beside = scenes(Condition::Cell(0.2, 60.0, true), 10, PLAIN);
+    assert!(beside.heard.0 >= 8, "a child beside the microphone: {beside}");
+    assert_eq!(scenes(Condition::Museum, 3, PLAIN).ghosts, 0);
+    assert_eq!(scenes(Condition::Impulses, 6, PLAIN).ghosts, 0, "knocks, claps, pops, doors");
     for room in 0..3 {
-        assert_eq!(scenes(Condition::OwnVoice(room), 3, PLAIN).ghosts, 0, "the kiosk in room {room}");
+        assert_eq!(scenes(Condition::OwnVoice(room), 1, PLAIN).ghosts, 0, "the kiosk in room {room}");
     }
 }
 
 #[test]
 fn two_capsules_hear_no_less() {
     let stereo = Hearing { stereo: true, ..PLAIN };
-    let near = scenes(Condition::Cell(0.2, 0.0, true), 20, stereo);
-    assert!(near.heard.0 >= 19, "{near}");
-    let beside = scenes(Condition::Cell(0.2, 60.0, false), 20, stereo);
-    assert!(beside.heard.0 >= 17, "hiss is coherent and yet breath: {beside}");
-    assert!(scenes(Condition::Museum, 10, stereo).ghosts == 0);
+    let near = scenes(Condition::Cell(0.2, 0.0, true), 6, stereo);
+    assert!(near.heard.0 >= 6, "{near}");
+    let beside = scenes(Condition::Cell(0.2, 60.0, false), 6, stereo);
+    assert!(beside.heard.0 >= 5, "hiss is coherent and yet breath: {beside}");
+    assert_eq!(scenes(Condition::Museum, 2, stereo).ghosts, 0);
     // The same capsule in both channels, or nothing in the second, is one capsule.
     let world = World::new(course::EXAM + 78);
-    for index in 0..6 {
+    for index in 0..3 {
         let take = world.take(Condition::Cell(0.1, 0.0, false), index, PLAIN);
         let quieter: Vec<f32> = take.left.iter().map(|x| 0.5 * x).collect();
         for right in [take.left.clone(), quieter, vec![0.0; take.left.len()]] {
@@ -140,7 +137,7 @@ fn two_capsules_hear_no_less() {
 fn a_microphone_that_changes_its_gain_is_found_out() {
     let world = World::new(course::EXAM + 79);
     let mut told = [0, 0];
-    for index in 0..8 {
+    for index in 0..4 {
         // Three breaths, one after the other.
         let takes: Vec<Take> =
             (0..3).map(|i| world.take(Condition::Cell(0.1, 0.0, false), 3 * index + i, PLAIN)).collect();
@@ -152,8 +149,8 @@ fn a_microphone_that_changes_its_gain_is_found_out() {
         told[0] += usize::from(judge(&BlowSettings::default(), &all).gain_control);
         told[1] += usize::from(judge(&BlowSettings::default(), &with_gain_control(&all)).gain_control);
     }
-    assert!(told[0] <= 1, "plain microphones are not accused: {told:?} of 8");
-    assert!(told[1] >= 6, "gain control is seen: {told:?} of 8");
+    assert!(told[0] == 0, "plain microphones are not accused: {told:?} of 4");
+    assert!(told[1] >= 3, "gain control is seen: {told:?} of 4");
 }
 
 #[test]
