@@ -236,7 +236,7 @@ pub fn music(seconds: f64, random: &mut Random) -> Vec<f64> {
 /// Applause of a few or many.
 pub fn applause(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(seconds)];
-    for _ in 0..random.range(1.0, 25.0) as u32 {
+    for _ in 0..pow(10.0, random.range(0.0, 1.9)) as u32 {
         let (centre, rate) = (random.range(600.0, 2400.0), random.range(2.0, 5.0));
         let (mut at, loud) = (random.range(0.0, 0.5), random.range(0.2, 1.0));
         while at < seconds {

@@ -266,8 +266,9 @@ impl World {
         let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
         let mut at = random.range(0.6, 1.5);
         while at < seconds - 1.0 {
-            let (sound, table) = match (random.unit() * 9.0) as u32 {
+            let (sound, table) = match (random.unit() * 10.0) as u32 {
                 0 => (noises::door(random), false),
+                8 => (noises::thunder(random), random.unit() < 0.5),
                 1 => (noises::bump(random), true),
                 2 => (noises::drop(random), random.unit() < 0.5),
                 3 => (voices::plosives(random.range(0.3, 1.5), random), true),
@@ -307,19 +308,25 @@ impl World {
             distance,
             angle_deg,
             foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
+            colour: crate::math::pow(2.0, random.range(-0.8, 1.4)),
             corner_hz: 5.0,
             ..BreathShape::default()
         };
         let seed = random.word();
-        let (rumble, hiss) = (random.range(-3.0, 3.0), random.range(-4.0, 6.0));
+        // Straight at a capsule behind a thick grille, there may be hardly any hiss.
+        let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
+        let (rumble, hiss) = (random.range(-3.0, 3.0), random.range(least, 6.0));
+        let tilt = if random.unit() < 0.4 { random.range(-0.4, 2.5) } else { 0.0 };
         let capsules = 1 + u64::from(hearing.stereo);
         let streams: Vec<Vec<f64>> = (0..capsules)
             .map(|capsule| {
                 // Rumble and hiss each louder or softer than the formula: capsules, lips.
                 let air = generate::stream(RATE, seed, &shape, capsule);
                 let low = low_passed(air.clone(), R, 350.0, 2);
+                let upper = high_passed(low.clone(), R, 160.0, 1);
                 let (g, h) = (from_decibels(rumble), from_decibels(hiss));
-                air.iter().zip(&low).map(|(x, l)| g * l + h * (x - l)).collect()
+                let parts = air.iter().zip(low.iter().zip(&upper));
+                parts.map(|(x, (l, u))| g * (l + tilt * u) + h * (x - l)).collect()
             })
             .collect();
         let noisy = matches!(condition, Condition::Noisy(_));

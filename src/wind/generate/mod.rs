@@ -48,6 +48,8 @@ pub struct BreathShape {
     pub angle_deg: f64,
     /// What a foam shield takes from the rumble, dB.
     pub foam_db: f64,
+    /// Corner of the rumble relative to f₁: capsules, grilles and lips differ.
+    pub colour: f64,
     /// High-pass corner of the microphone, Hz (20 a bare capsule, 60 a USB gooseneck, 100 a laptop).
     pub corner_hz: f64,
     /// Noise of room and microphone, dB of full scale (RMS).
@@ -66,6 +68,7 @@ impl Default for BreathShape {
             distance: 0.1,
             angle_deg: 0.0,
             foam_db: 0.0,
+            colour: 1.0,
             corner_hz: 60.0,
             noise_dbfs: -62.0,
         }
@@ -122,7 +125,7 @@ pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) ->
     let stream = |name: u64| Random::new(hash_words(&[seed, name]));
     let own = |name: u64| stream(name + 100 * capsule);
     let gust = normalised(low_passed(gaussian(count, &mut stream(1)), rate, 5.0, 2));
-    let turbulence = normalised(low_passed(gaussian(count, &mut own(2)), rate, 40.0 + 100.0 * force, 2));
+    let turbulence = normalised(low_passed(gaussian(count, &mut own(2)), rate, shape.colour * (40.0 + 100.0 * force), 2));
     let patches = normalised(low_passed(gaussian(count, &mut own(3)), rate, 12.0, 1));
     let hiss = low_passed(high_passed(gaussian(count, &mut stream(4)), rate, 400.0, 2), rate, 1800.0, 1);
     let hiss = normalised(low_passed(hiss, rate, 6000.0_f64.min(0.45 * rate), 1));
