@@ -50,7 +50,8 @@ pub fn run(args: &Args) -> Outcome {
             let ladder = takes.iter().zip(&verdicts).filter(|(t, _)| t.group == prefix && !t.breaths.is_empty());
             ladder.filter_map(|(t, v)| Some((t.level?, v.mean_speed))).collect::<Vec<_>>()
         };
-        let mut ladders: Vec<&str> = takes.iter().map(|t| t.group.as_str()).filter(|g| g.starts_with("ladder")).collect();
+        let mut ladders: Vec<&str> =
+            takes.iter().map(|t| t.group.as_str()).filter(|g| g.starts_with("ladder")).collect();
         ladders.dedup();
         for ladder in ladders {
             println!("{ladder:38} rank correlation {:.3}", spearman(&with_level(ladder)));

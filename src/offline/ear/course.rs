@@ -36,11 +36,8 @@ pub struct Course {
 /// Scenes that a world teaches with: half of them at gains far from the usual.
 fn lessons(size: f64) -> Vec<(Condition, u64)> {
     let count = |full: f64| (full * size).round() as u64;
-    let mut all = vec![
-        (Condition::Museum, count(60.0)),
-        (Condition::Impulses, count(90.0)),
-        (Condition::Isolated, count(250.0)),
-    ];
+    let mut all =
+        vec![(Condition::Museum, count(60.0)), (Condition::Impulses, count(90.0)), (Condition::Isolated, count(250.0))];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(60.0))));
     all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(4.0))));
     all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
@@ -156,7 +153,8 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
 pub fn examined(settings: &BlowSettings, hours: f64, seed: u64, hearing: Hearing) -> (Table, Vec<String>) {
     const WORLDS: u64 = 6;
     let worlds: Vec<World> = (0..WORLDS).map(|i| World::new(EXAM + hash_words(&[seed, i]) % EXAM)).collect();
-    let scenes = exam(hours).into_iter().flat_map(|(row, condition, n)| (0..n).map(move |i| (row.clone(), condition, i)));
+    let scenes =
+        exam(hours).into_iter().flat_map(|(row, condition, n)| (0..n).map(move |i| (row.clone(), condition, i)));
     let results = parallel(scenes.collect(), |(row, condition, index)| {
         let mut random = Random::new(hash_words(&[seed, index, 5]));
         let hearing = Hearing { gain_db: hearing.gain_db + random.range(-3.0, 3.0), ..hearing };

@@ -19,7 +19,8 @@ fn samples(seconds: f64) -> usize {
 pub fn air(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(seconds)];
     for (low, high) in [(25.0, 70.0), (70.0, 250.0), (250.0, 900.0), (900.0, 5000.0)] {
-        let layer = normalised(low_passed(white(out.len(), random), R, random.range(low, high), 1 + (low < 60.0) as usize));
+        let layer =
+            normalised(low_passed(white(out.len(), random), R, random.range(low, high), 1 + (low < 60.0) as usize));
         let gain = pow(10.0, random.range(-1.0, 0.0));
         out.iter_mut().zip(&layer).for_each(|(y, x)| *y += gain * x);
     }
@@ -64,7 +65,8 @@ pub fn footsteps(seconds: f64, random: &mut Random) -> Vec<f64> {
         if metal {
             // A plate that rings at several modes.
             for k in 1..5 {
-                let mode = resonance(&noise[..200], R, (ring * f64::from(k) * random.range(0.9, 1.3)).min(7000.0), 12.0);
+                let mode =
+                    resonance(&noise[..200], R, (ring * f64::from(k) * random.range(0.9, 1.3)).min(7000.0), 12.0);
                 let mut tail = mode;
                 tail.resize(samples(0.5), 0.0);
                 let f = ring * f64::from(k);
@@ -158,7 +160,12 @@ pub fn thunder(random: &mut Random) -> Vec<f64> {
 /// Rain on a skylight, a fountain, the sea: drops and their blur.
 pub fn rain(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(seconds)];
-    let blur = low_passed(high_passed(white(out.len(), random), R, pow(10.0, random.range(1.6, 3.0)), 1), R, pow(10.0, random.range(2.8, 3.8)), 1);
+    let blur = low_passed(
+        high_passed(white(out.len(), random), R, pow(10.0, random.range(1.6, 3.0)), 1),
+        R,
+        pow(10.0, random.range(2.8, 3.8)),
+        1,
+    );
     out.iter_mut().zip(&normalised(blur)).for_each(|(y, x)| *y += x);
     let rate = pow(10.0, random.range(0.5, 2.7));
     let loud = random.range(0.5, 6.0);

@@ -29,7 +29,13 @@ pub fn read(folder: &Path) -> Result<Vec<Take>, String> {
             // Only the last column (notes) may hold commas.
             let cell: Vec<&str> = line.splitn(names.len(), ',').collect();
             if cell.len() < names.len() {
-                return Err(format!("{}: line {} has {} columns of {}", path.display(), i + 2, cell.len(), names.len()));
+                return Err(format!(
+                    "{}: line {} has {} columns of {}",
+                    path.display(),
+                    i + 2,
+                    cell.len(),
+                    names.len()
+                ));
             }
             let number = |column: Option<usize>| column.and_then(|c| cell[c].parse::<f64>().ok());
             let kind = match cell[expected] {
@@ -40,13 +46,8 @@ pub fn read(folder: &Path) -> Result<Vec<Take>, String> {
             };
             let recording = wav::read(folder.join(cell[file])).map_err(|error| error.to_string())?;
             let span = number(onset).zip(number(offset)).filter(|_| kind == Kind::Blow);
-            let breath = span.map(|(onset, offset)| Breath {
-                onset,
-                offset,
-                strength: 0.0,
-                snr_db: number(snr),
-                faint: false,
-            });
+            let breath =
+                span.map(|(onset, offset)| Breath { onset, offset, strength: 0.0, snr_db: number(snr), faint: false });
             Ok(Take {
                 name: cell[file].into(),
                 group: if cell[group].is_empty() { cell[file].into() } else { cell[group].into() },

@@ -62,8 +62,8 @@ impl Room {
     /// A place this far from the microphone (as far as the room allows), somewhere about it.
     pub fn near(&self, distance: f64, random: &mut Random) -> DVec3 {
         let turn = random.range(0.0, 2.0 * PI);
-        let at =
-            self.microphone + distance * DVec3::new(crate::math::cos(turn), crate::math::sin(turn), random.range(-0.4, 0.6));
+        let at = self.microphone
+            + distance * DVec3::new(crate::math::cos(turn), crate::math::sin(turn), random.range(-0.4, 0.6));
         at.clamp(DVec3::splat(0.1), self.size - 0.1)
     }
 

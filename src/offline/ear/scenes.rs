@@ -75,7 +75,8 @@ impl World {
             let room = Room::random(random);
             // The last place is a visitor's before the kiosk.
             let response = |place: usize, random: &mut Random| {
-                let at = if place + 1 < PLACES { room.place(random) } else { room.near(random.range(0.3, 1.0), random) };
+                let at =
+                    if place + 1 < PLACES { room.place(random) } else { room.near(random.range(0.3, 1.0), random) };
                 let seed = random.word();
                 [room.response(at, 0, seed), room.response(at, 1, seed)]
             };
@@ -374,7 +375,8 @@ impl World {
             .map(|c| convolved(&delayed, &responses[PLACES - 1][c]).into_iter().map(|x| loud * x).collect())
             .collect();
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
-        let mut take = self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
+        let mut take =
+            self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
         take.played = played.iter().map(|x| *x as f32).collect();
         take
     }

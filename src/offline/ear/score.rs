@@ -147,12 +147,28 @@ impl fmt::Display for Marks {
         if self.heard.1 > 0 {
             let (low, high) = wilson(self.heard.0, self.heard.1);
             let ms = |values: &[f64], part: f64| 1000.0 * quantile(values, part);
-            write!(f, "{:4}/{:<4} {:5.1} % [{:.1}, {:.1}]", self.heard.0, self.heard.1, 100.0 * self.share(), 100.0 * low, 100.0 * high)?;
+            write!(
+                f,
+                "{:4}/{:<4} {:5.1} % [{:.1}, {:.1}]",
+                self.heard.0,
+                self.heard.1,
+                100.0 * self.share(),
+                100.0 * low,
+                100.0 * high
+            )?;
             write!(f, "  latency {:3.0}/{:3.0} ms", ms(&self.latency, 0.5), ms(&self.latency, 0.9))?;
             write!(f, "  release p90 {:3.0} max {:3.0} ms  ", ms(&self.release, 0.9), ms(&self.release, 1.0))?;
         }
         let (low, high) = poisson(self.ghosts);
-        write!(f, "ghosts {} in {:.2} h: {:.1}/h [{:.1}, {:.1}]", self.ghosts, self.hours, self.per_hour(), low / self.hours, high / self.hours)
+        write!(
+            f,
+            "ghosts {} in {:.2} h: {:.1}/h [{:.1}, {:.1}]",
+            self.ghosts,
+            self.hours,
+            self.per_hour(),
+            low / self.hours,
+            high / self.hours
+        )
     }
 }
 

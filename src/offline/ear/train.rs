@@ -12,7 +12,7 @@
 use std::fmt::Write as _;
 
 use super::{Kind, Take};
-use crate::math::{cos, exp, PI};
+use crate::math::{PI, cos, exp};
 use crate::noise::Random;
 use crate::wind::blow::features::{COUNT, NAMES};
 use crate::wind::blow::front::FrontEnd;

@@ -125,7 +125,8 @@ pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) ->
     let stream = |name: u64| Random::new(hash_words(&[seed, name]));
     let own = |name: u64| stream(name + 100 * capsule);
     let gust = normalised(low_passed(gaussian(count, &mut stream(1)), rate, 5.0, 2));
-    let turbulence = normalised(low_passed(gaussian(count, &mut own(2)), rate, shape.colour * (40.0 + 100.0 * force), 2));
+    let turbulence =
+        normalised(low_passed(gaussian(count, &mut own(2)), rate, shape.colour * (40.0 + 100.0 * force), 2));
     let patches = normalised(low_passed(gaussian(count, &mut own(3)), rate, 12.0, 1));
     let hiss = low_passed(high_passed(gaussian(count, &mut stream(4)), rate, 400.0, 2), rate, 1800.0, 1);
     let hiss = normalised(low_passed(hiss, rate, 6000.0_f64.min(0.45 * rate), 1));
