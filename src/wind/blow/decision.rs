@@ -41,7 +41,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-5.0, 4.0), drift: 0.5, on: 0.14, full: 0.3, longest_s: 6.0 }
+        Self { believed: (-5.0, 8.0), drift: 3.0, on: 0.08, full: 0.22, longest_s: 6.0 }
     }
 }
 
