@@ -267,9 +267,8 @@ impl World {
         let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
         let mut at = random.range(0.6, 1.5);
         while at < seconds - 1.0 {
-            let (sound, table) = match (random.unit() * 10.0) as u32 {
+            let (sound, table) = match (random.unit() * 9.0) as u32 {
                 0 => (noises::door(random), false),
-                8 => (noises::thunder(random), random.unit() < 0.5),
                 1 => (noises::bump(random), true),
                 2 => (noises::drop(random), random.unit() < 0.5),
                 3 => (voices::plosives(random.range(0.3, 1.5), random), true),

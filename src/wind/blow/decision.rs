@@ -19,11 +19,6 @@ use crate::math::exp;
 /// Low or middle must rise by this much over the room, dB.
 pub const LEAST_RISE_DB: f64 = 5.0;
 
-/// From this rise of low on there is rumble at the capsule, dB.
-const RUMBLE_DB: f64 = 8.0;
-/// Hiss alone, of a breath beside the microphone or of a clapping hall, is believed less and must last longer.
-const HISS_ALONE: f64 = 0.6;
-
 /// The numbers of the cumulative sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
@@ -41,7 +36,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-5.0, 8.0), drift: 3.0, on: 0.08, full: 0.22, longest_s: 6.0 }
+        Self { believed: (-5.0, 8.0), drift: 3.0, on: 0.1, full: 0.24, longest_s: 6.0 }
     }
 }
 
@@ -77,8 +72,7 @@ impl Decision {
     /// Takes one frame; `None` where a frame cannot be breath at all.
     pub fn push(&mut self, rules: &Rules, log_odds: Option<f64>, levels: &Levels) {
         let possible = log_odds.filter(|_| levels.rise_db.max(levels.middle_rise_db) > LEAST_RISE_DB);
-        let highest = if levels.rise_db > RUMBLE_DB { rules.believed.1 } else { HISS_ALONE * rules.believed.1 };
-        self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, highest));
+        self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, rules.believed.1));
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.progress = (self.sum / rules.on).min(1.0);
