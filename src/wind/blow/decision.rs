@@ -19,6 +19,10 @@ use crate::math::exp;
 /// Low or middle must rise by this much over the room, dB.
 pub const LEAST_RISE_DB: f64 = 5.0;
 
+/// Log-odds from which a sound may be a breath that the room must not learn, nats; and for how long at most, s.
+const LIKELY: f64 = 1.0;
+const UNDECIDED_S: f64 = 1.0;
+
 /// The numbers of the cumulative sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
@@ -66,6 +70,8 @@ pub struct Decision {
     /// Log-odds of the last frame, bounded.
     log_odds: f64,
     blowing_s: f64,
+    /// For how long breath has been likely, s.
+    likely_s: f64,
 }
 
 impl Decision {
@@ -75,6 +81,7 @@ impl Decision {
         self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, rules.believed.1));
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
+        self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
         self.progress = (self.sum / rules.on).min(1.0);
         self.phase = match self.phase {
             _ if self.sum == 0.0 => Phase::Quiet,
@@ -90,6 +97,11 @@ impl Decision {
             }
             Phase::Latched => Phase::Latched,
         };
+    }
+
+    /// May this be a breath that has not been decided yet? Then the room must not learn it; but not for long.
+    pub fn is_likely(&self) -> bool {
+        self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
     }
 
     /// 0 … 1: how far the sum is on its way to a breath, weighed with the last frame's probability.

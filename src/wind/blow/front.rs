@@ -73,8 +73,15 @@ impl FrontEnd {
         }
     }
 
-    /// Takes one sample of each capsule and of what was played. `blowing` holds the picture of the room still.
-    pub fn push(&mut self, left: f32, right: Option<f32>, played: f32, blowing: bool) -> Option<Frame> {
+    /// Takes one sample of each capsule and of what was played. While somebody is `blowing`, or while it is `likely`,
+    /// the picture of the room stands still; while somebody is blowing, so does that of the kiosk's own sound.
+    pub fn push(
+        &mut self,
+        left: f32,
+        right: Option<f32>,
+        played: f32,
+        (blowing, likely): (bool, bool),
+    ) -> Option<Frame> {
         let heard = self.input.push(left);
         let played = if played.is_finite() { f64::from(played.clamp(-1.0, 1.0)) } else { 0.0 };
         let second = right.map(|x| self.input.push(x));
@@ -83,10 +90,10 @@ impl FrontEnd {
         let left = self.left.push(heard);
         let right = if self.stereo { self.right.push(second.unwrap_or(heard)) } else { left };
         let sample = Sample { left: left?, right: right?, own: own? };
-        self.framer.push(sample).then(|| self.frame(blowing))
+        self.framer.push(sample).then(|| self.frame(blowing, likely))
     }
 
-    fn frame(&mut self, blowing: bool) -> Frame {
+    fn frame(&mut self, blowing: bool, likely: bool) -> Frame {
         let input = self.input.take();
         let fault = self.input.fault_hold > 0;
         let (mut features, mut levels) = (Features::default(), Levels::default());
@@ -95,7 +102,7 @@ impl FrontEnd {
                 self.coherence.push(&self.framer.capsules);
             }
             self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
-            let frozen = blowing || self.own_voice.masks(&self.framer.microphone);
+            let frozen = blowing || likely || self.own_voice.masks(&self.framer.microphone);
             (features, levels) = self.listener.push(&self.framer.microphone, &self.own_voice.predicted, frozen);
         }
         Frame {

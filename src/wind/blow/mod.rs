@@ -164,7 +164,7 @@ impl BlowDetector {
 
     fn hear(&mut self, left: f32, right: Option<f32>, played: f32) {
         let blowing = self.decision.phase == Phase::Blow;
-        if let Some(frame) = self.front.push(left, right, played, blowing) {
+        if let Some(frame) = self.front.push(left, right, played, (blowing, self.decision.is_likely())) {
             self.judge(&frame);
         }
     }
