@@ -53,7 +53,8 @@ pub fn examples(take: &Take, out: &mut Vec<Example>) {
     for (i, &sample) in take.left.iter().enumerate() {
         let t = i as f64 / f64::from(take.sample_rate);
         let blowing = breath.is_some_and(|b| t > b.onset + 0.1 && t < b.offset);
-        let Some(frame) = front.push(sample, None, take.played.get(i).copied().unwrap_or(0.0), (blowing, blowing)) else {
+        let Some(frame) = front.push(sample, None, take.played.get(i).copied().unwrap_or(0.0), (blowing, blowing))
+        else {
             continue;
         };
         let is_breath = match breath {
