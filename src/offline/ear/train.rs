@@ -168,7 +168,8 @@ fn add_outer<const N: usize, const M: usize>(gradient: &mut [f64], x: &[f64; N],
 pub fn table(model: &Model) -> String {
     let mut out = String::from(
         "//! The trained model: written by `soffio breath train`, not by hand.\n\nuse super::model::Model;\n\n\
-         /// The trained model.\n#[rustfmt::skip]\npub static TRAINED: Model = Model {\n    scale: [\n",
+         /// The trained model.\n#[rustfmt::skip]\n\
+         #[allow(clippy::approx_constant)] // what was learnt, whatever it resembles\npub static TRAINED: Model = Model {\n    scale: [\n",
     );
     for ([mean, deviation], name) in model.scale.iter().zip(NAMES) {
         let _ = writeln!(out, "        [{mean:.4}, {deviation:.4}], // {name}");

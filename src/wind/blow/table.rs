@@ -4,6 +4,7 @@ use super::model::Model;
 
 /// The trained model.
 #[rustfmt::skip]
+#[allow(clippy::approx_constant)] // what was learnt, whatever it resembles
 pub static TRAINED: Model = Model {
     scale: [
         [1.5500, 1.5095], // rise of 31–94 Hz over the room, 10 dB
