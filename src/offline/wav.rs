@@ -9,11 +9,13 @@ use super::whole_file::WholeFile;
 /// Sample rates the kiosk understands, Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 8_000..=192_000;
 
-/// A mono recording.
+/// A recording as one channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// Full scale ±1; the mean of the channels.
     pub samples: Vec<f32>,
+    /// Both channels where there are two: they may be two capsules.
+    pub capsules: Option<[Vec<f32>; 2]>,
     /// Hz.
     pub sample_rate: u32,
 }
@@ -110,7 +112,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
     if samples.is_empty() {
         return Err(WavError::Empty { path: path.into() });
     }
-    Ok(Recording { samples, sample_rate: spec.sample_rate })
+    let channel = |c: usize| interleaved.iter().skip(c).step_by(2).copied().collect();
+    let capsules = (channels == 2).then(|| [channel(0), channel(1)]);
+    Ok(Recording { samples, capsules, sample_rate: spec.sample_rate })
 }
 
 /// Writes interleaved samples (full scale ±1) as 32-bit float.

@@ -4,27 +4,45 @@
 //! both ends:
 //!
 //! ```text
-//! c ← clamp(c + ℓ Δt, 0, C_FULL),   breath begins at c ≥ C_ON, ends at c = 0
+//! c ← clamp(c + (ℓ − drift) Δt, 0, full),   breath begins at c ≥ on, ends at c = 0
 //! ```
 //!
-//! ℓ is believed up to +2.5 only, so that even the surest breath needs C_ON / 2.5 to begin (a pop or a clap does not last
-//! that long), and a doubtful one needs longer. No one blows for longer than six seconds: then the sound is latched as
-//! a machine's until c is 0 again. Order of phases: quiet → waiting → blow → (latched →) quiet.
+//! ℓ is believed within bounds only: the surest breath needs on / (highest − drift) to begin (a pop or a clap does not
+//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. No one blows for
+//! longer than six seconds: then the sound is latched as a machine's until c is 0 again. Order of phases: quiet → waiting →
+//! blow → (latched →) quiet.
 
 use super::features::Levels;
 use super::spectrum::FRAME_S;
 use crate::math::exp;
 
-/// The low band must rise by this much over the room, dB.
-pub const LEAST_RISE_DB: f64 = 6.0;
-/// Log-odds are believed down and up to here, nats.
-const BELIEVED: (f64, f64) = (-5.0, 2.5);
-/// A breath begins at this sum, nat·s.
-const C_ON: f64 = 0.16;
-/// The sum never exceeds this, so that a breath ends in time, nat·s.
-const C_FULL: f64 = 0.25;
-/// Longest breath, s.
-const LONGEST_S: f64 = 6.0;
+/// Low or middle must rise by this much over the room, dB.
+pub const LEAST_RISE_DB: f64 = 5.0;
+
+/// Log-odds from which a sound may be a breath that the room must not learn, nats; and for how long at most, s.
+const LIKELY: f64 = 1.0;
+const UNDECIDED_S: f64 = 1.0;
+
+/// The numbers of the cumulative sum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rules {
+    /// Log-odds are believed down and up to here, nats.
+    pub believed: (f64, f64),
+    /// What log-odds must exceed to count for breath while nobody blows, nats.
+    pub drift: f64,
+    /// A breath begins at this sum, nat·s.
+    pub on: f64,
+    /// The sum never exceeds this, so that a breath ends in time, nat·s.
+    pub full: f64,
+    /// Longest breath, s.
+    pub longest_s: f64,
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self { believed: (-5.0, 8.0), drift: 3.0, on: 0.1, full: 0.24, longest_s: 6.0 }
+    }
+}
 
 /// Where a breath stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,25 +65,32 @@ pub struct Decision {
     pub phase: Phase,
     /// The cumulative sum c, nat·s.
     sum: f64,
+    /// How far it is on its way to a breath, 0 … 1.
+    progress: f64,
     /// Log-odds of the last frame, bounded.
     log_odds: f64,
     blowing_s: f64,
+    /// For how long breath has been likely, s.
+    likely_s: f64,
 }
 
 impl Decision {
     /// Takes one frame; `None` where a frame cannot be breath at all.
-    pub fn push(&mut self, log_odds: Option<f64>, levels: &Levels) {
-        let possible = log_odds.filter(|_| levels.rise_db > LEAST_RISE_DB);
-        self.log_odds = possible.map_or(BELIEVED.0, |l| l.clamp(BELIEVED.0, BELIEVED.1));
-        self.sum = (self.sum + self.log_odds * FRAME_S).clamp(0.0, C_FULL);
+    pub fn push(&mut self, rules: &Rules, log_odds: Option<f64>, levels: &Levels) {
+        let possible = log_odds.filter(|_| levels.rise_db.max(levels.middle_rise_db) > LEAST_RISE_DB);
+        self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, rules.believed.1));
+        let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
+        self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
+        self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
+        self.progress = (self.sum / rules.on).min(1.0);
         self.phase = match self.phase {
             _ if self.sum == 0.0 => Phase::Quiet,
-            Phase::Quiet | Phase::Waiting if self.sum < C_ON => Phase::Waiting,
+            Phase::Quiet | Phase::Waiting if self.sum < rules.on => Phase::Waiting,
             Phase::Quiet | Phase::Waiting => {
                 self.blowing_s = 0.0;
                 Phase::Blow
             }
-            Phase::Blow if self.blowing_s > LONGEST_S => Phase::Latched,
+            Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
             Phase::Blow => {
                 self.blowing_s += FRAME_S;
                 Phase::Blow
@@ -74,9 +99,14 @@ impl Decision {
         };
     }
 
+    /// May this be a breath that has not been decided yet? Then the room must not learn it; but not for long.
+    pub fn is_likely(&self) -> bool {
+        self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
+    }
+
     /// 0 … 1: how far the sum is on its way to a breath, weighed with the last frame's probability.
     pub fn confidence(&self) -> f64 {
         let probability = 1.0 / (1.0 + exp(-self.log_odds));
-        (self.sum / C_ON).min(1.0) * probability
+        self.progress * probability
     }
 }

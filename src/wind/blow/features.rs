@@ -1,63 +1,82 @@
-//! What tells a breath from a room: a dozen numbers per frame, none of which knows the microphone's gain.
+//! What tells a breath from a room: some thirty numbers per frame, none of which knows the microphone's gain.
 //!
 //! The room is a power spectrum that follows the microphone slowly and stands still while somebody blows. What rises
-//! above it (the *excess*, power subtraction after Boll 1979) is judged by shape: breath at a capsule is noise below
-//! 200 Hz that falls by 12 dB an octave, has no pitch, and neither jumps nor dies like a knock.
+//! above it (the *excess*, power subtraction after Boll 1979) is judged by shape and by its last quarter of a second. A
+//! breath at a capsule is noise below 200 Hz that falls by 12 dB an octave; beside the stream it is the hiss above 400 Hz
+//! alone. It has no pitch, it swells within a tenth of a second, goes on, and its rumble and its hiss waver each for
+//! itself. Knocks jump and die; voices have harmonics; wheels and trains bring the room with them.
 //!
-//! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, B_i sums of E over
-//! 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz.
+//! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, over the
+//! bands 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz. *Low* are the first two, *middle* the last three.
 
 use super::spectrum::{BINS, FRAME_S, Power, TRANSFORM, band};
 use crate::math::{PI, cos, exp, ln, log10};
 
 /// Number of features.
-pub const COUNT: usize = 14;
+pub const COUNT: usize = 32;
 
 /// Names of the features, in order.
 pub const NAMES: [&str; COUNT] = [
-    "rise of the low band over the room, 10 dB",
-    "the same less twice the room's unrest, 10 dB",
-    "share of the low band in the excess, 10 dB",
-    "31–94 Hz over 94–203 Hz, 10 dB",
-    "203–406 Hz over the low band, 10 dB",
-    "406–1625 Hz over the low band, 10 dB",
-    "1625–3400 Hz over 406–1625 Hz, 10 dB",
+    "rise of 31–94 Hz over the room, 10 dB",
+    "rise of 94–203 Hz",
+    "rise of 203–406 Hz",
+    "rise of 406–812 Hz",
+    "rise of 812–1625 Hz",
+    "rise of 1625–3400 Hz",
+    "rise of low less twice the room's unrest there, 10 dB",
+    "rise of middle less twice the room's unrest there, 10 dB",
+    "excess of 31–94 Hz over 94–203 Hz, 10 dB",
+    "excess of 94–203 Hz over 203–406 Hz",
+    "excess of 203–406 Hz over 406–812 Hz",
+    "excess of 406–812 Hz over 812–1625 Hz",
+    "excess of 812–1625 Hz over 1625–3400 Hz",
+    "share of low in the excess, 10 dB",
     "periodicity of the excess, 80–400 Hz",
-    "flatness of the low band, 10 dB",
-    "flatness of 406–1625 Hz, 10 dB",
-    "fall from the peak of the last 0.2 s, 10 dB",
-    "climb of the low band in the last 48 ms, 10 dB",
-    "rise of 406–1625 Hz over the room, 10 dB",
-    "flatness of the low band over 80 ms, 10 dB",
+    "periodicity over 80 ms",
+    "flatness of the excess of low over 80 ms, 10 dB",
+    "flatness of the excess of 406–1625 Hz over 80 ms, 10 dB",
+    "climb of low in 48 ms, 10 dB",
+    "climb of low in 0.2 s",
+    "climb of middle in 48 ms",
+    "climb of middle in 0.2 s",
+    "fall of low from its peak in 0.24 s, 10 dB",
+    "fall of middle from its peak in 0.24 s",
+    "deviation of low in 0.16 s, 10 dB",
+    "deviation of middle in 0.16 s",
+    "correlation of low and middle in 0.24 s",
+    "time since nothing rose, logarithmic",
+    "share of low over 0.16 s, 10 dB",
+    "change of the middle's shape from frame to frame, 10 dB",
+    "steepest step of low in 0.1 s, 10 dB",
+    "steepest step of middle in 0.1 s",
 ];
 
 /// One frame's features, in the order of [`NAMES`].
 pub type Features = [f64; COUNT];
 
-/// Index of the periodicity.
-pub const PERIODICITY: usize = 7;
-/// Index of the middle's share.
-pub const MIDDLE_SHARE: usize = 5;
-/// Index of the fall from the peak.
-pub const FALL: usize = 10;
+/// Index of the periodicity over 80 ms.
+pub const PERIODICITY: usize = 15;
+/// Index of the falls of low and middle.
+pub const FALL: [usize; 2] = [22, 23];
 
+/// Limits of the bands, bins.
+pub const EDGES: [usize; BANDS + 1] = [2, 6, 13, 26, 52, 104, 218];
+const BANDS: usize = 6;
 /// Bins of the low band, 31–203 Hz.
-pub const LOW: (usize, usize) = (2, 13);
-/// Bins of the middle, 406–1625 Hz.
-const MIDDLE: (usize, usize) = (26, 104);
-/// Bins of everything that is looked at.
-const ALL: (usize, usize) = (2, 218);
+pub const LOW: (usize, usize) = (EDGES[0], EDGES[2]);
+/// Bins of the middle, 406–3400 Hz.
+pub const MIDDLE: (usize, usize) = (EDGES[3], EDGES[6]);
+/// Bins whose flatness shows a tone, 406–1625 Hz.
+const TONES: (usize, usize) = (EDGES[3], EDGES[5]);
 /// Bins that may carry harmonics of a voice, 94–1000 Hz.
 const HARMONICS: (usize, usize) = (6, 64);
 /// Lags of 400 Hz and 80 Hz, internal samples.
 const PITCH_LAGS: (usize, usize) = (20, 100);
 /// Smoothing of the powers, s: longer would make a pop look like a breath.
-const SMOOTHING_S: f64 = 0.012;
-/// Frames that are remembered, 0.2 s.
-const MEMORY: usize = 24;
-/// Frames over which a climb is taken, 48 ms: by then a bang falls and a breath still rises.
-const CLIMB: usize = 6;
-/// A room is never taken to be quieter than this, power (−75 dBFS): below it lies a converter's own noise.
+const SMOOTHING_S: f64 = 0.008;
+/// Frames that are remembered, 0.24 s.
+const MEMORY: usize = 30;
+/// A room is never taken to be quieter than this in a band, power (−75 dBFS): below it lies a converter's own noise.
 const QUIETEST: f64 = 3.2e-8;
 /// Below the room by more than this, it is the room that has become quieter, dB.
 const SUNK_DB: f64 = -6.0;
@@ -67,33 +86,48 @@ const CALM_DB: f64 = 2.0;
 const RESIDUE: f64 = 0.03;
 /// Keeps logarithms finite; far below [`QUIETEST`].
 const NOTHING: f64 = 1e-14;
+/// Below this rise nothing has risen, dB.
+const RISEN_DB: f64 = 5.0;
 
-/// The room and the last fifth of a second.
+/// The room and the last quarter of a second.
 #[derive(Clone, Debug)]
 pub(super) struct Listener {
     smooth: Power,
     room: Power,
-    unrest_db: f64,
+    /// How much low and middle waver about the room, dB.
+    unrest_db: [f64; 2],
     frames: u64,
     /// Frames from which the room was learnt.
     learnt: u64,
-    /// Low-band levels of the last frames, dB, a ring.
-    levels: [f64; MEMORY],
+    /// Levels of low and middle in the last frames, dB, rings.
+    levels: [[f64; MEMORY]; 2],
+    /// Excess, and the same over 80 ms: shows a steady tone that single frames hide.
     excess: Power,
-    /// Excess of the low band, smoothed over 80 ms: shows a steady tone that single frames hide.
-    slow_low: [f64; LOW.1 - LOW.0],
+    slow: Power,
+    periodicity: f64,
+    low_share: f64,
+    /// Middle bands of the last frame against each other, dB, and how much they change.
+    shape: [f64; 2],
+    flux: f64,
+    risen_for: f64,
     cosine: Vec<f64>,
 }
 
 /// Levels that the decision needs beside the features.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Levels {
-    /// Rise of the low band over the room, dB.
+pub struct Levels {
+    /// Rise of low over the room, dB.
     pub rise_db: f64,
-    /// Excess of the low band, dB of full scale.
+    /// Rise of the middle over the room, dB.
+    pub middle_rise_db: f64,
+    /// Excess of low, dB of full scale.
     pub excess_dbfs: f64,
-    /// Room's low band, dB of full scale.
+    /// Excess of the middle, dB of full scale.
+    pub hiss_dbfs: f64,
+    /// Room's low, dB of full scale.
     pub floor_dbfs: f64,
+    /// What is heard of 1625–3400 Hz, dB of full scale: it shows what a gain control does.
+    pub treble_dbfs: f64,
 }
 
 impl Listener {
@@ -102,12 +136,17 @@ impl Listener {
         Self {
             smooth: [0.0; BINS],
             room: [0.0; BINS],
-            unrest_db: CALM_DB,
+            unrest_db: [CALM_DB; 2],
             frames: 0,
             learnt: 0,
-            levels: [-100.0; MEMORY],
+            levels: [[-100.0; MEMORY]; 2],
             excess: [0.0; BINS],
-            slow_low: [0.0; LOW.1 - LOW.0],
+            slow: [0.0; BINS],
+            periodicity: 0.0,
+            low_share: 0.0,
+            shape: [0.0; 2],
+            flux: 0.0,
+            risen_for: 0.0,
             cosine: (0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect(),
         }
     }
@@ -131,14 +170,16 @@ impl Listener {
         for (((e, s), f), own) in self.excess.iter_mut().zip(&self.smooth).zip(&self.room).zip(own) {
             *e = (s - 1.5 * f - own).max(0.0);
         }
-        for (slow, e) in self.slow_low.iter_mut().zip(&self.excess[LOW.0..LOW.1]) {
+        for (slow, e) in self.slow.iter_mut().zip(&self.excess) {
             *slow += blend(0.08) * (e - *slow);
         }
         let (features, levels) = self.measure(own);
         if !frozen {
-            // A room that has become quieter is another room: its old unrest is forgotten.
-            let unrest = if levels.rise_db > SUNK_DB { levels.rise_db.abs() } else { CALM_DB };
-            self.unrest_db += blend(2.0) * (unrest - self.unrest_db).min(6.0);
+            for (unrest, rise) in self.unrest_db.iter_mut().zip([levels.rise_db, levels.middle_rise_db]) {
+                // A room that has become quieter is another room: its old unrest is forgotten.
+                let now = if rise > SUNK_DB { rise.abs() } else { CALM_DB };
+                *unrest += blend(2.0) * (now - *unrest).min(6.0);
+            }
         }
         (features, levels)
     }
@@ -167,43 +208,80 @@ impl Listener {
     }
 
     fn measure(&mut self, own: &Power) -> (Features, Levels) {
-        let (e, quiet) = (&self.excess, QUIETEST);
-        let at = (self.frames % MEMORY as u64) as usize;
-        let ago = |frames: usize| (at + MEMORY - frames) % MEMORY;
-        let floor = band(&self.room, LOW.0, LOW.1) + quiet;
-        let level = decibels(band(&self.smooth, LOW.0, LOW.1) + quiet);
         // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
-        let explained = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + quiet;
-        let cleaned = |from, to| {
+        let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + QUIETEST;
+        let cleaned = |from: usize, to: usize| {
             let bins = self.smooth[from..to].iter().zip(&own[from..to]);
-            bins.map(|(s, own)| (s - own).max(0.0)).sum::<f64>() + quiet
+            bins.map(|(s, own)| (s - own).max(0.0)).sum::<f64>() + QUIETEST
         };
-        let rise = decibels(cleaned(LOW.0, LOW.1) / explained(LOW.0, LOW.1));
-        self.levels[at] = level;
+        let rise = |(from, to)| decibels(cleaned(from, to) / floor(from, to)).clamp(-5.0, 50.0);
+        let excess = |(from, to)| band(&self.excess, from, to) + 0.03 * floor(from, to);
+        let bands: [(usize, usize); BANDS] = std::array::from_fn(|b| (EDGES[b], EDGES[b + 1]));
+        let rises = bands.map(rise);
+        let parts = bands.map(excess);
+        let (low_rise, middle_rise) = (rise(LOW), rise(MIDDLE));
+        let total: f64 = parts.iter().sum();
+        let share = decibels((parts[0] + parts[1]) / total);
+        let level = [decibels(cleaned(LOW.0, LOW.1)), decibels(cleaned(MIDDLE.0, MIDDLE.1))];
+        let levels = Levels {
+            rise_db: low_rise,
+            middle_rise_db: middle_rise,
+            excess_dbfs: decibels(band(&self.excess, LOW.0, LOW.1)),
+            hiss_dbfs: decibels(band(&self.excess, MIDDLE.0, MIDDLE.1)),
+            floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + QUIETEST),
+            treble_dbfs: decibels(band(&self.smooth, EDGES[5], EDGES[6])),
+        };
 
-        let low = band(e, LOW.0, LOW.1);
-        let middle = band(e, MIDDLE.0, MIDDLE.1);
-        let peak = self.levels.iter().fold(f64::NEG_INFINITY, |m: f64, l| m.max(*l));
-        let climb = level - self.levels[ago(CLIMB)];
-        let rise_middle = decibels(cleaned(MIDDLE.0, MIDDLE.1) / explained(MIDDLE.0, MIDDLE.1));
+        let at = (self.frames % MEMORY as u64) as usize;
+        if self.frames == 1 {
+            self.levels = level.map(|l| [l; MEMORY]);
+        }
+        self.levels[0][at] = level[0];
+        self.levels[1][at] = level[1];
+        let periodicity = self.periodicity();
+        self.periodicity += blend(0.08) * (periodicity - self.periodicity);
+        self.low_share += blend(0.16) * (share - self.low_share);
+        let shape = [decibels(parts[3] / parts[4]), decibels(parts[4] / parts[5])];
+        let change = (shape[0] - self.shape[0]).abs() + (shape[1] - self.shape[1]).abs();
+        self.flux += blend(0.08) * (change - self.flux);
+        self.shape = shape;
+        self.risen_for = if low_rise.max(middle_rise) > RISEN_DB { self.risen_for + FRAME_S } else { 0.0 };
+        let past = [0, 1].map(|i| Past::of(&self.levels[i], at));
         let features = [
-            rise.clamp(-5.0, 60.0),
-            (rise - 2.0 * self.unrest_db).clamp(-15.0, 60.0),
-            ratio(low, band(e, ALL.0, ALL.1)).clamp(-30.0, 0.0),
-            ratio(band(e, 2, 6), band(e, 6, 13)).clamp(-20.0, 20.0),
-            ratio(band(e, 13, 26), low).clamp(-30.0, 20.0),
-            ratio(middle, low).clamp(-40.0, 20.0),
-            ratio(band(e, 104, 218), middle).clamp(-30.0, 20.0),
-            10.0 * self.periodicity(),
-            flatness(&e[LOW.0..LOW.1]).clamp(-20.0, 0.0),
-            flatness(&e[MIDDLE.0..MIDDLE.1]).clamp(-20.0, 0.0),
-            (peak - level).clamp(0.0, 20.0),
-            climb.clamp(-20.0, 20.0),
-            rise_middle.clamp(-5.0, 60.0),
-            flatness(&self.slow_low).clamp(-20.0, 0.0),
+            rises[0],
+            rises[1],
+            rises[2],
+            rises[3],
+            rises[4],
+            rises[5],
+            low_rise - 2.0 * self.unrest_db[0],
+            middle_rise - 2.0 * self.unrest_db[1],
+            decibels(parts[0] / parts[1]),
+            decibels(parts[1] / parts[2]),
+            decibels(parts[2] / parts[3]),
+            shape[0],
+            shape[1],
+            share,
+            10.0 * periodicity,
+            10.0 * self.periodicity,
+            flatness(&self.slow[LOW.0..LOW.1]),
+            flatness(&self.slow[TONES.0..TONES.1]),
+            past[0].climb,
+            past[0].long_climb,
+            past[1].climb,
+            past[1].long_climb,
+            past[0].fall,
+            past[1].fall,
+            past[0].deviation,
+            past[1].deviation,
+            10.0 * correlation(&self.levels[0], &self.levels[1]),
+            10.0 * ln(1.0 + self.risen_for.min(2.0) / 0.04),
+            self.low_share,
+            self.flux,
+            past[0].step,
+            past[1].step,
         ]
-        .map(|x| 0.1 * x);
-        let levels = Levels { rise_db: rise, excess_dbfs: decibels(low), floor_dbfs: decibels(floor) };
+        .map(|x| 0.1 * x.clamp(-60.0, 60.0));
         (features, levels)
     }
 
@@ -230,13 +308,48 @@ pub fn blend(time_constant: f64) -> f64 {
     1.0 - exp(-FRAME_S / time_constant)
 }
 
+/// What a level did in the last quarter of a second, dB.
+struct Past {
+    climb: f64,
+    long_climb: f64,
+    fall: f64,
+    deviation: f64,
+    step: f64,
+}
+
+impl Past {
+    /// Of a ring whose newest entry lies at `at`.
+    fn of(ring: &[f64; MEMORY], at: usize) -> Self {
+        let ago = |frames: usize| ring[(at + MEMORY - frames) % MEMORY];
+        let peak = ring.iter().fold(f64::NEG_INFINITY, |m: f64, l| m.max(*l));
+        let mean = (0..20).map(ago).sum::<f64>() / 20.0;
+        let square = (0..20).map(|i| (ago(i) - mean) * (ago(i) - mean)).sum::<f64>() / 20.0;
+        Self {
+            climb: ago(0) - ago(6),
+            long_climb: ago(0) - ago(24),
+            fall: peak - ago(0),
+            deviation: square.sqrt(),
+            step: (0..12).map(|i| ago(i) - ago(i + 1)).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// Correlation of two rings, −1 … 1; 0 where one of them stands still (below 0.3 dB).
+fn correlation(a: &[f64; MEMORY], b: &[f64; MEMORY]) -> f64 {
+    let count = MEMORY as f64;
+    let (ma, mb) = (a.iter().sum::<f64>() / count, b.iter().sum::<f64>() / count);
+    let (mut aa, mut bb, mut ab) = (0.1 * count, 0.1 * count, 0.0);
+    for (x, y) in a.iter().zip(b) {
+        aa += (x - ma) * (x - ma);
+        bb += (y - mb) * (y - mb);
+        ab += (x - ma) * (y - mb);
+    }
+    ab / (aa * bb).sqrt()
+}
+
 /// Decibels of a power.
 pub fn decibels(power: f64) -> f64 {
     10.0 * log10(power.max(NOTHING))
-}
-
-fn ratio(a: f64, b: f64) -> f64 {
-    10.0 * log10((a + NOTHING) / (b + NOTHING))
 }
 
 /// Spectral flatness, dB: geometric over arithmetic mean, 0 for white noise.

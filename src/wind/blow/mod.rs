@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
-//!         → features (rise over the room, shape, pitch, fall) → model (log-odds) → decision (64 ms … 6 s) → speed
+//!         → features (rise over the room, shape, pitch, past) → model (log-odds) [+ coherence of two capsules]
+//!         → decision (48 ms … 6 s) → speed
 //! ```
 //!
 //! A breath that strikes a capsule is turbulence, not sound: noise below 200 Hz that towers over the room. Level alone
@@ -12,20 +13,25 @@
 //! Invariants: causal; no state depends on how samples were cut into blocks; the speed is exactly 0 unless the reason
 //! is [`Reason::Blow`].
 
+mod coherence;
 mod decision;
 pub mod features;
+pub mod front;
+mod gain;
 pub mod model;
 mod own;
 mod resample;
 mod spectrum;
+pub mod table;
 
 use crate::math::pow;
+pub use decision::Rules;
 use decision::{Decision, Phase};
-use features::{Features, Levels, Listener, blend, decibels};
+use features::{Features, Levels, blend, decibels};
+use front::{Frame, FrontEnd, SILENCE_DBFS};
+use gain::GainControl;
 use model::Model;
-use own::OwnVoice;
-use resample::Resampler;
-use spectrum::{Framer, band};
+use spectrum::band;
 
 /// Speed of the hardest blow, m/s.
 const HARDEST_M_S: f64 = 17.0;
@@ -33,16 +39,12 @@ const HARDEST_M_S: f64 = 17.0;
 const FAINTEST_M_S: f64 = 0.5;
 /// Level of the low band at the hardest blow, dB of full scale: the capsule is at its rails.
 const HARDEST_DBFS: f64 = -4.0;
+/// Level of the hiss above 400 Hz of the hardest blow at 10 cm, dB of full scale.
+const HARDEST_HISS_DBFS: f64 = -25.0;
 /// Level from which the mean of a rising breath starts, dB of full scale.
 const QUIETEST_BLOW_DBFS: f64 = -70.0;
-/// Lowest level that is told, dB of full scale.
-const SILENCE_DBFS: f64 = -120.0;
 /// The room must have been heard for this long before anything can be a breath, s.
 const SETTLING_S: f64 = 0.25;
-/// From this amplitude a sample counts as railed.
-const RAIL: f32 = 0.999;
-/// Frames for which a fault holds: the analysis window (6 frames) and the smoothing after it.
-const FAULT_HOLD_FRAMES: u32 = 10;
 
 /// What the detector says at the end of the samples it has heard.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,6 +61,8 @@ pub struct BlowEstimate {
     pub floor_dbfs: f64,
     /// Are samples at the rails?
     pub clipping: bool,
+    /// Does the microphone seem to change its gain by itself? Then strength cannot be told from it.
+    pub gain_control: bool,
 }
 
 /// Why the detector decided as it did.
@@ -97,11 +101,13 @@ pub struct BlowSettings {
     pub sensitivity_db: f64,
     /// Weighs the features.
     pub model: Model,
+    /// Turns log-odds into a decision.
+    pub rules: Rules,
 }
 
 impl Default for BlowSettings {
     fn default() -> Self {
-        Self { sensitivity_db: 0.0, model: model::TRAINED }
+        Self { sensitivity_db: 0.0, model: table::TRAINED.clone(), rules: Rules::default() }
     }
 }
 
@@ -112,27 +118,13 @@ impl Default for BlowSettings {
 pub struct BlowDetector {
     settings: BlowSettings,
     estimate: BlowEstimate,
-    microphone: Resampler,
-    own: Resampler,
-    framer: Framer,
-    own_voice: OwnVoice,
-    listener: Listener,
+    front: FrontEnd,
     decision: Decision,
-    input: Input,
+    gain: GainControl,
     features: Features,
     frames: u64,
-    intensity_dbfs: f64,
-}
-
-/// What the raw samples of the present frame say.
-#[derive(Clone, Copy, Debug, Default)]
-struct Input {
-    count: u32,
-    square: f64,
-    railed: u32,
-    faulty: bool,
-    /// Frames for which a fault still holds: until the bad samples have left the analysis window.
-    fault_hold: u32,
+    /// Smoothed excess of low and of the middle, dB of full scale.
+    intensity_dbfs: [f64; 2],
 }
 
 impl BlowDetector {
@@ -146,16 +138,12 @@ impl BlowDetector {
         Self {
             settings,
             estimate: BlowEstimate { level_dbfs: SILENCE_DBFS, floor_dbfs: SILENCE_DBFS, ..Default::default() },
-            microphone: Resampler::new(sample_rate),
-            own: Resampler::new(sample_rate),
-            framer: Framer::new(),
-            own_voice: OwnVoice::new(),
-            listener: Listener::new(),
+            front: FrontEnd::new(sample_rate),
             decision: Decision::default(),
-            input: Input::default(),
+            gain: GainControl::default(),
             features: [0.0; features::COUNT],
             frames: 0,
-            intensity_dbfs: SILENCE_DBFS,
+            intensity_dbfs: [SILENCE_DBFS; 2],
         }
     }
 
@@ -163,14 +151,21 @@ impl BlowDetector {
     /// (mono, same rate, same length), or empty where the microphone cannot hear it.
     pub fn push(&mut self, samples: &[f32], reference: &[f32]) {
         for (i, &sample) in samples.iter().enumerate() {
-            let heard = self.input.push(sample);
-            let played = reference.get(i).copied().filter(|x| x.is_finite()).unwrap_or(0.0);
-            let own = self.own.push(f64::from(played.clamp(-1.0, 1.0)));
-            if let (Some(heard), Some(own)) = (self.microphone.push(heard), own)
-                && self.framer.push(heard, own)
-            {
-                self.hear_frame();
-            }
+            self.hear(sample, None, reference.get(i).copied().unwrap_or(0.0));
+        }
+    }
+
+    /// Hears two capsules, `left` and `right` of the same length: wind differs between them, sound does not.
+    pub fn push_stereo(&mut self, left: &[f32], right: &[f32], reference: &[f32]) {
+        for (i, (&left, &right)) in left.iter().zip(right).enumerate() {
+            self.hear(left, Some(right), reference.get(i).copied().unwrap_or(0.0));
+        }
+    }
+
+    fn hear(&mut self, left: f32, right: Option<f32>, played: f32) {
+        let blowing = self.decision.phase == Phase::Blow;
+        if let Some(frame) = self.front.push(left, right, played, (blowing, self.decision.is_likely())) {
+            self.judge(&frame);
         }
     }
 
@@ -184,62 +179,75 @@ impl BlowDetector {
         (&self.features, self.frames)
     }
 
-    fn hear_frame(&mut self) {
+    fn judge(&mut self, frame: &Frame) {
         self.frames += 1;
-        let input = self.input.take();
-        self.estimate.level_dbfs = input.level_dbfs();
-        self.estimate.clipping = input.railed > 1;
-        if self.input.fault_hold > 0 {
+        self.estimate.level_dbfs = frame.level_dbfs;
+        self.estimate.clipping = frame.clipping;
+        if frame.fault {
             self.decision = Decision::default();
             return self.conclude(Reason::Fault, 0.0);
         }
-        let blowing = self.decision.phase == Phase::Blow;
-        self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
-        let frozen = blowing || self.own_voice.masks(&self.framer.microphone);
-        let (features, levels) = self.listener.push(&self.framer.microphone, &self.own_voice.predicted, frozen);
-        self.features = features;
+        let levels = &frame.levels;
+        self.features = frame.features;
         self.estimate.floor_dbfs = levels.floor_dbfs;
-        if input.square == 0.0 {
+        if frame.zero {
             // An unplugged microphone sends exact zeros; a living one never does for 8 ms.
             self.decision = Decision::default();
             return self.conclude(Reason::NoSignal, 0.0);
         }
-        let settling = self.listener.age() < SETTLING_S;
-        let log_odds = self.settings.model.log_odds(&features);
-        self.decision.push((!settling).then_some(log_odds), &levels);
-        let attack = if levels.excess_dbfs > self.intensity_dbfs { 0.03 } else { 0.08 };
-        self.intensity_dbfs += blend(attack) * (levels.excess_dbfs.max(QUIETEST_BLOW_DBFS) - self.intensity_dbfs);
+        let settling = self.front.listener.age() < SETTLING_S;
+        let log_odds = self.settings.model.log_odds(&frame.features) + self.front.coherence.log_odds(levels.rise_db);
+        self.decision.push(&self.settings.rules, (!settling).then_some(log_odds), levels);
+        self.gain.push(self.decision.phase == Phase::Blow, levels);
+        self.estimate.gain_control = self.gain.seen();
+        for (intensity, now) in self.intensity_dbfs.iter_mut().zip([levels.excess_dbfs, levels.hiss_dbfs]) {
+            let attack = if now > *intensity { 0.03 } else { 0.08 };
+            *intensity += blend(attack) * (now.max(QUIETEST_BLOW_DBFS) - *intensity);
+        }
         match self.decision.phase {
             Phase::Blow => self.conclude(Reason::Blow, self.speed()),
             Phase::Waiting => self.conclude(Reason::Waiting, 0.0),
             Phase::Latched => self.conclude(Reason::Latched, 0.0),
             Phase::Quiet if settling => self.conclude(Reason::Settling, 0.0),
-            Phase::Quiet => self.conclude(self.why_not(&levels), 0.0),
+            Phase::Quiet => self.conclude(self.why_not(levels), 0.0),
         }
     }
 
     /// The strongest single argument against breath.
     fn why_not(&self, levels: &Levels) -> Reason {
         let f = &self.features;
-        if levels.rise_db < decision::LEAST_RISE_DB {
+        if levels.rise_db.max(levels.middle_rise_db) < decision::LEAST_RISE_DB {
             // It rises above the room, but not above what the kiosk itself explains.
-            let heard = decibels(band(&self.framer.microphone, features::LOW.0, features::LOW.1));
-            let explained = heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
+            let heard = decibels(band(&self.front.framer.microphone, features::LOW.0, features::LOW.1));
+            let own = band(&self.front.own_voice.predicted, features::LOW.0, features::MIDDLE.1) > 0.0;
+            let explained = own && heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
             return if explained { Reason::OwnVoice } else { Reason::Quiet };
         }
+        let fall = if levels.rise_db > levels.middle_rise_db { f[features::FALL[0]] } else { f[features::FALL[1]] };
         let against = [
-            (f[features::FALL] * 10.0 / 6.0, Reason::Impulse),
+            (fall * 10.0 / 6.0, Reason::Impulse),
             (f[features::PERIODICITY] / 0.5, Reason::Voiced),
-            ((f[features::MIDDLE_SHARE] * 10.0 + 10.0) / 10.0, Reason::MidBand),
+            ((levels.hiss_dbfs - levels.excess_dbfs + 10.0) / 10.0, Reason::MidBand),
         ];
         against.iter().fold((0.0, Reason::MidBand), |most, &next| if next.0 > most.0 { next } else { most }).1
     }
 
-    /// Speed at the lips from the excess of the low band. Turbulence pressure goes with the square of the speed, so
-    /// U = 17 m/s · 10^((L − L₁₇)/40); near full scale a capsule saturates, which the decibels flatten of themselves.
+    /// Speed at the lips from the excess of rumble and of hiss. The pressure of turbulence goes with the square of the
+    /// speed, that of the hiss with its power of 2.5:
+    ///
+    /// ```text
+    /// R = 17 m/s · 10^((L − L₁₇)/40),   H = 17 m/s · 10^((L' − L'₁₇)/50),   U = max(√(R H), 0.8 H, 0.6 R)
+    /// ```
+    ///
+    /// Both together forgive more than each: distance takes the rumble, a stream that misses the microphone leaves the
+    /// hiss alone, foam and noise hide the hiss, and a gain control that levels the rumble leaves how the two compare.
+    /// Near full scale a capsule saturates, which the decibels flatten of themselves.
     fn speed(&self) -> f64 {
-        let level = self.intensity_dbfs + self.settings.sensitivity_db;
-        (HARDEST_M_S * pow(10.0, (level - HARDEST_DBFS) / 40.0)).clamp(FAINTEST_M_S, HARDEST_M_S)
+        let [rumble, hiss] = self.intensity_dbfs.map(|level| level + self.settings.sensitivity_db);
+        let rumble = pow(10.0, (rumble - HARDEST_DBFS) / 40.0);
+        let hiss = pow(10.0, (hiss - HARDEST_HISS_DBFS) / 50.0);
+        let speed = (rumble * hiss).sqrt().max(0.8 * hiss).max(0.6 * rumble);
+        (HARDEST_M_S * speed).clamp(FAINTEST_M_S, HARDEST_M_S)
     }
 
     fn conclude(&mut self, reason: Reason, speed: f64) {
@@ -247,32 +255,5 @@ impl BlowDetector {
         self.estimate.speed = speed;
         let heard = !matches!(reason, Reason::Fault | Reason::NoSignal | Reason::Latched | Reason::Settling);
         self.estimate.confidence = if heard { self.decision.confidence() } else { 0.0 };
-    }
-}
-
-impl Input {
-    /// Notes one raw sample; returns what the analysis hears.
-    fn push(&mut self, sample: f32) -> f64 {
-        self.count += 1;
-        if !sample.is_finite() {
-            self.faulty = true;
-            return 0.0;
-        }
-        if sample.abs() >= RAIL {
-            self.railed += 1;
-        }
-        let sample = f64::from(sample.clamp(-1.0, 1.0));
-        self.square += sample * sample;
-        sample
-    }
-
-    /// The finished frame's tally; starts the next.
-    fn take(&mut self) -> Self {
-        let fault_hold = if self.faulty { FAULT_HOLD_FRAMES } else { self.fault_hold.saturating_sub(1) };
-        std::mem::replace(self, Self { fault_hold, ..Self::default() })
-    }
-
-    fn level_dbfs(&self) -> f64 {
-        decibels(self.square / f64::from(self.count.max(1))).max(SILENCE_DBFS)
     }
 }

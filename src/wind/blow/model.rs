@@ -1,74 +1,83 @@
-//! The additive logistic model that weighs the features, and its coefficients.
-//!
-//! Each feature acts through a broken line with two knees, so that "enough is enough" and "only beyond" can be said:
+//! The model that weighs the features: a small network of two layers, bounded everywhere.
 //!
 //! ```text
-//! log-odds = bias + Σ_i ( w_i0 x_i + w_i1 max(0, x_i − k_i0) + w_i2 max(0, x_i − k_i1) )
+//! x_i = clamp((f_i − m_i) / s_i, ±3),   h = σ(A x + a),   g = σ(B h + b),   ℓ = C · g + c,   σ(z) = z / (1 + |z|)
 //! ```
 //!
-//! Trained by `tests/suite/blow/train.rs`, which prints this table; its data are the labelled recordings under
-//! `../shared/breath` and breaths from [`crate::wind::generate`].
+//! ℓ is the log-odds of breath in one frame. σ needs no transcendental and never saturates to a number that cannot be
+//! left again in training. Trained by `soffio breath train`, which writes [`super::table`].
 
 use super::features::{COUNT, Features};
 
-/// Coefficients of one feature.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Line {
-    /// Where the slope changes.
-    pub knees: [f64; 2],
-    /// Slope from the start, and what is added to it at each knee; log-odds per unit of the feature.
-    pub slopes: [f64; 3],
-}
+/// Width of the first layer.
+pub const FIRST: usize = 28;
+/// Width of the second layer.
+pub const SECOND: usize = 12;
+/// Parameters that are trained.
+pub const PARAMETERS: usize = FIRST * (COUNT + 1) + SECOND * (FIRST + 1) + SECOND + 1;
+/// Standardised features are cut here: what was never met in training says no more than the farthest that was.
+const FARTHEST: f64 = 3.0;
 
-impl Line {
-    /// The three basis functions at `x`.
-    pub fn basis(knees: &[f64; 2], x: f64) -> [f64; 3] {
-        [x, (x - knees[0]).max(0.0), (x - knees[1]).max(0.0)]
-    }
-}
-
-/// Coefficients of the whole model.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// All numbers of the model.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    /// Log-odds where all lines are 0.
-    pub bias: f64,
-    /// One line per feature.
-    pub lines: [Line; COUNT],
+    /// Mean and deviation of each feature, m and s.
+    pub scale: [[f64; 2]; COUNT],
+    /// Aᵀ row by row, then a; Bᵀ, b; C, c.
+    pub weights: [f64; PARAMETERS],
 }
+
+/// Values of the layers at one frame: what training differentiates.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    /// Standardised features x.
+    pub input: [f64; COUNT],
+    /// h.
+    pub first: [f64; FIRST],
+    /// g.
+    pub second: [f64; SECOND],
+    /// ℓ.
+    pub log_odds: f64,
+}
+
+/// Where Bᵀ, and C, begin among the weights.
+pub const B: usize = FIRST * (COUNT + 1);
+/// See [`B`].
+pub const C: usize = B + SECOND * (FIRST + 1);
 
 impl Model {
     /// Log-odds of breath.
     pub fn log_odds(&self, features: &Features) -> f64 {
-        let line = |(line, &x): (&Line, &f64)| -> f64 {
-            Line::basis(&line.knees, x).iter().zip(&line.slopes).map(|(b, s)| b * s).sum()
-        };
-        self.bias + self.lines.iter().zip(features).map(line).sum::<f64>()
+        self.layers(&self.standardised(features)).log_odds
+    }
+
+    /// x of the features.
+    pub fn standardised(&self, features: &Features) -> [f64; COUNT] {
+        std::array::from_fn(|i| ((features[i] - self.scale[i][0]) / self.scale[i][1]).clamp(-FARTHEST, FARTHEST))
+    }
+
+    /// All layers at standardised features.
+    pub fn layers(&self, input: &[f64; COUNT]) -> Layers {
+        let first = affine(&self.weights[..B], input).map(bend);
+        let second = affine(&self.weights[B..C], &first).map(bend);
+        let [log_odds] = affine(&self.weights[C..], &second);
+        Layers { input: *input, first, second, log_odds }
     }
 }
 
-/// A line, short for the table.
-const fn line(knees: [f64; 2], slopes: [f64; 3]) -> Line {
-    Line { knees, slopes }
+/// Wᵀ x + w, of which the rows of W come first and w last: column by column, so that the sums go on side by side.
+fn affine<const N: usize, const M: usize>(weights: &[f64], x: &[f64; N]) -> [f64; M] {
+    let (rows, rest) = weights.as_chunks::<M>();
+    debug_assert!(rows.len() == N + 1 && rest.is_empty());
+    let mut sum = rows[N];
+    for (row, x) in rows.iter().zip(x) {
+        for (s, w) in sum.iter_mut().zip(row) {
+            *s += w * x;
+        }
+    }
+    sum
 }
 
-/// The trained model.
-#[rustfmt::skip]
-pub const TRAINED: Model = Model {
-    bias: 4.436,
-    lines: [
-        line([1.261, 3.145], [-0.482, -4.471, 1.432]), // rise of the low band over the room, 10 dB
-        line([0.508, 2.492], [3.953, 1.213, -1.275]), // the same less twice the room's unrest, 10 dB
-        line([-0.243, -0.081], [0.558, -0.135, -0.506]), // share of the low band in the excess, 10 dB
-        line([-0.635, -0.005], [0.674, -0.932, 0.310]), // 31–94 Hz over 94–203 Hz, 10 dB
-        line([-0.911, -0.389], [1.156, -0.427, -1.131]), // 203–406 Hz over the low band, 10 dB
-        line([-1.374, -0.631], [0.414, -1.094, 0.106]), // 406–1625 Hz over the low band, 10 dB
-        line([-1.171, -0.674], [1.583, 0.212, -2.566]), // 1625–3400 Hz over 406–1625 Hz, 10 dB
-        line([0.166, 0.276], [-0.120, 0.758, 0.510]), // periodicity of the excess, 80–400 Hz
-        line([-0.891, -0.158], [0.255, 0.008, -1.548]), // flatness of the low band, 10 dB
-        line([-2.000, -0.500], [0.203, 0.203, -0.715]), // flatness of 406–1625 Hz, 10 dB
-        line([0.127, 0.590], [1.043, 0.954, -4.271]), // fall from the peak of the last 0.2 s, 10 dB
-        line([-0.197, 0.219], [0.293, 0.261, -0.837]), // climb of the low band in the last 48 ms, 10 dB
-        line([0.606, 1.902], [-0.060, -1.561, 1.227]), // rise of 406–1625 Hz over the room, 10 dB
-        line([-0.289, -0.093], [3.806, 3.885, -1.689]), // flatness of the low band over 80 ms, 10 dB
-    ],
-};
+fn bend(z: f64) -> f64 {
+    z / (1.0 + z.abs())
+}

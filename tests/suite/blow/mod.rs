@@ -1,11 +1,11 @@
 //! The blow detector: scores on labelled recordings, what must hold for any microphone, and the kiosk hearing itself.
 
-mod dataset;
+mod latch;
 mod own_voice;
 mod recordings;
 mod scores;
-mod train;
 
+use assert_no_alloc::assert_no_alloc;
 use soffio::noise::Random;
 use soffio::wind::blow::{BlowDetector, BlowEstimate, Reason};
 use soffio::wind::generate::{self, BreathShape};
@@ -191,5 +191,29 @@ fn gain_does_not_decide() {
         let scaled: Vec<f32> = samples.iter().map(|x| (x * gain).clamp(-1.0, 1.0)).collect();
         let seconds = seconds_blowing(&scaled, 16000);
         assert!((seconds - plain).abs() < 0.2, "{seconds} s at gain {gain}, {plain} s without");
+    }
+}
+
+#[test]
+fn the_ear_never_allocates() {
+    let samples = generate::breath(48000, 13, &BreathShape::default());
+    let mut detector = BlowDetector::new(48000);
+    for block in samples.chunks(200) {
+        assert_no_alloc(|| {
+            detector.push(block, block);
+            detector.push_stereo(block, block, &[]);
+        });
+    }
+}
+
+#[test]
+fn what_comes_later_changes_nothing_before() {
+    let samples = generate::breath(44100, 14, &BreathShape::default());
+    let whole = hear(&samples, 44100);
+    for part in [0.3, 0.55, 0.81] {
+        let cut = (part * samples.len() as f64) as usize;
+        let some = hear(&samples[..cut], 44100);
+        let full_blocks = cut / (44100 / 200);
+        assert!(some[..full_blocks] == whole[..full_blocks], "cut at {part} of the recording");
     }
 }

@@ -82,7 +82,7 @@ fn the_summary_tells_what_the_steps_show() {
     let (first, second) = (BreathShape::default(), BreathShape { strength: 13.0, hold: 0.8, ..BreathShape::default() });
     let mut samples = generate::breath(44100, 2, &first);
     samples.extend(generate::breath(44100, 3, &second));
-    let recording = wav::Recording { samples, sample_rate: 44100 };
+    let recording = wav::Recording { samples, capsules: None, sample_rate: 44100 };
     let steps = breath::steps(&recording);
     assert_eq!(steps.len(), (recording.duration() * 240.0).ceil() as usize, "a row per step");
     let summary = breath::summarise("two.wav".into(), &steps);
@@ -95,7 +95,7 @@ fn the_summary_tells_what_the_steps_show() {
     let wind_from = steps.iter().find(|(_, e)| e.speed > 0.0).unwrap().0;
     assert!((wind_from - summary.onset_s.unwrap()).abs() < STEP_S);
 
-    let silence = wav::Recording { samples: vec![0.0; 44100], sample_rate: 44100 };
+    let silence = wav::Recording { samples: vec![0.0; 44100], capsules: None, sample_rate: 44100 };
     let summary = breath::summarise("silence.wav".into(), &breath::steps(&silence));
     let line = serde_json::to_string(&summary).unwrap();
     assert_eq!(

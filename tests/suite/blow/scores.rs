@@ -1,12 +1,15 @@
-//! The trained detector against the labelled recordings, where they are present, with the bars it must keep.
+//! The trained detector against labelled recordings, where they are present, and against made scenes, with the bars it
+//! must keep.
 //!
-//! The bars guard what is reached on this set, which the model was trained on. On groups of recordings that training
-//! left out (`train.rs` prints them): isolated blows 53/53, in noise of 5 dB and more 12/12, of 0 dB 3/4, 98 false an hour
-//! (thunder, an explosion, rain, a propeller and a metal stair), none on impulses, latency 145/210 ms.
+//! The bars on recordings guard what is reached on a set that the model has learnt from; what it reaches on groups that it has
+//! not met, `soffio breath train --cross-validate` prints. The made scenes are of worlds that it has not met.
 
-use soffio::wind::blow::model::TRAINED;
+use std::path::{Path, PathBuf};
 
-use super::dataset::{self, Clip, Scores};
+use soffio::offline::ear::scenes::{Condition, Hearing, World, with_gain_control};
+use soffio::offline::ear::score::{Marks, Table, judge, poisson, quantile, spearman, wilson};
+use soffio::offline::ear::{Kind, Take, course, recordings};
+use soffio::wind::blow::BlowSettings;
 
 /// Part of the isolated blows that must be heard: the goal.
 const DETECTION: f64 = 0.95;
@@ -14,83 +17,163 @@ const DETECTION: f64 = 0.95;
 const DETECTION_5_DB: f64 = 0.92;
 /// Of the blows in noise as strong as they are: the goal.
 const DETECTION_0_DB: f64 = 0.75;
-/// Wind without breath, per hour of speech, crowd, steps, music, rain, thunder and machines. The set holds some five
-/// minutes of it, so that one trigger is 11 an hour; the goal of 12 is not reached (thunder, an explosion and a metal
-/// stair remain).
-const FALSE_PER_HOUR: f64 = 80.0;
-/// On knocks, claps, pops and thumps: the goal.
-const FALSE_ON_IMPULSES: usize = 0;
-/// Median and ninth decile from onset to wind, s; the goals are 0.12 and 0.25.
-const LATENCY_S: (f64, f64) = (0.16, 0.25);
+/// Wind without breath, per hour of speech, crowd, steps, music, rain, thunder and machines: the goal. The set holds some
+/// five minutes of it, so that one trigger is 11 an hour.
+const FALSE_PER_HOUR: f64 = 12.0;
+/// Median and ninth decile from onset to wind, s: the goals.
+const LATENCY_S: (f64, f64) = (0.12, 0.25);
 /// Longest wind after the end, s: the goal.
 const RELEASE_S: f64 = 0.3;
-/// Spearman's rank correlation of speed and true strength on a ladder: the goal.
-const ORDER: f64 = 0.95;
+/// Spearman's rank correlation of speed and true strength on a ladder: the stretch.
+const ORDER: f64 = 0.98;
 /// Detection may change by this much at ±12 dB: the goal.
 const GAIN_DETECTION: f64 = 0.03;
 
-/// Spearman's rank correlation of pairs without ties.
-fn spearman(pairs: &[(f64, f64)]) -> f64 {
-    let rank = |values: Vec<f64>, x: f64| values.iter().filter(|v| **v < x).count() as f64;
-    let n = pairs.len() as f64;
-    let squares: f64 = pairs
-        .iter()
-        .map(|(a, b)| {
-            let d = rank(pairs.iter().map(|p| p.0).collect(), *a) - rank(pairs.iter().map(|p| p.1).collect(), *b);
-            d * d
-        })
-        .sum();
-    1.0 - 6.0 * squares / (n * (n * n - 1.0))
+/// `../shared/breath`, or where `SOFFIO_BREATH_DATA` says.
+fn recorded() -> Option<Vec<Take>> {
+    let given = std::env::var_os("SOFFIO_BREATH_DATA").map(PathBuf::from);
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/breath");
+    let folder = [given, Some(beside)].into_iter().flatten().find(|folder| folder.join("labels.csv").is_file());
+    if folder.is_none() {
+        println!("no labelled recordings beside the repository: nothing to score");
+    }
+    folder.map(|folder| recordings::read(&folder).expect("a readable set"))
+}
+
+fn marked(takes: &[Take]) -> (Table, Vec<String>) {
+    let (mut table, mut remarks) = (Table::default(), Vec::new());
+    course::marked(&BlowSettings::default(), takes, &mut table, &mut remarks);
+    (table, remarks)
 }
 
 #[test]
 fn labelled_recordings_are_told_apart() {
-    let Some(clips) = dataset::load() else {
-        println!("no labelled recordings beside the repository: nothing to score");
-        return;
-    };
-    let mut scores = Scores::default();
-    for clip in &clips {
-        let verdict = dataset::judge(&TRAINED, clip);
-        scores.add(clip, &verdict);
-        if ["speech", "silence"].contains(&clip.label.as_str()) {
-            assert_eq!(verdict.false_triggers, 0, "{} makes no wind", clip.file);
-        }
-    }
-    println!("{scores}");
-    assert!(scores.detection() >= DETECTION, "{scores}");
-    assert!(scores.noisy_5.0 as f64 >= DETECTION_5_DB * scores.noisy_5.1 as f64, "{scores}");
-    assert!(scores.noisy_0.0 as f64 >= DETECTION_0_DB * scores.noisy_0.1 as f64, "{scores}");
-    assert!(scores.false_per_hour() <= FALSE_PER_HOUR, "{scores}");
-    assert_eq!(scores.false_impulse, FALSE_ON_IMPULSES, "{scores}");
-    let latency = (Scores::quantile(&scores.latency, 0.5), Scores::quantile(&scores.latency, 0.9));
-    assert!(latency.0 <= LATENCY_S.0 && latency.1 <= LATENCY_S.1, "{scores}");
-    assert!(Scores::quantile(&scores.release, 1.0) <= RELEASE_S, "{scores}");
-
+    let Some(takes) = recorded() else { return };
+    let (table, remarks) = marked(&takes);
+    let row = |first: char| -> &Marks { table.0.iter().find(|(name, _)| name.starts_with(first)).expect("a row").1 };
+    let isolated = row('1');
+    println!("{table}{remarks:#?}");
+    assert!(isolated.share() >= DETECTION, "{table}");
+    assert!(row('2').share() >= DETECTION_5_DB, "{table}");
+    assert!(row('3').share() >= DETECTION_0_DB, "{table}");
+    assert!(row('4').per_hour() <= FALSE_PER_HOUR, "{table}{remarks:#?}");
+    assert_eq!(row('5').ghosts, 0, "{remarks:#?}");
+    assert!(quantile(&isolated.latency, 0.5) <= LATENCY_S.0, "{table}");
+    assert!(quantile(&isolated.latency, 0.9) <= LATENCY_S.1, "{table}");
+    assert!(quantile(&isolated.release, 0.9) <= RELEASE_S, "{table}");
     for gain in [-12.0, 12.0] {
-        let scaled: Vec<Clip> = clips.iter().filter(|c| c.is_blow()).map(|c| c.with_gain(gain)).collect();
-        let at_gain = dataset::score(&TRAINED, &scaled);
-        println!("{gain:+} dB: {at_gain}");
-        assert!(at_gain.detection() >= scores.detection() - GAIN_DETECTION, "{gain:+} dB: {at_gain}");
+        let blows = takes.iter().filter(|t| t.kind == Kind::Blow && t.breaths[0].snr_db.is_none());
+        let (scaled, _) = marked(&blows.map(|t| t.with_gain(gain)).collect::<Vec<_>>());
+        let share = scaled.0.values().next().expect("a row").share();
+        assert!(share >= isolated.share() - GAIN_DETECTION, "{gain:+} dB: {scaled}");
     }
 }
 
 #[test]
 fn a_stronger_blow_is_a_stronger_wind() {
-    let Some(clips) = dataset::load() else {
-        println!("no labelled recordings beside the repository: nothing to score");
-        return;
-    };
-    let mut ladders: Vec<&str> = clips.iter().map(|c| c.group.as_str()).filter(|g| g.starts_with("ladder")).collect();
+    let Some(takes) = recorded() else { return };
+    let mut ladders: Vec<&str> = takes.iter().map(|t| t.group.as_str()).filter(|g| g.starts_with("ladder")).collect();
     ladders.sort_unstable();
     ladders.dedup();
     assert!(!ladders.is_empty());
     for ladder in ladders {
-        let steps = clips.iter().filter(|c| c.group == ladder && c.is_blow());
-        let pairs: Vec<(f64, f64)> =
-            steps.map(|c| (c.level.expect("a level"), dataset::judge(&TRAINED, c).mean_speed)).collect();
+        let steps = takes.iter().filter(|t| t.group == ladder && t.kind == Kind::Blow);
+        let speed = |t: &Take| judge(&BlowSettings::default(), t).mean_speed;
+        let pairs: Vec<(f64, f64)> = steps.map(|t| (t.level.expect("a level"), speed(t))).collect();
         let order = spearman(&pairs);
-        println!("{ladder}: {order:.3}");
         assert!(order >= ORDER, "{ladder}: {order:.3} of {pairs:?}");
     }
+}
+
+/// Scenes of one kind from a world that was never learnt from.
+fn scenes(condition: Condition, count: u64, hearing: Hearing) -> Marks {
+    let world = World::new(course::EXAM + 77);
+    let mut marks = Marks::default();
+    for index in 0..count {
+        let take = world.take(condition, index, hearing);
+        marks.add(&take, &judge(&BlowSettings::default(), &take));
+    }
+    println!("{condition:?} {hearing:?}: {marks}");
+    marks
+}
+
+/// Wind without breath in three minutes of made museum, which is louder and busier than a real one: some fifteen an
+/// hour are reached, four are the bar.
+const MUSEUM_GHOSTS: usize = 3;
+
+const PLAIN: Hearing = Hearing { gain_db: 0.0, stereo: false };
+
+#[test]
+fn a_made_breath_is_heard_and_a_made_museum_is_not() {
+    // Of these few, as many as 95 % and 90 % leave a fair chance for.
+    let near = scenes(Condition::Cell(0.1, 0.0, false), 10, PLAIN);
+    assert!(near.heard.0 >= 10 && quantile(&near.latency, 0.5) <= 0.14, "{near}");
+    let beside = scenes(Condition::Cell(0.2, 60.0, true), 10, PLAIN);
+    assert!(beside.heard.0 >= 8, "a child beside the microphone: {beside}");
+    assert!(scenes(Condition::Museum, 3, PLAIN).ghosts <= MUSEUM_GHOSTS);
+    assert_eq!(scenes(Condition::Impulses, 6, PLAIN).ghosts, 0, "knocks, claps, pops, doors");
+    for room in 0..3 {
+        assert_eq!(scenes(Condition::OwnVoice(room), 1, PLAIN).ghosts, 0, "the kiosk in room {room}");
+    }
+}
+
+#[test]
+fn two_capsules_hear_no_less() {
+    let stereo = Hearing { stereo: true, ..PLAIN };
+    let near = scenes(Condition::Cell(0.2, 0.0, true), 6, stereo);
+    assert!(near.heard.0 >= 6, "{near}");
+    let beside = scenes(Condition::Cell(0.2, 60.0, false), 6, stereo);
+    assert!(beside.heard.0 >= 5, "hiss is coherent and yet breath: {beside}");
+    assert!(scenes(Condition::Museum, 2, stereo).ghosts <= MUSEUM_GHOSTS);
+    // The same capsule in both channels, or nothing in the second, is one capsule.
+    let world = World::new(course::EXAM + 78);
+    for index in 0..3 {
+        let take = world.take(Condition::Cell(0.1, 0.0, false), index, PLAIN);
+        let quieter: Vec<f32> = take.left.iter().map(|x| 0.5 * x).collect();
+        for right in [take.left.clone(), quieter, vec![0.0; take.left.len()]] {
+            let copied = Take { right: Some(right), ..take.clone() };
+            assert!(judge(&BlowSettings::default(), &copied).detected, "{}", take.name);
+        }
+    }
+}
+
+#[test]
+fn a_microphone_that_changes_its_gain_is_found_out() {
+    let world = World::new(course::EXAM + 79);
+    let mut told = [0, 0];
+    for index in 0..4 {
+        // Three breaths, one after the other.
+        let takes: Vec<Take> =
+            (0..3).map(|i| world.take(Condition::Cell(0.1, 0.0, false), 3 * index + i, PLAIN)).collect();
+        let mut all = takes[0].clone();
+        for take in &takes[1..] {
+            // One room: the noise of the first microphone goes on, by its gain.
+            all.left.extend(&take.left);
+        }
+        told[0] += usize::from(judge(&BlowSettings::default(), &all).gain_control);
+        told[1] += usize::from(judge(&BlowSettings::default(), &with_gain_control(&all)).gain_control);
+    }
+    assert!(told[0] == 0, "plain microphones are not accused: {told:?} of 4");
+    assert!(told[1] >= 3, "gain control is seen: {told:?} of 4");
+}
+
+#[test]
+fn the_same_seed_makes_the_same_scene_and_another_world_shares_nothing() {
+    let stereo = Hearing { gain_db: 3.0, stereo: true };
+    let take = |world: u64| World::new(world).take(Condition::Noisy(5.0), 2, stereo);
+    let (a, b, other) = (take(5), take(5), take(6));
+    assert!(a.left == b.left && a.right == b.right && a.breaths == b.breaths);
+    assert!(a.left != other.left && a.group != other.group);
+    assert!(a.left.iter().all(|x| x.is_finite() && x.abs() <= 1.0));
+    assert_ne!(a.right.as_ref(), Some(&a.left), "two capsules hear two things");
+}
+
+#[test]
+fn bounds_are_those_of_the_books() {
+    // Wilson's interval of 8 of 10 (Brown, Cai and DasGupta 2001: 0.490–0.943), Garwood's of 0 and of 5 events.
+    let (low, high) = wilson(8, 10);
+    assert!((low - 0.490).abs() < 1e-3 && (high - 0.943).abs() < 1e-3, "{low}–{high}");
+    let (none, five) = (poisson(0), poisson(5));
+    assert!(none.0 == 0.0 && (none.1 - 3.689).abs() < 0.05, "{none:?}");
+    assert!((five.0 - 1.623).abs() < 0.02 && (five.1 - 11.668).abs() < 0.02, "{five:?}");
 }

@@ -9,15 +9,23 @@
 //! p_turb ~ near · U² · n_low             turbulence at the port: flat below f₁, −12 dB/octave above
 //! p_jet  ~ U^2.5 · n_hiss / (1 + d/25 cm)   hiss of the jet, 0.4–6 kHz
 //! f₁     = 40 Hz + 100 Hz · U₀/17        near = 1 / (1 + (d / 14 cm)²): how much of the stream arrives
+//! near  ×= exp(−(θ / 22°)²) · foam       beside the stream's axis (a jet is some 12° wide) and behind foam
 //! ```
 //!
-//! then the microphone: its high-pass corner, its noise, and soft saturation at full scale.
+//! Beside the axis the rumble is gone and the hiss remains: sound goes everywhere, the stream does not. Two capsules
+//! hear the same hiss and each its own turbulence: eddies at the port are millimetres wide. Last comes the microphone:
+//! its high-pass corner, its noise, and soft saturation at full scale.
 
-use crate::math::{PI, cos, exp, from_decibels, ln, pow, sin, tanh};
+pub mod filter;
+
+use crate::math::{PI, cos, exp, from_decibels, pow, sin, tanh};
 use crate::noise::{Random, hash_words};
+use filter::{gaussian, high_passed, low_passed, normalised, resonance};
 
 /// Speed of the hardest blow, m/s; `strength` is relative to it.
 pub const HARDEST_M_S: f64 = 17.0;
+/// From the axis of the stream to where e⁻¹ of its rumble is left, degrees.
+const JET_ANGLE_DEG: f64 = 22.0;
 
 /// One breath before a microphone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +44,12 @@ pub struct BreathShape {
     pub lead_out: f64,
     /// Lips to microphone, m.
     pub distance: f64,
+    /// Between the axis of the stream and the line to the microphone, degrees.
+    pub angle_deg: f64,
+    /// What a foam shield takes from the rumble, dB.
+    pub foam_db: f64,
+    /// Corner of the rumble relative to f₁: capsules, grilles and lips differ.
+    pub colour: f64,
     /// High-pass corner of the microphone, Hz (20 a bare capsule, 60 a USB gooseneck, 100 a laptop).
     pub corner_hz: f64,
     /// Noise of room and microphone, dB of full scale (RMS).
@@ -52,6 +66,9 @@ impl Default for BreathShape {
             release: 0.3,
             lead_out: 1.0,
             distance: 0.1,
+            angle_deg: 0.0,
+            foam_db: 0.0,
+            colour: 1.0,
             corner_hz: 60.0,
             noise_dbfs: -62.0,
         }
@@ -62,6 +79,11 @@ impl BreathShape {
     /// Length of the recording, s.
     pub fn duration(&self) -> f64 {
         self.lead_in + self.attack + self.hold + self.release + self.lead_out
+    }
+
+    /// Length of the recording, samples.
+    fn samples(&self, sample_rate: u32) -> usize {
+        (self.duration() * f64::from(sample_rate)).round().max(0.0) as usize
     }
 
     /// When the air starts and when it has stopped, s.
@@ -88,28 +110,37 @@ impl BreathShape {
 
 /// A recording of one breath, mono, full scale ±1.
 pub fn breath(sample_rate: u32, seed: u64, shape: &BreathShape) -> Vec<f32> {
+    let room = gaussian(shape.samples(sample_rate), &mut Random::new(hash_words(&[seed, 5])));
+    let room = normalised(low_passed(room, f64::from(sample_rate), 1500.0, 1));
+    let noise = from_decibels(shape.noise_dbfs);
+    let heard = stream(sample_rate, seed, shape, 0);
+    heard.iter().zip(&room).map(|(x, n)| tanh(x + noise * n) as f32).collect()
+}
+
+/// What arrives of a breath at one of several capsules (the first is 0), before noise and full scale.
+pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) -> Vec<f64> {
     let rate = f64::from(sample_rate);
-    let count = (shape.duration() * rate).round().max(0.0) as usize;
+    let count = shape.samples(sample_rate);
     let force = shape.strength / HARDEST_M_S;
     let stream = |name: u64| Random::new(hash_words(&[seed, name]));
+    let own = |name: u64| stream(name + 100 * capsule);
     let gust = normalised(low_passed(gaussian(count, &mut stream(1)), rate, 5.0, 2));
-    let turbulence = normalised(low_passed(gaussian(count, &mut stream(2)), rate, 40.0 + 100.0 * force, 2));
-    let patches = normalised(low_passed(gaussian(count, &mut stream(3)), rate, 12.0, 1));
+    let turbulence =
+        normalised(low_passed(gaussian(count, &mut own(2)), rate, shape.colour * (40.0 + 100.0 * force), 2));
+    let patches = normalised(low_passed(gaussian(count, &mut own(3)), rate, 12.0, 1));
     let hiss = low_passed(high_passed(gaussian(count, &mut stream(4)), rate, 400.0, 2), rate, 1800.0, 1);
-    let hiss = normalised(low_passed(hiss, rate, 6000.0, 1));
-    let room = normalised(low_passed(gaussian(count, &mut stream(5)), rate, 1500.0, 1));
+    let hiss = normalised(low_passed(hiss, rate, 6000.0_f64.min(0.45 * rate), 1));
 
     let distance_cm = 100.0 * shape.distance;
-    let near = 1.0 / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
+    let beside = (shape.angle_deg / JET_ANGLE_DEG) * (shape.angle_deg / JET_ANGLE_DEG);
+    let near = exp(-beside) * from_decibels(-shape.foam_db) / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
     let far = 1.0 / (1.0 + distance_cm / 25.0);
     let air = (0..count).map(|i| {
         let speed = (force * shape.envelope(i as f64 / rate) * (1.0 + 0.22 * gust[i])).max(0.0);
         let turbulent = 1.6 * near * speed * speed * (0.6 + 0.4 * patches[i].abs()) * turbulence[i];
         turbulent + 0.09 * far * pow(speed, 2.5) * hiss[i]
     });
-    let heard = high_passed(air.collect(), rate, shape.corner_hz, 2);
-    let noise = from_decibels(shape.noise_dbfs);
-    heard.iter().zip(&room).map(|(x, n)| tanh(x + noise * n) as f32).collect()
+    high_passed(air.collect(), rate, shape.corner_hz, 2)
 }
 
 /// White noise of the given level, dB of full scale (RMS).
@@ -220,61 +251,6 @@ pub fn mix(samples: &mut [f32], other: &[f32]) {
 
 fn length(sample_rate: u32, seconds: f64) -> usize {
     (f64::from(sample_rate) * seconds).round().max(0.0) as usize
-}
-
-/// Normal deviates of unit variance (Box and Muller 1958).
-fn gaussian(count: usize, random: &mut Random) -> Vec<f64> {
-    (0..count).map(|_| (-2.0 * ln(1.0 - random.unit())).sqrt() * cos(2.0 * PI * random.unit())).collect()
-}
-
-/// `order` one-pole low passes in a row, −6 dB an octave each above `corner_hz`.
-fn low_passed(mut samples: Vec<f64>, rate: f64, corner_hz: f64, order: usize) -> Vec<f64> {
-    let keep = exp(-2.0 * PI * corner_hz / rate);
-    for _ in 0..order {
-        let mut state = 0.0;
-        for x in &mut samples {
-            state = *x + keep * (state - *x);
-            *x = state;
-        }
-    }
-    samples
-}
-
-/// `order` one-pole high passes in a row.
-fn high_passed(mut samples: Vec<f64>, rate: f64, corner_hz: f64, order: usize) -> Vec<f64> {
-    let keep = exp(-2.0 * PI * corner_hz / rate);
-    for _ in 0..order {
-        let mut low = 0.0;
-        for x in &mut samples {
-            low = *x + keep * (low - *x);
-            *x -= low;
-        }
-    }
-    samples
-}
-
-/// A two-pole resonance at `centre_hz` of the given bandwidth, unit gain at its peak (nearly).
-fn resonance(samples: &[f64], rate: f64, centre_hz: f64, bandwidth_hz: f64) -> Vec<f64> {
-    let radius = exp(-PI * bandwidth_hz / rate);
-    let (a, b) = (2.0 * radius * cos(2.0 * PI * centre_hz / rate), radius * radius);
-    let gain = (1.0 - radius) * (1.0 - a + b).abs().sqrt().max(1e-3);
-    let (mut y1, mut y2) = (0.0, 0.0);
-    samples
-        .iter()
-        .map(|x| {
-            let y = gain * x + a * y1 - b * y2;
-            (y2, y1) = (y1, y);
-            y
-        })
-        .collect()
-}
-
-/// Scaled to unit RMS.
-fn normalised(mut samples: Vec<f64>) -> Vec<f64> {
-    let square: f64 = samples.iter().map(|x| x * x).sum();
-    let scale = 1.0 / (square / samples.len().max(1) as f64).sqrt().max(1e-12);
-    samples.iter_mut().for_each(|x| *x *= scale);
-    samples
 }
 
 /// Scaled to a level in dB of full scale (RMS), cut at full scale.

@@ -1,6 +1,11 @@
 //! `soffio breath`: the blow detector alone, over recordings.
 //!
-//! Per file one JSON line; with `--csv` a row per 1/240 s, the simulation's step, of one file.
+//! Per file one JSON line; with `--csv` a row per 1/240 s, the simulation's step, of one file. For engineers: `make` makes
+//! labelled scenes, `train` learns from them and from recordings, `score` marks the detector.
+
+mod make;
+mod score;
+mod train;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -9,7 +14,7 @@ use serde::Serialize;
 
 use super::{Failure, Outcome};
 use crate::offline::wav::{self, Recording};
-use crate::wind::blow::{BlowDetector, BlowEstimate};
+use crate::wind::blow::{BlowDetector, BlowEstimate, Reason};
 
 /// Steps a second at which the wind is read: those of the simulation.
 const STEPS_HZ: u64 = 240;
@@ -18,6 +23,7 @@ const STEPS_HZ: u64 = 240;
 ///
 /// Example: soffio breath exhibits/steel-fish/breaths/*.wav
 #[derive(clap::Args, Debug, Default)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Args {
     /// Recordings: PCM 8–32 bit or float, 8–192 kHz.
     #[arg(required = true, value_name = "FILE.wav")]
@@ -25,6 +31,19 @@ pub struct Args {
     /// Rows `t,speed,confidence` at 240 Hz instead of a summary; one file.
     #[arg(long)]
     csv: bool,
+    /// With --csv: a fourth column, why the detector decided as it did.
+    #[arg(long, requires = "csv")]
+    reasons: bool,
+    #[command(subcommand)]
+    school: Option<School>,
+}
+
+/// The ear's school.
+#[derive(clap::Subcommand, Debug)]
+enum School {
+    Make(make::Args),
+    Train(train::Args),
+    Score(score::Args),
 }
 
 /// What the detector made of one recording.
@@ -48,6 +67,12 @@ pub struct Summary {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
+    match args.school {
+        Some(School::Make(args)) => return make::run(&args),
+        Some(School::Train(args)) => return train::run(&args),
+        Some(School::Score(args)) => return score::run(&args),
+        None => {}
+    }
     if args.csv && args.files.len() != 1 {
         let message = format!("breath: --csv takes one file, {} were given. Name one.", args.files.len());
         return Err(Failure { code: 2, message });
@@ -60,7 +85,7 @@ pub fn run(args: Args) -> Outcome {
             Ok(recording) => {
                 let steps = steps(&recording);
                 let written = if args.csv {
-                    write_rows(&mut out, &steps)
+                    write_rows(&mut out, &steps, args.reasons)
                 } else {
                     let summary = summarise(path.display().to_string(), &steps);
                     let line = serde_json::to_string(&summary).map_err(Failure::input)?;
@@ -89,7 +114,10 @@ pub fn steps(recording: &Recording) -> Vec<(f64, BlowEstimate)> {
         }
         // Step boundaries are rounded, never accumulated: 183 or 184 samples at 44.1 kHz.
         let to = ((step * rate / STEPS_HZ) as usize).min(total);
-        detector.push(&recording.samples[from..to], &[]);
+        match &recording.capsules {
+            Some([left, right]) => detector.push_stereo(&left[from..to], &right[from..to], &[]),
+            None => detector.push(&recording.samples[from..to], &[]),
+        }
         from = to;
         rows.push((step as f64 / STEPS_HZ as f64, detector.estimate()));
     }
@@ -113,10 +141,31 @@ pub fn summarise(file: String, steps: &[(f64, BlowEstimate)]) -> Summary {
     }
 }
 
-fn write_rows(out: &mut impl Write, steps: &[(f64, BlowEstimate)]) -> std::io::Result<()> {
-    writeln!(out, "t,speed,confidence")?;
+fn write_rows(out: &mut impl Write, steps: &[(f64, BlowEstimate)], reasons: bool) -> std::io::Result<()> {
+    writeln!(out, "t,speed,confidence{}", if reasons { ",reason" } else { "" })?;
     for (t, estimate) in steps {
-        writeln!(out, "{t:.6},{:.4},{:.4}", estimate.speed, estimate.confidence)?;
+        write!(out, "{t:.6},{:.4},{:.4}", estimate.speed, estimate.confidence)?;
+        if reasons {
+            write!(out, ",{}", word(estimate.reason))?;
+        }
+        writeln!(out)?;
     }
     Ok(())
+}
+
+/// A reason in a word.
+fn word(reason: Reason) -> &'static str {
+    match reason {
+        Reason::NoSignal => "no-signal",
+        Reason::Settling => "settling",
+        Reason::Quiet => "quiet",
+        Reason::Voiced => "voiced",
+        Reason::MidBand => "mid-band",
+        Reason::Impulse => "impulse",
+        Reason::Waiting => "waiting",
+        Reason::Blow => "blow",
+        Reason::Latched => "latched",
+        Reason::OwnVoice => "own-voice",
+        Reason::Fault => "fault",
+    }
 }

@@ -1,0 +1,74 @@
+//! `soffio breath score`: marks the detector, with 95 % bounds.
+
+use std::path::PathBuf;
+
+use super::super::{Failure, Outcome};
+use crate::offline::ear::scenes::Hearing;
+use crate::offline::ear::score::{Table, spearman};
+use crate::offline::ear::{Take, course, recordings};
+use crate::wind::blow::BlowSettings;
+
+/// Mark the blow detector on a folder of labelled recordings, or on made scenes that it never learnt from.
+///
+/// Example: soffio breath score --generated --hours 3
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    /// Folders of labelled recordings (labels.csv).
+    #[arg(required_unless_present = "generated", value_name = "FOLDER")]
+    folders: Vec<PathBuf>,
+    /// Made scenes: museum, knocks, breaths by distance and angle, breaths in noise, the kiosk itself.
+    #[arg(long)]
+    generated: bool,
+    /// Hours of each kind of made scene.
+    #[arg(long, default_value_t = 3.0)]
+    hours: f64,
+    /// Changes the made scenes.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Two capsules in made scenes.
+    #[arg(long)]
+    stereo: bool,
+    /// Louder or quieter, dB.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    gain: f64,
+    /// Tell every mistake.
+    #[arg(long)]
+    remarks: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Outcome {
+    let settings = BlowSettings::default();
+    for folder in &args.folders {
+        let takes = recordings::read(folder).map_err(Failure::input)?;
+        let takes: Vec<Take> =
+            if args.gain == 0.0 { takes } else { takes.iter().map(|take| take.with_gain(args.gain)).collect() };
+        let (mut table, mut remarks) = (Table::default(), Vec::new());
+        let verdicts = course::marked(&settings, &takes, &mut table, &mut remarks);
+        println!("{}\n{table}", folder.display());
+        let with_level = |prefix: &str| {
+            let ladder = takes.iter().zip(&verdicts).filter(|(t, _)| t.group == prefix && !t.breaths.is_empty());
+            ladder.filter_map(|(t, v)| Some((t.level?, v.mean_speed))).collect::<Vec<_>>()
+        };
+        let mut ladders: Vec<&str> =
+            takes.iter().map(|t| t.group.as_str()).filter(|g| g.starts_with("ladder")).collect();
+        ladders.dedup();
+        for ladder in ladders {
+            println!("{ladder:38} rank correlation {:.3}", spearman(&with_level(ladder)));
+        }
+        tell(args, &remarks);
+    }
+    if args.generated {
+        let hearing = Hearing { gain_db: args.gain, stereo: args.stereo };
+        let (table, remarks) = course::examined(&settings, args.hours, args.seed, hearing);
+        println!("made scenes, {} h each, seed {}\n{table}", args.hours, args.seed);
+        tell(args, &remarks);
+    }
+    Ok(())
+}
+
+fn tell(args: &Args, remarks: &[String]) {
+    if args.remarks {
+        remarks.iter().for_each(|remark| println!("  {remark}"));
+    }
+}

@@ -1,0 +1,200 @@
+//! What is learnt from and what is marked: the sets, how large, from which worlds; the work shared among threads.
+//!
+//! Worlds below [`EXAM`] teach, the others examine. Recordings are parted by group: whatever a model is marked on, it
+//! has met neither the recording nor one of its group, nor a scene in which one of them was mixed.
+
+use std::sync::Mutex;
+
+use super::scenes::{Condition, Hearing, World};
+use super::score::{Table, Verdict, judge};
+use super::train::{Example, examples, train};
+use super::{Kind, Take};
+use crate::noise::{Random, hash_words};
+use crate::wind::blow::model::Model;
+use crate::wind::blow::{BlowSettings, Rules};
+
+/// Seeds of worlds from here on are never learnt from.
+pub const EXAM: u64 = 1_000_000;
+/// Recordings are parted into so many parts by their groups.
+pub const FOLDS: u64 = 5;
+/// Every recording is learnt from at its own gain and at two more, within this, dB.
+const GAIN_DB: f64 = 12.0;
+
+/// How much is learnt.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    /// Worlds of speakers and rooms; beside them, one with the recordings in it.
+    pub worlds: u64,
+    /// 1: an hour of museum a world, and the rest in proportion.
+    pub size: f64,
+    /// Rounds over all examples.
+    pub rounds: usize,
+    /// Changes everything that is drawn.
+    pub seed: u64,
+}
+
+/// Scenes that a world teaches with: half of them at gains far from the usual.
+fn lessons(size: f64) -> Vec<(Condition, u64)> {
+    let count = |full: f64| (full * size).round() as u64;
+    let mut all =
+        vec![(Condition::Museum, count(60.0)), (Condition::Impulses, count(90.0)), (Condition::Isolated, count(250.0))];
+    all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(60.0))));
+    all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(4.0))));
+    all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
+}
+
+/// Examples of one world.
+fn taught(world: &World, course: &Course) -> Vec<Example> {
+    let made = parallel(lessons(course.size), |(condition, index)| {
+        let mut random = Random::new(hash_words(&[course.seed, index, 3]));
+        let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB), stereo: false };
+        let mut out = Vec::new();
+        examples(&world.take(condition, index, hearing), &mut out);
+        out
+    });
+    made.concat()
+}
+
+/// Examples of made worlds without recordings: shared by all folds.
+pub fn made_examples(course: &Course) -> Vec<Example> {
+    (0..course.worlds).flat_map(|i| taught(&World::new(world_seed(course, i)), course)).collect()
+}
+
+fn world_seed(course: &Course, i: u64) -> u64 {
+    hash_words(&[course.seed, i]) % EXAM
+}
+
+/// Trains on made examples and on recordings, these also mixed into a world of their own.
+pub fn taught_model(course: &Course, made: &[Example], recordings: &[&Take], fold: u64) -> (Model, f64) {
+    let mut all = made.to_vec();
+    if !recordings.is_empty() {
+        let world = World::new(world_seed(course, 1000 + fold)).with_recordings(recordings.iter().copied());
+        all.extend(taught(&world, course));
+        for copy in 0..3 {
+            let mut random = Random::new(hash_words(&[course.seed, copy, 4]));
+            for take in recordings {
+                let gain = random.range(-GAIN_DB, GAIN_DB);
+                examples(&take.with_gain(if copy == 0 { 0.0 } else { gain }), &mut all);
+            }
+        }
+    }
+    train(&all, course.rounds, course.seed)
+}
+
+/// The part that a group of recordings belongs to.
+pub fn fold(group: &str) -> u64 {
+    let letters: Vec<u64> = group.bytes().map(u64::from).collect();
+    hash_words(&letters) % FOLDS
+}
+
+/// Marks of recordings, each by the model of its fold, which has not met its group.
+pub fn cross_validated(course: &Course, made: &[Example], recordings: &[Take], rules: &Rules) -> (Table, Vec<String>) {
+    let (mut table, mut remarks) = (Table::default(), Vec::new());
+    let models = parallel((0..FOLDS).collect(), |k| {
+        let known: Vec<&Take> = recordings.iter().filter(|t| fold(&t.group) != k).collect();
+        taught_model(course, made, &known, k).0
+    });
+    for (k, model) in models.into_iter().enumerate() {
+        let held: Vec<Take> = recordings.iter().filter(|t| fold(&t.group) == k as u64).cloned().collect();
+        let settings = BlowSettings { model, rules: *rules, ..BlowSettings::default() };
+        marked(&settings, &held, &mut table, &mut remarks);
+    }
+    (table, remarks)
+}
+
+/// Marks recordings; what went wrong becomes a remark.
+pub fn marked(settings: &BlowSettings, takes: &[Take], table: &mut Table, remarks: &mut Vec<String>) -> Vec<Verdict> {
+    let verdicts = parallel((0..takes.len()).collect(), |i| judge(settings, &takes[i]));
+    for (take, verdict) in takes.iter().zip(&verdicts) {
+        if let Some(row) = Table::row(take) {
+            table.add(row, take, verdict);
+            remarks.extend(remark(take, verdict));
+        }
+    }
+    verdicts
+}
+
+fn remark(take: &Take, verdict: &Verdict) -> Option<String> {
+    let missed = take.kind == Kind::Blow && !verdict.detected;
+    if verdict.ghosts.is_empty() && !missed {
+        return None;
+    }
+    let what = if missed { "not heard".to_owned() } else { format!("wind without breath at {:.2?} s", verdict.ghosts) };
+    Some(format!("{}: {what}", take.name))
+}
+
+/// What an exam asks: row by row, so many scenes each.
+pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
+    let takes = |seconds: f64| (3600.0 * hours / seconds).ceil() as u64;
+    let mut rows = vec![
+        ("museum".to_owned(), Condition::Museum, takes(60.0)),
+        ("knocks, claps, pops, doors".to_owned(), Condition::Impulses, takes(20.0)),
+        ("breath, 5-60 cm, 0-60°".to_owned(), Condition::Isolated, takes(5.0)),
+    ];
+    for distance in [0.1, 0.2, 0.4] {
+        for angle in [0.0, 30.0, 60.0] {
+            for child in [false, true] {
+                let who = if child { "child" } else { "adult" };
+                let row = format!("breath, {:.0} cm, {angle:2.0}°, {who}", 100.0 * distance);
+                rows.push((row, Condition::Cell(distance, angle, child), takes(5.0 * 18.0)));
+            }
+        }
+    }
+    for snr in [0.0, 5.0, 10.0, 20.0] {
+        rows.push((format!("breath in a museum, {snr:2.0} dB"), Condition::Noisy(snr), takes(5.0 * 4.0)));
+    }
+    for room in 0..3 {
+        rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));
+    }
+    rows
+}
+
+/// Marks of made scenes, `hours` of each kind, from worlds that nobody has learnt from.
+pub fn examined(settings: &BlowSettings, hours: f64, seed: u64, hearing: Hearing) -> (Table, Vec<String>) {
+    const WORLDS: u64 = 6;
+    let worlds: Vec<World> = (0..WORLDS).map(|i| World::new(EXAM + hash_words(&[seed, i]) % EXAM)).collect();
+    let scenes =
+        exam(hours).into_iter().flat_map(|(row, condition, n)| (0..n).map(move |i| (row.clone(), condition, i)));
+    let results = parallel(scenes.collect(), |(row, condition, index)| {
+        let mut random = Random::new(hash_words(&[seed, index, 5]));
+        let hearing = Hearing { gain_db: hearing.gain_db + random.range(-3.0, 3.0), ..hearing };
+        let mut take = worlds[(index % WORLDS) as usize].take(condition, index, hearing);
+        let verdict = judge(settings, &take);
+        // The sound itself is no longer needed; its length is.
+        take.played = Vec::new();
+        let remark = remark(&take, &verdict).map(|r| format!("{} {r}", take.group));
+        let mut table = Table::default();
+        table.add(&row, &take, &verdict);
+        (table, remark)
+    });
+    let (mut table, mut remarks) = (Table::default(), Vec::new());
+    for (one, remark) in results {
+        table.join(one);
+        remarks.extend(remark);
+    }
+    (table, remarks)
+}
+
+/// Maps in as many threads as there are processors; results in the order of the items.
+pub fn parallel<T: Send, R: Send>(items: Vec<T>, map: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let queue = Mutex::new(items.into_iter().enumerate());
+    let done = Mutex::new(Vec::new());
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    // A panic in one thread ends all of them at the scope's end.
+    let next = || queue.lock().map_or(None, |mut queue| queue.next());
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some((i, item)) = next() {
+                    let result = map(item);
+                    if let Ok(mut done) = done.lock() {
+                        done.push((i, result));
+                    }
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_default();
+    done.sort_by_key(|(i, _)| *i);
+    done.into_iter().map(|(_, result)| result).collect()
+}

@@ -1,0 +1,471 @@
+//! Labelled scenes: breaths and everything else before a microphone, drawn by a seed.
+//!
+//! A [`World`] is one group of speakers and rooms; training and test use worlds of other seeds, so that they share no
+//! voice, no room and no event. A scene sums dry sounds at places of a room, takes each place through the room's response to
+//! each capsule, adds breath, the bump that comes through the table, and the microphone: corner, noise, gain, rails.
+
+use crate::math::{exp, from_decibels, tanh};
+use crate::noise::{Random, hash_words};
+use crate::wind::generate::filter::{high_passed, low_passed, normalised, power, white};
+use crate::wind::generate::{self, BreathShape};
+
+use super::rooms::{Room, convolved};
+use super::voices::{self, Voice, add};
+use super::{Breath, Kind, RATE, Take, noises, own};
+
+const R: f64 = RATE as f64;
+/// Voices of a world, and how long each one's speech is before it repeats, s.
+const VOICES: usize = 20;
+const SPEECH_S: f64 = 15.0;
+/// Rooms of a world, and places in each.
+const ROOMS: usize = 8;
+const PLACES: usize = 5;
+
+/// What a scene is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Condition {
+    /// A minute of museum, nobody blows.
+    Museum,
+    /// Pops, thumps, claps, doors, bumps in a quiet room.
+    Impulses,
+    /// One breath in a quiet room, of any strength, distance and angle.
+    Isolated,
+    /// One breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
+    Cell(f64, f64, bool),
+    /// One breath straight at the microphone in a museum, this far above its noise, dB.
+    Noisy(f64),
+    /// The kiosk itself at full volume in one of three rooms, nobody blows.
+    OwnVoice(u32),
+}
+
+/// How a scene is heard, beside what is in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hearing {
+    /// Added to what the microphone would hear, dB.
+    pub gain_db: f64,
+    /// Two capsules a few centimetres apart.
+    pub stereo: bool,
+}
+
+/// One group of speakers and rooms.
+#[derive(Debug)]
+pub struct World {
+    seed: u64,
+    voices: Vec<(Voice, Vec<f64>)>,
+    rooms: Vec<(Room, Vec<[Vec<f64>; 2]>)>,
+    /// Recorded noises, dry, unit RMS.
+    recorded: Vec<Vec<f64>>,
+}
+
+/// Dry sounds by place; place [`PLACES`] is the table itself, which no room colours.
+type Dry = Vec<Vec<f64>>;
+
+impl World {
+    /// The world of a seed.
+    pub fn new(seed: u64) -> Self {
+        let mut random = Random::new(hash_words(&[seed, 0x0076_6f69]));
+        let voices = (0..VOICES)
+            .map(|_| {
+                let voice = Voice::random(&mut random);
+                let voice = if random.unit() < 0.15 { voice.shouting() } else { voice };
+                (voice, voices::speech(&voice, SPEECH_S, &mut random))
+            })
+            .collect();
+        let room = |random: &mut Random| {
+            let room = Room::random(random);
+            // The last place is a visitor's before the kiosk.
+            let response = |place: usize, random: &mut Random| {
+                let at =
+                    if place + 1 < PLACES { room.place(random) } else { room.near(random.range(0.3, 1.0), random) };
+                let seed = random.word();
+                [room.response(at, 0, seed), room.response(at, 1, seed)]
+            };
+            let responses = (0..PLACES).map(|place| response(place, random)).collect();
+            (room, responses)
+        };
+        let rooms = (0..ROOMS).map(|_| room(&mut random)).collect();
+        Self { seed, voices, rooms, recorded: Vec::new() }
+    }
+
+    /// The same with recorded noises, which then take part in scenes of museums.
+    pub fn with_recordings<'a>(mut self, takes: impl IntoIterator<Item = &'a Take>) -> Self {
+        let noises = takes.into_iter().filter(|take| take.kind == Kind::Noise && take.duration() > 2.0);
+        self.recorded.extend(noises.map(resampled).filter(|sound| power(sound) > 0.0).map(normalised));
+        self
+    }
+
+    /// One scene of a condition.
+    pub fn take(&self, condition: Condition, index: u64, hearing: Hearing) -> Take {
+        let mut random = Random::new(hash_words(&[self.seed, condition.number(), index]));
+        match condition {
+            Condition::Museum => self.museum(index, hearing, &mut random),
+            Condition::Impulses => self.impulses(index, hearing, &mut random),
+            Condition::Isolated => {
+                let child = random.unit() < 0.4;
+                let angle = if random.unit() < 0.5 { random.range(0.0, 12.0) } else { random.range(12.0, 60.0) };
+                let far = (random.range(0.05_f64, 0.6), random.range(0.05, 0.6));
+                self.blow(condition, index, (far.0.min(far.1), angle, child), hearing, &mut random)
+            }
+            Condition::Cell(distance, angle, child) => {
+                self.blow(condition, index, (distance, angle, child), hearing, &mut random)
+            }
+            Condition::Noisy(_) => {
+                let child = random.unit() < 0.4;
+                let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
+                self.blow(condition, index, mouth, hearing, &mut random)
+            }
+            Condition::OwnVoice(room) => self.own_voice(index, room, hearing, &mut random),
+        }
+    }
+
+    /// A stretch of one of the voices.
+    fn speech(&self, seconds: f64, random: &mut Random) -> Vec<f64> {
+        let track = &self.voices[(random.unit() * VOICES as f64) as usize].1;
+        let from = (random.unit() * track.len() as f64) as usize;
+        track.iter().cycle().skip(from).take((seconds * R) as usize).copied().collect()
+    }
+
+    fn voice(&self, random: &mut Random) -> Voice {
+        self.voices[(random.unit() * VOICES as f64) as usize].0
+    }
+
+    /// Lasting and sudden sounds of a museum; `busy` scales how many.
+    fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
+        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
+        let decibel = |random: &mut Random, low: f64, high: f64| from_decibels(random.range(low, high));
+        if random.unit() < 0.6 * busy {
+            let loud = random.range(-62.0, -24.0);
+            for _ in 0..random.range(1.0, 14.0) as u32 {
+                let at = place(random);
+                let gain = from_decibels(loud + random.range(-8.0, 3.0));
+                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain);
+            }
+        }
+        if random.unit() < 0.25 * busy {
+            // Somebody speaks right before the kiosk.
+            let gain = decibel(random, -40.0, -12.0);
+            add(&mut dry[PLACES - 1], random.range(0.0, 0.3 * seconds), &self.speech(0.6 * seconds, random), gain);
+            if random.unit() < 0.5 {
+                let puffs = voices::plosives(0.6 * seconds, random);
+                add(&mut dry[PLACES], random.range(0.0, 0.3 * seconds), &puffs, decibel(random, -30.0, -6.0));
+            }
+        }
+        if !self.recorded.is_empty() && random.unit() < 0.35 * busy {
+            let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
+            let (at, gain) = (place(random), decibel(random, -50.0, -16.0));
+            let (from, length) = (random.unit() * track.len() as f64, dry[0].len() as f64 * random.range(0.3, 1.5));
+            let sound: Vec<f64> = track.iter().cycle().skip(from as usize).take(length as usize).copied().collect();
+            let at = if random.unit() < 0.5 { PLACES } else { at };
+            add(&mut dry[at], random.range(-0.2, 0.5) * seconds, &sound, gain);
+        }
+        let lasting = (random.unit() * 2.5 * busy * seconds / 60.0 + random.unit()) as u32;
+        for _ in 0..lasting {
+            let length = random.range(3.0, 25.0).min(seconds);
+            let sound = match (random.unit() * 8.0) as u32 {
+                0 => noises::trolley(length, random),
+                1 => noises::train(length, random),
+                2 => noises::machine(length, random),
+                3 => noises::switched_air(length, random),
+                4 => noises::rain(length, random),
+                5 => noises::footsteps(length, random),
+                6 => noises::applause(length.min(8.0), random),
+                _ => noises::music(length, random),
+            };
+            let (at, when) = (place(random), random.range(-0.2, 1.0) * (seconds - 1.0));
+            add(&mut dry[at], when, &normalised(sound), decibel(random, -58.0, -16.0));
+        }
+        let sudden = (random.range(0.0, 10.0) * busy * seconds / 60.0 + random.unit()) as u32;
+        for _ in 0..sudden {
+            let voice = self.voice(random);
+            let sound = match (random.unit() * 12.0) as u32 {
+                0 => voices::laughter(&voice, random),
+                1 => voices::cough(&voice, random),
+                2 => voices::speech(&voice.shouting(), random.range(0.3, 2.5), random),
+                3 => noises::door(random),
+                4 => noises::scrape(random),
+                5 => noises::drop(random),
+                6 => noises::thunder(random),
+                7 => noises::footsteps(random.range(0.5, 3.0), random),
+                8 => noises::handling(random),
+                9 => voices::tone(random.range(0.1, 2.0), random),
+                10 => noises::applause(random.range(0.2, 3.0), random),
+                _ => noises::bump(random),
+            };
+            let table = random.unit() < 0.15;
+            let at = if table { PLACES } else { place(random) };
+            let sound = crate::wind::generate::filter::peaked(sound);
+            add(&mut dry[at], random.range(0.0, seconds), &sound, decibel(random, -42.0, -2.0));
+        }
+        dry
+    }
+
+    /// A noise that goes on evenly: a full hall, a machine, rain, a recording.
+    fn throng(&self, seconds: f64, random: &mut Random) -> Dry {
+        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
+        if !self.recorded.is_empty() && random.unit() < 0.5 {
+            let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
+            let from = (random.unit() * track.len() as f64) as usize;
+            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry[0].len()).copied().collect();
+            let at = if random.unit() < 0.7 { PLACES } else { place(random) };
+            add(&mut dry[at], 0.0, &sound, 0.1);
+            return dry;
+        }
+        if random.unit() < 0.7 {
+            for _ in 0..random.range(5.0, 25.0) as u32 {
+                let (at, gain) = (place(random), from_decibels(random.range(-8.0, 3.0)));
+                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain * 0.03);
+            }
+        }
+        let even = match (random.unit() * 4.0) as u32 {
+            0 => noises::rain(seconds, random),
+            1 => noises::music(seconds, random),
+            2 => noises::machine(seconds, random),
+            _ => noises::air(seconds, random),
+        };
+        let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
+        add(&mut dry[at], 0.0, &even, gain);
+        dry
+    }
+
+    /// What both capsules hear of the dry sounds.
+    fn heard(&self, dry: &Dry, stereo: bool, random: &mut Random) -> Vec<Vec<f64>> {
+        let (_, responses) = &self.rooms[(random.unit() * ROOMS as f64) as usize];
+        let capsule = |capsule: usize| {
+            let mut out = dry[PLACES].clone();
+            for (sound, response) in dry.iter().zip(responses) {
+                if sound.iter().any(|x| *x != 0.0) {
+                    let arrived = convolved(sound, &response[capsule]);
+                    out.iter_mut().zip(&arrived).for_each(|(y, x)| *y += x);
+                }
+            }
+            out
+        };
+        (0..1 + usize::from(stereo)).map(capsule).collect()
+    }
+
+    /// Air of the room (the same to both capsules below a few hundred hertz) at this level, dBFS.
+    fn add_air(channels: &mut [Vec<f64>], dbfs: f64, random: &mut Random) {
+        let seconds = channels[0].len() as f64 / R;
+        let air = noises::air(seconds + 0.001, random);
+        for channel in channels {
+            add(channel, 0.0, &air, from_decibels(dbfs));
+        }
+    }
+
+    fn museum(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
+        let seconds = 60.0;
+        let dry = self.museum_sounds(seconds, 1.0, random);
+        let mut channels = self.heard(&dry, hearing.stereo, random);
+        Self::add_air(&mut channels, random.range(-75.0, -38.0), random);
+        self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random)
+    }
+
+    fn impulses(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
+        let seconds = 20.0;
+        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut at = random.range(0.6, 1.5);
+        while at < seconds - 1.0 {
+            let (sound, table) = match (random.unit() * 9.0) as u32 {
+                0 => (noises::door(random), false),
+                1 => (noises::bump(random), true),
+                2 => (noises::drop(random), random.unit() < 0.5),
+                3 => (voices::plosives(random.range(0.3, 1.5), random), true),
+                4 => (noises::footsteps(random.range(0.4, 2.0), random), false),
+                5 => (noises::handling(random), true),
+                6 => (noises::applause(random.range(0.5, 3.0), random), false),
+                7 => (noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
+                _ => (noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
+            };
+            let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
+            add(&mut dry[place], at, &sound, from_decibels(random.range(-30.0, 0.0)));
+            at += random.range(0.7, 3.0);
+        }
+        let mut channels = self.heard(&dry, hearing.stereo, random);
+        Self::add_air(&mut channels, random.range(-75.0, -50.0), random);
+        self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random)
+    }
+
+    /// One breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
+    fn blow(
+        &self,
+        condition: Condition,
+        index: u64,
+        mouth: (f64, f64, bool),
+        hearing: Hearing,
+        random: &mut Random,
+    ) -> Take {
+        let (distance, angle_deg, child) = mouth;
+        let strength = if child { random.range(5.0, 10.5) } else { random.range(7.0, 17.0) };
+        let shape = BreathShape {
+            lead_in: random.range(0.7, 2.5),
+            strength,
+            attack: random.range(0.04, 0.22),
+            hold: random.range(0.4, 3.0),
+            release: random.range(0.08, 0.45),
+            lead_out: random.range(0.8, 1.5),
+            distance,
+            angle_deg,
+            foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
+            colour: crate::math::pow(2.0, random.range(-0.8, 1.4)),
+            corner_hz: 5.0,
+            ..BreathShape::default()
+        };
+        let seed = random.word();
+        // Straight at a capsule behind a thick grille, there may be hardly any hiss.
+        let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
+        let (rumble, hiss) = (random.range(-3.0, 3.0), random.range(least, 6.0));
+        let tilt = if random.unit() < 0.4 { random.range(-0.4, 2.5) } else { 0.0 };
+        let capsules = 1 + u64::from(hearing.stereo);
+        let streams: Vec<Vec<f64>> = (0..capsules)
+            .map(|capsule| {
+                // Rumble and hiss each louder or softer than the formula: capsules, lips.
+                let air = generate::stream(RATE, seed, &shape, capsule);
+                let low = low_passed(air.clone(), R, 350.0, 2);
+                let upper = high_passed(low.clone(), R, 160.0, 1);
+                let (g, h) = (from_decibels(rumble), from_decibels(hiss));
+                let parts = air.iter().zip(low.iter().zip(&upper));
+                parts.map(|(x, (l, u))| g * (l + tilt * u) + h * (x - l)).collect()
+            })
+            .collect();
+        let noisy = matches!(condition, Condition::Noisy(_));
+        let dry = if noisy {
+            if random.unit() < 0.5 {
+                self.throng(shape.duration(), random)
+            } else {
+                self.museum_sounds(shape.duration(), random.range(0.5, 2.5), random)
+            }
+        } else {
+            vec![vec![0.0; streams[0].len()]; PLACES + 1]
+        };
+        let mut channels = self.heard(&dry, hearing.stereo, random);
+        channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
+        let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
+        Self::add_air(&mut channels, air_dbfs, random);
+        let (onset, offset) = shape.span();
+        let body = (onset * R) as usize..(offset * R) as usize;
+        let mut snr_db = None;
+        if let Condition::Noisy(snr) = condition {
+            let ratio = power(&streams[0][body.clone()]) / power(&channels[0][body.clone()]).max(1e-12);
+            let gain = (ratio / from_decibels(2.0 * snr)).sqrt();
+            channels.iter_mut().flatten().for_each(|x| *x *= gain);
+            snr_db = Some(snr);
+        }
+        let faint = above_noise(&streams[0][body.clone()], &channels[0][body]) < FAINT_DB;
+        for (channel, stream) in channels.iter_mut().zip(&streams) {
+            channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
+        }
+        let breath = Breath { onset, offset, strength, snr_db, faint };
+        self.finish(condition, index, channels, Kind::Blow, vec![breath], hearing, random)
+    }
+
+    fn own_voice(&self, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
+        let seconds = 60.0;
+        let played = own::kiosk(seconds, &self.speech(seconds, random), random);
+        let (_, responses) = &self.rooms[room as usize % ROOMS];
+        // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
+        let late = (0.02 + 0.035 * f64::from(room)) * R;
+        let mut delayed = vec![0.0; late as usize];
+        delayed.extend(own::loudspeaker(&played, random));
+        delayed.truncate(played.len());
+        let loud = from_decibels(random.range(-8.0, 4.0));
+        let mut channels: Vec<Vec<f64>> = (0..1 + usize::from(hearing.stereo))
+            .map(|c| convolved(&delayed, &responses[PLACES - 1][c]).into_iter().map(|x| loud * x).collect())
+            .collect();
+        Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
+        let mut take =
+            self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
+        take.played = played.iter().map(|x| *x as f32).collect();
+        take
+    }
+
+    /// The microphone.
+    #[allow(clippy::too_many_arguments)] // one call per kind of scene, all of it different
+    fn finish(
+        &self,
+        condition: Condition,
+        index: u64,
+        channels: Vec<Vec<f64>>,
+        kind: Kind,
+        breaths: Vec<Breath>,
+        hearing: Hearing,
+        random: &mut Random,
+    ) -> Take {
+        let corner = [20.0, 40.0, 60.0, 80.0, 110.0][(random.unit() * 5.0) as usize];
+        let gain = from_decibels(hearing.gain_db + random.range(-6.0, 6.0));
+        let (soft, hiss) = (random.unit() < 0.6, from_decibels(random.range(-86.0, -66.0)));
+        let mut heard = channels.into_iter().map(|channel| {
+            let noise = white(channel.len(), random);
+            let heard = high_passed(channel, R, corner, 2);
+            let rail = |x: f64| if soft { tanh(x) } else { x.clamp(-1.0, 1.0) };
+            heard.iter().zip(&noise).map(|(x, n)| rail(gain * (x + hiss * n)) as f32).collect::<Vec<f32>>()
+        });
+        let left = heard.next().unwrap_or_default();
+        Take {
+            name: format!("{condition:?} {index}"),
+            group: format!("world {}", self.seed),
+            label: format!("{condition:?}"),
+            kind,
+            breaths,
+            level: None,
+            right: heard.next(),
+            left,
+            played: Vec::new(),
+            sample_rate: RATE,
+        }
+    }
+}
+
+/// A recording at [`RATE`], by straight lines between samples that are low-passed first: good enough for a noise.
+fn resampled(take: &Take) -> Vec<f64> {
+    let from = f64::from(take.sample_rate);
+    let samples = take.left.iter().map(|x| f64::from(*x)).collect();
+    let samples = if from > R { low_passed(samples, from, 0.4 * R, 2) } else { samples };
+    let at = |i: usize| {
+        let t = i as f64 * from / R;
+        let (i, part) = (t as usize, t.fract());
+        samples[i] + part * (samples.get(i + 1).copied().unwrap_or(0.0) - samples[i])
+    };
+    (0..(samples.len() as f64 * R / from) as usize).map(at).collect()
+}
+
+/// A breath that nowhere rises by this much above the noise cannot be heard, dB.
+const FAINT_DB: f64 = 3.0;
+
+/// By how much a breath rises above the noise where it does so most: below 250 Hz or above 400 Hz, dB.
+fn above_noise(breath: &[f64], noise: &[f64]) -> f64 {
+    let low = |x: &[f64]| power(&low_passed(x.to_vec(), R, 200.0, 2));
+    let high = |x: &[f64]| power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2));
+    let ratio = (low(breath) / low(noise).max(1e-12)).max(high(breath) / high(noise).max(1e-12));
+    10.0 * crate::math::log10(ratio.max(1e-12))
+}
+
+impl Condition {
+    /// A word for the seed.
+    fn number(self) -> u64 {
+        match self {
+            Self::Museum => 1,
+            Self::Impulses => 2,
+            Self::Isolated => 3,
+            Self::Cell(distance, angle, child) => {
+                hash_words(&[4, distance.to_bits(), angle.to_bits(), u64::from(child)])
+            }
+            Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
+            Self::OwnVoice(room) => 100 + u64::from(room),
+        }
+    }
+}
+
+/// The same take after a microphone's automatic gain control: the gain follows a leaky power, fast down, slow up.
+pub fn with_gain_control(take: &Take) -> Take {
+    let (down, up) = (exp(-1.0 / (0.015 * R)), exp(-1.0 / (0.5 * R)));
+    let mut followed = 1e-4;
+    let mut controlled = |x: &f32| {
+        let square = f64::from(x * x);
+        let keep = if square > followed { down } else { up };
+        followed = keep * followed + (1.0 - keep) * square;
+        (f64::from(*x) * (0.18 / (followed + 1e-9).sqrt()).min(8.0)).clamp(-1.0, 1.0) as f32
+    };
+    Take { left: take.left.iter().map(&mut controlled).collect(), ..take.clone() }
+}

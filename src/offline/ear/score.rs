@@ -1,0 +1,229 @@
+//! Marks for the blow detector: what it makes of labelled takes, with 95 % bounds.
+//!
+//! A share k of n is bounded by Wilson's interval (JASA 22, 1927), a rate of k events by the exact interval of Poisson
+//! (Garwood 1936), in the approximation of Wilson and Hilferty (1931) for the quantiles of χ².
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::{Kind, Take};
+use crate::wind::blow::{BlowDetector, BlowSettings};
+
+/// Two-sided 95 % of the normal distribution.
+const Z: f64 = 1.959_964;
+/// Wind that begins this little before the labelled onset is on time, s.
+const EARLY_S: f64 = 0.05;
+/// A wind that begins up to this long after the end is the breath's tail, s.
+const LATE_S: f64 = 0.3;
+/// Steps a second at which the wind is read: those of the simulation.
+const STEPS_HZ: usize = 240;
+
+/// Wilson's bounds of the share `hits` of `all`.
+pub fn wilson(hits: usize, all: usize) -> (f64, f64) {
+    let n = (all as f64).max(1e-9);
+    let (p, z2) = (hits as f64 / n, Z * Z);
+    let middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    let half = Z / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+    if all == 0 { (0.0, 1.0) } else { ((middle - half).max(0.0), (middle + half).min(1.0)) }
+}
+
+/// Bounds of the mean number of events where `events` were counted.
+pub fn poisson(events: usize) -> (f64, f64) {
+    let bound = |k: f64, z: f64| {
+        let root = 1.0 - 1.0 / (9.0 * k) + z / (3.0 * k.sqrt());
+        k * root * root * root
+    };
+    let k = events as f64;
+    (if events == 0 { 0.0 } else { bound(k, -Z) }, bound(k + 1.0, Z))
+}
+
+/// What the detector made of one take.
+#[derive(Clone, Debug, Default)]
+pub struct Verdict {
+    /// Wind within the (first) breath.
+    pub detected: bool,
+    /// Onset to wind, s.
+    pub latency: Option<f64>,
+    /// End of the breath to the last wind, s.
+    pub release: Option<f64>,
+    /// Winds that began where nobody blew, s.
+    pub ghosts: Vec<f64>,
+    /// Mean speed over the breath, m/s.
+    pub mean_speed: f64,
+    /// The detector says that the microphone changes its gain.
+    pub gain_control: bool,
+}
+
+/// Lets a detector hear a take.
+pub fn judge(settings: &BlowSettings, take: &Take) -> Verdict {
+    let mut detector = BlowDetector::with_settings(take.sample_rate, settings.clone());
+    let mut verdict = Verdict::default();
+    let breath = take.breaths.first();
+    let inside = |t: f64| breath.is_some_and(|b| t >= b.onset - EARLY_S && t <= b.offset + LATE_S);
+    let (mut from, mut before, mut sum, mut within) = (0, 0.0, 0.0, 0);
+    for step in 1.. {
+        let to = (step * take.sample_rate as usize / STEPS_HZ).min(take.left.len());
+        let played = if take.played.is_empty() { &[] } else { &take.played[from..to] };
+        match &take.right {
+            Some(right) => detector.push_stereo(&take.left[from..to], &right[from..to], played),
+            None => detector.push(&take.left[from..to], played),
+        }
+        from = to;
+        let (t, speed) = (to as f64 / f64::from(take.sample_rate), detector.estimate().speed);
+        if speed > 0.0 {
+            if before == 0.0 && !inside(t) {
+                verdict.ghosts.push(t);
+            }
+            if let Some(breath) = breath.filter(|_| inside(t)) {
+                verdict.detected = true;
+                verdict.latency.get_or_insert(t - breath.onset);
+                verdict.release = Some(t - breath.offset);
+            }
+        }
+        if breath.is_some_and(|b| t >= b.onset && t <= b.offset) {
+            sum += speed;
+            within += 1;
+        }
+        before = speed;
+        if to == take.left.len() {
+            break;
+        }
+    }
+    verdict.mean_speed = sum / f64::from(within.max(1));
+    verdict.gain_control = detector.estimate().gain_control;
+    verdict
+}
+
+/// Marks of one kind of take.
+#[derive(Clone, Debug, Default)]
+pub struct Marks {
+    /// Breaths heard, and all.
+    pub heard: (usize, usize),
+    /// Onset to wind, s.
+    pub latency: Vec<f64>,
+    /// End to the last wind, s.
+    pub release: Vec<f64>,
+    /// Winds without breath.
+    pub ghosts: usize,
+    /// Time in which nobody blew, h.
+    pub hours: f64,
+}
+
+impl Marks {
+    /// Adds one take's verdict.
+    pub fn add(&mut self, take: &Take, verdict: &Verdict) {
+        let blown: f64 = take.breaths.iter().map(|b| b.offset - b.onset + EARLY_S + LATE_S).sum();
+        self.hours += (take.duration() - blown).max(0.0) / 3600.0;
+        self.ghosts += verdict.ghosts.len();
+        if take.kind == Kind::Blow && take.breaths.iter().any(|b| !b.faint) {
+            self.heard.0 += usize::from(verdict.detected);
+            self.heard.1 += 1;
+            self.latency.extend(verdict.latency);
+            self.release.extend(verdict.release);
+        }
+    }
+
+    /// Part of the breaths that were heard.
+    pub fn share(&self) -> f64 {
+        self.heard.0 as f64 / self.heard.1.max(1) as f64
+    }
+
+    /// Winds without breath, an hour.
+    pub fn per_hour(&self) -> f64 {
+        self.ghosts as f64 / self.hours.max(1e-9)
+    }
+}
+
+/// Value below which the given part of the values lies.
+pub fn quantile(values: &[f64], part: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let last = sorted.len().saturating_sub(1);
+    sorted.get((part * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
+}
+
+impl fmt::Display for Marks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.heard.1 > 0 {
+            let (low, high) = wilson(self.heard.0, self.heard.1);
+            let ms = |values: &[f64], part: f64| 1000.0 * quantile(values, part);
+            write!(
+                f,
+                "{:4}/{:<4} {:5.1} % [{:.1}, {:.1}]",
+                self.heard.0,
+                self.heard.1,
+                100.0 * self.share(),
+                100.0 * low,
+                100.0 * high
+            )?;
+            write!(f, "  latency {:3.0}/{:3.0} ms", ms(&self.latency, 0.5), ms(&self.latency, 0.9))?;
+            write!(f, "  release p90 {:3.0} max {:3.0} ms  ", ms(&self.release, 0.9), ms(&self.release, 1.0))?;
+        }
+        let (low, high) = poisson(self.ghosts);
+        write!(
+            f,
+            "ghosts {} in {:.2} h: {:.1}/h [{:.1}, {:.1}]",
+            self.ghosts,
+            self.hours,
+            self.per_hour(),
+            low / self.hours,
+            high / self.hours
+        )
+    }
+}
+
+/// Marks by name, in order of the names.
+#[derive(Clone, Debug, Default)]
+pub struct Table(pub BTreeMap<String, Marks>);
+
+impl Table {
+    /// Adds one take's verdict to a row.
+    pub fn add(&mut self, row: &str, take: &Take, verdict: &Verdict) {
+        self.0.entry(row.to_owned()).or_default().add(take, verdict);
+    }
+
+    /// Takes in the marks of another table.
+    pub fn join(&mut self, other: Self) {
+        for (row, marks) in other.0 {
+            let mine = self.0.entry(row).or_default();
+            mine.heard = (mine.heard.0 + marks.heard.0, mine.heard.1 + marks.heard.1);
+            mine.latency.extend(marks.latency);
+            mine.release.extend(marks.release);
+            mine.ghosts += marks.ghosts;
+            mine.hours += marks.hours;
+        }
+    }
+
+    /// Row of a recording: breaths by their noise, the rest by their kind; ambiguous ones have none.
+    pub fn row(take: &Take) -> Option<&'static str> {
+        let snr = take.breaths.first().and_then(|b| b.snr_db);
+        match (take.kind, snr) {
+            (Kind::Blow, None) => Some("1 isolated breaths"),
+            (Kind::Blow, Some(snr)) if snr >= 5.0 => Some("2 breaths 5 dB and more above noise"),
+            (Kind::Blow, Some(_)) => Some("3 breaths as loud as the noise"),
+            (Kind::Noise, _) => Some("4 noise of a museum"),
+            (Kind::Impulse, _) => Some("5 knocks, claps, pops, doors"),
+            (Kind::Ambiguous, _) => None,
+        }
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|(row, marks)| writeln!(f, "{row:38} {marks}"))
+    }
+}
+
+/// Spearman's rank correlation of pairs without ties.
+pub fn spearman(pairs: &[(f64, f64)]) -> f64 {
+    let rank = |x: f64, of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().filter(|p| of(p) < x).count() as f64;
+    let n = pairs.len() as f64;
+    let squares: f64 = pairs
+        .iter()
+        .map(|(a, b)| {
+            let d = rank(*a, &|p| p.0) - rank(*b, &|p| p.1);
+            d * d
+        })
+        .sum();
+    1.0 - 6.0 * squares / (n * (n * n - 1.0))
+}

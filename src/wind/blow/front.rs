@@ -1,0 +1,140 @@
+//! From raw samples to features: what the detector and its training share.
+
+use super::coherence::Coherence;
+use super::features::{Features, Levels, Listener, decibels};
+use super::own::OwnVoice;
+use super::resample::Resampler;
+use super::spectrum::{Framer, Sample};
+
+/// Lowest level that is told, dB of full scale.
+pub(super) const SILENCE_DBFS: f64 = -120.0;
+/// From this amplitude a sample counts as railed.
+const RAIL: f32 = 0.999;
+/// Frames for which a fault holds: the analysis window (6 frames) and the smoothing after it.
+const FAULT_HOLD_FRAMES: u32 = 10;
+
+/// Samples in, features out, a frame every 8 ms.
+#[derive(Clone, Debug)]
+pub struct FrontEnd {
+    left: Resampler,
+    right: Resampler,
+    played: Resampler,
+    input: Input,
+    pub(super) framer: Framer,
+    pub(super) own_voice: OwnVoice,
+    pub(super) listener: Listener,
+    pub(super) coherence: Coherence,
+    /// Samples of two capsules have come.
+    stereo: bool,
+}
+
+/// One frame, as it is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// What the model weighs.
+    pub features: Features,
+    /// Beside them, what the decision needs.
+    pub levels: Levels,
+    /// Level of the frame, dB of full scale.
+    pub level_dbfs: f64,
+    /// Samples are at the rails.
+    pub clipping: bool,
+    /// Samples are not finite, or were a moment ago.
+    pub fault: bool,
+    /// Every sample is exactly 0.
+    pub zero: bool,
+}
+
+/// What the raw samples of the present frame say.
+#[derive(Clone, Copy, Debug, Default)]
+struct Input {
+    count: u32,
+    square: f64,
+    railed: u32,
+    faulty: bool,
+    /// Frames for which a fault still holds: until the bad samples have left the analysis window.
+    fault_hold: u32,
+}
+
+impl FrontEnd {
+    /// A front end for samples at `sample_rate` Hz (8–192 kHz).
+    pub fn new(sample_rate: u32) -> Self {
+        let resampler = Resampler::new(sample_rate);
+        Self {
+            left: resampler.clone(),
+            right: resampler.clone(),
+            played: resampler,
+            input: Input::default(),
+            framer: Framer::new(),
+            own_voice: OwnVoice::new(),
+            listener: Listener::new(),
+            coherence: Coherence::new(),
+            stereo: false,
+        }
+    }
+
+    /// Takes one sample of each capsule and of what was played. While somebody is `blowing`, or while it is `likely`,
+    /// the picture of the room stands still; while somebody is blowing, so does that of the kiosk's own sound.
+    pub fn push(
+        &mut self,
+        left: f32,
+        right: Option<f32>,
+        played: f32,
+        (blowing, likely): (bool, bool),
+    ) -> Option<Frame> {
+        let heard = self.input.push(left);
+        let played = if played.is_finite() { f64::from(played.clamp(-1.0, 1.0)) } else { 0.0 };
+        let second = right.map(|x| self.input.push(x));
+        self.stereo |= second.is_some();
+        let own = self.played.push(played);
+        let left = self.left.push(heard);
+        let right = if self.stereo { self.right.push(second.unwrap_or(heard)) } else { left };
+        let sample = Sample { left: left?, right: right?, own: own? };
+        self.framer.push(sample).then(|| self.frame(blowing, likely))
+    }
+
+    fn frame(&mut self, blowing: bool, likely: bool) -> Frame {
+        let input = self.input.take();
+        let fault = self.input.fault_hold > 0;
+        let (mut features, mut levels) = (Features::default(), Levels::default());
+        if !fault {
+            if self.stereo {
+                self.coherence.push(&self.framer.capsules);
+            }
+            self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
+            let frozen = blowing || likely || self.own_voice.masks(&self.framer.microphone);
+            (features, levels) = self.listener.push(&self.framer.microphone, &self.own_voice.predicted, frozen);
+        }
+        Frame {
+            features,
+            levels,
+            level_dbfs: decibels(input.square / f64::from(input.count.max(1))).max(SILENCE_DBFS),
+            clipping: input.railed > 1,
+            fault,
+            zero: input.square == 0.0,
+        }
+    }
+}
+
+impl Input {
+    /// Notes one raw sample; returns what the analysis hears.
+    fn push(&mut self, sample: f32) -> f64 {
+        self.count += 1;
+        if !sample.is_finite() {
+            self.faulty = true;
+            return 0.0;
+        }
+        if sample.abs() >= RAIL {
+            self.railed += 1;
+        }
+        let sample = f64::from(sample.clamp(-1.0, 1.0));
+        self.square += sample * sample;
+        sample
+    }
+
+    /// The finished frame's tally; starts the next.
+    fn take(&mut self) -> Self {
+        let fault_hold = if self.faulty { FAULT_HOLD_FRAMES } else { self.fault_hold.saturating_sub(1) };
+        std::mem::replace(self, Self { fault_hold, ..Self::default() })
+    }
+}
