@@ -347,3 +347,31 @@ fn costs_are_measured_on_chains_and_trees() {
         assert!(cost.us_per_body_factor_solve < cost.us_per_body_step, "{cost:?}");
     }
 }
+
+#[test]
+fn a_whips_tip_follows_a_converged_run_until_chaos_parts_them() {
+    /// How far the tip may be from the converged run, m.
+    const TIP: f64 = 1e-4;
+    /// Two runs of 1/1920 and 1/3840 s are this far apart when chaos has made a million times more of their rounding, m:
+    /// from there on nobody knows where the tip is.
+    const PARTED: f64 = 1e-6;
+    for seed in SEEDS {
+        let scene = make::chain(10, seed);
+        let tip = scene.bodies.len() - 1;
+        let run = |part: u64| {
+            let mut engine = Soffio::new(&scene, DT / part as f64, Integrator::Auto, Solver::Sparse);
+            let mut states = Vec::new();
+            let mut place = |_| {
+                (0..part).for_each(|_| assert!(engine.step(), "seed {seed}"));
+                engine.states(&mut states);
+                states[tip].point([0.0; 3])
+            };
+            (0..3 * 240).map(&mut place).collect::<Vec<DVec3>>()
+        };
+        let (ours, fine, finest) = (run(1), run(8), run(16));
+        let known = fine.iter().zip(&finest).take_while(|(a, b)| a.distance(**b) < PARTED).count();
+        let worst = (0..known).fold(0.0_f64, |worst, i| worst.max(ours[i].distance(finest[i])));
+        println!("seed {seed}: within {worst:.1e} m for {:.2} s", known as f64 * DT);
+        assert!(known > 120 && worst < TIP, "seed {seed}: {worst:e} m within {known} steps");
+    }
+}
