@@ -5,7 +5,6 @@
 //! point to the next. Everything between is a recurrence sample by sample, so that the result does not
 //! depend on how the caller cuts its blocks.
 
-use super::bank::Bank;
 use super::gusts::multifractal;
 use super::timbre::{FilterKind, Inputs, MAX_NODES, Node, NoiseKind, Number, Preset, TimbreError};
 use crate::math::{PI, exp};
@@ -23,11 +22,23 @@ pub(super) struct Graph {
     operators: Vec<Operator>,
 }
 
+/// Whose sound is rendered: what rings belongs to the body and adds up there, the rest to each hit by itself. A sum of
+/// both is taken apart; everything else that takes what rings is the body's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Body,
+    Hit,
+}
+
 struct Operator {
     kind: Kind,
     /// Indices of the operators it takes, all smaller than its own.
     inputs: Vec<usize>,
     gain: Number,
+    /// Whether what rings is in it.
+    rings: bool,
+    /// Whether something of a hit is in it beside.
+    hits: bool,
 }
 
 enum Kind {
@@ -64,29 +75,59 @@ impl Graph {
     pub fn compile(preset: &Preset) -> Result<Self, TimbreError> {
         let order = preset.order(&preset.name)?;
         let index = |name: &str| order.iter().position(|known| *known == name).unwrap_or_default();
-        let operators = order
-            .iter()
-            .map(|name| {
-                let node = &preset.node[*name];
-                let kind = match *node {
-                    Node::Modal { .. } => Kind::Modal,
-                    Node::Noise { kind: NoiseKind::White, .. } => Kind::White,
-                    Node::Noise { base, octaves, roughness, .. } => Kind::Multifractal { base, octaves, roughness },
-                    Node::Filter { kind, cutoff, q, .. } => Kind::Filter { kind, cutoff, q },
-                    Node::Env { decay, .. } => Kind::Env { decay },
-                    Node::Sum { .. } => Kind::Sum,
-                    Node::Product { .. } => Kind::Product,
-                };
-                // A bank's level is in its partials already, so that what is inaudible is never started.
-                let gain = if matches!(kind, Kind::Modal) { Number::Fixed(1.0) } else { node.gain() };
-                Operator { kind, inputs: node.inputs().iter().map(|input| index(input)).collect(), gain }
-            })
-            .collect();
+        let mut operators: Vec<Operator> = Vec::with_capacity(order.len());
+        for name in &order {
+            let node = &preset.node[*name];
+            let kind = match *node {
+                Node::Modal { .. } => Kind::Modal,
+                Node::Noise { kind: NoiseKind::White, .. } => Kind::White,
+                Node::Noise { base, octaves, roughness, .. } => Kind::Multifractal { base, octaves, roughness },
+                Node::Filter { kind, cutoff, q, .. } => Kind::Filter { kind, cutoff, q },
+                Node::Env { decay, .. } => Kind::Env { decay },
+                Node::Sum { .. } => Kind::Sum,
+                Node::Product { .. } => Kind::Product,
+            };
+            // A bank's level is in its partials already, so that what is inaudible is never started.
+            let gain = if matches!(kind, Kind::Modal) { Number::Fixed(1.0) } else { node.gain() };
+            let inputs: Vec<usize> = node.inputs().iter().map(|input| index(input)).collect();
+            let rings = matches!(kind, Kind::Modal) || inputs.iter().any(|&input| operators[input].rings);
+            let mut hit = inputs.iter().map(|&input| operators[input].hits);
+            let hits = match kind {
+                Kind::Modal => false,
+                Kind::Sum => hit.any(|hits| hits),
+                _ => hit.all(|hits| hits),
+            };
+            operators.push(Operator { kind, inputs, gain, rings, hits });
+        }
         Ok(Self { operators })
     }
 
+    /// Whether anything of this part is heard.
+    pub fn has(&self, part: Part) -> bool {
+        self.operators.last().is_some_and(|out| out.is_in(part)) || (part == Part::Hit && self.force().is_some())
+    }
+
+    /// Whether voices drive what rings.
+    pub fn drives(&self) -> bool {
+        self.force().is_some()
+    }
+
+    /// The operator whose samples are the force in N that drives what rings.
+    fn force(&self) -> Option<usize> {
+        let modal = self.operators.iter().find(|operator| matches!(operator.kind, Kind::Modal))?;
+        modal.inputs.first().copied()
+    }
+
     /// States of a voice that begins with these inputs.
-    pub fn begin(&self, states: &mut [State; MAX_NODES], inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
+    pub fn begin(
+        &self,
+        part: Part,
+        states: &mut [State; MAX_NODES],
+        inputs: &Inputs,
+        seed: u64,
+        time: f64,
+        sample_rate: f64,
+    ) {
         for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
             *state = State::new(hash_words(&[seed, i as u64]));
             state.gain = operator.gain.at(inputs);
@@ -102,11 +143,11 @@ impl Graph {
             }
             operator.tune(state, inputs, sample_rate);
         }
-        self.find_needed(states);
+        self.find_needed(part, states);
     }
 
     /// A grid point: reads bound numbers. `time` is the synth's, s.
-    pub fn control(&self, states: &mut [State; MAX_NODES], inputs: &Inputs, time: f64, sample_rate: f64) {
+    pub fn control(&self, part: Part, states: &mut [State; MAX_NODES], inputs: &Inputs, time: f64, sample_rate: f64) {
         for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
             state.gain_step = (operator.gain.at(inputs) - state.gain) / CONTROL as f64;
             if let Kind::Multifractal { base, octaves, roughness } = &operator.kind {
@@ -115,36 +156,51 @@ impl Graph {
             }
             operator.tune(state, inputs, sample_rate);
         }
-        self.find_needed(states);
+        self.find_needed(part, states);
     }
 
     /// What an envelope that is over would shape need not be made: soon after a hit only its partials are left to do.
-    fn find_needed(&self, states: &mut [State; MAX_NODES]) {
+    fn find_needed(&self, part: Part, states: &mut [State; MAX_NODES]) {
         states.iter_mut().for_each(|state| state.needed = false);
+        let force = if part == Part::Hit { self.force() } else { None };
         for (i, operator) in self.operators.iter().enumerate().rev() {
-            let heard = i + 1 == self.operators.len() || states[i].needed;
+            let out = i + 1 == self.operators.len() && operator.is_in(part);
+            let heard = out || states[i].needed || force == Some(i);
             states[i].needed = heard;
             if heard && !(matches!(operator.kind, Kind::Env { .. }) && states[i].value == 0.0) {
-                operator.inputs.iter().for_each(|&input| states[input].needed = true);
+                let taken = operator.inputs.iter().filter(|&&input| operator.takes(part, &self.operators[input]));
+                taken.for_each(|&input| states[input].needed = true);
             }
         }
     }
 
-    /// Renders `n` samples; the answer is the block of the last operator.
+    /// Renders `n` samples, as many as `ringing` has: what rings of the body. The answer is the block of the last
+    /// operator and, for a hit, that of the force on what rings.
     pub fn render<'a>(
         &self,
+        part: Part,
         states: &mut [State; MAX_NODES],
-        bank: &mut Bank,
+        ringing: &[f32],
         blocks: &'a mut [Block; MAX_NODES],
         n: usize,
-    ) -> &'a mut [f32] {
-        for (i, (operator, state)) in self.operators.iter().zip(states).enumerate() {
-            if !state.needed {
+    ) -> (&'a [f32], Option<&'a [f32]>) {
+        for (i, operator) in self.operators.iter().enumerate() {
+            if !states[i].needed {
                 continue;
             }
             let (before, rest) = blocks.split_at_mut(i);
             let out = &mut rest[0][..n];
-            operator.render(state, bank, before, out);
+            let state = &mut states[i];
+            match operator.kind {
+                Kind::Modal => out.copy_from_slice(ringing),
+                Kind::Sum => {
+                    out.fill(0.0);
+                    for &input in operator.inputs.iter().filter(|&&i| operator.takes(part, &self.operators[i])) {
+                        out.iter_mut().zip(&before[input]).for_each(|(y, x)| *y += x);
+                    }
+                }
+                _ => operator.render(state, before, out),
+            }
             if state.gain == 1.0 && state.gain_step == 0.0 {
                 continue;
             }
@@ -154,11 +210,33 @@ impl Graph {
             }
         }
         let last = self.operators.len() - 1;
-        &mut blocks[last][..n]
+        if !states[last].needed {
+            blocks[last][..n].fill(0.0);
+        }
+        let force = if part == Part::Hit { self.force() } else { None };
+        let blocks = &*blocks;
+        (&blocks[last][..n], force.map(|i| &blocks[i][..n]))
     }
 }
 
 impl Operator {
+    fn is_in(&self, part: Part) -> bool {
+        match part {
+            Part::Body => self.rings,
+            Part::Hit => self.hits,
+        }
+    }
+
+    /// Whether this part of it takes an input.
+    fn takes(&self, part: Part, input: &Operator) -> bool {
+        match part {
+            Part::Body => {
+                input.rings || !matches!(self.kind, Kind::Modal) && !(matches!(self.kind, Kind::Sum) && self.rings)
+            }
+            Part::Hit => input.hits,
+        }
+    }
+
     /// Coefficients of a filter for the inputs of this moment.
     fn tune(&self, state: &mut State, inputs: &Inputs, sample_rate: f64) {
         if let Kind::Filter { cutoff, q, .. } = &self.kind {
@@ -175,10 +253,9 @@ impl Operator {
         }
     }
 
-    fn render(&self, state: &mut State, bank: &mut Bank, blocks: &[Block], out: &mut [f32]) {
+    fn render(&self, state: &mut State, blocks: &[Block], out: &mut [f32]) {
         let first = self.inputs.first().map(|&i| &blocks[i][..out.len()]);
         match (&self.kind, first) {
-            (Kind::Modal, _) => bank.render(out),
             (Kind::White, _) => out.iter_mut().for_each(|y| *y = state.random.signed() as f32),
             (Kind::Multifractal { .. }, _) => {
                 for y in out {
@@ -201,20 +278,16 @@ impl Operator {
                     }
                 }
             }
-            (Kind::Sum, Some(input)) => {
-                out.copy_from_slice(input);
-                for &other in &self.inputs[1..] {
-                    out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y += x);
-                }
-            }
             (Kind::Product, Some(input)) => {
                 out.copy_from_slice(input);
                 for &other in &self.inputs[1..] {
                     out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y *= x);
                 }
             }
-            // A checked preset gives each of these an input.
-            (Kind::Filter { .. } | Kind::Env { .. } | Kind::Sum | Kind::Product, None) => out.fill(0.0),
+            // A checked preset gives each of these an input; the graph itself makes the others.
+            (Kind::Filter { .. } | Kind::Env { .. } | Kind::Product, None) | (Kind::Modal | Kind::Sum, _) => {
+                out.fill(0.0)
+            }
         }
     }
 }

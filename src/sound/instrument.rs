@@ -1,9 +1,11 @@
 //! A sounding body, compiled: its timbre as a graph, its partials with everything about them that no hit can change.
 
-use super::bank::Bank;
-use super::excitation::{Contact, Radiator, half_sine_spectrum};
+use fearless_simd::Level;
+
+use super::excitation::{Contact, Radiator};
 use super::graph::Graph;
-use super::plate::{PlateMode, free_plate_modes, legendre, onto_plate, outline_exponent};
+use super::modal::{Bank, Partial, Place, Shape};
+use super::plate::{free_plate_modes, outline_exponent};
 use super::timbre::{Inputs, ModalSource, Node, Number, Preset, TimbreError};
 use super::{InstrumentSpec, Strike};
 use crate::math::{PI, exp, ln};
@@ -11,6 +13,8 @@ use crate::noise::Random;
 
 /// T60 · c: a fall by 60 dB is e^(−6.908).
 const T60_DECAYS: f64 = 6.907_755_278_982_137;
+/// Nothing that is struck is lighter, kg.
+const LIGHTEST: f64 = 1e-6;
 
 /// A compiled instrument.
 pub(super) struct Instrument {
@@ -29,19 +33,17 @@ struct Modal {
     /// Cents.
     detune: f64,
     gain: Number,
-    partials: Vec<Partial>,
-    /// Shapes of the partials, when the place of the hit is heard; as many as partials.
-    shapes: Vec<PlateMode>,
+    /// In the order of their decay, so that those of one group end together.
+    modes: Vec<Mode>,
     /// Exponent of the outline on which the shapes are defined.
     outline: f64,
 }
 
-struct Partial {
-    /// Hz.
-    frequency: f64,
-    /// 1/s.
-    decay: f64,
-    /// Full scale at 1 m, per N s (and per 1/√kg of shape where there are shapes).
+/// A partial, where it is moved, and how loud it is then.
+struct Mode {
+    partial: Partial,
+    shape: Shape,
+    /// Full scale at 1 m, per N s and per 1/√kg of shape.
     amplitude: f64,
 }
 
@@ -83,20 +85,46 @@ impl Instrument {
         }
     }
 
-    /// Sets the bank ringing. Real-time: bounded by the number of partials.
-    pub fn excite(&self, bank: &mut Bank, inputs: &Inputs, seed: u64, sample_rate: f64) {
-        bank.clear();
-        let Some(modal) = &self.modal else { return };
+    /// The bank of a body that plays this instrument; `None` when nothing of it rings. Bodies of different seeds are
+    /// out of tune with each other by the timbre's `detune`.
+    pub fn bank(&self, seed: u64, sample_rate: f64) -> Option<Bank> {
+        let modal = self.modal.as_ref()?;
         let mut random = Random::new(seed);
-        let [x, y] = onto_plate(modal.outline, inputs.position).map(legendre);
-        let level = inputs.impulse * modal.gain.at(inputs);
-        for (i, partial) in modal.partials.iter().enumerate() {
-            let shape = modal.shapes.get(i).map_or(1.0, |mode| mode.shape(&x, &y));
-            let spectrum = half_sine_spectrum(partial.frequency * inputs.contact_time);
+        let detuned = |mode: &Mode| Partial {
             // Cents: 2^(d/1200).
-            let detuned = partial.frequency * exp(modal.detune * random.signed() * ln(2.0) / 1200.0);
-            bank.add(detuned, partial.decay, level * partial.amplitude * shape * spectrum, sample_rate);
-        }
+            frequency: mode.partial.frequency * exp(modal.detune * random.signed() * ln(2.0) / 1200.0),
+            ..mode.partial
+        };
+        let partials: Vec<Partial> = modal.modes.iter().map(detuned).collect();
+        Some(Bank::new(&partials, sample_rate, Level::new()))
+    }
+
+    /// A hit on a bank of [`Self::bank`]; the rest as [`Bank::strike`]. Real-time: bounded by the number of partials.
+    pub fn strike(&self, bank: &mut Bank, inputs: &Inputs, since: usize, ahead: &mut [f32]) -> Option<usize> {
+        let modal = self.modal.as_ref()?;
+        let place = Place::new(inputs.position, modal.outline);
+        let level = inputs.impulse * modal.gain.at(inputs);
+        let amplitude = |i: usize| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place);
+        bank.strike(amplitude, inputs.contact_time, since, ahead)
+    }
+
+    /// Something of `resistance` N s/m rests on the body: a dashpot takes c = R φ²/2 from each partial.
+    pub fn touch(&self, bank: &mut Bank, position: [f64; 2], resistance: f64) {
+        let Some(modal) = &self.modal else { return };
+        let place = Place::new(position, modal.outline);
+        bank.touch(|i| {
+            let shape = modal.modes[i].shape.at(&place);
+            0.5 * resistance * shape * shape
+        });
+    }
+
+    /// Where a force in N acts on the body from now on.
+    pub fn push_at(&self, bank: &mut Bank, inputs: &Inputs, sample_rate: f64) {
+        let Some(modal) = &self.modal else { return };
+        let place = Place::new(inputs.position, modal.outline);
+        // A force of 1 N gives an impulse of 1/fs per sample.
+        let level = modal.gain.at(inputs) / sample_rate;
+        bank.push_at(|i| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place));
     }
 }
 
@@ -118,11 +146,12 @@ impl Modal {
             fundamental,
             table,
             gain,
+            r#in: _,
         } = node
         else {
             return None;
         };
-        let (partials, shapes) = match from {
+        let mut modes: Vec<Mode> = match from {
             ModalSource::Plate => {
                 let mut modes = free_plate_modes(&spec.body, &spec.material);
                 if modes.is_empty() {
@@ -133,28 +162,34 @@ impl Modal {
                     return Some(Err(TimbreError::new(name, format!("node.{key}"), problem)));
                 }
                 modes.truncate(*most);
-                let partial = |mode: &PlateMode| Partial {
-                    frequency: mode.frequency,
-                    // T60 = 2.2/(η f) is c = π η f.
-                    decay: PI * spec.material.loss_factor * mode.frequency
-                        + support_loss
-                        + radiator.loss(mode.frequency),
+                let ringing = modes.into_iter().map(|mode| Mode {
+                    partial: Partial {
+                        frequency: mode.frequency,
+                        // T60 = 2.2/(η f) is c = π η f.
+                        decay: PI * spec.material.loss_factor * mode.frequency
+                            + support_loss
+                            + radiator.loss(mode.frequency),
+                    },
                     amplitude: radiator.amplitude(mode.frequency),
-                };
-                (modes.iter().map(partial).collect(), modes)
+                    shape: Shape::Plate(mode),
+                });
+                ringing.collect()
             }
             ModalSource::Table => {
                 let fundamental = fundamental.unwrap_or_default();
-                let partials = table.iter().take(*most).map(|p| Partial {
-                    frequency: fundamental * p.ratio,
-                    decay: T60_DECAYS / p.t60 + support_loss,
-                    amplitude: p.gain,
+                let mass = spec.body.mass.max(LIGHTEST);
+                let ringing = table.iter().take(*most).map(|p| Mode {
+                    partial: Partial { frequency: fundamental * p.ratio, decay: T60_DECAYS / p.t60 + support_loss },
+                    // The gains of a table are those of the place where it is struck.
+                    amplitude: p.gain * mass.sqrt(),
+                    shape: Shape::Even(mass),
                 });
-                (partials.collect(), Vec::new())
+                ringing.collect()
             }
         };
+        modes.sort_by(|a, b| a.partial.decay.total_cmp(&b.partial.decay));
         let contact = Contact::new(*contact_radius, *surface_modulus, &spec.material);
         let outline = outline_exponent(&spec.body);
-        Some(Ok(Self { contact, detune: *detune, gain: *gain, partials, shapes, outline }))
+        Some(Ok(Self { contact, detune: *detune, gain: *gain, modes, outline }))
     }
 }

@@ -4,18 +4,19 @@
 //! after [`Synth::new`].
 //!
 //! ```text
-//! timbre (preset files) ─→ instrument ─→ graph of operators ─┐
-//! plate (Ritz modes) ────↗  excitation (Hertz, radiation)    ├─→ voices ─→ mix ─→ limiter ─→ out
-//!                           bank (kernel of all partials) ───┘
+//! timbre (preset files) ─→ instrument ─→ graph of operators ─┬─→ voices of hits ──┐
+//! plate (Ritz modes) ────↗  excitation (Hertz, radiation)    └─→ bodies ──────────┴─→ mix ─→ limiter ─→ out
+//!                                                    modal (banks of partials) ──↗
 //! ```
 
-mod bank;
+mod body;
 mod eigen;
 mod excitation;
 mod graph;
 mod gusts;
 mod instrument;
 mod limiter;
+pub mod modal;
 mod plate;
 mod synth;
 pub mod timbre;
@@ -24,7 +25,7 @@ mod voice;
 pub use gusts::multifractal;
 pub use limiter::CEILING;
 pub use plate::{PlateMode, free_plate_modes};
-pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, Synth};
+pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, MOST_PARTIALS, Synth};
 pub use timbre::{Preset, TimbreError};
 
 /// What the synth is told. Fixed size, so that it travels through a wait-free ring.
@@ -32,6 +33,8 @@ pub use timbre::{Preset, TimbreError};
 pub enum SoundCommand {
     /// Something was hit.
     Strike(Strike),
+    /// Something rests on a body, or has left it.
+    Touch(Touch),
     /// The wind of one simulation step; the synth glides from one to the next.
     Wind(WindSound),
     /// Fade out everything (an exhibit was changed or reset).
@@ -46,6 +49,7 @@ impl SoundCommand {
     pub fn sample(&self) -> u64 {
         match self {
             Self::Strike(strike) => strike.sample,
+            Self::Touch(touch) => touch.sample,
             Self::Wind(wind) => wind.sample,
             Self::Silence { sample } => *sample,
         }
@@ -55,6 +59,7 @@ impl SoundCommand {
     pub fn at(mut self, time: u64) -> Self {
         match &mut self {
             Self::Strike(strike) => strike.sample = time,
+            Self::Touch(touch) => touch.sample = time,
             Self::Wind(wind) => wind.sample = time,
             Self::Silence { sample } => *sample = time,
         }
@@ -81,6 +86,19 @@ pub struct Strike {
     pub pan: f32,
     /// From the listener, m.
     pub distance: f32,
+}
+
+/// Something that rests on a body takes from its ringing: a hand on a chime, a clapper that stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// When it begins, or changes.
+    pub sample: u64,
+    /// Index into the exhibit's instruments.
+    pub instrument: u16,
+    /// As in [`Strike`].
+    pub position: [f32; 2],
+    /// R of a dashpot that does the same, N s/m; 0 when nothing rests there any more.
+    pub resistance: f32,
 }
 
 /// The wind as it is heard.
@@ -133,6 +151,6 @@ pub struct InstrumentSpec {
     pub material: SoundMaterial,
     /// Linear gain.
     pub gain: f64,
-    /// Most simultaneous hits of this body.
+    /// Most simultaneous clicks of hits on this body; what rings has no bound.
     pub max_voices: usize,
 }

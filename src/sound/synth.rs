@@ -5,21 +5,26 @@
 //!
 //! Invariant: same rate, instruments, seed and commands → the same bits, in debug and release.
 //!
+//! What rings belongs to bodies and adds up there; what else a hit is heard by has a voice of its own.
+//!
 //! Real-time: after [`Synth::new`] nothing allocates, frees, locks or calls the system, and the work per sample is
-//! bounded by [`MAX_VOICES`] + [`FADING_VOICES`] voices of [`MAX_PARTIALS`](super::timbre::MAX_PARTIALS) partials.
+//! bounded by [`MAX_VOICES`] + [`FADING_VOICES`] voices and by [`Synth::set_most_partials`].
 
 use std::collections::VecDeque;
 
-use super::graph::{Block, CONTROL};
+use super::body::Body;
+use super::graph::{Block, CONTROL, Part};
 use super::instrument::Instrument;
 use super::limiter::Limiter;
 use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, SoundCommand, Strike, WindSound};
+use super::{InstrumentSpec, SoundCommand, Strike, Touch, WindSound};
 use crate::math::{PI, exp, sincos};
 use crate::noise::hash_words;
 
-/// Most hits that ring at once. One more makes the quietest fade.
+/// Partials that ring at once where nothing else is said: two and a half times the heaviest scene.
+pub const MOST_PARTIALS: usize = 16_384;
+/// Most hits with a voice of their own at once. One more makes the quietest fade.
 pub const MAX_VOICES: usize = 48;
 /// Places for voices that are fading because others took over.
 pub const FADING_VOICES: usize = 16;
@@ -42,6 +47,10 @@ pub struct Synth {
     sample_rate: f64,
     seed: u64,
     instruments: Vec<Instrument>,
+    bodies: Vec<Body>,
+    /// Index of an instrument's body.
+    body_of: Vec<Option<usize>>,
+    most_partials: usize,
     voices: Vec<Voice>,
     winds: Vec<Voice>,
     wind: Wind,
@@ -84,7 +93,20 @@ impl Synth {
         spec: &InstrumentSpec,
         seed: u64,
     ) -> Result<Self, TimbreError> {
-        Ok(Self::with_instruments(sample_rate, vec![Instrument::from_preset(preset, spec)?], seed))
+        Self::with_presets(sample_rate, &[(preset, spec)], seed)
+    }
+
+    /// A synth of instruments with presets that need not be shipped ones.
+    pub fn with_presets(
+        sample_rate: u32,
+        instruments: &[(&Preset, &InstrumentSpec)],
+        seed: u64,
+    ) -> Result<Self, TimbreError> {
+        let mut compiled = Vec::with_capacity(instruments.len());
+        for (preset, spec) in instruments {
+            compiled.push(Instrument::from_preset(preset, spec)?);
+        }
+        Ok(Self::with_instruments(sample_rate, compiled, seed))
     }
 
     /// A synth without a voice, for an exhibit whose instruments cannot be built.
@@ -94,6 +116,13 @@ impl Synth {
 
     fn with_instruments(sample_rate: u32, instruments: Vec<Instrument>, seed: u64) -> Self {
         let sample_rate = f64::from(sample_rate.max(1));
+        let mut bodies = Vec::new();
+        let mut body_of = Vec::with_capacity(instruments.len());
+        for (i, instrument) in instruments.iter().enumerate() {
+            let bank = instrument.bank(hash_words(&[seed, i as u64]), sample_rate);
+            body_of.push(bank.is_some().then_some(bodies.len()));
+            bodies.extend(bank.map(|bank| Body::new(i, bank, sample_rate)));
+        }
         let mut winds = Vec::new();
         for (i, _) in instruments.iter().enumerate().filter(|(_, instrument)| instrument.continuous) {
             let mut voice = Voice::new();
@@ -104,6 +133,9 @@ impl Synth {
             sample_rate,
             seed,
             instruments,
+            bodies,
+            body_of,
+            most_partials: MOST_PARTIALS,
             voices: (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect(),
             winds,
             wind: Wind::default(),
@@ -138,14 +170,20 @@ impl Synth {
         self.dry = dry;
     }
 
-    /// Voices that sound now, the wind's included.
+    /// Bounds the partials that ring at once: the quietest leave first, by groups of sixteen.
+    pub fn set_most_partials(&mut self, most: usize) {
+        self.most_partials = most;
+    }
+
+    /// Bodies and voices that sound now, the wind's included.
     pub fn sounding(&self) -> usize {
-        self.voices.iter().chain(&self.winds).filter(|voice| voice.state != VoiceState::Free).count()
+        let voices = self.voices.iter().chain(&self.winds).filter(|voice| voice.state != VoiceState::Free);
+        voices.count() + self.bodies.iter().filter(|body| body.sounds()).count()
     }
 
     /// Partials that ring now.
     pub fn partials(&self) -> usize {
-        self.voices.iter().map(|voice| voice.bank.count()).sum()
+        self.bodies.iter().map(|body| body.bank.ringing()).sum()
     }
 
     /// Commands and voices with bad numbers so far; they were left out.
@@ -215,10 +253,12 @@ impl Synth {
     fn carry_out(&mut self, command: SoundCommand) {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
+            SoundCommand::Touch(touch) => self.touch(&touch),
             SoundCommand::Wind(wind) => self.wind.target = wind,
             SoundCommand::Silence { .. } => {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
+                self.bodies.iter_mut().for_each(|body| body.fade_out(samples));
                 self.wind.target.speed = 0.0;
             }
         }
@@ -231,23 +271,56 @@ impl Synth {
             return;
         };
         self.strikes += 1;
+        let [l, r] = equal_power(f64::from(strike.pan));
+        let gain = instrument.gain as f32 / strike.distance.max(NEAREST);
+        let gains = [l * gain, r * gain];
+        let inputs = instrument.inputs(strike);
+        let clock = self.clock();
+        if let Some(body) = self.body_of[index] {
+            let since = (self.position % CONTROL as u64) as usize;
+            let since = if since == 0 { CONTROL } else { since };
+            if !self.bodies[body].strike(instrument, &inputs, gains, since, clock) {
+                self.faults += 1;
+                return;
+            }
+        }
+        if !instrument.graph.has(Part::Hit) {
+            return;
+        }
         let most = instrument.max_voices;
         self.make_room(most, |voice| voice.instrument == index);
         self.make_room(MAX_VOICES, |_| true);
         let Some(voice) = self.voices.iter_mut().find(|voice| voice.state == VoiceState::Free) else {
-            // Every place fades: more than FADING_VOICES hits in 3 ms. One hit less is not heard; a click would be.
+            // Every place fades: more than FADING_VOICES hits in 3 ms. Its click is not heard; what rings is.
             self.lost += 1;
             return;
         };
         let instrument = &self.instruments[index];
-        let [l, r] = equal_power(f64::from(strike.pan));
-        let gain = instrument.gain as f32 / strike.distance.max(NEAREST);
         let seed = hash_words(&[self.seed, self.strikes]);
-        voice.begin(index, [l * gain, r * gain]);
-        voice.inputs = instrument.inputs(strike);
-        let time = self.position as f64 / self.sample_rate;
-        instrument.graph.begin(&mut voice.operators, &voice.inputs, seed, time, self.sample_rate);
-        instrument.excite(&mut voice.bank, &voice.inputs, seed, self.sample_rate);
+        voice.begin(index, gains);
+        voice.inputs = inputs;
+        instrument.graph.begin(Part::Hit, &mut voice.operators, &voice.inputs, seed, clock.0, clock.1);
+        if let Some(body) = self.body_of[index].filter(|_| instrument.graph.drives()) {
+            self.bodies[body].push(instrument, &inputs, gains, clock);
+        }
+    }
+
+    /// Something rests on a body from now on, or no longer.
+    fn touch(&mut self, touch: &Touch) {
+        let index = usize::from(touch.instrument);
+        match self.body_of.get(index).copied().flatten() {
+            Some(body) => {
+                let position = touch.position.map(f64::from);
+                let bank = &mut self.bodies[body].bank;
+                self.instruments[index].touch(bank, position, f64::from(touch.resistance));
+            }
+            None => self.faults += 1,
+        }
+    }
+
+    /// Time now, s, and the sample rate.
+    fn clock(&self) -> (f64, f64) {
+        (self.position as f64 / self.sample_rate, self.sample_rate)
     }
 
     /// Lets the quietest of these voices fade until there is room for one more among `most`.
@@ -266,11 +339,18 @@ impl Synth {
 
     /// A point of the control grid.
     fn grid_point(&mut self) {
-        let time = self.position as f64 / self.sample_rate;
+        let clock = self.clock();
+        let (time, sample_rate) = clock;
+        for body in &mut self.bodies {
+            if !body.grid_point(&self.instruments[body.instrument], clock) {
+                self.faults += 1;
+            }
+        }
+        self.keep_few();
         for voice in self.voices.iter_mut().filter(|voice| voice.state != VoiceState::Free) {
             voice.grid_point();
             let graph = &self.instruments[voice.instrument].graph;
-            graph.control(&mut voice.operators, &voice.inputs, time, self.sample_rate);
+            graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
         let calm_before = self.wind.speed == 0.0;
         self.wind.glide(1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate)));
@@ -285,7 +365,10 @@ impl Synth {
                     voice.begin(voice.instrument, gains);
                     let calm = Inputs::default();
                     let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
-                    instrument.graph.begin(&mut voice.operators, &calm, seed, time, self.sample_rate);
+                    instrument.graph.begin(Part::Hit, &mut voice.operators, &calm, seed, time, sample_rate);
+                    if let Some(body) = self.body_of[voice.instrument].filter(|_| instrument.graph.drives()) {
+                        self.bodies[body].push(instrument, &inputs, gains, clock);
+                    }
                 }
                 // The levels had one grid interval to reach their value in still air.
                 (_, true) if calm_before => {
@@ -296,16 +379,35 @@ impl Synth {
             }
             voice.gains = gains;
             voice.inputs = inputs;
-            instrument.graph.control(&mut voice.operators, &voice.inputs, time, self.sample_rate);
+            instrument.graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
+        }
+    }
+
+    /// Lets the quietest partials go while more ring than may.
+    fn keep_few(&mut self) {
+        let mut ringing = self.partials();
+        while ringing > self.most_partials {
+            let quietest = self.bodies.iter().enumerate().filter_map(|(i, body)| {
+                let (group, amplitude) = body.bank.quietest()?;
+                Some((i, group, amplitude * body.loudest_gain()))
+            });
+            let Some((body, group, _)) = quietest.min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
+            ringing -= self.bodies[body].bank.leave(group);
         }
     }
 
     fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
+        let at = (self.position % CONTROL as u64) as usize;
         for voice in self.voices.iter_mut().chain(&mut self.winds).filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
-            if !voice.mix(instrument, &mut self.blocks, left, right) {
+            let body = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
+            let force = body.map(|body| self.bodies[body].force(at));
+            if !voice.mix(instrument, &mut self.blocks, left, right, force) {
                 self.faults += 1;
             }
+        }
+        for body in self.bodies.iter_mut().filter(|body| body.sounds()) {
+            body.mix(&self.instruments[body.instrument], &mut self.blocks, at, left, right);
         }
     }
 }
@@ -334,6 +436,9 @@ fn is_finite(command: &SoundCommand) -> bool {
         SoundCommand::Strike(s) => {
             [s.impulse, s.speed, s.mass, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
                 && s.impulse >= 0.0
+        }
+        SoundCommand::Touch(t) => {
+            [t.position[0], t.position[1], t.resistance].iter().all(|v| v.is_finite()) && t.resistance >= 0.0
         }
         SoundCommand::Wind(w) => w.speed.is_finite() && w.gust.is_finite() && w.pan.is_finite(),
         SoundCommand::Silence { .. } => true,

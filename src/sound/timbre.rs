@@ -22,8 +22,8 @@ const SHIPPED: [(&str, &str); 3] = [
 const VERSION: u32 = 1;
 /// Most nodes of one timbre.
 pub const MAX_NODES: usize = 12;
-/// Most partials of one timbre: each voice has room for as many.
-pub const MAX_PARTIALS: usize = 64;
+/// Most partials of one timbre.
+pub const MAX_PARTIALS: usize = 1024;
 
 /// What is wrong with a timbre, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -61,11 +61,14 @@ pub struct Preset {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Node {
-    /// Decaying partials, set ringing by the hit: Σ a e^(−ct) sin ωt. At most one in a timbre.
+    /// Decaying partials, set ringing by hits: Σ a e^(−ct) sin ωt. They belong to the body: hits add up in them. At most
+    /// one in a timbre.
     Modal {
         /// Where the partials come from.
         from: ModalSource,
-        /// Most partials, 1…64.
+        /// Node whose samples are a force in N that drives the partials, beside the hits.
+        r#in: Option<String>,
+        /// Most partials, 1…1024.
         #[serde(default = "most_partials")]
         partials: usize,
         /// Damping of the suspension, the same for all partials, 1/s.
@@ -75,7 +78,7 @@ pub enum Node {
         contact_radius: f64,
         /// Young's modulus of the surfaces that meet (paint, patina, leather), Pa; without it, the body's material.
         surface_modulus: Option<f64>,
-        /// Spread of each partial from hit to hit, cents.
+        /// Spread of each partial from body to body, cents.
         #[serde(default)]
         detune: f64,
         /// `table` only: frequency of ratio 1, Hz.
@@ -316,7 +319,8 @@ impl Node {
     /// Names of the nodes it takes.
     pub(super) fn inputs(&self) -> &[String] {
         match self {
-            Self::Modal { .. } | Self::Noise { .. } => &[],
+            Self::Modal { r#in, .. } => r#in.as_slice(),
+            Self::Noise { .. } => &[],
             Self::Filter { r#in, .. } | Self::Env { r#in, .. } => std::slice::from_ref(r#in),
             Self::Sum { r#in, .. } | Self::Product { r#in, .. } => r#in,
         }
@@ -476,7 +480,7 @@ impl Node {
                 table,
                 ..
             } => {
-                need((1..=MAX_PARTIALS).contains(partials), "partials", "must be 1 to 64")?;
+                need((1..=MAX_PARTIALS).contains(partials), "partials", "must be 1 to 1024")?;
                 need(support_loss.is_finite() && *support_loss >= 0.0, "support_loss", "must be 0 or more, 1/s")?;
                 need(positive(*contact_radius), "contact_radius", "must be above 0, m")?;
                 need(surface_modulus.is_none_or(positive), "surface_modulus", "must be above 0, Pa")?;
@@ -490,7 +494,7 @@ impl Node {
                 need(
                     (1..=MAX_PARTIALS).contains(&table.len()) == tabled,
                     "table",
-                    "a table has 1 to 64 partials; a plate has its own",
+                    "a table has 1 to 1024 partials; a plate has its own",
                 )?;
                 let fine = |p: &TablePartial| positive(p.ratio) && positive(p.t60) && p.gain.is_finite();
                 need(table.iter().all(fine), "table", "ratios and t60 must be above 0")

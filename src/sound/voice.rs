@@ -1,7 +1,6 @@
-//! One voice: one hit of one instrument ringing out, or one instrument that the wind plays.
+//! One voice: what a hit sounds like apart from what it sets ringing, or one instrument that the wind plays.
 
-use super::bank::Bank;
-use super::graph::{Block, State};
+use super::graph::{Block, CONTROL, Part, State};
 use super::instrument::Instrument;
 use super::timbre::{Inputs, MAX_NODES};
 
@@ -10,13 +9,12 @@ const INAUDIBLE: f32 = 1e-5;
 /// Grid points of silence after which a voice is over.
 const QUIET_GRID_POINTS: u32 = 4;
 /// A voice beyond this is broken, not loud.
-const BROKEN: f32 = 1000.0;
+pub(super) const BROKEN: f32 = 1000.0;
 
 pub(super) struct Voice {
     pub state: VoiceState,
     pub instrument: usize,
     pub inputs: Inputs,
-    pub bank: Bank,
     pub operators: [State; MAX_NODES],
     /// Left and right, distance included.
     pub gains: [f32; 2],
@@ -43,7 +41,6 @@ impl Voice {
             state: VoiceState::Free,
             instrument: 0,
             inputs: Inputs::default(),
-            bank: Bank::new(),
             operators: std::array::from_fn(|_| State::new(0)),
             gains: [0.0; 2],
             fade: 1.0,
@@ -54,13 +51,12 @@ impl Voice {
         }
     }
 
-    /// Takes up its place; the caller fills in inputs, bank and operators.
+    /// Takes up its place; the caller fills in inputs and operators.
     pub fn begin(&mut self, instrument: usize, gains: [f32; 2]) {
         self.state = VoiceState::Sounding;
         (self.instrument, self.gains) = (instrument, gains);
         (self.fade, self.fade_step) = (1.0, 0.0);
         (self.peak, self.last_peak, self.quiet) = (0.0, 0.0, 0);
-        self.bank.clear();
     }
 
     /// Falls to silence in `samples` and is free then.
@@ -73,21 +69,20 @@ impl Voice {
 
     /// How loud it is now, to choose the quietest.
     pub fn loudness(&self) -> f32 {
-        let gain = self.gains[0].max(self.gains[1]) * self.fade;
-        gain * (self.bank.energy().sqrt() as f32).max(self.peak).max(self.last_peak)
+        self.gains[0].max(self.gains[1]) * self.fade * self.peak.max(self.last_peak)
     }
 
     /// A grid point: is it over?
     pub fn grid_point(&mut self) {
-        let silent = self.bank.count() == 0 && self.peak < INAUDIBLE;
-        self.quiet = if silent { self.quiet + 1 } else { 0 };
+        self.quiet = if self.peak < INAUDIBLE { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
             self.state = VoiceState::Free;
         }
         self.last_peak = std::mem::take(&mut self.peak);
     }
 
-    /// Adds `n` samples to the mix. `false`: bad numbers were found, nothing was added and the voice is free.
+    /// Adds as many samples to the mix as it has, and to the force on what rings. `false`: bad numbers were found,
+    /// nothing was added and the voice is free.
     #[must_use]
     pub fn mix(
         &mut self,
@@ -95,10 +90,12 @@ impl Voice {
         blocks: &mut [Block; MAX_NODES],
         left: &mut [f32],
         right: &mut [f32],
+        force: Option<&mut [f32]>,
     ) -> bool {
-        let out = instrument.graph.render(&mut self.operators, &mut self.bank, blocks, left.len());
+        let n = left.len();
+        let (out, push) = instrument.graph.render(Part::Hit, &mut self.operators, &[0.0; CONTROL][..n], blocks, n);
         let mut peak = 0.0f32;
-        for sample in out.iter() {
+        for sample in out.iter().chain(push.unwrap_or_default()) {
             if !sample.is_finite() || sample.abs() > BROKEN {
                 self.state = VoiceState::Free;
                 return false;
@@ -106,11 +103,19 @@ impl Voice {
             peak = peak.max(sample.abs());
         }
         self.peak = self.peak.max(peak);
+        let fade = self.fade;
         for ((sample, l), r) in out.iter().zip(left).zip(right) {
             let faded = sample * self.fade;
             *l += faded * self.gains[0];
             *r += faded * self.gains[1];
             self.fade = (self.fade + self.fade_step).max(0.0);
+        }
+        if let (Some(push), Some(force)) = (push, force) {
+            let mut fade = fade;
+            for (f, x) in force.iter_mut().zip(push) {
+                *f += x * fade;
+                fade = (fade + self.fade_step).max(0.0);
+            }
         }
         if self.fade == 0.0 {
             self.state = VoiceState::Free;

@@ -13,6 +13,7 @@ mod exhibits_in_motion;
 mod forge;
 mod hits;
 mod kiosk;
+mod modal;
 mod motion;
 #[cfg(feature = "kiosk")]
 mod pictures;

@@ -2,6 +2,7 @@
 
 mod exhibits;
 mod scenes;
+mod sound;
 mod wind;
 
 use std::path::PathBuf;
@@ -17,15 +18,16 @@ use crate::offline::scene::Limits;
 const EXHIBIT_SECONDS: f64 = 10.0;
 
 /// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, and its sound), of an
-/// articulated scene beside how well it keeps energy and joints, of a body as figures grow, or of wind on many parts.
+/// articulated scene beside how well it keeps energy and joints, of a body as figures grow, of wind on many parts, or
+/// of thousands of partials that ring.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
-                        soffio bench --linear\n  soffio bench --wind"
+                        soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound"
 )]
 pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
-    #[arg(conflicts_with_all = ["scene", "linear", "wind"])]
+    #[arg(conflicts_with_all = ["scene", "linear", "wind", "sound"])]
     exhibits: Vec<String>,
     /// An articulated scene, JSON of the format `isaac-bench-scene/1`; more than one may be given.
     #[arg(long, value_name = "FILE.json")]
@@ -36,6 +38,9 @@ pub struct Args {
     /// What the wind costs on 10,000 patches among 5,000 triangles, beside asking every triangle.
     #[arg(long, conflicts_with_all = ["scene", "linear"])]
     wind: bool,
+    /// What partials cost, at each level of instructions, and the heaviest scene: 48 bodies of 6,328 partials.
+    #[arg(long, conflicts_with_all = ["scene", "linear", "wind"])]
+    sound: bool,
     /// Step of a scene, s; default are those that it names.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
     dt: Option<f64>,
@@ -77,6 +82,9 @@ pub fn run(args: Args) -> Outcome {
     }
     if args.wind {
         return wind::run(args.json);
+    }
+    if args.sound {
+        return sound::run(args.json);
     }
     if args.scene.is_empty() {
         return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);

@@ -16,7 +16,7 @@ const WIRE_DRAG: f64 = 1.2;
 const WIRE_SKIN: f64 = 0.02;
 /// A mesh whose smallest extent is below this part of its second is a sheet.
 const SHEET: f64 = 0.1;
-/// Hits of one body that sound at once, where the sidecar does not say.
+/// Clicks of one body that sound at once, where the sidecar does not say.
 const DEFAULT_VOICES: usize = 4;
 /// Sheet that has no depth in the model and none in the sidecar, m.
 const NOMINAL_THICKNESS: f64 = 5e-4;

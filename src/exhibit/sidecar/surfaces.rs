@@ -206,7 +206,7 @@ pub struct Sound {
     pub gain: Decibel,
     /// Key of a caption in the labels.
     pub caption: Option<String>,
-    /// Most simultaneous hits.
+    /// Most simultaneous clicks of hits; what rings adds up without bound.
     #[schemars(range(min = 1, max = 64))]
     pub max_voices: Option<usize>,
     /// Dimensions that the mesh does not tell.
