@@ -25,7 +25,7 @@ const HIGHEST: f64 = 0.49;
 const FASTEST: f64 = 7000.0;
 
 /// Shorter contacts are an impulse, s.
-const SHORTEST: f64 = 1e-9;
+const SHORTEST: f64 = 1e-12;
 
 /// A partial of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,7 @@
 //! through the body's first sixteen samples of impulse response h[k] = Σ b Im ρ^k: exact but for rounding.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16};
+use fearless_simd::{Simd, f32x16, f64x8};
 
 /// Samples of a frame.
 pub const FRAME: usize = 16;
@@ -38,7 +38,16 @@ type States = [Phasors<f32>; FRAMES];
 /// Sums of a block: what the real parts gave, and the imaginary ones; apart, so that neither waits for the other.
 pub(super) type Sums = [[f32; BLOCK]; 2];
 
-/// What turns a group's phasors, and where they are.
+/// What turns a group's phasors from frame to frame and from block to block.
+#[derive(Clone)]
+struct Turns {
+    /// ρ^64.
+    jump: Phasors<f64>,
+    /// ρ^16, ρ^32, ρ^48.
+    steps: [Phasors<f32>; FRAMES - 1],
+}
+
+/// A group's partials: what turns their phasors, and where they are.
 #[derive(Clone)]
 #[repr(C, align(64))]
 pub(super) struct Group {
@@ -46,10 +55,7 @@ pub(super) struct Group {
     pub rows: [[[f32; FRAME]; 2]; GROUP],
     /// z at the start of the next block.
     pub state: Phasors<f64>,
-    /// ρ^64.
-    pub jump: Phasors<f64>,
-    /// ρ^16, ρ^32, ρ^48.
-    pub steps: [Phasors<f32>; FRAMES - 1],
+    turns: Turns,
     /// Gain b of a force; real.
     pub push: [f32; GROUP],
     /// Partials in use.
@@ -62,8 +68,7 @@ impl Group {
         Self {
             rows: [[[0.0; FRAME]; 2]; GROUP],
             state: [[0.0; GROUP]; 2],
-            jump: [[0.0; GROUP]; 2],
-            steps: [[[0.0; GROUP]; 2]; FRAMES - 1],
+            turns: Turns { jump: [[0.0; GROUP]; 2], steps: [[[0.0; GROUP]; 2]; FRAMES - 1] },
             push: [0.0; GROUP],
             count: 0,
         }
@@ -77,11 +82,11 @@ impl Group {
             power = times(power, rho);
         }
         let frame = power;
-        for step in &mut self.steps {
+        for step in &mut self.turns.steps {
             (step[0][i], step[1][i]) = (power[0] as f32, power[1] as f32);
             power = times(power, frame);
         }
-        (self.jump[0][i], self.jump[1][i]) = (power[0], power[1]);
+        (self.turns.jump[0][i], self.turns.jump[1][i]) = (power[0], power[1]);
     }
 
     /// ρ^n of partial `i`, n ≤ [`BLOCK`], to f32's rounding.
@@ -89,8 +94,8 @@ impl Group {
         let row = [self.rows[i][0][n % FRAME], self.rows[i][1][n % FRAME]].map(f64::from);
         match n / FRAME {
             0 => row,
-            FRAMES => [self.jump[0][i], self.jump[1][i]],
-            m => times(row, [self.steps[m - 1][0][i], self.steps[m - 1][1][i]].map(f64::from)),
+            FRAMES => [self.turns.jump[0][i], self.turns.jump[1][i]],
+            m => times(row, [self.turns.steps[m - 1][0][i], self.turns.steps[m - 1][1][i]].map(f64::from)),
         }
     }
 
@@ -119,17 +124,16 @@ pub(super) fn times(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 /// Adds a block of the group's own ringing and moves its phasors to the next.
 #[inline(always)]
 pub(super) fn ring<S: Simd>(simd: S, group: &mut Group, sums: &mut Sums) {
-    let states = states(&rounded(&group.state), &group.steps);
-    advance(&mut group.state, &group.jump);
+    let states = turn(simd, &mut group.state, &group.turns);
     read(simd, group, &states, sums);
 }
 
 /// As [`ring`] for a group that a force drives; what is heard at once, [`respond`], is not in it.
 #[inline(always)]
 pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLOCK], sums: &mut Sums) {
-    let mut states = states(&rounded(&group.state), &group.steps);
+    let mut states = turn(simd, &mut group.state, &group.turns);
     let mut driven: Phasors<f32> = [[0.0; GROUP]; 2];
-    let frame = &group.steps[0];
+    let frame = &group.turns.steps[0];
     let rho: Phasors<f32> = std::array::from_fn(|part| std::array::from_fn(|i| group.rows[i][part][1]));
     for (m, force) in force.as_chunks::<FRAME>().0.iter().enumerate() {
         if m > 0 {
@@ -153,7 +157,6 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
             driven[1][i] = re * frame[1][i] + im * frame[0][i] + d[1][i];
         }
     }
-    advance(&mut group.state, &group.jump);
     for part in 0..2 {
         for i in 0..GROUP {
             group.state[part][i] += f64::from(group.push[i] * driven[part][i]);
@@ -165,8 +168,7 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
 /// Adds a block of other phasors that turn as this group's do, and moves them to the next.
 #[inline(always)]
 pub(super) fn ring_beside<S: Simd>(simd: S, group: &Group, phasors: &mut Phasors<f64>, sums: &mut Sums) {
-    let states = states(&rounded(phasors), &group.steps);
-    advance(phasors, &group.jump);
+    let states = turn(simd, phasors, &group.turns);
     read(simd, group, &states, sums);
 }
 
@@ -181,30 +183,30 @@ pub(super) fn respond(force: &[f32; BLOCK], h: &[f32; FRAME], out: &mut [f32]) {
     }
 }
 
+/// The phasors at the start of each frame; `z` moves on to the next block.
 #[inline(always)]
-fn rounded(z: &Phasors<f64>) -> Phasors<f32> {
-    std::array::from_fn(|part| std::array::from_fn(|i| z[part][i] as f32))
-}
-
-#[inline(always)]
-fn states(z: &Phasors<f32>, steps: &[Phasors<f32>; FRAMES - 1]) -> States {
-    let mut states = [*z; FRAMES];
-    for (state, step) in states[1..].iter_mut().zip(steps) {
-        for i in 0..GROUP {
-            state[0][i] = z[0][i] * step[0][i] - z[1][i] * step[1][i];
-            state[1][i] = z[0][i] * step[1][i] + z[1][i] * step[0][i];
-        }
+fn turn<S: Simd>(simd: S, z: &mut Phasors<f64>, group: &Turns) -> States {
+    let [low, high] = [0, 8];
+    let load = |x: &[f64; GROUP], from: usize| f64x8::from_slice(simd, &x[from..from + 8]);
+    let mut narrow = [f32x16::splat(simd, 0.0); 2];
+    for part in 0..2 {
+        narrow[part] = load(&z[part], low).narrow(load(&z[part], high));
+    }
+    let [re, im] = narrow;
+    for from in [low, high] {
+        let (re, im) = (load(&z[0], from), load(&z[1], from));
+        let (jump_re, jump_im) = (load(&group.jump[0], from), load(&group.jump[1], from));
+        (re * jump_re - im * jump_im).store_slice(&mut z[0][from..from + 8]);
+        (re * jump_im + im * jump_re).store_slice(&mut z[1][from..from + 8]);
+    }
+    let mut states = [[[0.0; GROUP]; 2]; FRAMES];
+    states[0] = [re.into(), im.into()];
+    for (state, step) in states[1..].iter_mut().zip(&group.steps) {
+        let (step_re, step_im): (f32x16<S>, f32x16<S>) = (step[0].simd_into(simd), step[1].simd_into(simd));
+        state[0] = (re * step_re - im * step_im).into();
+        state[1] = (re * step_im + im * step_re).into();
     }
     states
-}
-
-#[inline(always)]
-fn advance(z: &mut Phasors<f64>, jump: &Phasors<f64>) {
-    for i in 0..GROUP {
-        let (re, im) = (z[0][i], z[1][i]);
-        z[0][i] = re * jump[0][i] - im * jump[1][i];
-        z[1][i] = re * jump[1][i] + im * jump[0][i];
-    }
 }
 
 /// As many frames at once as registers allow; the bits do not depend on it.

@@ -80,7 +80,7 @@ fn ours(partials: &[Partial], out: &mut [f32], block: usize) {
     let mut bank = Bank::new(partials, RATE, fearless_simd::Level::new());
     // So short a pulse is an impulse.
     let mut ahead = [0.0; 2 * BLOCK];
-    bank.strike(|_| 1.0 / partials.len() as f64, 1e-9, BLOCK, &mut ahead);
+    bank.strike(|_| 1.0 / partials.len() as f64, 1e-12, BLOCK, &mut ahead);
     for block in out.chunks_mut(block) {
         for part in block.as_chunks_mut::<BLOCK>().0 {
             bank.render(None, part);
