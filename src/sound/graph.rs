@@ -230,9 +230,7 @@ impl Operator {
     /// Whether this part of it takes an input.
     fn takes(&self, part: Part, input: &Operator) -> bool {
         match part {
-            Part::Body => {
-                input.rings || !matches!(self.kind, Kind::Modal) && !(matches!(self.kind, Kind::Sum) && self.rings)
-            }
+            Part::Body => input.rings || !(self.rings && matches!(self.kind, Kind::Modal | Kind::Sum)),
             Part::Hit => input.hits,
         }
     }

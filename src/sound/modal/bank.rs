@@ -222,8 +222,7 @@ impl Bank {
             }
             shared = [shared[0] + common[0], shared[1] + common[1]];
         }
-        // Not a number is not below either.
-        if !(loudness < LOUDEST) {
+        if loudness.is_nan() || loudness >= LOUDEST {
             return None;
         }
         self.ring_on(rest);
@@ -301,7 +300,7 @@ impl Bank {
 
     /// Adds the next block to `out`; with a force at each of its samples, what that adds too, now and from now on.
     pub fn render(&mut self, force: Option<&[f32; BLOCK]>, out: &mut [f32; BLOCK]) {
-        let look = self.blocks % LOOK == 0;
+        let look = self.blocks.is_multiple_of(LOOK);
         self.blocks = self.blocks.wrapping_add(1);
         let (mut sums, mut leaving): (Sums, Sums) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 2]);
         let fades = dispatch!(self.level, simd => self.render_in(simd, force, look, &mut sums, &mut leaving));
