@@ -50,8 +50,22 @@ pub struct Chosen {
     pub format: SampleFormat,
 }
 
+/// From now on what ALSA's library has to say on this thread is kept in memory instead of written to the terminal, which
+/// it does for every plug-in without a device, at each look. What was kept before is dropped. What matters of it comes
+/// as an error.
+#[cfg(target_os = "linux")]
+fn hush() {
+    if let Err(error) = alsa::Output::local_error_handler() {
+        tracing::debug!("ALSA will write to the terminal: {error}");
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn hush() {}
+
 /// Hosts that answer, the preferred one first.
 fn hosts() -> impl Iterator<Item = Host> {
+    hush();
     let mut ids = cpal::available_hosts();
     ids.sort_by_key(|id| *id != HostId::PulseAudio);
     ids.into_iter().filter_map(|id| cpal::host_from_id(id).ok())
