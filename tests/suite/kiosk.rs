@@ -405,8 +405,8 @@ mod stage {
     use std::path::Path;
     use std::sync::Arc;
 
-    use soffio::exhibit::{self, Exhibit};
     use soffio::audio_io::{Heard, input};
+    use soffio::exhibit::{self, Exhibit};
     use soffio::kiosk::microphone::MicrophoneHealth;
     use soffio::kiosk::stage::{Controls, Stage};
     use soffio::offline::feed::WavFeed;
