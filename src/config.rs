@@ -14,6 +14,7 @@ use crate::simulation::{Profile, Settings};
 
 pub mod chord;
 mod diagnose;
+pub mod remedies;
 
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
@@ -127,6 +128,8 @@ pub struct AudioSettings {
     pub microphone: String,
     /// Which of its channels listens, from 1; 0 mixes all of them.
     pub microphone_channel: u16,
+    /// Which other channel of it is a second capsule, from 1; 0 where there is one capsule only.
+    pub second_capsule_channel: u16,
     /// Id or any part of the loudspeaker's name; empty is the system's own choice.
     pub loudspeaker: String,
     /// Loudness of the kiosk, dB of full scale.
@@ -140,6 +143,7 @@ impl Default for AudioSettings {
         Self {
             microphone: String::new(),
             microphone_channel: 0,
+            second_capsule_channel: 0,
             loudspeaker: String::new(),
             volume_db: -6.0,
             block_ms: 10.0,
@@ -272,6 +276,7 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "breath.distance_m", low: 0.1, high: 2.0, unit: "m" },
     Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
+    Limit { key: "audio.second_capsule_channel", low: 0.0, high: 64.0, unit: "1" },
     Limit { key: "audio.volume_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.block_ms", low: 2.0, high: 100.0, unit: "ms" },
     Limit { key: "controllers.stick_speed", low: 0.05, high: 5.0, unit: "1/s" },

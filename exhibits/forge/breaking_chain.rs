@@ -33,8 +33,9 @@ pub fn glb() -> Vec<u8> {
     let hook = HOOK * DVec3::Y;
     let mut stand = gallows(hook, DVec2::new(0.0, -90.0 * MM), finishes.black);
     let flat = rotation(0.5 * PI * DVec3::X);
-    let tray = slab(210.0 * MM, 150.0 * MM, 6.0 * MM);
-    stand.parts.push(part("Tray", tray, DVec3::new(0.0, 15.0 * MM, 20.0 * MM), flat, STEEL, finishes.black));
+    // As far as a hard breath throws what falls: mostly forwards and to the left, where the chain swings back.
+    let tray = slab(520.0 * MM, 400.0 * MM, 6.0 * MM);
+    stand.parts.push(part("Tray", tray, DVec3::new(-40.0 * MM, 15.0 * MM, 20.0 * MM), flat, STEEL, finishes.black));
     let mut pieces = vec![(stand, DVec3::ZERO)];
     for (i, name) in LINKS.into_iter().enumerate() {
         // The weak joint is the one under the third link: what hangs on it is red.

@@ -33,7 +33,11 @@ fn main() -> ExitCode {
             println!("wrote  {} ({} bytes)", artifact.path, artifact.bytes.len());
         }
     }
-    for (name, work) in [("steel-fish", forge::steel_fish::glb().0), ("plates", forge::plates::glb().0)] {
+    for (name, work) in [
+        ("steel-fish", forge::steel_fish::glb().0),
+        ("plates", forge::plates::glb().0),
+        ("windy-corner", forge::windy_corner::glb().0),
+    ] {
         println!("\n{name}");
         report(&work);
     }

@@ -18,6 +18,7 @@ pub mod solid;
 pub mod steel_fish;
 pub mod stock;
 pub mod windmill;
+pub mod windy_corner;
 
 /// A file that the forge makes.
 #[derive(Debug)]
@@ -39,6 +40,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
+        Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },
         Artifact { path: "steel-fish/breaths/gentle.wav", bytes: breaths::wav(3.8, 2.4, 1)? },
         Artifact { path: "steel-fish/breaths/normal.wav", bytes: breaths::wav(8.9, 1.8, 2)? },

@@ -3,6 +3,9 @@
 //! The sound server is asked first (PulseAudio's protocol, which PipeWire speaks too): its devices can be shared and keep
 //! their names. Then the system's own host (ALSA).
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use cpal::traits::{DeviceTrait, HostTrait};
 use cpal::{BufferSize, Device, Host, HostId, SampleFormat, StreamConfig, SupportedStreamConfigRange};
 
@@ -50,16 +53,47 @@ pub struct Chosen {
     pub format: SampleFormat,
 }
 
+/// From now on what ALSA's library has to say on this thread is kept in memory instead of written to the terminal, which
+/// it does for every plug-in without a device, at each look. What was kept before is dropped. What matters of it comes
+/// as an error.
+#[cfg(target_os = "linux")]
+fn hush() {
+    if let Err(error) = alsa::Output::local_error_handler() {
+        tracing::debug!("ALSA will write to the terminal: {error}");
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn hush() {}
+
 /// Hosts that answer, the preferred one first.
-fn hosts() -> impl Iterator<Item = Host> {
+fn hosts() -> impl Iterator<Item = Rc<Host>> {
+    hush();
     let mut ids = cpal::available_hosts();
     ids.sort_by_key(|id| *id != HostId::PulseAudio);
-    ids.into_iter().filter_map(|id| cpal::host_from_id(id).ok())
+    ids.into_iter().filter_map(host)
+}
+
+/// A host, if it answers.
+fn host(id: HostId) -> Option<Rc<Host>> {
+    thread_local! {
+        /// The library never closes a connection to the sound server, which grants some 64; so this thread keeps one
+        /// for as long as it answers.
+        static SERVER: RefCell<Option<Rc<Host>>> = const { RefCell::new(None) };
+    }
+    let open = || cpal::host_from_id(id).ok().map(Rc::new);
+    if id != HostId::PulseAudio {
+        return open();
+    }
+    SERVER.with_borrow_mut(|kept| {
+        *kept = kept.take().filter(|host| host.output_devices().is_ok()).or_else(open);
+        kept.clone()
+    })
 }
 
 /// Whoever owns the machine's sound: the sound server if there is one, or else the driver. What a driver calls its
 /// default beside a server is that server again, by a longer way.
-fn owner() -> impl Iterator<Item = Host> {
+fn owner() -> impl Iterator<Item = Rc<Host>> {
     let answers = |host: &Host| host.output_devices().is_ok_and(|mut devices| devices.next().is_some());
     let mut served = false;
     hosts().take_while(move |host| !std::mem::replace(&mut served, host.id() == HostId::PulseAudio && answers(host)))
@@ -81,7 +115,7 @@ fn default_device(host: &Host, direction: Direction) -> Option<Device> {
 /// Is this device of [`Chosen::id`] still there? A sound server moves the stream of one that is pulled out to another,
 /// without a word. A host that does not answer says nothing.
 pub fn is_present(direction: Direction, wanted: &str) -> bool {
-    let there = |host: Host| all_devices(&host, direction).map(|devices| devices.iter().any(|d| id(d) == wanted));
+    let there = |host: Rc<Host>| all_devices(&host, direction).map(|devices| devices.iter().any(|d| id(d) == wanted));
     let prefix = wanted.split(':').next().unwrap_or_default();
     hosts().filter(|host| host.id().to_string() == prefix).all(|host| there(host).unwrap_or(true))
 }
@@ -146,7 +180,7 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
         "" => format!("this machine has no {kind}"),
         _ => format!("no {kind} is called \"{wanted}\"; `soffio devices` lists them"),
     };
-    let hosts: Vec<Host> = if wanted.is_empty() { owner().collect() } else { hosts().collect() };
+    let hosts: Vec<Rc<Host>> = if wanted.is_empty() { owner().collect() } else { hosts().collect() };
     for host in hosts {
         let device = if wanted.is_empty() {
             default_device(&host, direction)

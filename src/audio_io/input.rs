@@ -1,31 +1,70 @@
-//! The microphone: a real-time thread that copies one channel into a ring.
+//! The microphone: a real-time thread that copies its capsules into a ring, a pair a frame.
 
 use cpal::{FromSample, Sample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
+
+use crate::simulation::Microphone;
 
 /// Room in the ring, s: as long as the kiosk may stand still without losing what was heard.
 const RING: u32 = 2;
 
 /// The real-time end: everything that the microphone's callback touches.
 pub struct Recorder {
-    ring: Producer<f32>,
+    ring: Producer<[f32; 2]>,
     channels: usize,
     /// The channel that listens; `None` mixes all.
     channel: Option<usize>,
+    /// The second capsule's.
+    second: Option<usize>,
 }
 
 /// The kiosk's end.
 pub struct Ears {
-    ring: Consumer<f32>,
+    ring: Consumer<[f32; 2]>,
     sample_rate: u32,
+    two: bool,
 }
 
-/// The two ends of a microphone. `channel` counts from 1 (0 mixes all); one that the device lacks mixes all too.
-pub fn open(sample_rate: u32, channels: usize, channel: u16) -> (Recorder, Ears) {
+/// The two ends of a microphone. Channels count from 1. The first is the capsule's own (0 mixes all, as does one that the
+/// device lacks); the other is a second capsule's (0 for none, as is one that the device lacks, and any beside a mix).
+pub fn open(sample_rate: u32, channels: usize, wanted: [u16; 2]) -> (Recorder, Ears) {
     let (to, from) = RingBuffer::new((RING * sample_rate) as usize);
     let channels = channels.max(1);
-    let channel = usize::from(channel).checked_sub(1).filter(|channel| *channel < channels);
-    (Recorder { ring: to, channels, channel }, Ears { ring: from, sample_rate })
+    let [channel, second] =
+        wanted.map(|number| usize::from(number).checked_sub(1).filter(|channel| *channel < channels));
+    let second = second.filter(|_| channel.is_some() && channel != second);
+    (Recorder { ring: to, channels, channel, second }, Ears { ring: from, sample_rate, two: second.is_some() })
+}
+
+/// What was heard since the last look, and what the loudspeaker played meanwhile. All at the microphone's rate.
+#[derive(Clone, Debug, Default)]
+pub struct Heard {
+    /// One capsule, full scale ±1.
+    pub samples: Vec<f32>,
+    /// The second one, as long; empty where there is one only.
+    pub second: Vec<f32>,
+    /// What was played, mono, as long; empty without a loudspeaker.
+    pub reference: Vec<f32>,
+}
+
+impl Heard {
+    /// Forgets it.
+    pub fn clear(&mut self) {
+        self.samples.clear();
+        self.second.clear();
+        self.reference.clear();
+    }
+
+    /// The `i`-th of `n` equal shares, in order and without a gap, as a step hears it at `sample_rate` Hz.
+    pub fn share(&self, i: u64, n: u64, sample_rate: u32) -> Microphone<'_> {
+        let part = |all: &'_ [f32]| {
+            let bound = |k: u64| (all.len() as u64 * k / n) as usize;
+            bound(i)..bound(i + 1)
+        };
+        let second = (!self.second.is_empty()).then(|| &self.second[part(&self.second)]);
+        let (samples, reference) = (&self.samples[part(&self.samples)], &self.reference[part(&self.reference)]);
+        Microphone { samples, second, sample_rate, reference }
+    }
 }
 
 impl Recorder {
@@ -40,8 +79,9 @@ impl Recorder {
                 Some(channel) => f32::from_sample(frame[channel]),
                 None => frame.iter().map(|s| f32::from_sample(*s)).sum::<f32>() * share,
             };
+            let second = self.second.map_or(0.0, |channel| f32::from_sample(frame[channel]));
             // A full ring means that nobody listens.
-            let _ = self.ring.push(sample);
+            let _ = self.ring.push([sample, second]);
         }
     }
 }
@@ -52,13 +92,22 @@ impl Ears {
         self.sample_rate
     }
 
-    /// Appends what was heard since the last call; how many samples that is.
-    pub fn read(&mut self, into: &mut Vec<f32>) -> usize {
+    /// How many capsules listen, 1 or 2.
+    pub fn capsules(&self) -> usize {
+        1 + usize::from(self.two)
+    }
+
+    /// Appends what was heard since the last call; how many samples of each capsule that is.
+    pub fn read(&mut self, into: &mut Heard) -> usize {
         let count = self.ring.slots();
         let Ok(chunk) = self.ring.read_chunk(count) else { return 0 };
-        let (first, second) = chunk.as_slices();
-        into.extend_from_slice(first);
-        into.extend_from_slice(second);
+        let (head, tail) = chunk.as_slices();
+        for frames in [head, tail] {
+            into.samples.extend(frames.iter().map(|frame| frame[0]));
+            if self.two {
+                into.second.extend(frames.iter().map(|frame| frame[1]));
+            }
+        }
         chunk.commit_all();
         count
     }

@@ -29,6 +29,7 @@ use std::thread::JoinHandle;
 
 pub use crate::config::AudioSettings;
 pub use clock::ClockMap;
+pub use input::Heard;
 pub use reference::ReferenceTap;
 use supervisor::{Link, Request, Supervisor};
 
@@ -46,6 +47,8 @@ pub struct AudioStatus {
     pub output: DeviceState,
     /// Gaps in either since the start: the machine was too slow.
     pub xruns: u64,
+    /// Capsules of the microphone that listen: 0 without one.
+    pub capsules: usize,
 }
 
 /// How one device is.
@@ -97,7 +100,7 @@ impl AudioIo {
         let supervisor = std::thread::Builder::new().name("audio".into()).spawn(move || supervisor.run());
         if let Err(error) = &supervisor {
             let missing = DeviceState::Missing(format!("no thread for the devices: {error}"));
-            let none = AudioStatus { input: missing.clone(), output: missing, xruns: 0 };
+            let none = AudioStatus { input: missing.clone(), output: missing, ..AudioStatus::default() };
             *status.lock().unwrap_or_else(PoisonError::into_inner) = none;
         }
         Self {
@@ -123,14 +126,14 @@ impl AudioIo {
 
     /// Appends what the microphone has heard since the last call, and as many samples of what the loudspeaker played
     /// meanwhile (none without a loudspeaker). The answer is the microphone's rate, Hz; `None` when there is none.
-    pub fn read_microphone(&mut self, into: &mut Vec<f32>, reference: &mut Vec<f32>) -> Option<u32> {
+    pub fn read_microphone(&mut self, into: &mut Heard) -> Option<u32> {
         self.take_links();
         let ears = self.microphone.as_mut()?;
         let heard = ears.read(into);
         let rate = ears.sample_rate();
         if let Some(voice) = &mut self.loudspeaker {
             let played_rate = voice.sample_rate();
-            self.tap.read(voice.reference(), played_rate, rate, heard, reference);
+            self.tap.read(voice.reference(), played_rate, rate, heard, &mut into.reference);
         }
         Some(rate)
     }

@@ -15,6 +15,7 @@ use super::devices::{Chosen, Direction, choose, is_present};
 use super::input::{self, Ears, Recorder};
 use super::output::{self, Engine, Player, Voice, Workshop};
 use super::{AudioSettings, AudioStatus, DeviceState, SynthFactory};
+use crate::config::remedies;
 use crate::math::from_decibels;
 
 /// Between two looks at the devices.
@@ -290,7 +291,7 @@ impl Supervisor {
             tracing::warn!("microphone lost: {reason}");
             self.microphone.give_up();
             self.link(Link::Microphone(None));
-            self.tell(|status| status.input = DeviceState::Missing(reason));
+            self.tell(|status| (status.input, status.capsules) = (DeviceState::Missing(reason), 0));
         }
         if !self.microphone.due() {
             return;
@@ -298,8 +299,8 @@ impl Supervisor {
         let result = choose(Direction::Input, &self.settings.microphone, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format } = chosen;
             let open = |config: StreamConfig| {
-                let (channels, channel) = (config.channels.into(), self.settings.microphone_channel);
-                let (recorder, ears) = input::open(config.sample_rate, channels, channel);
+                let wanted = [self.settings.microphone_channel, self.settings.second_capsule_channel];
+                let (recorder, ears) = input::open(config.sample_rate, config.channels.into(), wanted);
                 Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, ears))
             };
             let (stream, ears) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
@@ -307,10 +308,14 @@ impl Supervisor {
         });
         match result {
             Ok((stream, ears, id, name, sample_rate)) => {
-                tracing::info!("microphone: {name}, {sample_rate} Hz");
+                let capsules = ears.capsules();
+                tracing::info!("microphone: {name}, {sample_rate} Hz, capsules: {capsules}");
+                if capsules < 2 && self.settings.second_capsule_channel > 0 {
+                    tracing::warn!("no second capsule: {}", remedies::NO_SECOND_CAPSULE);
+                }
                 self.microphone.opened(stream, id, sample_rate);
                 self.link(Link::Microphone(Some(ears)));
-                self.tell(|status| status.input = DeviceState::Ok { name, sample_rate });
+                self.tell(|status| (status.input, status.capsules) = (DeviceState::Ok { name, sample_rate }, capsules));
             }
             Err(reason) => {
                 self.microphone.give_up();

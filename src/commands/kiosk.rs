@@ -77,7 +77,7 @@ pub fn run(args: Args) -> Outcome {
         settings,
         audio: config.audio.clone(),
         controllers: config.controllers.clone(),
-        recording: recording.map(|recording| WavFeed::new(recording.samples, recording.sample_rate)),
+        recording: recording.as_ref().map(WavFeed::from),
         idle_s: config.attract.enabled.then_some(config.attract.idle_s),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
         trace: args.trace,

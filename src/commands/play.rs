@@ -24,7 +24,7 @@ const TAIL: f64 = 5.0;
 pub struct Args {
     /// Id under `exhibits/`, or a folder.
     exhibit: String,
-    /// Recorded breath, heard as the microphone.
+    /// Recorded breath, heard as the microphone; two channels are two capsules.
     #[arg(long, value_name = "WAV")]
     breath: Option<PathBuf>,
     /// Where the breath is aimed, picture coordinates: 0,0 top left, 1,1 bottom right.
@@ -133,7 +133,7 @@ pub fn run(args: Args) -> Outcome {
     let (SolverArg::Dynamics | SolverArg::Auto) = args.solver;
     let play = Play {
         settings,
-        breath: recording.map(|r| WavFeed::new(r.samples, r.sample_rate)),
+        breath: recording.as_ref().map(WavFeed::from),
         aim: args.aim,
         script,
         seconds,

@@ -1,7 +1,8 @@
 //! What is wrong with a configuration file: every problem at once, with line, column and remedy.
 //!
-//! Three looks at the same text, each finding what the one before cannot: the grammar and then unknown keys and
-//! numbers out of range on the syntax tree (which knows where everything stands), then types through serde.
+//! Looks at the same text, each finding what the one before cannot: the grammar and then unknown keys and numbers out
+//! of range on the syntax tree (which knows where everything stands), then types through serde, then what does not go
+//! together.
 
 use std::fmt;
 use std::ops::Range;
@@ -72,10 +73,33 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
     if !look.problems.is_empty() {
         return fail(look.problems);
     }
-    toml::from_str(text).or_else(|error| {
-        let message = error.message().lines().next().unwrap_or_default().to_owned();
-        fail(vec![located(text, error.span(), message, String::new())])
-    })
+    let config: Config = match toml::from_str(text) {
+        Ok(config) => config,
+        Err(error) => {
+            let message = error.message().lines().next().unwrap_or_default().to_owned();
+            return fail(vec![located(text, error.span(), message, String::new())]);
+        }
+    };
+    match capsules(&config) {
+        Some((message, help)) => {
+            let key = document.get("audio").and_then(|audio| audio.get("second_capsule_channel"));
+            fail(vec![located(text, key.and_then(Item::span), message, help)])
+        }
+        None => Ok(config),
+    }
+}
+
+/// Two capsules are two channels: what is wrong, and what to do.
+fn capsules(config: &Config) -> Option<(String, String)> {
+    let (first, second) = (config.audio.microphone_channel, config.audio.second_capsule_channel);
+    let help = "give the first capsule's channel in `audio.microphone_channel`, from 1, and another one here";
+    let message = match first {
+        _ if second == 0 => return None,
+        0 => "a second capsule beside a mix of all channels".to_owned(),
+        _ if first == second => format!("both capsules are channel {first}"),
+        _ => return None,
+    };
+    Some((message, help.into()))
 }
 
 /// The default configuration as a table: the list of all keys.

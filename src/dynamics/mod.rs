@@ -32,7 +32,7 @@ use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
 use contacts::Verdict;
-pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, strike};
+pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, Touching, strike};
 use course::{Course, Rate};
 pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
@@ -521,6 +521,11 @@ impl Dynamics {
     /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.
     pub fn contact_work(&self) -> f64 {
         self.contacts.work()
+    }
+
+    /// Surfaces that press on each other at the end of the last step.
+    pub fn touching(&self) -> impl Iterator<Item = Touching> + '_ {
+        self.contacts.touching(&self.bodies)
     }
 
     /// Pairs of colliders that the last step measured: those whose swept boxes overlapped, once a substep each.

@@ -96,7 +96,7 @@ impl Attract {
         }
         if let Some((feed, detector)) = &mut round.breath {
             let over = feed.is_over();
-            detector.push(feed.step_samples(), &[]);
+            feed.microphone().reach(detector);
             commands.push(Command::Blow(Some(if over { 0.0 } else { detector.estimate().speed })));
             if over {
                 round.breath = None;

@@ -11,22 +11,19 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use crate::audio_io::{AudioIo, AudioStatus, DeviceState};
+use crate::audio_io::{AudioIo, AudioStatus, DeviceState, Heard};
 use crate::config::{AudioSettings, ControllerSettings};
 use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
-use crate::simulation::{Microphone, STEPS_PER_SECOND, Settings, Snapshot};
+use crate::simulation::{STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{SoundCommand, Synth};
-use crate::wind::blow::Reason;
 
 use super::breaths::{Breaths, Turn};
+use super::microphone::MicrophoneHealth;
 use super::pace::Pacer;
 use super::stage::{Controls, Stage};
-
-/// A microphone that sends exact zeros for this long is muted, or its cable is out: 3 s.
-const MUTED_STEPS: u64 = 3 * STEPS_PER_SECOND;
 
 /// What a run is made of.
 pub struct Options {
@@ -87,8 +84,8 @@ pub struct Load {
     pub step_s: f64,
     /// Steps of time that were dropped so far.
     pub dropped: u64,
-    /// Does the microphone send nothing but exact silence?
-    pub silent: bool,
+    /// How the microphone does.
+    pub microphone: MicrophoneHealth,
     /// What the devices say.
     pub audio: AudioStatus,
     /// What the controllers say, by kind.
@@ -98,7 +95,7 @@ pub struct Load {
 impl Frame {
     /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
     pub fn is_deaf(&self) -> bool {
-        !self.hears && (self.load.silent || matches!(self.load.audio.input, DeviceState::Missing(_)))
+        !self.hears && (self.load.microphone.is_silent() || matches!(self.load.audio.input, DeviceState::Missing(_)))
     }
 
     /// Is it certain that there is no loudspeaker?
@@ -221,15 +218,12 @@ struct Thread {
     seed: u64,
     recorded: bool,
     previous: Snapshot,
-    heard: Vec<f32>,
-    played: Vec<f32>,
+    heard: Heard,
     sounds: Vec<SoundCommand>,
     breaths: Breaths,
     onset: Option<Onset>,
     /// The step that was published last.
     published: u64,
-    /// Steps of exact silence from the microphone until now.
-    silent_steps: u64,
     load: Load,
 }
 
@@ -247,13 +241,11 @@ impl Thread {
             limit: options.steps.unwrap_or(u64::MAX),
             seed: options.settings.seed,
             recorded: options.recording.is_some(),
-            heard: Vec::new(),
-            played: Vec::new(),
+            heard: Heard::default(),
             sounds: Vec::new(),
             breaths: Breaths::default(),
             onset: None,
             published: 0,
-            silent_steps: 0,
             load: Load::default(),
         }
     }
@@ -296,21 +288,17 @@ impl Thread {
         }
         add(&mut controls, &self.controllers.reading(), self.stick_speed);
         self.heard.clear();
-        self.played.clear();
-        let rate = self.audio.read_microphone(&mut self.heard, &mut self.played);
+        let rate = self.audio.read_microphone(&mut self.heard);
         self.sounds.clear();
         let before = Instant::now();
         for i in 0..due {
             self.previous.clone_from(self.stage.snapshot());
-            let microphone = rate.map(|sample_rate| Microphone {
-                samples: share(&self.heard, i, due),
-                sample_rate,
-                reference: share(&self.played, i, due),
-            });
+            let microphone = rate.map(|sample_rate| self.heard.share(i, due, sample_rate));
             self.stage.step(&controls, microphone);
             controls.commands.clear();
             self.sounds.extend_from_slice(self.stage.sounds());
             self.write_trace()?;
+            self.load.microphone.note(rate.is_some(), &self.stage.snapshot().breath.estimate);
             let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
             for turn in self.breaths.note(step, breath, &controls, self.stage.attracts()) {
                 if matches!(turn, Turn::Begins(..)) {
@@ -322,10 +310,7 @@ impl Thread {
         let each = before.elapsed().as_secs_f64() / due as f64;
         self.load.step_s += 0.02 * (each - self.load.step_s);
         self.audio.send(self.stage.sample(), &self.sounds);
-        let silent = rate.is_some() && self.stage.snapshot().breath.estimate.reason == Reason::NoSignal;
-        self.silent_steps = if silent { self.silent_steps + due } else { 0 };
-        self.load.silent = self.silent_steps > MUTED_STEPS;
-        Ok(rate.is_some() && !self.load.silent || self.recorded)
+        Ok(rate.is_some() && !self.load.microphone.is_silent() || self.recorded)
     }
 
     /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
@@ -393,12 +378,6 @@ fn synth(exhibit: &Exhibit, seed: u64) -> impl Fn(u32) -> Synth + Send + 'static
             Synth::silent(rate)
         })
     }
-}
-
-/// The `i`-th of `n` equal shares of `all`, in order and without a gap.
-fn share(all: &[f32], i: u64, n: u64) -> &[f32] {
-    let bound = |k: u64| (all.len() as u64 * k / n) as usize;
-    &all[bound(i)..bound(i + 1)]
 }
 
 /// A hash as text: JSON numbers lose bits beyond 2⁵³.

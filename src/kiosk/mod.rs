@@ -10,6 +10,7 @@ pub mod events;
 pub mod fonts;
 pub mod input;
 pub mod live;
+pub mod microphone;
 pub mod overlay;
 pub mod pace;
 pub mod pointing;

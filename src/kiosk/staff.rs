@@ -5,15 +5,23 @@
 
 use std::collections::VecDeque;
 
-use egui::{Align2, Color32, Grid, RichText, ScrollArea, Ui};
+use egui::{Align2, Color32, Grid, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 
 use super::live::Frame;
 use crate::controllers::State;
+use crate::wind::blow::BlowEstimate;
 
 /// Messages that are kept.
 const KEPT: usize = 30;
 /// How long a message stays in the corner, s.
 const TOAST_S: f64 = 10.0;
+
+/// What is not as it should be.
+const BAD: Color32 = Color32::from_rgb(225, 70, 50);
+/// Lower end of the meter, dB of full scale.
+const QUIETEST_DBFS: f64 = -80.0;
+/// Size of the meter.
+const METER: [f32; 2] = [220.0, 10.0];
 
 /// What staff ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +72,11 @@ impl Staff {
             egui::Window::new("Soffio").anchor(Align2::RIGHT_TOP, [-16.0, 16.0]).resizable(false).show(
                 ui.ctx(),
                 |ui| {
+                    meter(ui, &frame.current.breath.estimate);
+                    for remedy in frame.load.microphone.remedies() {
+                        ui.set_max_width(420.0);
+                        ui.colored_label(BAD, format!("microphone: {remedy}"));
+                    }
                     numbers(ui, frame, vitals);
                     ui.separator();
                     ui.horizontal(|ui| {
@@ -105,22 +118,38 @@ impl Staff {
     }
 }
 
+/// The microphone's level, and a mark at the room's floor.
+fn meter(ui: &mut Ui, heard: &BlowEstimate) {
+    let (room, _) = ui.allocate_exact_size(METER.into(), Sense::hover());
+    let place = |dbfs: f64| room.left() + room.width() * (1.0 - dbfs / QUIETEST_DBFS).clamp(0.0, 1.0) as f32;
+    let painter = ui.painter();
+    painter.rect_filled(room, 2.0, Color32::from_gray(45));
+    let level = room.with_max_x(place(heard.level_dbfs));
+    painter.rect_filled(level, 2.0, if heard.clipping { BAD } else { Color32::from_rgb(90, 170, 90) });
+    let floor = pos2(place(heard.floor_dbfs), room.top());
+    painter.rect_filled(egui::Rect::from_min_size(floor, vec2(2.0, room.height())), 0.0, Color32::WHITE);
+}
+
 /// The numbers, one a row.
 fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
     let breath = &frame.current.breath;
     let heard = &breath.estimate;
     let state = &frame.current.diagnostics;
-    let audio = &frame.load.audio;
+    let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
     Grid::new("numbers").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| {
         let mut row = |name: &str, value: String, bad: bool| {
             ui.label(name);
             let text = RichText::new(value).monospace();
-            ui.label(if bad { text.color(Color32::from_rgb(225, 70, 50)) } else { text });
+            ui.label(if bad { text.color(BAD) } else { text });
             ui.end_row();
         };
         row("exhibit", frame.exhibit.id.clone(), false);
-        row("microphone", audio.input.to_string(), !frame.hears);
+        let capsules = if audio.capsules == 2 { ", two capsules" } else { "" };
+        row("microphone", format!("{}{capsules}", audio.input), !frame.hears);
         row("level", format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs), heard.clipping);
+        let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
+        row("at full scale", clips, microphone.clips_lately());
+        row("gain control", if heard.gain_control { "seen" } else { "none seen" }.into(), heard.gain_control);
         row("detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
         row("breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
         row("wind force", format!("{:.4} N", state.wind_force.length()), false);

@@ -376,7 +376,9 @@ impl App<'_> {
         if frame.is_deaf() != self.deaf {
             self.deaf = frame.is_deaf();
             self.say(match self.deaf {
-                true if frame.load.silent => "the microphone is silent: muted, or its cable is out".into(),
+                true if frame.load.microphone.is_silent() => {
+                    "the microphone is silent: muted, or its cable is out".into()
+                }
                 true => "no microphone: visitors press and hold to blow; `soffio doctor` says more".into(),
                 false => "the microphone listens".into(),
             });

@@ -6,12 +6,14 @@
 
 use std::sync::Arc;
 
+use super::wav::Recording;
 use crate::simulation::{Microphone, STEPS_PER_SECOND};
 
 /// A recording, read step by step.
 #[derive(Clone, Debug)]
 pub struct WavFeed {
     samples: Arc<[f32]>,
+    second: Option<Arc<[f32]>>,
     sample_rate: u32,
     step: u64,
 }
@@ -19,20 +21,19 @@ pub struct WavFeed {
 impl WavFeed {
     /// The mono `samples` (full scale ±1) at `sample_rate` Hz, from their start.
     pub fn new(samples: impl Into<Arc<[f32]>>, sample_rate: u32) -> Self {
-        Self { samples: samples.into(), sample_rate, step: 0 }
+        Self { samples: samples.into(), second: None, sample_rate, step: 0 }
     }
 
-    /// Samples of the next step; empty after the end.
-    pub fn step_samples(&mut self) -> &[f32] {
+    /// The next step's samples as a microphone that hears no loudspeaker; none after the end.
+    pub fn microphone(&mut self) -> Microphone<'_> {
         let (low, high) = (self.bound(self.step), self.bound(self.step + 1));
         self.step += 1;
-        &self.samples[low..high]
-    }
-
-    /// The next step's samples as a microphone that hears no loudspeaker.
-    pub fn microphone(&mut self) -> Microphone<'_> {
-        let sample_rate = self.sample_rate;
-        Microphone { samples: self.step_samples(), sample_rate, reference: &[] }
+        Microphone {
+            samples: &self.samples[low..high],
+            second: self.second.as_ref().map(|second| &second[low..high]),
+            sample_rate: self.sample_rate,
+            reference: &[],
+        }
     }
 
     /// Length, s.
@@ -54,5 +55,18 @@ impl WavFeed {
     fn bound(&self, step: u64) -> usize {
         let sample = u128::from(step) * u128::from(self.sample_rate) / u128::from(STEPS_PER_SECOND);
         sample.min(self.samples.len() as u128) as usize
+    }
+}
+
+impl From<&Recording> for WavFeed {
+    /// A recording of two channels is one of two capsules.
+    fn from(recording: &Recording) -> Self {
+        let Recording { samples, capsules, sample_rate } = recording;
+        match capsules {
+            Some([left, right]) => {
+                Self { second: Some(right.as_slice().into()), ..Self::new(left.as_slice(), *sample_rate) }
+            }
+            None => Self::new(samples.as_slice(), *sample_rate),
+        }
     }
 }

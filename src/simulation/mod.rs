@@ -127,8 +127,10 @@ impl Default for Settings {
 /// Microphone samples of one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Microphone<'a> {
-    /// Mono, full scale ±1.
+    /// One capsule, full scale ±1.
     pub samples: &'a [f32],
+    /// A second capsule beside it (same rate and length), where there is one.
+    pub second: Option<&'a [f32]>,
     /// Hz.
     pub sample_rate: u32,
     /// What the loudspeaker played meanwhile (mono, same rate and length); empty where it cannot be heard.

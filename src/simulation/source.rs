@@ -37,6 +37,16 @@ impl Swing {
     }
 }
 
+impl Microphone<'_> {
+    /// Lets a detector hear it.
+    pub fn reach(&self, detector: &mut BlowDetector) {
+        match self.second {
+            Some(second) => detector.push_stereo(self.samples, second, self.reference),
+            None => detector.push(self.samples, self.reference),
+        }
+    }
+}
+
 /// All sources of breath of one kiosk.
 #[derive(Default)]
 pub struct BreathSource {
@@ -90,7 +100,7 @@ impl BreathSource {
                 Some((heard.sample_rate, BlowDetector::with_settings(heard.sample_rate, self.settings.clone())));
         }
         self.detector.as_mut().map_or_else(BlowEstimate::default, |(_, detector)| {
-            detector.push(heard.samples, heard.reference);
+            heard.reach(detector);
             detector.estimate()
         })
     }

@@ -60,6 +60,7 @@ const FILES: &[&str] = &["std::fs", "File::open", "std::net"];
 /// Crates that only one place may name.
 const KEPT_APART: &[(&str, &[&str])] = &[
     ("cpal::", &["audio_io", "commands"]),
+    ("alsa::", &["audio_io"]),
     ("wgpu::", &["render", "kiosk", "commands"]),
     ("winit::", &["kiosk", "commands"]),
     ("egui::", &["kiosk"]),

@@ -154,6 +154,11 @@ fn a_ball_rolls_down_an_incline_at_five_sevenths() {
     let expected = 5.0 / 7.0 * G * angle.sin();
     assert!((found / expected - 1.0).abs() < RATE, "{found} m/s² against {expected}");
     assert!((ball.velocity.x + r * ball.angular_velocity.z).abs() < RATE * ball.velocity.x, "it slips");
+    let touch = dynamics.touching().next().expect("it rolls on the plane");
+    assert!(touch.slip.length() < RATE * ball.velocity.x, "{touch:?}");
+    for roll in touch.roll {
+        assert!((roll.length() / ball.velocity.x - 1.0).abs() < 1e-2, "{touch:?} at {} m/s", ball.velocity.x);
+    }
     assert!((ball.position.y - r).abs() < 3e-6, "off the plane by {}", ball.position.y - r);
 }
 
@@ -205,6 +210,16 @@ fn a_block_sticks_below_the_angle_of_friction_and_slides_above() {
     let found = (slides.bodies[0].velocity.x - v) / 0.5;
     let expected = G * (angle.sin() - mu * angle.cos());
     assert!((found / expected - 1.0).abs() < RATE, "{found} against {expected} m/s²");
+    // All its corners together bear its weight, each slides as fast as it does, and none moves over the block itself.
+    let touching: Vec<_> = slides.touching().collect();
+    let pressed: f64 = touching.iter().map(|t| t.normal_force).sum();
+    assert!((pressed / (0.3 * G * angle.cos()) - 1.0).abs() < RATE, "{pressed} N");
+    let speed = slides.bodies[0].velocity.x;
+    for touch in touching {
+        assert!((touch.slip.length() / speed - 1.0).abs() < RATE, "{touch:?} at {speed} m/s");
+        let scraped = touch.roll.map(|roll| roll.length() / speed);
+        assert!(scraped[0].min(scraped[1]) < 1e-3 && (scraped[0].max(scraped[1]) - 1.0).abs() < 1e-3, "{touch:?}");
+    }
 }
 
 #[test]

@@ -65,6 +65,16 @@ fn every_number_of_the_configuration_has_a_range_that_holds_its_default() {
 }
 
 #[test]
+fn two_capsules_are_two_channels() {
+    assert_eq!(problems("[audio]\nmicrophone_channel = 1\nsecond_capsule_channel = 2"), [""; 0]);
+    for (first, message) in [(0, "a second capsule beside a mix"), (2, "both capsules are channel 2")] {
+        let text = format!("[audio]\nmicrophone_channel = {first}\nsecond_capsule_channel = 2");
+        let found = problems(&text);
+        assert!(found.len() == 1 && found[0].starts_with(&format!("3:26 {message}")), "{found:?}");
+    }
+}
+
+#[test]
 fn everything_wrong_with_a_configuration_is_said_at_once_and_located() {
     let found = problems("[breath]\ngian = 2\ndistance_m = 30.0\n\n[screens]\n");
     assert_eq!(
@@ -127,12 +137,12 @@ fn a_recording_is_heard_whole_in_order_and_without_a_gap_at_any_rate() {
         let mut heard = Vec::new();
         for step in 0..240_u64 {
             assert!(!feed.is_over(), "{rate} Hz, step {step}");
-            let part = feed.step_samples();
+            let part = feed.microphone().samples;
             assert_eq!(part.len() as u64, (step + 1) * u64::from(rate) / 240 - step * u64::from(rate) / 240);
             heard.extend_from_slice(part);
         }
         assert_eq!(heard, samples, "{rate} Hz");
-        assert!(feed.is_over() && feed.step_samples().is_empty());
+        assert!(feed.is_over() && feed.microphone().samples.is_empty());
     }
 }
 
@@ -395,11 +405,15 @@ mod stage {
     use std::path::Path;
     use std::sync::Arc;
 
+    use soffio::audio_io::{Heard, input};
     use soffio::exhibit::{self, Exhibit};
+    use soffio::kiosk::microphone::MicrophoneHealth;
     use soffio::kiosk::stage::{Controls, Stage};
     use soffio::offline::feed::WavFeed;
     use soffio::offline::wav;
     use soffio::simulation::{Microphone, Settings, Simulation, StepInput};
+    use soffio::wind::blow::{BlowEstimate, Reason};
+    use soffio::wind::generate::{self, BreathShape};
 
     const RATE: u32 = 48_000;
 
@@ -429,12 +443,89 @@ mod stage {
         for step in 0..3 * 240 {
             // What a microphone hears meanwhile must not matter.
             let room = quiet(&mut random);
-            let microphone = Microphone { samples: &room, sample_rate: RATE, reference: &[] };
+            let microphone = Microphone { samples: &room, second: None, sample_rate: RATE, reference: &[] };
             stage.step(&controls, Some(microphone));
             simulation.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
             assert_eq!(stage.state_hash(), simulation.state_hash(), "step {step}");
         }
         assert!(simulation.snapshot().diagnostics.wind_force.length() > 0.0 || simulation.energy() != 0.0);
+    }
+
+    #[test]
+    fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
+        let capsules = [7, 8].map(|seed| generate::breath(RATE, seed, &BreathShape::default()));
+        let frames: Vec<f32> = capsules[0].iter().zip(&capsules[1]).flat_map(|(left, right)| [*left, *right]).collect();
+        let file = tempfile::NamedTempFile::new().expect("a temporary file");
+        wav::write_float(file.path(), 2, RATE, &frames).expect("it is written");
+        let recording = wav::read(file.path()).expect("it is read");
+        let exhibit = steel_fish();
+        let mut offline = Simulation::new(exhibit.clone(), Settings::default());
+        let mut mixed = Simulation::new(exhibit.clone(), Settings::default());
+        let mut live = Stage::new(exhibit, Settings::default(), None, None);
+        let (mut feed, mut mix) = (WavFeed::from(&recording), WavFeed::new(recording.samples.clone(), RATE));
+        let (mut recorder, mut ears) = input::open(RATE, 2, [1, 2]);
+        let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+        let (mut heard, mut fastest, mut steps) = (Heard::default(), 0.0_f64, 0);
+        for block in frames.chunks_exact(2 * RATE as usize / 240) {
+            recorder.record(block);
+            heard.clear();
+            assert_eq!(ears.read(&mut heard), block.len() / 2);
+            live.step(&controls, Some(heard.share(0, 1, RATE)));
+            offline.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
+            mixed.step(&StepInput { microphone: Some(mix.microphone()), ..StepInput::default() });
+            assert_eq!(live.state_hash(), offline.state_hash(), "step {steps}");
+            assert_eq!(live.snapshot().breath.estimate, offline.snapshot().breath.estimate, "step {steps}");
+            fastest = fastest.max(live.snapshot().breath.speed);
+            steps += 1;
+        }
+        assert!(steps > 240 && fastest > 1.0, "{fastest} m/s in {steps} steps");
+        assert_ne!(mixed.state_hash(), offline.state_hash(), "the second capsule changes nothing");
+    }
+
+    #[test]
+    fn what_was_heard_is_shared_among_steps_without_a_gap() {
+        let count = |n: u16| (0..n).map(f32::from).collect::<Vec<_>>();
+        let heard = Heard { samples: count(1003), second: count(1003), reference: count(1003) };
+        for n in [1, 2, 5, 7] {
+            let shares: Vec<Microphone> = (0..n).map(|i| heard.share(i, n, RATE)).collect();
+            let joined = |part: fn(&Microphone) -> Vec<f32>| shares.iter().flat_map(part).collect::<Vec<_>>();
+            assert_eq!(joined(|m| m.samples.to_vec()), heard.samples);
+            assert_eq!(joined(|m| m.second.expect("two capsules").to_vec()), heard.second);
+            assert_eq!(joined(|m| m.reference.to_vec()), heard.reference);
+        }
+        let one = Heard { second: Vec::new(), ..heard };
+        assert!(one.share(0, 3, RATE).second.is_none());
+    }
+
+    #[test]
+    fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
+        let mut health = MicrophoneHealth::default();
+        let quiet = BlowEstimate { reason: Reason::Quiet, floor_dbfs: -60.0, ..BlowEstimate::default() };
+        let told = |health: &MicrophoneHealth| health.remedies().collect::<Vec<_>>().join("; ");
+        let after = |health: &mut MicrophoneHealth, estimate: &BlowEstimate, steps: u64| {
+            (0..steps).for_each(|_| health.note(true, estimate));
+            told(health)
+        };
+        assert_eq!(after(&mut health, &quiet, 100), "");
+        // A breath may reach full scale; that is counted and no more.
+        let hard = BlowEstimate { reason: Reason::Blow, clipping: true, ..quiet };
+        assert_eq!(after(&mut health, &hard, 100), "");
+        after(&mut health, &quiet, 1);
+        assert_eq!((health.clips, health.clips_without_breath), (1, 0));
+        let shout = BlowEstimate { reason: Reason::Voiced, clipping: true, ..quiet };
+        assert!(after(&mut health, &shout, 3).contains("gain down"), "{}", told(&health));
+        assert!(after(&mut health, &quiet, 9 * 240).contains("gain down"), "{}", told(&health));
+        assert_eq!(after(&mut health, &quiet, 2 * 240), "");
+        assert_eq!((health.clips, health.clips_without_breath), (2, 1));
+        let adapts = BlowEstimate { gain_control: true, ..quiet };
+        assert!(after(&mut health, &adapts, 1).contains("switch off automatic gain control"));
+        let muted = BlowEstimate { reason: Reason::NoSignal, ..BlowEstimate::default() };
+        after(&mut health, &muted, 2 * 240);
+        assert!(!health.is_silent());
+        assert!(after(&mut health, &muted, 2 * 240).contains("mixer") && health.is_silent());
+        // Without a microphone there is nothing to mend about it.
+        health.note(false, &BlowEstimate::default());
+        assert_eq!(told(&health), "");
     }
 
     #[test]
@@ -446,7 +537,7 @@ mod stage {
         // The shipped script blows from its fourth second on.
         for _ in 0..(2 + 8) * 240 {
             let room = quiet(&mut random);
-            stage.step(&controls, Some(Microphone { samples: &room, sample_rate: RATE, reference: &[] }));
+            stage.step(&controls, Some(Microphone { samples: &room, second: None, sample_rate: RATE, reference: &[] }));
             fastest = fastest.max(stage.snapshot().breath.speed);
         }
         assert!(stage.attracts() && stage.attract_text() == Some("invite"));
@@ -544,5 +635,9 @@ mod room {
         assert_eq!(judge_blow(&[], 0.0).health, Health::Bad);
         let railed = judge_blow(&blown(40.0, 0.0), 0.0);
         assert!(railed.health == Health::Warn && railed.remedy.contains("gain down"), "{railed:?}");
+        let mut turned = blown(-12.0, 0.0);
+        turned.iter_mut().for_each(|step| step.gain_control = true);
+        let turned = judge_blow(&turned, 0.0);
+        assert!(turned.health == Health::Warn && turned.remedy.contains("switch off automatic gain"), "{turned:?}");
     }
 }

@@ -57,7 +57,7 @@ fn the_synth_never_allocates() {
 mod callback {
     use super::*;
     use soffio::audio_io::output::{Engine, open};
-    use soffio::audio_io::{ClockMap, input};
+    use soffio::audio_io::{ClockMap, Heard, input};
 
     fn engine(rate: u32, generation: u64) -> Engine {
         Engine { synth: Box::new(synth(rate)), generation }
@@ -125,12 +125,25 @@ mod callback {
     fn the_microphones_callback_never_allocates_and_picks_its_channel() {
         let samples: Vec<i16> = (0..2000).map(|i| if i % 2 == 0 { 8192 } else { -16384 }).collect();
         // Full scale is 32768, so these are exact.
-        for (channel, expected) in [(1, 0.25), (2, -0.5), (0, -0.125), (9, -0.125)] {
-            let (mut recorder, mut ears) = input::open(48_000, 2, channel);
+        for (channels, first, second) in [
+            ([1, 0], 0.25, None),
+            ([2, 0], -0.5, None),
+            ([0, 0], -0.125, None),
+            ([9, 0], -0.125, None),
+            ([1, 2], 0.25, Some(-0.5)),
+            ([2, 1], -0.5, Some(0.25)),
+            // No second capsule: it is the first one, the device lacks it, or the first is a mix.
+            ([1, 1], 0.25, None),
+            ([1, 3], 0.25, None),
+            ([0, 2], -0.125, None),
+        ] {
+            let (mut recorder, mut ears) = input::open(48_000, 2, channels);
             assert_no_alloc(|| recorder.record(&samples));
-            let mut heard = Vec::new();
+            let mut heard = Heard::default();
             assert_eq!(ears.read(&mut heard), 1000);
-            assert!(heard.iter().all(|s| *s == expected), "channel {channel}");
+            assert_eq!(ears.capsules(), 1 + usize::from(second.is_some()), "channels {channels:?}");
+            assert_eq!(heard.samples, [first; 1000], "channels {channels:?}");
+            assert_eq!(heard.second, second.map_or(vec![], |sample| vec![sample; 1000]), "channels {channels:?}");
         }
     }
 
@@ -143,11 +156,11 @@ mod callback {
         const BLOCK: u64 = 480;
         // A block waits for its end; nothing else may wait.
         const LONGEST_S: f64 = BLOCK as f64 / RATE + 1e-6;
-        let (mut recorder, mut ears) = input::open(48_000, 1, 1);
+        let (mut recorder, mut ears) = input::open(48_000, 1, [1, 0]);
         let mut pacer = soffio::kiosk::pace::Pacer::default();
         let mut random = soffio::noise::Random::new(5);
         let (mut now, mut sent, mut heard_in_all) = (0.0, 0_u64, 0_u64);
-        let mut heard = Vec::new();
+        let mut heard = Heard::default();
         while now < 3600.0 {
             let nap = if (now..now + 0.02).contains(&1800.0) { 1.0 } else { random.range(1e-4, 0.012) };
             now += nap;
@@ -163,7 +176,7 @@ mod callback {
             heard.clear();
             heard_in_all += ears.read(&mut heard) as u64;
             assert_eq!(heard_in_all, sent, "at {now} s samples wait or are lost");
-            if let Some(&last) = heard.last() {
+            if let Some(&last) = heard.samples.last() {
                 assert_eq!((f64::from(last) * f64::from(1 << 24)) as u64, (sent - 1) % (1 << 24), "at {now} s");
                 let age = now - sent as f64 / RATE;
                 assert!(age < LONGEST_S + nap, "at {now} s the newest sample is {age} s old");
@@ -206,7 +219,7 @@ mod server {
     use std::time::{Duration, Instant};
 
     use super::*;
-    use soffio::audio_io::{AudioIo, AudioSettings, DeviceState};
+    use soffio::audio_io::{AudioIo, AudioSettings, DeviceState, Heard};
 
     fn settings() -> AudioSettings {
         AudioSettings {
@@ -225,7 +238,7 @@ mod server {
         const JITTER: u64 = 16;
         const APART: u64 = 24_000;
         let mut io = AudioIo::start(&settings(), synth);
-        let (mut heard, mut reference) = (Vec::new(), Vec::new());
+        let mut heard = Heard::default();
         let began = Instant::now();
         let mut step = 0u64;
         while step < 240 * 8 {
@@ -236,11 +249,12 @@ mod server {
                 io.send(now + 200, &[strike(now + 100, 0)][..usize::from(due)]);
                 step += 1;
             }
-            if io.read_microphone(&mut heard, &mut reference).is_none() {
+            if io.read_microphone(&mut heard).is_none() {
                 assert!(began.elapsed() < Duration::from_secs(5), "no microphone: {:?}", io.status());
             }
         }
         let status = io.status();
+        let Heard { samples: heard, reference, .. } = heard;
         println!("{status:?}, heard {} samples", heard.len());
         assert!(matches!(status.output, DeviceState::Ok { .. }) && matches!(status.input, DeviceState::Ok { .. }));
         assert_eq!(heard.len(), reference.len());
@@ -273,12 +287,12 @@ mod server {
     #[ignore = "needs a PulseAudio that is ended and started again while it runs"]
     fn a_lost_server_is_found_again() {
         let mut io = AudioIo::start(&settings(), synth);
-        let (mut heard, mut reference) = (Vec::new(), Vec::new());
+        let mut heard = Heard::default();
         let (mut ok, mut lost, mut again) = (false, false, false);
         let began = Instant::now();
         while !again && began.elapsed() < Duration::from_secs(40) {
             std::thread::sleep(Duration::from_millis(50));
-            io.read_microphone(&mut heard, &mut reference);
+            io.read_microphone(&mut heard);
             let status = io.status();
             let both = |f: fn(&DeviceState) -> bool| f(&status.input) && f(&status.output);
             let works = both(|s| matches!(s, DeviceState::Ok { .. }));

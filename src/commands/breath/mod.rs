@@ -13,11 +13,10 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::{Failure, Outcome};
+use crate::offline::feed::WavFeed;
 use crate::offline::wav::{self, Recording};
+use crate::simulation::STEPS_PER_SECOND;
 use crate::wind::blow::{BlowDetector, BlowEstimate, Reason};
-
-/// Steps a second at which the wind is read: those of the simulation.
-const STEPS_HZ: u64 = 240;
 
 /// Runs the blow detector alone over WAV files.
 ///
@@ -104,22 +103,12 @@ pub fn run(args: Args) -> Outcome {
 
 /// The detector's estimate at the end of every step of 1/240 s, and at the end of the recording.
 pub fn steps(recording: &Recording) -> Vec<(f64, BlowEstimate)> {
-    let rate = u64::from(recording.sample_rate);
     let mut detector = BlowDetector::new(recording.sample_rate);
+    let mut feed = WavFeed::from(recording);
     let mut rows = Vec::new();
-    let (mut from, total) = (0, recording.samples.len());
-    for step in 1.. {
-        if from == total {
-            break;
-        }
-        // Step boundaries are rounded, never accumulated: 183 or 184 samples at 44.1 kHz.
-        let to = ((step * rate / STEPS_HZ) as usize).min(total);
-        match &recording.capsules {
-            Some([left, right]) => detector.push_stereo(&left[from..to], &right[from..to], &[]),
-            None => detector.push(&recording.samples[from..to], &[]),
-        }
-        from = to;
-        rows.push((step as f64 / STEPS_HZ as f64, detector.estimate()));
+    while !feed.is_over() {
+        feed.microphone().reach(&mut detector);
+        rows.push(((rows.len() + 1) as f64 / STEPS_PER_SECOND as f64, detector.estimate()));
     }
     rows
 }
@@ -136,7 +125,7 @@ pub fn summarise(file: String, steps: &[(f64, BlowEstimate)]) -> Summary {
         onset_s: blowing().next().map(|(t, _)| *t),
         peak: blowing().map(|(_, e)| e.speed).fold(0.0, f64::max),
         mean: blowing().fold(0.0, |sum, (_, e)| sum + e.speed) / count.max(1) as f64,
-        seconds_blowing: count as f64 / STEPS_HZ as f64,
+        seconds_blowing: count as f64 / STEPS_PER_SECOND as f64,
         triggers: steps.windows(2).filter(began).count() + usize::from(from_start),
     }
 }

@@ -40,6 +40,13 @@ pub struct Args {
 pub fn run(args: &Args) -> Outcome {
     let settings = BlowSettings::default();
     for folder in &args.folders {
+        if !folder.join("labels.csv").is_file() {
+            return Err(Failure::input(format!(
+                "{}: no labels.csv is there. Name a folder that has one, such as `soffio breath make` writes, or take \
+                 --generated.",
+                folder.display()
+            )));
+        }
         let takes = recordings::read(folder).map_err(Failure::input)?;
         let takes: Vec<Take> =
             if args.gain == 0.0 { takes } else { takes.iter().map(|take| take.with_gain(args.gain)).collect() };

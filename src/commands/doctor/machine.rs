@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use super::{Finding, Health, judge_blow, judge_room};
-use crate::audio_io::{AudioIo, DeviceState};
-use crate::config::Config;
+use crate::audio_io::{AudioIo, DeviceState, Heard};
+use crate::config::{Config, remedies};
 use crate::kiosk::{fonts, window};
 use crate::render::Gpu;
 use crate::sound::Synth;
@@ -13,8 +13,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 /// How long the room is listened to.
 const LISTEN: Duration = Duration::from_millis(1100);
-/// How long a breath is waited for.
-const PATIENCE: Duration = Duration::from_secs(12);
+/// Breaths that are asked for: a gain that changes by itself shows in two of three.
+const BREATHS: usize = 3;
+/// How long they are waited for.
+const PATIENCE: Duration = Duration::from_secs(20);
+/// Between two looks at the microphone, and how long the room is heard after the last breath.
+const LOOK: Duration = Duration::from_millis(20);
+const AFTER: Duration = Duration::from_millis(800);
 /// Range of the meter, dB below full scale.
 const METER: u64 = 80;
 /// Longest wait for the devices to open.
@@ -67,15 +72,15 @@ fn east_asian() -> Finding {
 
 fn sound(config: &Config, blow: bool) -> Vec<Finding> {
     let mut audio = AudioIo::start(&config.audio, Synth::silent);
-    let (mut heard, mut played) = (Vec::new(), Vec::new());
+    let mut heard = Heard::default();
     let mut rate = None;
     let began = Instant::now();
     let mut opened = None;
     // Devices open on a thread of their own; the second of listening begins with the first samples.
     while opened.map_or(began.elapsed() < OPENING, |at: Instant| at.elapsed() < LISTEN) {
-        std::thread::sleep(Duration::from_millis(20));
-        rate = audio.read_microphone(&mut heard, &mut played).or(rate);
-        if opened.is_none() && !heard.is_empty() {
+        std::thread::sleep(LOOK);
+        rate = audio.read_microphone(&mut heard).or(rate);
+        if opened.is_none() && !heard.samples.is_empty() {
             opened = Some(Instant::now());
         }
     }
@@ -95,39 +100,56 @@ fn sound(config: &Config, blow: bool) -> Vec<Finding> {
         device("microphone", &status.input, "visitors press and hold to blow"),
     ];
     if let Some(rate) = rate {
-        findings.push(judge_room(&heard, rate).of_device());
+        if config.audio.second_capsule_channel > 0 {
+            findings.push(second_capsule(status.capsules).of_device());
+        }
+        findings.push(judge_room(&heard.samples, rate).of_device());
         if blow {
             let sensitivity_db = config.breath.sensitivity_db;
             let mut detector = BlowDetector::with_settings(rate, BlowSettings { sensitivity_db, ..Default::default() });
-            detector.push(&heard, &[]);
+            heard.share(0, 1, rate).reach(&mut detector);
             findings.push(judge_blow(&listen(&mut audio, &mut detector), sensitivity_db).of_device());
         }
     }
     findings
 }
 
-/// Asks for a breath and hears it, with a meter for whoever blows.
+fn second_capsule(capsules: usize) -> Finding {
+    let what = "second capsule";
+    match capsules {
+        2 => Finding::new(what, Health::Ok, "it listens", ""),
+        _ => Finding::new(what, Health::Warn, "the microphone has no such channel", remedies::NO_SECOND_CAPSULE),
+    }
+}
+
+/// Asks for breaths and hears them, with a meter for whoever blows.
 fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate> {
-    eprintln!("Blow at the microphone from where visitors stand, as they would, for a second or two.");
+    eprintln!(
+        "Blow at the microphone from where visitors stand, as they would: {BREATHS} times, a second or two each, with \
+         a pause of two seconds between."
+    );
     let began = Instant::now();
     let meter = ProgressBar::new(METER)
         .with_style(ProgressStyle::with_template("[{bar:40}] {msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let (mut steps, mut heard, mut played) = (Vec::new(), Vec::new(), Vec::new());
-    let mut ended = 0;
-    // Until half a second after the breath, or until nobody blows any more.
-    while began.elapsed() < PATIENCE && ended < 25 {
-        std::thread::sleep(Duration::from_millis(20));
+    let (mut steps, mut heard): (Vec<BlowEstimate>, _) = (Vec::new(), Heard::default());
+    let (mut breaths, mut quiet_since, mut clips) = (0, Instant::now(), 0);
+    // Until a moment after the last breath, or until nobody blows any more.
+    while began.elapsed() < PATIENCE && (breaths < BREATHS || quiet_since.elapsed() < AFTER) {
+        std::thread::sleep(LOOK);
         heard.clear();
-        played.clear();
-        if audio.read_microphone(&mut heard, &mut played).is_none() {
-            break;
+        let Some(rate) = audio.read_microphone(&mut heard) else { break };
+        heard.share(0, 1, rate).reach(detector);
+        let (before, step) = (steps.last().copied().unwrap_or_default(), detector.estimate());
+        if step.reason == Reason::Blow {
+            breaths += usize::from(before.reason != Reason::Blow);
+            quiet_since = Instant::now();
         }
-        detector.push(&heard, &played);
-        let step = detector.estimate();
-        let blew = steps.iter().any(|s: &BlowEstimate| s.reason == Reason::Blow);
-        ended = if blew && step.reason != Reason::Blow { ended + 1 } else { 0 };
-        meter.set_position((step.level_dbfs + METER as f64).clamp(0.0, METER as f64) as u64);
-        meter.set_message(format!("{:4.0} dBFS  {:?}", step.level_dbfs, step.reason));
+        clips += usize::from(step.clipping && !before.clipping);
+        let BlowEstimate { level_dbfs, floor_dbfs, reason, .. } = step;
+        meter.set_position((level_dbfs + METER as f64).clamp(0.0, METER as f64) as u64);
+        meter.set_message(format!(
+            "{level_dbfs:4.0} dBFS, floor {floor_dbfs:4.0}, {clips} times at full scale, breath {breaths}: {reason:?}"
+        ));
         steps.push(step);
     }
     meter.finish_and_clear();

@@ -1,15 +1,14 @@
 //! What is heard at a microphone, as findings: the room in silence, and a breath.
 
 use super::{Finding, Health};
+use crate::config::remedies;
 use crate::math::{decibels, log10};
-use crate::wind::blow::{BlowEstimate, Reason};
+use crate::wind::blow::{BlowDetector, BlowEstimate, Reason};
 
 /// What a second of sound of the room says about a microphone.
 pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     /// Quieter than any room through any microphone, dB of full scale: it is switched off.
     const MUTED_DBFS: f64 = -100.0;
-    /// Louder than a room should be where a gentle breath is to stand out, dB of full scale.
-    const LOUD_DBFS: f64 = -25.0;
     /// Share of samples at the rails from which it clips.
     const CLIPPED: f64 = 1e-4;
     /// Rise from the first to the last tenth of the time, dB, that only a gain that adapts makes in a steady room.
@@ -27,28 +26,35 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     let tenths: Vec<f64> = heard.chunks((heard.len() / 9).max(1)).map(level).collect();
     let creeps = tenths.windows(2).all(|pair| pair[1] >= pair[0])
         && tenths.first().zip(tenths.last()).is_some_and(|(first, last)| last - first > CREEPING_DB);
-    let clipped = heard.iter().filter(|sample| sample.abs() >= 0.999).count() as f64 / heard.len().max(1) as f64;
+    let railed = heard.iter().filter(|sample| sample.abs() >= 0.999).count();
+    let clipped = railed as f64 / heard.len().max(1) as f64;
+    let mut detector = BlowDetector::new(sample_rate);
+    detector.push(samples, &[]);
+    let floor = detector.estimate().floor_dbfs;
 
     let found = match peak {
         0.0 => "not a single sample differs from zero".to_owned(),
-        _ => format!("{rms:.1} dBFS, peak {:.1} dBFS", decibels(f64::from(peak))),
+        _ => format!(
+            "{rms:.1} dBFS, peak {:.1} dBFS, {railed} samples at full scale; floor of the band of breath {floor:.1} dBFS",
+            decibels(f64::from(peak))
+        ),
     };
     if heard.len() < sample_rate as usize / 2 {
         let found = format!("{} samples in a second that has {sample_rate}", samples.len());
         return Finding::new(WHAT, Health::Bad, found, "it hardly delivers: try another socket or another device");
     }
     if rms < MUTED_DBFS {
-        return Finding::new(WHAT, Health::Bad, found, "it is muted: open the input in the system's mixer");
+        return Finding::new(WHAT, Health::Bad, found, remedies::MUTED);
     }
     if clipped > CLIPPED {
-        return Finding::new(WHAT, Health::Warn, found, "it clips: turn the input gain down");
+        return Finding::new(WHAT, Health::Warn, found, remedies::CLIPPING);
     }
     if creeps {
-        let remedy = "the level creeps up by itself: switch automatic gain control and noise suppression off";
+        let remedy = format!("the level creeps up by itself: {}", remedies::GAIN_CONTROL);
         return Finding::new(WHAT, Health::Warn, found, remedy);
     }
-    if rms > LOUD_DBFS {
-        return Finding::new(WHAT, Health::Warn, found, "loud for a quiet room: turn the input gain down");
+    if rms > remedies::LOUD_DBFS {
+        return Finding::new(WHAT, Health::Warn, found, remedies::LOUD);
     }
     Finding::new(WHAT, Health::Ok, found, "")
 }
@@ -58,8 +64,8 @@ const NORMAL_M_S: f64 = 9.0;
 /// Speeds within this factor of it need no other sensitivity: breaths differ by as much.
 const ALIKE: f64 = 1.35;
 
-/// What a normal breath from where visitors stand says about microphone and settings. `steps` are the detector's words
-/// while it was blown, `sensitivity_db` the setting they were heard with.
+/// What normal breaths from where visitors stand say about microphone and settings. `steps` are the detector's words
+/// meanwhile, `sensitivity_db` the setting they were heard with.
 pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
     const WHAT: &str = "a breath";
     let blown = || steps.iter().filter(|step| step.reason == Reason::Blow);
@@ -75,7 +81,18 @@ pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
     }
     let mean = blown().map(|step| step.speed).sum::<f64>() / count as f64;
     let rails = blown().filter(|step| step.clipping).count() as f64 / count as f64;
-    let found = format!("heard, {mean:.1} m/s at the lips, {:.0} % of it at full scale", 100.0 * rails);
+    let last = steps.last().copied().unwrap_or_default();
+    let breaths = steps.windows(2).filter(|two| two[1].reason == Reason::Blow && two[0].reason != Reason::Blow).count()
+        + usize::from(steps[0].reason == Reason::Blow);
+    let found = format!(
+        "heard {breaths}, {mean:.1} m/s at the lips, {:.0} % of the time at full scale; floor {:.0} dBFS",
+        100.0 * rails,
+        last.floor_dbfs
+    );
+    if last.gain_control {
+        let found = format!("{found}; the room is quieter after a breath than before it");
+        return Finding::new(WHAT, Health::Warn, found, remedies::GAIN_CONTROL);
+    }
     // U goes with 10^(dB/40).
     let wanted = (sensitivity_db + 40.0 * log10(NORMAL_M_S / mean)).clamp(-40.0, 40.0).round();
     if rails > 0.5 && mean > NORMAL_M_S {

@@ -12,6 +12,7 @@ mod problem;
 mod rest;
 mod row;
 mod sweep;
+mod touching;
 
 use crate::articulation::Limit;
 use crate::articulation::block::{Vec6, vec6};
@@ -24,6 +25,7 @@ use problem::{Problem, Source, Touch};
 use row::ROW_ENDS;
 
 pub use hit::{Strike, Struck, strike};
+pub use touching::Touching;
 pub(super) use rest::Verdict;
 pub(super) use row::Row;
 

@@ -1,0 +1,151 @@
+//! A corner where the air is never still: a pinwheel before a vent, and a mobile of card strips before an open window.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
+
+use super::glb::Scene;
+use super::hung::{HOLE_RADIUS, hung_plate};
+use super::mobile::{Branch, Mobile, branch};
+use super::outline::{Polygon, ellipse};
+use super::piece::{Piece, yaw};
+use super::solid::{sheet, turned};
+use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
+
+/// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
+const CARD: f64 = 750.0;
+const THICKNESS: f64 = 0.4 * MM;
+/// Where the pinwheel turns, and how far behind it the vent blows.
+const PINWHEEL: DVec3 = DVec3::new(-0.125, 0.25, 0.0);
+const VENT: f64 = 200.0 * MM;
+/// Where the mobile hangs, and the middle of the window that its draught comes through.
+const HOOK: DVec3 = DVec3::new(0.12, 0.35, 0.0);
+const WINDOW: DVec3 = DVec3::new(0.23, 0.24, -0.24);
+/// The lower branch against the upper one, rad.
+const LOWER_YAW: f64 = 0.9;
+const VANES: [&str; 5] = ["Vane1", "Vane2", "Vane3", "Vane4", "Vane5"];
+
+/// A rectangle about `middle`.
+fn rectangle(middle: DVec2, size: DVec2) -> Polygon {
+    let (x, y) = (0.5 * size.x, 0.5 * size.y);
+    [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| middle + DVec2::new(x, y)).into()
+}
+
+/// A strip of card that hangs by a hole near its upper end from a stem.
+fn strip(names: [&'static str; 3], size: [f64; 2], stem: f64, finish: usize) -> Piece {
+    let (inset, radius) = (4.0 * MM, HOLE_RADIUS * MM);
+    let outline = rectangle((inset - 0.5 * size[1]) * DVec2::Y, size.into());
+    let hole = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.0, ROUND / 4);
+    hung_plate(names, (sheet(&outline, &[hole], THICKNESS, 0.2 * THICKNESS), CARD, finish), stem)
+}
+
+/// Draws, balances and writes the model.
+pub fn glb() -> (Mobile, Vec<u8>) {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
+
+    // ---- the pinwheel and its vent
+    let profile = [(0.0, 0.0), (46.0, 0.0), (48.0, 3.0), (16.0, 11.0), (6.0, 40.0), (4.0, 230.0), (4.0, 256.0)];
+    let profile = profile.map(|(r, y)| DVec2::new(r, y) * MM).into_iter().chain([DVec2::new(0.0, 256.0 * MM)]);
+    let post = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
+    let behind = -34.0 * MM;
+    let spindle = rod(1.5 * MM, behind - 6.0 * MM, -6.0 * MM);
+    let at = DVec3::new(0.0, PINWHEEL.y, behind);
+    let post = Piece {
+        name: "Post",
+        parts: vec![
+            part("Pillar", post, behind * DVec3::Z, upright, WOOD, finishes.wood),
+            part("Spindle", spindle, PINWHEEL.y * DVec3::Y, facing(), STEEL, finishes.steel),
+        ],
+        bends: Vec::new(),
+        marks: vec![("SpindleEnd", at - behind * DVec3::Z)],
+    };
+    let mut parts = vec![part("Hub", rod(6.0 * MM, -5.0 * MM, 6.0 * MM), none, facing(), BRASS, finishes.brass)];
+    parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
+        let size = [44.0 * MM, 26.0 * MM, 1.0 * MM];
+        let finish = if k % 2 == 0 { finishes.red } else { finishes.white };
+        vane(name, size, 28.0 * MM, 2.0 * PI * k as f64 / VANES.len() as f64, 0.7, (WOOD, finish))
+    }));
+    let pinwheel = Piece { name: "Pinwheel", parts, bends: Vec::new(), marks: Vec::new() };
+    let height = PINWHEEL.y * DVec3::Y;
+    let leg = rod(4.0 * MM, 6.0 * MM, PINWHEEL.y - 50.0 * MM);
+    let vent = Piece {
+        name: "Vent",
+        parts: vec![
+            part("VentRing", ring(46.0 * MM, 52.0 * MM, 36.0 * MM), height, facing(), STEEL, finishes.steel),
+            part("VentLeg", leg, none, upright, STEEL, finishes.black),
+            part("VentFoot", rod(40.0 * MM, 0.0, 6.0 * MM), none, upright, STEEL, finishes.black),
+        ],
+        bends: Vec::new(),
+        marks: vec![("VentMouth", height + 18.0 * MM * DVec3::Z)],
+    };
+
+    // ---- the window: it faces the mobile
+    let way = DVec3::new(HOOK.x - WINDOW.x, 0.0, HOOK.z - WINDOW.z);
+    let middle = WINDOW.y * DVec2::Y;
+    let frame = rectangle(0.19 * DVec2::Y, DVec2::new(0.20, 0.38));
+    let opening = rectangle(middle, DVec2::new(0.16, 0.24));
+    let frame = sheet(&frame, &[opening], 10.0 * MM, 1.0 * MM);
+    let window = Piece {
+        name: "Window",
+        parts: vec![part("Frame", frame, none, rotation(atan2(way.x, way.z) * DVec3::Y), WOOD, finishes.white)],
+        bends: Vec::new(),
+        marks: vec![("WindowMiddle", WINDOW.y * DVec3::Y)],
+    };
+
+    // ---- the mobile
+    let large = strip(["LargeStrip", "LargeHook", "LargeStem"], [30.0 * MM, 130.0 * MM], 40.0 * MM, finishes.blue);
+    let middle = strip(["MiddleStrip", "MiddleHook", "MiddleStem"], [24.0 * MM, 100.0 * MM], 36.0 * MM, finishes.red);
+    let small = strip(["SmallStrip", "SmallHook", "SmallStem"], [20.0 * MM, 80.0 * MM], 44.0 * MM, finishes.white);
+    let lower = branch(&Branch {
+        names: ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"],
+        radius: 0.4 * MM,
+        eye: 1.8 * MM,
+        chord: 92.0 * MM,
+        droop: 5.0 * MM,
+        loads: [small.mass().mass, middle.mass().mass],
+    });
+    let below = lower.mass().mass + small.mass().mass + middle.mass().mass;
+    let upper = branch(&Branch {
+        names: ["Upper", "UpperLoop", "UpperWire", "UpperRight", "UpperLeft"],
+        radius: 0.5 * MM,
+        eye: 2.2 * MM,
+        chord: 120.0 * MM,
+        droop: 8.0 * MM,
+        loads: [below, large.mass().mass],
+    });
+    let top = Pose { rotation: DQuat::IDENTITY, position: HOOK };
+    let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
+    let large_pose = hung(top, &upper, "UpperLeft");
+    let lower_pose = Pose { rotation: yaw(LOWER_YAW), ..hung(top, &upper, "UpperRight") };
+    let small_pose = hung(lower_pose, &lower, "LowerRight");
+    let middle_pose = hung(lower_pose, &lower, "LowerLeft");
+    let work = Mobile {
+        pieces: vec![
+            (upper, top),
+            (lower, lower_pose),
+            (large, large_pose),
+            (middle, middle_pose),
+            (small, small_pose),
+        ],
+        stand: gallows(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black),
+    };
+
+    let floor = |point: DVec3| DVec3::new(point.x, 0.0, point.z);
+    let standing = [
+        (&work.stand, none),
+        (&post, floor(PINWHEEL)),
+        (&pinwheel, PINWHEEL),
+        (&vent, floor(PINWHEEL) - VENT * DVec3::Z),
+        (&window, floor(WINDOW)),
+    ];
+    for (piece, position) in standing {
+        piece.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position });
+    }
+    for (piece, pose) in &work.pieces {
+        piece.write(&mut scene, *pose);
+    }
+    let (eye, target) = (DVec3::new(0.03, 0.32, 1.0), DVec3::new(0.02, 0.20, 0.0));
+    scene.camera("CamFront", eye, target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    let copyright = "Original work of the Soffio project; MIT OR Apache-2.0";
+    (work, scene.into_glb("Windy corner", copyright))
+}
