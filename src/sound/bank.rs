@@ -34,6 +34,8 @@ pub(super) struct Bank {
     /// ρ^k, k = 0…15: real and imaginary rows.
     rows_re: [[f32; FRAME]; MAX_PARTIALS],
     rows_im: [[f32; FRAME]; MAX_PARTIALS],
+    /// How far an impulse of the driving force moves each: 0 where none does.
+    push: [f64; MAX_PARTIALS],
     frame: [f32; FRAME],
     /// Next sample of the frame.
     at: usize,
@@ -51,6 +53,7 @@ impl Bank {
             jump_im: [0.0; MAX_PARTIALS],
             rows_re: [[0.0; FRAME]; MAX_PARTIALS],
             rows_im: [[0.0; FRAME]; MAX_PARTIALS],
+            push: [0.0; MAX_PARTIALS],
             frame: [0.0; FRAME],
             at: FRAME,
             frames: 0,
@@ -84,7 +87,33 @@ impl Bank {
         }
         (self.jump_re[i], self.jump_im[i]) = (re, im);
         (self.re[i], self.im[i]) = (amplitude, 0.0);
+        self.push[i] = 0.0;
         self.count += 1;
+    }
+
+    /// Adds a partial at rest that a force drives: an impulse of 1 N s sets it ringing with this amplitude.
+    pub fn add_driven(&mut self, frequency: f64, decay: f64, amplitude: f64, sample_rate: f64) {
+        let before = self.count;
+        self.add(frequency, decay, amplitude, sample_rate);
+        if self.count > before {
+            (self.re[before], self.im[before]) = (0.0, 0.0);
+            self.push[before] = amplitude / sample_rate;
+        }
+    }
+
+    /// The next samples under a force in N, in place of what is in `out`.
+    pub fn render_driven(&mut self, force: &[f32], out: &mut [f32]) {
+        out.fill(0.0);
+        for i in 0..self.count {
+            let (rho_re, rho_im) = (f64::from(self.rows_re[i][1]), f64::from(self.rows_im[i][1]));
+            let (mut re, mut im) = (self.re[i], self.im[i]);
+            for (y, f) in out.iter_mut().zip(force) {
+                *y += im as f32;
+                (re, im) = (re * rho_re - im * rho_im, re * rho_im + im * rho_re);
+                re += self.push[i] * f64::from(*f);
+            }
+            (self.re[i], self.im[i]) = (re, im);
+        }
     }
 
     /// Partials that still ring.

@@ -3,20 +3,17 @@
 use super::bank::Bank;
 use super::excitation::{Contact, Radiator, half_sine_spectrum};
 use super::graph::Graph;
-use super::plate::{PlateMode, free_plate_modes, legendre, onto_plate, outline_exponent};
-use super::timbre::{Inputs, ModalSource, Node, Number, Preset, TimbreError};
-use super::{InstrumentSpec, Strike};
-use crate::math::{PI, exp, ln};
+use super::modes::{Mode, Place, modes};
+use super::timbre::{Inputs, Number, Player, Preset, TimbreError};
+use super::{InstrumentSpec, Strike, timbre};
+use crate::math::{exp, ln};
 use crate::noise::Random;
-
-/// T60 · c: a fall by 60 dB is e^(−6.908).
-const T60_DECAYS: f64 = 6.907_755_278_982_137;
 
 /// A compiled instrument.
 pub(super) struct Instrument {
     pub graph: Graph,
-    /// The wind plays it all the time.
-    pub continuous: bool,
+    /// What plays it.
+    pub player: Player,
     pub gain: f64,
     pub max_voices: usize,
     radiator: Radiator,
@@ -29,20 +26,9 @@ struct Modal {
     /// Cents.
     detune: f64,
     gain: Number,
-    partials: Vec<Partial>,
-    /// Shapes of the partials, when the place of the hit is heard; as many as partials.
-    shapes: Vec<PlateMode>,
-    /// Exponent of the outline on which the shapes are defined.
+    modes: Vec<Mode>,
+    /// Exponent of the outline on which plates' shapes are defined.
     outline: f64,
-}
-
-struct Partial {
-    /// Hz.
-    frequency: f64,
-    /// 1/s.
-    decay: f64,
-    /// Full scale at 1 m, per N s (and per 1/√kg of shape where there are shapes).
-    amplitude: f64,
 }
 
 impl Instrument {
@@ -52,15 +38,19 @@ impl Instrument {
 
     pub fn from_preset(preset: &Preset, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
         let radiator = Radiator::new(&spec.body, &spec.material);
-        let modal = preset.node.iter().find_map(|(key, node)| Modal::compile(&preset.name, key, node, spec, &radiator));
         Ok(Self {
-            graph: Graph::compile(preset)?,
-            continuous: preset.continuous(),
+            graph: Graph::compile(preset, spec)?,
+            player: preset.player(),
             gain: spec.gain,
             max_voices: spec.max_voices.max(1),
             radiator,
-            modal: modal.transpose()?,
+            modal: preset.modal().map(|(key, node)| Modal::compile(&preset.name, key, node, spec)).transpose()?,
         })
+    }
+
+    /// Whether hits play it, one by one.
+    pub fn is_hit(&self) -> bool {
+        self.player == Player::Hit
     }
 
     /// Hertz contact time, s; 1 ms where nothing rings.
@@ -88,73 +78,34 @@ impl Instrument {
         bank.clear();
         let Some(modal) = &self.modal else { return };
         let mut random = Random::new(seed);
-        let [x, y] = onto_plate(modal.outline, inputs.position).map(legendre);
-        let level = inputs.impulse * modal.gain.at(inputs);
-        for (i, partial) in modal.partials.iter().enumerate() {
-            let shape = modal.shapes.get(i).map_or(1.0, |mode| mode.shape(&x, &y));
-            let spectrum = half_sine_spectrum(partial.frequency * inputs.contact_time);
+        let place = Place::new(inputs.position, modal.outline);
+        let driven = self.graph.drives();
+        let level = if driven { 1.0 } else { inputs.impulse } * modal.gain.at(inputs);
+        for mode in &modal.modes {
+            let amplitude = level * mode.amplitude * mode.shape.at(&place);
             // Cents: 2^(d/1200).
-            let detuned = partial.frequency * exp(modal.detune * random.signed() * ln(2.0) / 1200.0);
-            bank.add(detuned, partial.decay, level * partial.amplitude * shape * spectrum, sample_rate);
+            let detuned = mode.frequency * exp(modal.detune * random.signed() * ln(2.0) / 1200.0);
+            if driven {
+                bank.add_driven(detuned, mode.decay, amplitude, sample_rate);
+            } else {
+                let spectrum = half_sine_spectrum(mode.frequency * inputs.contact_time);
+                bank.add(detuned, mode.decay, amplitude * spectrum, sample_rate);
+            }
         }
     }
 }
 
+/// The partials of a timbre on a body; none where nothing rings.
+pub fn partials(preset: &Preset, spec: &InstrumentSpec) -> Result<Vec<Mode>, TimbreError> {
+    let modal = preset.modal().map(|(key, node)| Modal::compile(&preset.name, key, node, spec)).transpose()?;
+    Ok(modal.map(|modal| modal.modes).unwrap_or_default())
+}
+
 impl Modal {
-    fn compile(
-        name: &str,
-        key: &str,
-        node: &Node,
-        spec: &InstrumentSpec,
-        radiator: &Radiator,
-    ) -> Option<Result<Self, TimbreError>> {
-        let Node::Modal {
-            from,
-            partials: most,
-            support_loss,
-            contact_radius,
-            surface_modulus,
-            detune,
-            fundamental,
-            table,
-            gain,
-        } = node
-        else {
-            return None;
-        };
-        let (partials, shapes) = match from {
-            ModalSource::Plate => {
-                let mut modes = free_plate_modes(&spec.body, &spec.material);
-                if modes.is_empty() {
-                    let problem = format!(
-                        "no plate of half extents {:?} m, thickness {} m, area {} m², mass {} kg can ring; all must be above 0",
-                        spec.body.half_extents, spec.body.thickness, spec.body.area, spec.body.mass
-                    );
-                    return Some(Err(TimbreError::new(name, format!("node.{key}"), problem)));
-                }
-                modes.truncate(*most);
-                let partial = |mode: &PlateMode| Partial {
-                    frequency: mode.frequency,
-                    // T60 = 2.2/(η f) is c = π η f.
-                    decay: PI * spec.material.loss_factor * mode.frequency
-                        + support_loss
-                        + radiator.loss(mode.frequency),
-                    amplitude: radiator.amplitude(mode.frequency),
-                };
-                (modes.iter().map(partial).collect(), modes)
-            }
-            ModalSource::Table => {
-                let fundamental = fundamental.unwrap_or_default();
-                let partials = table.iter().take(*most).map(|p| Partial {
-                    frequency: fundamental * p.ratio,
-                    decay: T60_DECAYS / p.t60 + support_loss,
-                    amplitude: p.gain,
-                });
-                (partials.collect(), Vec::new())
-            }
-        };
-        let contact = Contact::new(*contact_radius, *surface_modulus, &spec.material);
-        let outline = outline_exponent(&spec.body);
-        Some(Ok(Self { contact, detune: *detune, gain: *gain, partials, shapes, outline }))
+    fn compile(name: &str, key: &str, node: &timbre::Modal, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
+        let (modes, outline) = modes(node, spec)
+            .map_err(|(field, problem)| TimbreError::new(name, format!("node.{key}.{field}"), problem))?;
+        let contact = Contact::new(node.contact_radius, node.surface_modulus, &spec.material);
+        Ok(Self { contact, detune: node.detune, gain: node.gain, modes, outline })
     }
 }

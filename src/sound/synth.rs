@@ -13,9 +13,9 @@ use std::collections::VecDeque;
 use super::graph::{Block, CONTROL};
 use super::instrument::Instrument;
 use super::limiter::Limiter;
-use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
+use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, SoundCommand, Strike, WindSound};
+use super::{InstrumentSpec, Slide, SoundCommand, Strike, WindSound};
 use crate::math::{PI, exp, sincos};
 use crate::noise::hash_words;
 
@@ -32,6 +32,12 @@ const STEAL_FADE: f64 = 0.003;
 const SILENCE_FADE: f64 = 0.04;
 /// Time constant with which the sound of the wind follows its commands, s.
 const WIND_GLIDE: f64 = 0.05;
+/// Time constant with which the sound of a slide follows its commands, s: one simulation step.
+const SLIDE_GLIDE: f64 = 0.004;
+/// Surfaces have parted below this, N.
+const PARTED: f64 = 1e-5;
+/// A lasting voice below this has rung out: −100 dB.
+const SILENT: f32 = 1e-5;
 /// A wind that dies away is over below this, m/s.
 const CALM: f64 = 1e-3;
 /// Nobody's ear comes nearer than this, m.
@@ -43,8 +49,11 @@ pub struct Synth {
     seed: u64,
     instruments: Vec<Instrument>,
     voices: Vec<Voice>,
-    winds: Vec<Voice>,
+    /// Voices that go on as long as the wind or a slide plays them.
+    lasting: Vec<Voice>,
     wind: Wind,
+    /// One for each instrument.
+    sliders: Vec<Slider>,
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
     blocks: Box<[Block; MAX_NODES]>,
@@ -62,7 +71,16 @@ struct Wind {
     target: WindSound,
     speed: f64,
     gust: f64,
+    direction: f64,
     pan: f64,
+}
+
+/// What slides over one instrument, as commanded and as it sounds now.
+#[derive(Clone, Copy, Default)]
+struct Slider {
+    target: Slide,
+    speed: f64,
+    force: f64,
 }
 
 impl Synth {
@@ -94,18 +112,24 @@ impl Synth {
 
     fn with_instruments(sample_rate: u32, instruments: Vec<Instrument>, seed: u64) -> Self {
         let sample_rate = f64::from(sample_rate.max(1));
-        let mut winds = Vec::new();
-        for (i, _) in instruments.iter().enumerate().filter(|(_, instrument)| instrument.continuous) {
+        let mut lasting = Vec::new();
+        for (i, instrument) in instruments.iter().enumerate().filter(|(_, instrument)| !instrument.is_hit()) {
             let mut voice = Voice::new();
             voice.instrument = i;
-            winds.push(voice);
+            instrument.graph.make_room(&mut voice.operators, sample_rate);
+            lasting.push(voice);
+        }
+        let mut voices: Vec<Voice> = (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect();
+        for instrument in instruments.iter().filter(|instrument| instrument.is_hit()) {
+            voices.iter_mut().for_each(|voice| instrument.graph.make_room(&mut voice.operators, sample_rate));
         }
         Self {
             sample_rate,
             seed,
+            sliders: vec![Slider::default(); instruments.len()],
             instruments,
-            voices: (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect(),
-            winds,
+            voices,
+            lasting,
             wind: Wind::default(),
             commands: VecDeque::with_capacity(MAX_COMMANDS),
             blocks: Box::new([[0.0; CONTROL]; MAX_NODES]),
@@ -140,7 +164,7 @@ impl Synth {
 
     /// Voices that sound now, the wind's included.
     pub fn sounding(&self) -> usize {
-        self.voices.iter().chain(&self.winds).filter(|voice| voice.state != VoiceState::Free).count()
+        self.voices.iter().chain(&self.lasting).filter(|voice| voice.state != VoiceState::Free).count()
     }
 
     /// Partials that ring now.
@@ -215,18 +239,23 @@ impl Synth {
     fn carry_out(&mut self, command: SoundCommand) {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
+            SoundCommand::Slide(slide) => match self.sliders.get_mut(usize::from(slide.instrument)) {
+                Some(slider) => slider.target = slide,
+                None => self.faults += 1,
+            },
             SoundCommand::Wind(wind) => self.wind.target = wind,
             SoundCommand::Silence { .. } => {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
                 self.wind.target.speed = 0.0;
+                self.sliders.iter_mut().for_each(|slider| slider.target.force = 0.0);
             }
         }
     }
 
     fn strike(&mut self, strike: &Strike) {
         let index = usize::from(strike.instrument);
-        let Some(instrument) = self.instruments.get(index).filter(|instrument| !instrument.continuous) else {
+        let Some(instrument) = self.instruments.get(index).filter(|instrument| instrument.is_hit()) else {
             self.faults += 1;
             return;
         };
@@ -272,36 +301,65 @@ impl Synth {
             let graph = &self.instruments[voice.instrument].graph;
             graph.control(&mut voice.operators, &voice.inputs, time, self.sample_rate);
         }
+        let share = 1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate));
         let calm_before = self.wind.speed == 0.0;
-        self.wind.glide(1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate)));
-        let inputs = Inputs { wind_speed: self.wind.speed, gust: self.wind.gust, ..Inputs::default() };
-        let pan = equal_power(self.wind.pan);
-        for voice in &mut self.winds {
+        self.wind.glide(share);
+        let air = Inputs {
+            wind_speed: self.wind.speed,
+            wind_direction: self.wind.direction,
+            gust: self.wind.gust,
+            ..Inputs::default()
+        };
+        let share = 1.0 - exp(-(CONTROL as f64) / (SLIDE_GLIDE * self.sample_rate));
+        for voice in &mut self.lasting {
             let instrument = &self.instruments[voice.instrument];
-            let gains = pan.map(|side| side * instrument.gain as f32);
-            match (voice.state, self.wind.speed == 0.0) {
+            let slider = &mut self.sliders[voice.instrument];
+            let (inputs, pan, distance, still_before, still) = if instrument.player == Player::Slide {
+                let parted = slider.force == 0.0;
+                slider.glide(share);
+                let slide = slider.target;
+                let inputs = Inputs {
+                    slip_speed: slider.speed,
+                    normal_force: slider.force,
+                    position: slide.position.map(f64::from),
+                    ..air
+                };
+                (inputs, f64::from(slide.pan), slide.distance.max(NEAREST), parted, slider.force == 0.0)
+            } else {
+                (air, self.wind.pan, 1.0, calm_before, self.wind.speed == 0.0)
+            };
+            let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
+            match (voice.state, still) {
                 (VoiceState::Free, true) => continue,
                 (VoiceState::Free, false) => {
                     voice.begin(voice.instrument, gains);
-                    let calm = Inputs::default();
+                    let calm = Inputs { position: inputs.position, ..Inputs::default() };
                     let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
                     instrument.graph.begin(&mut voice.operators, &calm, seed, time, self.sample_rate);
+                    if instrument.graph.drives() {
+                        instrument.excite(&mut voice.bank, &inputs, seed, self.sample_rate);
+                    }
                 }
-                // The levels had one grid interval to reach their value in still air.
-                (_, true) if calm_before => {
-                    voice.state = VoiceState::Free;
-                    continue;
+                // The levels had one grid interval to reach their value in still air; what rings, rings out.
+                (_, true) if still_before => {
+                    if voice.bank.count() == 0 || voice.loudness() < SILENT {
+                        voice.state = VoiceState::Free;
+                        continue;
+                    }
                 }
                 _ => {}
             }
             voice.gains = gains;
             voice.inputs = inputs;
+            voice.grid_point();
+            // Only the wind and the slide end it.
+            voice.state = VoiceState::Sounding;
             instrument.graph.control(&mut voice.operators, &voice.inputs, time, self.sample_rate);
         }
     }
 
     fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
-        for voice in self.voices.iter_mut().chain(&mut self.winds).filter(|voice| voice.state != VoiceState::Free) {
+        for voice in self.voices.iter_mut().chain(&mut self.lasting).filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
             if !voice.mix(instrument, &mut self.blocks, left, right) {
                 self.faults += 1;
@@ -317,8 +375,21 @@ impl Wind {
         self.speed += (target - self.speed) * share;
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
+        self.direction += (f64::from(self.target.direction) - self.direction) * share;
         if target == 0.0 && self.speed < CALM {
             self.speed = 0.0;
+        }
+    }
+}
+
+impl Slider {
+    /// One step of a one-pole glide towards the commanded slide.
+    fn glide(&mut self, share: f64) {
+        let target = f64::from(self.target.force).max(0.0);
+        self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
+        self.force += (target - self.force) * share;
+        if target == 0.0 && self.force < PARTED {
+            self.force = 0.0;
         }
     }
 }
@@ -335,7 +406,10 @@ fn is_finite(command: &SoundCommand) -> bool {
             [s.impulse, s.speed, s.mass, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
                 && s.impulse >= 0.0
         }
-        SoundCommand::Wind(w) => w.speed.is_finite() && w.gust.is_finite() && w.pan.is_finite(),
+        SoundCommand::Slide(s) => {
+            [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
+        }
+        SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
         SoundCommand::Silence { .. } => true,
     }
 }

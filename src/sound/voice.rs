@@ -79,7 +79,7 @@ impl Voice {
 
     /// A grid point: is it over?
     pub fn grid_point(&mut self) {
-        let silent = self.bank.count() == 0 && self.peak < INAUDIBLE;
+        let silent = self.bank.count() == 0 && self.peak < INAUDIBLE && !self.operators.iter().any(State::holds);
         self.quiet = if silent { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
             self.state = VoiceState::Free;
