@@ -8,7 +8,7 @@ use crate::offline::audition::Audition;
 use crate::offline::{sound_page, wav};
 use crate::simulation::SAMPLE_RATE;
 use crate::sound::timbre::{Specimen, SpecimenShape};
-use crate::sound::{Preset, SurfaceLine, timbre};
+use crate::sound::{Preset, SurfaceLine, TimbreError, timbre};
 
 /// Longest sound, s.
 const LONGEST: f64 = 600.0;
@@ -118,9 +118,12 @@ fn page(folder: &Path, args: &Args) -> Outcome {
 }
 
 /// The preset, the body and how it is played, with everything that the command line changes.
-fn settings(name: &str, args: &Args) -> Result<(Preset, Specimen, Audition), Failure> {
-    let (name, text) = source(name)?;
-    let shipped = Preset::parse(&name, &text).map_err(Failure::input)?;
+fn settings(given: &str, args: &Args) -> Result<(Preset, Specimen, Audition), Failure> {
+    let (name, text) = source(given)?;
+    // A file of one's own is not where the shipped ones are.
+    let own = given != name;
+    let wrong = |e: TimbreError| Failure::input(if own { TimbreError { file: given.into(), ..e } } else { e });
+    let shipped = Preset::parse(&name, &text).map_err(wrong)?;
     let mut table: toml::Table = text.parse().map_err(Failure::input)?;
     let mut specimen = shipped.specimen;
     let mut audition = Audition { direction: args.direction.to_radians(), seed: 1, ..Audition::default() };
@@ -164,7 +167,7 @@ fn settings(name: &str, args: &Args) -> Result<(Preset, Specimen, Audition), Fai
     if let Some(path) = &args.surface {
         audition.surface = Some(surface(path, args.surface_length)?);
     }
-    Ok((Preset::from_table(&name, table).map_err(Failure::input)?, specimen, audition))
+    Ok((Preset::from_table(&name, table).map_err(wrong)?, specimen, audition))
 }
 
 /// Name and text of a shipped timbre or of a file.

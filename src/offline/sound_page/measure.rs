@@ -75,7 +75,7 @@ pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
     for (centre, levels) in bands {
         let top = top_of(&levels);
         let start = levels.iter().position(|p| *p == top).unwrap_or(0);
-        if !(top > FAINT * loudest) {
+        if top <= FAINT * loudest {
             continue;
         }
         let fallen = |db: f64| levels[start..].iter().position(|p| 10.0 * log10(p / top) < db).map(|i| start + i);

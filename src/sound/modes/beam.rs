@@ -303,7 +303,7 @@ pub(super) fn tube(tube: &Tube, matter: &Matter, modal: &Modal) -> Result<Vec<Mo
     // What the mass leaves of the full section.
     let hole = outer * outer - 4.0 / PI * matter.volume / (2.0 * matter.body.half_extents[0]);
     let inner = tube.inner.unwrap_or_else(|| hole.max(0.0).sqrt());
-    if !(inner < outer) {
+    if inner.is_nan() || inner >= outer {
         return Err(("inner", format!("{inner} m is not below the outer diameter, {outer} m")));
     }
     let nu = matter.material.poisson;

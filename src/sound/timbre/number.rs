@@ -23,6 +23,7 @@ const BOUND: f64 = 1e12;
 /// A number of a preset: fixed, or following the motion.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq)]
 #[schemars(untagged)]
+#[allow(clippy::large_enum_variant, reason = "copied into flat programs once, never moved about after")]
 pub enum Number {
     /// Always this.
     Fixed(f64),
@@ -290,7 +291,7 @@ impl Number {
         numbers.extend(binding.max.map(|v| ("max", v)));
         numbers.extend(binding.times.iter().flat_map(|f| [("times.power", f.power), ("times.offset", f.offset)]));
         numbers.extend(binding.plus.iter().flat_map(|t| [("plus.power", t.power), ("plus.scale", t.scale)]));
-        if let Some((field, value)) = numbers.iter().find(|(_, v)| !(v.abs() <= BOUND)) {
+        if let Some((field, value)) = numbers.iter().find(|(_, v)| v.is_nan() || v.abs() > BOUND) {
             return Some(format!("its {field} {value} is not a number within ±{BOUND:e}"));
         }
         match (binding.min, binding.max) {
