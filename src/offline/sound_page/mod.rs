@@ -257,7 +257,8 @@ impl<'a> Sheet<'a> {
         }
         let x = place[0] + 8.0;
         let y = place[1] + place[3] + 38.0;
-        let first = canvas.words(x, y, 14.0, Align::Left, FIRST, "● partials");
+        canvas.disc([x + 4.0, y - 4.0], 4.0, FIRST, 1.0);
+        let first = 16.0 + canvas.words(x + 16.0, y, 14.0, Align::Left, FIRST, "partials");
         if !heard.is_empty() {
             canvas.words(x + first + 20.0, y, 14.0, Align::Left, SECOND, "× half octaves, as heard");
         }
