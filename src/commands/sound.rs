@@ -1,44 +1,72 @@
-//! `soffio sound`: one sound of one timbre, for listening and for measuring.
+//! `soffio sound`: one sound of one timbre, for listening and for measuring, or a page of pictures of them.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::{Failure, Outcome};
-use crate::math::PI;
-use crate::offline::wav;
+use crate::offline::audition::Audition;
+use crate::offline::{sound_page, wav};
 use crate::simulation::SAMPLE_RATE;
-use crate::sound::{InstrumentSpec, Preset, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound, timbre};
+use crate::sound::timbre::{Specimen, SpecimenShape};
+use crate::sound::{Preset, SurfaceLine, TimbreError, timbre};
 
-/// Renders one sound, dry mono.
+/// Longest sound, s.
+const LONGEST: f64 = 600.0;
+
+/// Renders one sound, dry mono, or makes a page of pictures.
 #[derive(clap::Args, Debug, Default)]
 #[command(after_help = "\
 Example: soffio sound plate --impulse 5e-4 --at 0.8 -o clank.wav
+         soffio sound chime-brass --speed 0.6 --seconds 6 -o chime.wav
          soffio sound plate --set radius=0.2 --set thickness=0.001 --set body.detune=0 -o gong.wav
-         soffio sound wind-room --speed 3 --seconds 10 -o wind.wav
+         soffio sound scrape-wood --slip 0.4 --force 5 -o scratch.wav
+         soffio sound wind-wire --wind 3 --seconds 10 -o wire.wav
+         soffio sound --page out/sounds
 
---set takes the body's dimensions and material
+TIMBRE may also be a file of your own, such as my/gong.toml; its name inside is gong.
+
+Without flags a timbre is played as its [specimen] says. --set takes the specimen's dimensions and material
     radius, length, width, thickness (m), mass (kg), youngs_modulus (Pa), poisson, density (kg/m3), loss_factor,
 the hit's mass (hit_mass, kg), its place across (at_y, -1 to 1), the seed (seed),
 and any number of a node of the timbre (node.key, such as body.partials).")]
 pub struct Args {
-    /// Name of the timbre; see --list.
-    #[arg(required_unless_present = "list")]
+    /// Name of a timbre, see --list, or a .toml file; with --page, without it all of them.
+    #[arg(required_unless_present_any = ["list", "page"])]
     timbre: Option<String>,
     /// Names the timbres, one a line.
     #[arg(long)]
     list: bool,
-    /// Impulse of the hit, N s [default: 5e-4].
-    #[arg(long, value_name = "NS", conflicts_with = "force")]
+    /// Makes a folder of pictures and sounds, with an index.html that shows them: waveform, spectrum, decay of partials.
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["list", "output"])]
+    page: Option<PathBuf>,
+    /// Impulse of the hit, N s.
+    #[arg(long, value_name = "NS")]
     impulse: Option<f64>,
-    /// Greatest force of the hit, N, instead of its impulse: J = 2 F tau / pi for a half sine of Hertz's duration.
-    #[arg(long, value_name = "N")]
+    /// Force, N: of a hit its greatest, instead of its impulse (J = 2 F tau / pi for a half sine of Hertz's duration); of
+    /// a slide the one that presses the surfaces together.
+    #[arg(long, value_name = "N", conflicts_with = "impulse")]
     force: Option<f64>,
     /// Place of the hit along the body, -1 to 1.
-    #[arg(long, value_name = "X", default_value_t = 0.8, allow_hyphen_values = true)]
-    at: f64,
-    /// Approach speed of the hit, or speed of the wind, m/s [default: 0.3 for a hit, 2 for wind].
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    at: Option<f64>,
+    /// Approach speed of the hit, m/s.
     #[arg(long, value_name = "V")]
     speed: Option<f64>,
+    /// Speed at which surfaces slide over each other, m/s.
+    #[arg(long, value_name = "V")]
+    slip: Option<f64>,
+    /// Speed of the wind, m/s.
+    #[arg(long, value_name = "V")]
+    wind: Option<f64>,
+    /// Where the wind goes, seen from above: 0 away from the listener, positive to the right, degrees.
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, default_value_t = 0.0)]
+    direction: f64,
+    /// Picture of the surface, for timbres that read one: its middle row is the line that is scraped.
+    #[arg(long, value_name = "PNG")]
+    surface: Option<PathBuf>,
+    /// Length of that row on the body, m.
+    #[arg(long, value_name = "M", default_value_t = 0.1)]
+    surface_length: f64,
     /// Changes a number; see below.
     #[arg(long, value_name = "K=V")]
     set: Vec<String>,
@@ -46,70 +74,12 @@ pub struct Args {
     #[arg(long, value_name = "S", default_value_t = 3.0)]
     seconds: f64,
     /// The file to write: mono, 48 kHz, 32-bit float.
-    #[arg(short, long, value_name = "WAV", required_unless_present = "list")]
+    #[arg(short, long, value_name = "WAV", required_unless_present_any = ["list", "page"])]
     output: Option<PathBuf>,
 }
 
-/// What `--set` can change, with the defaults: a steel disc of 12 cm, half a millimetre thick.
-struct Setup {
-    length: f64,
-    width: f64,
-    round: bool,
-    thickness: f64,
-    mass: Option<f64>,
-    material: SoundMaterial,
-    hit_mass: f64,
-    at_y: f64,
-    seed: u64,
-}
-
-impl Default for Setup {
-    fn default() -> Self {
-        Self {
-            length: 0.12,
-            width: 0.12,
-            round: true,
-            thickness: 5e-4,
-            mass: None,
-            material: SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 },
-            hit_mass: 0.003,
-            at_y: 0.0,
-            seed: 1,
-        }
-    }
-}
-
-impl Setup {
-    /// Whether the key is one of its own.
-    fn set(&mut self, key: &str, value: f64) -> bool {
-        match key {
-            "radius" => (self.length, self.width, self.round) = (2.0 * value, 2.0 * value, true),
-            "length" => (self.length, self.round) = (value, false),
-            "width" => (self.width, self.round) = (value, false),
-            "thickness" => self.thickness = value,
-            "mass" => self.mass = Some(value),
-            "youngs_modulus" => self.material.youngs_modulus = value,
-            "poisson" => self.material.poisson = value,
-            "density" => self.material.density = value,
-            "loss_factor" => self.material.loss_factor = value,
-            "hit_mass" => self.hit_mass = value,
-            "at_y" => self.at_y = value,
-            "seed" => self.seed = value as u64,
-            _ => return false,
-        }
-        true
-    }
-
-    fn spec(&self, timbre: &str) -> InstrumentSpec {
-        let area = self.length * self.width * if self.round { PI / 4.0 } else { 1.0 };
-        let body = SoundBody {
-            half_extents: [0.5 * self.length.max(self.width), 0.5 * self.length.min(self.width)],
-            thickness: self.thickness,
-            area,
-            mass: self.mass.unwrap_or(area * self.thickness * self.material.density),
-        };
-        InstrumentSpec { timbre: timbre.into(), body, material: self.material, gain: 1.0, max_voices: 1 }
-    }
+fn usage(message: impl Into<String>) -> Failure {
+    Failure { code: 2, message: message.into() }
 }
 
 /// Runs the command.
@@ -120,39 +90,51 @@ pub fn run(args: Args) -> Outcome {
         let _ = std::io::stdout().write_all(names.as_bytes());
         return Ok(());
     }
+    if !(args.seconds > 0.0 && args.seconds <= LONGEST) {
+        return Err(usage("--seconds must be above 0 and at most 600"));
+    }
+    if let Some(folder) = &args.page {
+        return page(folder, &args);
+    }
     let (Some(name), Some(output)) = (&args.timbre, &args.output) else {
-        return Err(Failure { code: 2, message: "say a timbre and -o OUT.wav, or --list".into() });
+        return Err(usage("say a timbre and -o OUT.wav, or --list, or --page FOLDER"));
     };
-    if !(args.seconds > 0.0 && args.seconds <= 600.0) {
-        return Err(Failure { code: 2, message: "--seconds must be above 0 and at most 600".into() });
-    }
-    let (setup, preset) = settings(name, &args.set)?;
-    let mut synth = Synth::with_preset(SAMPLE_RATE, &preset, &setup.spec(name), setup.seed).map_err(Failure::input)?;
-    synth.set_dry(true);
-    synth.command(command(&args, &setup, &preset, &synth));
-    let mut stereo = vec![0.0; 2 * (args.seconds * f64::from(SAMPLE_RATE)) as usize];
-    synth.render(&mut stereo);
-    if synth.faults() > 0 {
-        return Err(Failure::input(
-            "a number given cannot be played: --impulse, --force, --speed, --at and masses must be finite, an impulse at least 0",
-        ));
-    }
-    // A centred sound is 1/√2 on either side: their sum over √2 is the sound itself.
-    let half = std::f32::consts::FRAC_1_SQRT_2;
-    let mono: Vec<f32> = stereo.as_chunks::<2>().0.iter().map(|[left, right]| (left + right) * half).collect();
+    let (preset, specimen, audition) = settings(name, &args)?;
+    let mono = audition.render(&preset, &specimen, args.seconds).map_err(Failure::input)?;
     wav::write_float(output, 1, SAMPLE_RATE, &mono).map_err(Failure::input)
 }
 
-/// `--set`: the body's, or the preset's.
-fn settings(name: &str, pairs: &[String]) -> Result<(Setup, Preset), Failure> {
-    let mut setup = Setup::default();
-    let shipped = Preset::shipped(name).map_err(Failure::input)?;
-    let mut table: toml::Table = timbre::source(name).unwrap_or_default().parse().map_err(Failure::input)?;
-    let usage = |message: String| Failure { code: 2, message };
-    for pair in pairs {
+fn page(folder: &Path, args: &Args) -> Outcome {
+    let mut subjects = Vec::new();
+    match &args.timbre {
+        Some(name) => subjects.push(settings(name, args)?),
+        None => {
+            for name in timbre::names() {
+                subjects.push(settings(name, args)?);
+            }
+        }
+    }
+    sound_page::write(folder, &subjects).map_err(Failure::input)
+}
+
+/// The preset, the body and how it is played, with everything that the command line changes.
+fn settings(given: &str, args: &Args) -> Result<(Preset, Specimen, Audition), Failure> {
+    let (name, text) = source(given)?;
+    // A file of one's own is not where the shipped ones are.
+    let own = given != name;
+    let wrong = |e: TimbreError| Failure::input(if own { TimbreError { file: given.into(), ..e } } else { e });
+    let shipped = Preset::parse(&name, &text).map_err(wrong)?;
+    let mut table: toml::Table = text.parse().map_err(Failure::input)?;
+    let mut specimen = shipped.specimen;
+    let mut audition = Audition { direction: args.direction.to_radians(), seed: 1, ..Audition::default() };
+    for pair in &args.set {
         let (key, text) = pair.split_once('=').ok_or_else(|| usage(format!("--set {pair}: must be key=value")))?;
         let value: f64 = text.parse().map_err(|_| usage(format!("--set {pair}: \"{text}\" is not a number")))?;
-        if setup.set(key, value) {
+        if key == "seed" {
+            audition.seed = value as u64;
+            continue;
+        }
+        if set(&mut specimen, key, value) {
             continue;
         }
         let Some((node, field)) = key.split_once('.').filter(|(node, _)| shipped.node.contains_key(*node)) else {
@@ -165,28 +147,74 @@ fn settings(name: &str, pairs: &[String]) -> Result<(Setup, Preset), Failure> {
             node.insert(field.into(), whole.unwrap_or(toml::Value::Float(value)));
         }
     }
-    Ok((setup, Preset::from_table(name, table).map_err(Failure::input)?))
+    let given = [
+        (&mut specimen.impulse, args.impulse),
+        (&mut specimen.at, args.at),
+        (&mut specimen.speed, args.speed),
+        (&mut specimen.slip, args.slip),
+        (&mut specimen.wind, args.wind),
+    ];
+    for (number, value) in given {
+        *number = value.unwrap_or(*number);
+    }
+    match args.force {
+        Some(force) if shipped.slides() => specimen.force = force,
+        force => audition.peak_force = force,
+    }
+    if let Some((field, value)) = specimen.problem() {
+        return Err(usage(format!("{field} {value}: must be above 0 and finite")));
+    }
+    if let Some(path) = &args.surface {
+        audition.surface = Some(surface(path, args.surface_length)?);
+    }
+    Ok((Preset::from_table(&name, table).map_err(wrong)?, specimen, audition))
 }
 
-fn command(args: &Args, setup: &Setup, preset: &Preset, synth: &Synth) -> SoundCommand {
-    if preset.continuous() {
-        let speed = args.speed.unwrap_or(2.0) as f32;
-        return SoundCommand::Wind(WindSound { sample: 0, speed, gust: 0.0, pan: 0.0 });
+/// Name and text of a shipped timbre or of a file.
+fn source(name: &str) -> Result<(String, String), Failure> {
+    let path = Path::new(name);
+    if path.extension().is_some_and(|extension| extension == "toml") {
+        let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        let text = std::fs::read_to_string(path).map_err(|e| Failure::input(format!("{name}: {e}")))?;
+        return Ok((stem.into(), text));
     }
-    let speed = args.speed.unwrap_or(0.3);
-    let contact_time = synth.contact_time(0, setup.hit_mass, speed).unwrap_or_default();
-    let impulse = match args.force {
-        Some(force) => 2.0 * force * contact_time / PI,
-        None => args.impulse.unwrap_or(5e-4),
-    };
-    SoundCommand::Strike(Strike {
-        sample: 0,
-        instrument: 0,
-        impulse: impulse as f32,
-        speed: speed as f32,
-        mass: setup.hit_mass as f32,
-        position: [args.at as f32, setup.at_y as f32],
-        pan: 0.0,
-        distance: 1.0,
-    })
+    match timbre::source(name) {
+        Some(text) => Ok((name.into(), text.into())),
+        None => match Preset::shipped(name) {
+            Err(error) => Err(Failure::input(error)),
+            Ok(preset) => Ok((preset.name, String::new())),
+        },
+    }
+}
+
+/// Whether the key is one of the specimen's.
+fn set(specimen: &mut Specimen, key: &str, value: f64) -> bool {
+    let flat = |shape: SpecimenShape| if shape == SpecimenShape::Disc { SpecimenShape::Bar } else { shape };
+    match key {
+        "radius" => {
+            (specimen.length, specimen.width, specimen.shape) = (2.0 * value, 2.0 * value, SpecimenShape::Disc);
+        }
+        "length" => (specimen.length, specimen.shape) = (value, flat(specimen.shape)),
+        "width" => (specimen.width, specimen.shape) = (value, flat(specimen.shape)),
+        "thickness" => specimen.thickness = value,
+        "mass" => specimen.mass = Some(value),
+        "youngs_modulus" => specimen.youngs_modulus = value,
+        "poisson" => specimen.poisson = value,
+        "density" => specimen.density = value,
+        "loss_factor" => specimen.loss_factor = value,
+        "hit_mass" => specimen.hit_mass = value,
+        "at_y" => specimen.at_y = value,
+        _ => return false,
+    }
+    true
+}
+
+/// Brightness along the middle row of a picture.
+fn surface(path: &Path, length: f64) -> Result<SurfaceLine, Failure> {
+    let picture = image::open(path).map_err(|e| Failure::input(format!("{}: {e}", path.display())))?.into_luma16();
+    let row = picture.height() / 2;
+    let values: Vec<f32> =
+        (0..picture.width()).map(|x| f32::from(picture.get_pixel(x, row).0[0]) / f32::from(u16::MAX)).collect();
+    let spacing = length / values.len().max(1) as f64;
+    Ok(SurfaceLine { values, spacing })
 }

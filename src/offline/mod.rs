@@ -1,5 +1,6 @@
 //! The same pipeline without a window: WAV in; WAV, pictures, traces and events out.
 
+pub mod audition;
 pub mod demo;
 pub mod ear;
 pub mod events;
@@ -8,6 +9,7 @@ pub mod feed;
 pub mod pictures;
 pub mod play;
 pub mod scene;
+pub mod sound_page;
 pub mod soundtrack;
 pub mod trace;
 pub mod wav;

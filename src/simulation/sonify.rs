@@ -69,5 +69,5 @@ pub fn strikes(
 /// The wind as it is heard: the speed of the air where the breath is aimed.
 pub fn wind(sample: u64, air: f64, gust: f64, target: DVec3, listener: &Listener) -> SoundCommand {
     let (pan, _) = listener.place(target);
-    SoundCommand::Wind(WindSound { sample, speed: air as f32, gust: gust as f32, pan })
+    SoundCommand::Wind(WindSound { sample, speed: air as f32, gust: gust as f32, direction: 0.0, pan })
 }

@@ -52,11 +52,13 @@ pub(super) struct Body {
 }
 
 impl Body {
-    pub fn new(instrument: usize, bank: Bank, sample_rate: f64) -> Self {
+    pub fn new(index: usize, instrument: &Instrument, bank: Bank, sample_rate: f64) -> Self {
+        let mut operators = Box::new(std::array::from_fn(|_| State::new(0)));
+        instrument.graph.make_room(&mut operators, sample_rate);
         Self {
-            instrument,
+            instrument: index,
             bank,
-            operators: Box::new(std::array::from_fn(|_| State::new(0))),
+            operators,
             inputs: Inputs::default(),
             ahead: vec![0.0; Bank::reach(LONGEST_CONTACT, sample_rate)],
             ready: 0,
@@ -171,7 +173,8 @@ impl Body {
             self.rest();
             return false;
         }
-        let silent = self.bank.ringing() == 0 && std::mem::take(&mut self.peak) < INAUDIBLE as f32;
+        let quiet = std::mem::take(&mut self.peak) < INAUDIBLE as f32 && !self.operators.iter().any(State::holds);
+        let silent = self.bank.ringing() == 0 && quiet;
         self.quiet = if silent { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
             self.rest();

@@ -21,12 +21,12 @@ use super::{SoundBody, SoundMaterial};
 use crate::math::{PI, pow};
 
 /// Density of air times the speed of sound, Pa s/m (20 °C).
-const IMPEDANCE: f64 = 413.0;
+pub(super) const IMPEDANCE: f64 = 413.0;
 /// Speed of sound, m/s (20 °C).
-const SOUND_SPEED: f64 = 343.0;
+pub(super) const SOUND_SPEED: f64 = 343.0;
 /// Pressure that is digital full scale, Pa. Chosen so that a plate of a few grams hit at 0.3 m/s is clearly heard at
 /// arm's length without leaning on the limiter.
-const FULL_SCALE_PRESSURE: f64 = 1.0;
+pub(super) const FULL_SCALE_PRESSURE: f64 = 1.0;
 /// Contact times outside of these two have no meaning here, s.
 const SHORTEST_CONTACT: f64 = 2e-5;
 pub(super) const LONGEST_CONTACT: f64 = 2e-2;

@@ -4,23 +4,21 @@ use fearless_simd::Level;
 
 use super::excitation::{Contact, Radiator};
 use super::graph::Graph;
-use super::modal::{Bank, Partial, Place, Shape};
-use super::plate::{free_plate_modes, outline_exponent};
-use super::timbre::{Inputs, ModalSource, Node, Number, Preset, TimbreError};
-use super::{InstrumentSpec, Strike};
-use crate::math::{PI, exp, ln};
+use super::modal::{Bank, Partial};
+use super::modes::{Mode, Place, modes};
+use super::timbre::{Inputs, Number, Player, Preset, TimbreError};
+use super::{InstrumentSpec, Strike, timbre};
+use crate::math::{exp, ln};
 use crate::noise::Random;
 
-/// T60 · c: a fall by 60 dB is e^(−6.908).
-const T60_DECAYS: f64 = 6.907_755_278_982_137;
 /// Nothing that is struck is lighter, kg.
 const LIGHTEST: f64 = 1e-6;
 
 /// A compiled instrument.
 pub(super) struct Instrument {
     pub graph: Graph,
-    /// The wind plays it all the time.
-    pub continuous: bool,
+    /// What plays it.
+    pub player: Player,
     pub gain: f64,
     pub max_voices: usize,
     radiator: Radiator,
@@ -35,16 +33,10 @@ struct Modal {
     gain: Number,
     /// In the order of their decay, so that those of one group end together.
     modes: Vec<Mode>,
-    /// Exponent of the outline on which the shapes are defined.
+    /// Exponent of the outline on which plates' shapes are defined.
     outline: f64,
-}
-
-/// A partial, where it is moved, and how loud it is then.
-struct Mode {
-    partial: Partial,
-    shape: Shape,
-    /// Full scale at 1 m, per N s and per 1/√kg of shape.
-    amplitude: f64,
+    /// kg.
+    mass: f64,
 }
 
 impl Instrument {
@@ -54,15 +46,19 @@ impl Instrument {
 
     pub fn from_preset(preset: &Preset, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
         let radiator = Radiator::new(&spec.body, &spec.material);
-        let modal = preset.node.iter().find_map(|(key, node)| Modal::compile(&preset.name, key, node, spec, &radiator));
         Ok(Self {
-            graph: Graph::compile(preset)?,
-            continuous: preset.continuous(),
+            graph: Graph::compile(preset, spec)?,
+            player: preset.player(),
             gain: spec.gain,
             max_voices: spec.max_voices.max(1),
             radiator,
-            modal: modal.transpose()?,
+            modal: preset.modal().map(|(key, node)| Modal::compile(&preset.name, key, node, spec)).transpose()?,
         })
+    }
+
+    /// Whether hits play it, one by one.
+    pub fn is_hit(&self) -> bool {
+        self.player == Player::Hit
     }
 
     /// Hertz contact time, s; 1 ms where nothing rings.
@@ -92,8 +88,8 @@ impl Instrument {
         let mut random = Random::new(seed);
         let detuned = |mode: &Mode| Partial {
             // Cents: 2^(d/1200).
-            frequency: mode.partial.frequency * exp(modal.detune * random.signed() * ln(2.0) / 1200.0),
-            ..mode.partial
+            frequency: mode.frequency * exp(modal.detune * random.signed() * ln(2.0) / 1200.0),
+            decay: mode.decay,
         };
         let partials: Vec<Partial> = modal.modes.iter().map(detuned).collect();
         Some(Bank::new(&partials, sample_rate, Level::new()))
@@ -113,7 +109,7 @@ impl Instrument {
         let Some(modal) = &self.modal else { return };
         let place = Place::new(position, modal.outline);
         bank.touch(|i| {
-            let shape = modal.modes[i].shape.at(&place);
+            let shape = modal.modes[i].shape.per_root_mass(&place, modal.mass);
             0.5 * resistance * shape * shape
         });
     }
@@ -128,68 +124,27 @@ impl Instrument {
     }
 }
 
+/// The partials of a timbre on a body, in ascending order; none where nothing rings.
+pub fn partials(preset: &Preset, spec: &InstrumentSpec) -> Result<Vec<Mode>, TimbreError> {
+    let found = preset.modal().map(|(key, node)| Modal::modes(&preset.name, key, node, spec)).transpose()?;
+    Ok(found.map(|(modes, _)| modes).unwrap_or_default())
+}
+
 impl Modal {
-    fn compile(
+    fn compile(name: &str, key: &str, node: &timbre::Modal, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
+        let (mut modes, outline) = Self::modes(name, key, node, spec)?;
+        modes.sort_by(|a, b| a.decay.total_cmp(&b.decay));
+        let contact = Contact::new(node.contact_radius, node.surface_modulus, &spec.material);
+        let mass = spec.body.mass.max(LIGHTEST);
+        Ok(Self { contact, detune: node.detune, gain: node.gain, modes, outline, mass })
+    }
+
+    fn modes(
         name: &str,
         key: &str,
-        node: &Node,
+        node: &timbre::Modal,
         spec: &InstrumentSpec,
-        radiator: &Radiator,
-    ) -> Option<Result<Self, TimbreError>> {
-        let Node::Modal {
-            from,
-            partials: most,
-            support_loss,
-            contact_radius,
-            surface_modulus,
-            detune,
-            fundamental,
-            table,
-            gain,
-            r#in: _,
-        } = node
-        else {
-            return None;
-        };
-        let mut modes: Vec<Mode> = match from {
-            ModalSource::Plate => {
-                let mut modes = free_plate_modes(&spec.body, &spec.material);
-                if modes.is_empty() {
-                    let problem = format!(
-                        "no plate of half extents {:?} m, thickness {} m, area {} m², mass {} kg can ring; all must be above 0",
-                        spec.body.half_extents, spec.body.thickness, spec.body.area, spec.body.mass
-                    );
-                    return Some(Err(TimbreError::new(name, format!("node.{key}"), problem)));
-                }
-                modes.truncate(*most);
-                let ringing = modes.into_iter().map(|mode| Mode {
-                    partial: Partial {
-                        frequency: mode.frequency,
-                        // T60 = 2.2/(η f) is c = π η f.
-                        decay: PI * spec.material.loss_factor * mode.frequency
-                            + support_loss
-                            + radiator.loss(mode.frequency),
-                    },
-                    amplitude: radiator.amplitude(mode.frequency),
-                    shape: Shape::Plate(mode),
-                });
-                ringing.collect()
-            }
-            ModalSource::Table => {
-                let fundamental = fundamental.unwrap_or_default();
-                let mass = spec.body.mass.max(LIGHTEST);
-                let ringing = table.iter().take(*most).map(|p| Mode {
-                    partial: Partial { frequency: fundamental * p.ratio, decay: T60_DECAYS / p.t60 + support_loss },
-                    // The gains of a table are those of the place where it is struck.
-                    amplitude: p.gain * mass.sqrt(),
-                    shape: Shape::Even(mass),
-                });
-                ringing.collect()
-            }
-        };
-        modes.sort_by(|a, b| a.partial.decay.total_cmp(&b.partial.decay));
-        let contact = Contact::new(*contact_radius, *surface_modulus, &spec.material);
-        let outline = outline_exponent(&spec.body);
-        Some(Ok(Self { contact, detune: *detune, gain: *gain, modes, outline }))
+    ) -> Result<(Vec<Mode>, f64), TimbreError> {
+        modes(node, spec).map_err(|(field, problem)| TimbreError::new(name, format!("node.{key}.{field}"), problem))
     }
 }

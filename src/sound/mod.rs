@@ -5,26 +5,26 @@
 //!
 //! ```text
 //! timbre (preset files) ─→ instrument ─→ graph of operators ─┬─→ voices of hits ──┐
-//! plate (Ritz modes) ────↗  excitation (Hertz, radiation)    └─→ bodies ──────────┴─→ mix ─→ limiter ─→ out
+//! modes (of all sources) ─↗  excitation (Hertz, radiation)   └─→ bodies ──────────┴─→ mix ─→ limiter ─→ out
 //!                                                    modal (banks of partials) ──↗
 //! ```
 
 mod body;
-mod eigen;
 mod excitation;
 mod graph;
 mod gusts;
 mod instrument;
 mod limiter;
 pub mod modal;
-mod plate;
+pub mod modes;
 mod synth;
 pub mod timbre;
 mod voice;
 
 pub use gusts::multifractal;
+pub use instrument::partials;
 pub use limiter::CEILING;
-pub use plate::{PlateMode, free_plate_modes};
+pub use modes::{Mode, PlateMode, free_plate_modes};
 pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, MOST_PARTIALS, Synth};
 pub use timbre::{Preset, TimbreError};
 
@@ -35,6 +35,8 @@ pub enum SoundCommand {
     Strike(Strike),
     /// Something rests on a body, or has left it.
     Touch(Touch),
+    /// Something slides over a body, or has stopped; the synth glides from one to the next.
+    Slide(Slide),
     /// The wind of one simulation step; the synth glides from one to the next.
     Wind(WindSound),
     /// Fade out everything (an exhibit was changed or reset).
@@ -50,6 +52,7 @@ impl SoundCommand {
         match self {
             Self::Strike(strike) => strike.sample,
             Self::Touch(touch) => touch.sample,
+            Self::Slide(slide) => slide.sample,
             Self::Wind(wind) => wind.sample,
             Self::Silence { sample } => *sample,
         }
@@ -60,6 +63,7 @@ impl SoundCommand {
         match &mut self {
             Self::Strike(strike) => strike.sample = time,
             Self::Touch(touch) => touch.sample = time,
+            Self::Slide(slide) => slide.sample = time,
             Self::Wind(wind) => wind.sample = time,
             Self::Silence { sample } => *sample = time,
         }
@@ -101,6 +105,25 @@ pub struct Touch {
     pub resistance: f32,
 }
 
+/// One surface that slides over a sounding body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slide {
+    /// When.
+    pub sample: u64,
+    /// Index into the exhibit's instruments.
+    pub instrument: u16,
+    /// Speed of the surfaces over each other, m/s.
+    pub speed: f32,
+    /// Normal force, N; 0 when they have parted.
+    pub force: f32,
+    /// As in [`Strike`].
+    pub position: [f32; 2],
+    /// −1 left … 1 right.
+    pub pan: f32,
+    /// From the listener, m.
+    pub distance: f32,
+}
+
 /// The wind as it is heard.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WindSound {
@@ -110,6 +133,8 @@ pub struct WindSound {
     pub speed: f32,
     /// Relative gust at this moment, about ±1: the same turbulence that pushes the plates.
     pub gust: f32,
+    /// Where it goes, seen from above: 0 away from the visitor, positive to the right, rad.
+    pub direction: f32,
     /// −1 left … 1 right.
     pub pan: f32,
 }
@@ -140,6 +165,15 @@ pub struct SoundBody {
     pub mass: f64,
 }
 
+/// A line across a surface, as a contact that slides along it meets it. It closes: behind the end comes the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceLine {
+    /// Brightness or height; only differences are heard.
+    pub values: Vec<f32>,
+    /// Between two of them, m.
+    pub spacing: f64,
+}
+
 /// A sounding body of an exhibit, ready to be compiled by the synth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstrumentSpec {
@@ -149,6 +183,8 @@ pub struct InstrumentSpec {
     pub body: SoundBody,
     /// Its material.
     pub material: SoundMaterial,
+    /// A line of the picture on its surface, for timbres that are scraped.
+    pub surface: Option<SurfaceLine>,
     /// Linear gain.
     pub gain: f64,
     /// Most simultaneous clicks of hits on this body; what rings has no bound.

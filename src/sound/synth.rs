@@ -16,9 +16,9 @@ use super::body::Body;
 use super::graph::{Block, CONTROL, Part};
 use super::instrument::Instrument;
 use super::limiter::Limiter;
-use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
+use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, SoundCommand, Strike, Touch, WindSound};
+use super::{InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
 use crate::math::{PI, exp, sincos};
 use crate::noise::hash_words;
 
@@ -37,6 +37,10 @@ const STEAL_FADE: f64 = 0.003;
 const SILENCE_FADE: f64 = 0.04;
 /// Time constant with which the sound of the wind follows its commands, s.
 const WIND_GLIDE: f64 = 0.05;
+/// Time constant with which the sound of a slide follows its commands, s: one simulation step.
+const SLIDE_GLIDE: f64 = 0.004;
+/// Surfaces have parted below this, N.
+const PARTED: f64 = 1e-5;
 /// A wind that dies away is over below this, m/s.
 const CALM: f64 = 1e-3;
 /// Nobody's ear comes nearer than this, m.
@@ -52,8 +56,11 @@ pub struct Synth {
     body_of: Vec<Option<usize>>,
     most_partials: usize,
     voices: Vec<Voice>,
-    winds: Vec<Voice>,
+    /// Voices that go on as long as the wind or a slide plays them.
+    lasting: Vec<Voice>,
     wind: Wind,
+    /// One for each instrument.
+    sliders: Vec<Slider>,
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
     blocks: Box<[Block; MAX_NODES]>,
@@ -71,7 +78,16 @@ struct Wind {
     target: WindSound,
     speed: f64,
     gust: f64,
+    direction: f64,
     pan: f64,
+}
+
+/// What slides over one instrument, as commanded and as it sounds now.
+#[derive(Clone, Copy, Default)]
+struct Slider {
+    target: Slide,
+    speed: f64,
+    force: f64,
 }
 
 impl Synth {
@@ -121,23 +137,29 @@ impl Synth {
         for (i, instrument) in instruments.iter().enumerate() {
             let bank = instrument.bank(hash_words(&[seed, i as u64]), sample_rate);
             body_of.push(bank.is_some().then_some(bodies.len()));
-            bodies.extend(bank.map(|bank| Body::new(i, bank, sample_rate)));
+            bodies.extend(bank.map(|bank| Body::new(i, instrument, bank, sample_rate)));
         }
-        let mut winds = Vec::new();
-        for (i, _) in instruments.iter().enumerate().filter(|(_, instrument)| instrument.continuous) {
+        let mut lasting = Vec::new();
+        for (i, instrument) in instruments.iter().enumerate().filter(|(_, instrument)| !instrument.is_hit()) {
             let mut voice = Voice::new();
             voice.instrument = i;
-            winds.push(voice);
+            instrument.graph.make_room(&mut voice.operators, sample_rate);
+            lasting.push(voice);
+        }
+        let mut voices: Vec<Voice> = (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect();
+        for instrument in instruments.iter().filter(|instrument| instrument.is_hit()) {
+            voices.iter_mut().for_each(|voice| instrument.graph.make_room(&mut voice.operators, sample_rate));
         }
         Self {
             sample_rate,
             seed,
+            sliders: vec![Slider::default(); instruments.len()],
             instruments,
             bodies,
             body_of,
             most_partials: MOST_PARTIALS,
-            voices: (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect(),
-            winds,
+            voices,
+            lasting,
             wind: Wind::default(),
             commands: VecDeque::with_capacity(MAX_COMMANDS),
             blocks: Box::new([[0.0; CONTROL]; MAX_NODES]),
@@ -177,7 +199,7 @@ impl Synth {
 
     /// Bodies and voices that sound now, the wind's included.
     pub fn sounding(&self) -> usize {
-        let voices = self.voices.iter().chain(&self.winds).filter(|voice| voice.state != VoiceState::Free);
+        let voices = self.voices.iter().chain(&self.lasting).filter(|voice| voice.state != VoiceState::Free);
         voices.count() + self.bodies.iter().filter(|body| body.sounds()).count()
     }
 
@@ -254,19 +276,24 @@ impl Synth {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
             SoundCommand::Touch(touch) => self.touch(&touch),
+            SoundCommand::Slide(slide) => match self.sliders.get_mut(usize::from(slide.instrument)) {
+                Some(slider) => slider.target = slide,
+                None => self.faults += 1,
+            },
             SoundCommand::Wind(wind) => self.wind.target = wind,
             SoundCommand::Silence { .. } => {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
                 self.bodies.iter_mut().for_each(|body| body.fade_out(samples));
                 self.wind.target.speed = 0.0;
+                self.sliders.iter_mut().for_each(|slider| slider.target.force = 0.0);
             }
         }
     }
 
     fn strike(&mut self, strike: &Strike) {
         let index = usize::from(strike.instrument);
-        let Some(instrument) = self.instruments.get(index).filter(|instrument| !instrument.continuous) else {
+        let Some(instrument) = self.instruments.get(index).filter(|instrument| instrument.is_hit()) else {
             self.faults += 1;
             return;
         };
@@ -352,26 +379,47 @@ impl Synth {
             let graph = &self.instruments[voice.instrument].graph;
             graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
+        let share = 1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate));
         let calm_before = self.wind.speed == 0.0;
-        self.wind.glide(1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate)));
-        let inputs = Inputs { wind_speed: self.wind.speed, gust: self.wind.gust, ..Inputs::default() };
-        let pan = equal_power(self.wind.pan);
-        for voice in &mut self.winds {
+        self.wind.glide(share);
+        let air = Inputs {
+            wind_speed: self.wind.speed,
+            wind_direction: self.wind.direction,
+            gust: self.wind.gust,
+            ..Inputs::default()
+        };
+        let share = 1.0 - exp(-(CONTROL as f64) / (SLIDE_GLIDE * self.sample_rate));
+        for voice in &mut self.lasting {
             let instrument = &self.instruments[voice.instrument];
-            let gains = pan.map(|side| side * instrument.gain as f32);
-            match (voice.state, self.wind.speed == 0.0) {
+            let slider = &mut self.sliders[voice.instrument];
+            let (inputs, pan, distance, still_before, still) = if instrument.player == Player::Slide {
+                let parted = slider.force == 0.0;
+                slider.glide(share);
+                let slide = slider.target;
+                let inputs = Inputs {
+                    slip_speed: slider.speed,
+                    normal_force: slider.force,
+                    position: slide.position.map(f64::from),
+                    ..air
+                };
+                (inputs, f64::from(slide.pan), slide.distance.max(NEAREST), parted, slider.force == 0.0)
+            } else {
+                (air, self.wind.pan, 1.0, calm_before, self.wind.speed == 0.0)
+            };
+            let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
+            match (voice.state, still) {
                 (VoiceState::Free, true) => continue,
                 (VoiceState::Free, false) => {
                     voice.begin(voice.instrument, gains);
-                    let calm = Inputs::default();
+                    let calm = Inputs { position: inputs.position, ..Inputs::default() };
                     let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
                     instrument.graph.begin(Part::Hit, &mut voice.operators, &calm, seed, time, sample_rate);
                     if let Some(body) = self.body_of[voice.instrument].filter(|_| instrument.graph.drives()) {
                         self.bodies[body].push(instrument, &inputs, gains, clock);
                     }
                 }
-                // The levels had one grid interval to reach their value in still air.
-                (_, true) if calm_before => {
+                // The levels had one grid interval to reach their value in still air; what rings, rings out.
+                (_, true) if still_before => {
                     voice.state = VoiceState::Free;
                     continue;
                 }
@@ -379,6 +427,8 @@ impl Synth {
             }
             voice.gains = gains;
             voice.inputs = inputs;
+            // Only the wind and the slide end it.
+            voice.state = VoiceState::Sounding;
             instrument.graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
     }
@@ -398,7 +448,7 @@ impl Synth {
 
     fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
         let at = (self.position % CONTROL as u64) as usize;
-        for voice in self.voices.iter_mut().chain(&mut self.winds).filter(|voice| voice.state != VoiceState::Free) {
+        for voice in self.voices.iter_mut().chain(&mut self.lasting).filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
             let body = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
             let force = body.map(|body| self.bodies[body].force(at));
@@ -419,8 +469,21 @@ impl Wind {
         self.speed += (target - self.speed) * share;
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
+        self.direction += (f64::from(self.target.direction) - self.direction) * share;
         if target == 0.0 && self.speed < CALM {
             self.speed = 0.0;
+        }
+    }
+}
+
+impl Slider {
+    /// One step of a one-pole glide towards the commanded slide.
+    fn glide(&mut self, share: f64) {
+        let target = f64::from(self.target.force).max(0.0);
+        self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
+        self.force += (target - self.force) * share;
+        if target == 0.0 && self.force < PARTED {
+            self.force = 0.0;
         }
     }
 }
@@ -440,7 +503,10 @@ fn is_finite(command: &SoundCommand) -> bool {
         SoundCommand::Touch(t) => {
             [t.position[0], t.position[1], t.resistance].iter().all(|v| v.is_finite()) && t.resistance >= 0.0
         }
-        SoundCommand::Wind(w) => w.speed.is_finite() && w.gust.is_finite() && w.pan.is_finite(),
+        SoundCommand::Slide(s) => {
+            [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
+        }
+        SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
         SoundCommand::Silence { .. } => true,
     }
 }

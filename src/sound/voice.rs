@@ -74,7 +74,8 @@ impl Voice {
 
     /// A grid point: is it over?
     pub fn grid_point(&mut self) {
-        self.quiet = if self.peak < INAUDIBLE { self.quiet + 1 } else { 0 };
+        let silent = self.peak < INAUDIBLE && !self.operators.iter().any(State::holds);
+        self.quiet = if silent { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
             self.state = VoiceState::Free;
         }

@@ -249,6 +249,23 @@ fn an_output_without_a_folder_is_refused_and_leaves_nothing() {
     assert!(desk.files().is_empty());
 }
 
+#[test]
+fn sounds_are_rendered_and_pictured() {
+    let desk = Desk::new();
+    let short = ["--seconds", "0.2", "-o", "a.wav"];
+    let sound = |args: &[&str]| desk.soffio(&[&["sound"], args, &short].concat());
+    sound(&["scrape-wood", "--slip", "0.4", "--force", "5"]).done();
+    sound(&["wind-wire", "--wind", "3", "--direction", "-90"]).done();
+    sound(&["chime-brass", "--force", "20", "--speed", "1", "--set", "body.split=0"]).done();
+    sound(&["wood", "--set", "body.partials=6000"]).refused(1, &["node.body.partials", "1024"]);
+    desk.write("gong.toml", "timbre = 1\nname = \"gong\"\ndescription = \"\"\n[node.out]\ntype = \"nose\"\n");
+    sound(&["gong.toml"]).refused(1, &["gong.toml:5", "node.out.type", "\"noise\""]);
+    desk.soffio(&["sound", "clock-tick", "--page", "sheets"]).done();
+    for file in ["sheets/index.html", "sheets/clock-tick.png", "sheets/clock-tick.wav"] {
+        assert!(desk.path(file).metadata().expect(file).len() > 500, "{file}");
+    }
+}
+
 #[cfg(feature = "kiosk")]
 #[test]
 fn a_picture_without_a_driver_says_what_to_install() {

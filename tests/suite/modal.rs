@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd};
 use soffio::math::{PI, atan2, cos, decibels, exp, ln, sincos};
 use soffio::noise::Random;
-use soffio::sound::modal::{BLOCK, Bank, Beam, GROUP, Partial, free_free_root};
+use soffio::sound::modal::{BLOCK, Bank, GROUP, Partial};
 
 const RATE: f64 = 48_000.0;
 /// The kernel's own error against f64, relative to the sound's root mean square.
@@ -362,45 +362,4 @@ fn hits_with_absurd_numbers_change_nothing() {
         assert_eq!(player.bank.strike(|_| bad, 1e-3, 5, &mut player.ahead), None);
     }
     assert!((0..1000).all(|_| player.sample() == 0.0));
-}
-
-#[test]
-fn free_beams_move_as_the_tables_say() {
-    // Roots: Blevins, "Formulas for Natural Frequency and Mode Shape", table 8-1. Shapes: six digits, two in the table.
-    for (n, root) in [(1, 4.730_040_74), (2, 7.853_204_62), (3, 10.995_607_8), (4, 14.137_165_5), (5, 17.278_759_7)] {
-        assert!((free_free_root(n) - root).abs() < 1e-7, "{}", free_free_root(n));
-    }
-    const DIGITS: f64 = 0.006;
-    let table = [
-        (0.5, [-1.22, 0.0, 1.42, 0.0, -1.41]),
-        (0.4, [-1.04, -0.97, 0.66, 1.40, 0.22]),
-        (0.3, [-0.54, -1.32, -0.79, 0.45, 1.35]),
-        (0.2242, [0.0, -1.00, -1.32, -0.93, -0.06]),
-        (0.0, [2.0; 5]),
-    ];
-    for (x, row) in table {
-        for (n, expected) in row.into_iter().enumerate() {
-            let found = Beam::new(n + 1, 1.0, None).at(x, [1.0, 0.0]);
-            assert!((found - expected).abs() < DIGITS, "mode {} at {x}: {found}", n + 1);
-        }
-    }
-    // High modes too are of mean square 1, and do not grow out of bounds at either end.
-    for n in [1, 8, 40] {
-        let beam = Beam::new(n, 4.0, None);
-        let steps = 4000;
-        let square = |i: usize| beam.at((i as f64 + 0.5) / steps as f64, [1.0, 0.0]);
-        let mean = (0..steps).map(|i| square(i) * square(i)).sum::<f64>() / steps as f64;
-        assert!((mean - 0.25).abs() < 1e-3, "mode {n}: {mean}");
-        let [near, far] = [0.0, 1.0].map(|x| beam.at(x, [1.0, 0.0]).abs());
-        assert!((near - 1.0).abs() < 1e-9 && (far - 1.0).abs() < 1e-9, "mode {n}: {near}, {far}");
-    }
-    // Two planes at right angles share a hit by its direction.
-    let planes = [0.3, 0.3 + PI / 2.0].map(|angle| Beam::new(1, 1.0, Some(angle)));
-    for angle in [0.0, 0.3, 1.1] {
-        let (s, c) = sincos(angle);
-        let [a, b] = planes.map(|beam| beam.at(0.5, [c, s]));
-        let whole = Beam::new(1, 1.0, None).at(0.5, [c, s]);
-        assert!((a * a + b * b - whole * whole).abs() < 1e-12);
-        assert!((a / whole - cos(angle - 0.3)).abs() < 1e-12);
-    }
 }

@@ -11,7 +11,14 @@ static ALLOCATOR: AllocDisabler = AllocDisabler;
 fn synth(rate: u32) -> Synth {
     let body = SoundBody { half_extents: [0.05; 2], thickness: 8e-4, area: 0.0079, mass: 0.05 };
     let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
-    let spec = |timbre: &str| InstrumentSpec { timbre: timbre.into(), body, material, gain: 1.0, max_voices: 60 };
+    let spec = |timbre: &str| InstrumentSpec {
+        timbre: timbre.into(),
+        body,
+        material,
+        surface: None,
+        gain: 1.0,
+        max_voices: 60,
+    };
     Synth::new(rate, &[spec("plate"), spec("bell"), spec("wind-room")], 1).expect("shipped timbres compile")
 }
 
@@ -39,7 +46,13 @@ fn the_synth_never_allocates() {
             for i in 0..8u64 {
                 synth.command(strike(block * 480 + i * 61, (i % 2) as u16));
             }
-            synth.command(SoundCommand::Wind(WindSound { sample: block * 480, speed: 3.0, gust: 0.3, pan: 0.1 }));
+            synth.command(SoundCommand::Wind(WindSound {
+                sample: block * 480,
+                speed: 3.0,
+                gust: 0.3,
+                pan: 0.1,
+                ..WindSound::default()
+            }));
             if block % 50 == 49 {
                 synth.command(SoundCommand::Silence { sample: block * 480 + 7 });
                 (0..2000).for_each(|i| synth.command(strike(block * 480 + i, 0)));

@@ -1,5 +1,12 @@
 //! The synth: pitch, decay, level, place, timing, limits, determinism.
 
+mod beams;
+pub mod presets;
+mod sources;
+mod surfaces;
+mod timbres;
+mod winds;
+
 use proptest::prelude::*;
 use soffio::math::{PI, StateHash, decibels};
 use soffio::noise::Random;
@@ -20,7 +27,14 @@ fn disc(radius: f64, thickness: f64) -> SoundBody {
 }
 
 fn spec(timbre: &str) -> InstrumentSpec {
-    InstrumentSpec { timbre: timbre.into(), body: disc(0.06, 5e-4), material: steel(), gain: 1.0, max_voices: 8 }
+    InstrumentSpec {
+        timbre: timbre.into(),
+        body: disc(0.06, 5e-4),
+        material: steel(),
+        surface: None,
+        gain: 1.0,
+        max_voices: 8,
+    }
 }
 
 fn strike(sample: u64, impulse: f32) -> Strike {
@@ -232,7 +246,13 @@ fn scene(seed: u64) -> (Vec<InstrumentSpec>, Vec<SoundCommand>) {
     }
     for step in 0..200 {
         let (speed, gust) = (random.range(0.0, 4.0) as f32, random.signed() as f32);
-        commands.push(SoundCommand::Wind(WindSound { sample: step * 200, speed, gust, pan: 0.2 }));
+        commands.push(SoundCommand::Wind(WindSound {
+            sample: step * 200,
+            speed,
+            gust,
+            pan: 0.2,
+            ..WindSound::default()
+        }));
     }
     commands.push(SoundCommand::Silence { sample: 41_003 });
     commands.sort_by_key(SoundCommand::sample);
@@ -278,7 +298,7 @@ fn the_same_scene_has_the_same_bits_in_every_build() {
 }
 
 /// Hash of the scene of seed 9, equal in debug and release.
-const GOLDEN: u64 = 0x664f_3a67_e400_3c2a;
+const GOLDEN: u64 = 0xc177_dc1b_ca06_bce2;
 
 #[test]
 fn a_hit_starts_on_its_own_sample() {
@@ -501,20 +521,9 @@ fn bad_numbers_never_reach_the_output() {
 /// Sound of steady wind, after it settled.
 fn wind(speed: f32, seconds: usize) -> Vec<f32> {
     let mut synth = synth(&[spec("wind-room")]);
-    synth.command(SoundCommand::Wind(WindSound { sample: 0, speed, gust: 0.0, pan: 0.0 }));
+    synth.command(SoundCommand::Wind(WindSound { sample: 0, speed, ..WindSound::default() }));
     render(&mut synth, RATE as usize / 2);
     render(&mut synth, seconds * RATE as usize)
-}
-
-#[test]
-fn wind_gains_eighteen_decibels_per_doubling() {
-    // Gusts are the same at the same time, so levels compare; the colour moves with the speed, which costs some.
-    const TOLERANCE: f64 = 3.0;
-    let levels: Vec<f64> = [0.75, 1.5, 3.0].iter().map(|&speed| decibels(rms(&wind(speed, 8)))).collect();
-    println!("wind at 0.75, 1.5, 3 m/s: {levels:.1?} dBFS");
-    for pair in levels.windows(2) {
-        assert!((pair[1] - pair[0] - 18.0).abs() < TOLERANCE, "{levels:?}");
-    }
 }
 
 #[test]
@@ -544,7 +553,7 @@ fn wind_falls_exactly_silent_and_never_jumps() {
     synth.set_dry(true);
     for step in 0..240 {
         let speed = if step % 40 < 20 { 3.0 } else { 0.0 };
-        synth.command(SoundCommand::Wind(WindSound { sample: step * 200, speed, gust: 0.5, pan: 0.0 }));
+        synth.command(SoundCommand::Wind(WindSound { sample: step * 200, speed, gust: 0.5, ..WindSound::default() }));
     }
     let out: Vec<f32> = render(&mut synth, RATE as usize).chunks(2).map(|f| f[0]).collect();
     let second: Vec<f32> = out.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
@@ -557,23 +566,6 @@ fn wind_falls_exactly_silent_and_never_jumps() {
 }
 
 #[test]
-fn gusts_have_the_slope_of_turbulence() {
-    // Level of octaves by differences over lag: a spectrum f^(−1−2H) has a structure function ∝ lag^(2H).
-    const TOLERANCE: f64 = 0.15;
-    let h = 0.33;
-    let n = 1 << 16;
-    let step = 1.0 / 256.0;
-    let g: Vec<f64> = (0..n).map(|i| soffio::sound::multifractal(i as f64 * step, 8, h, 3)).collect();
-    let structure =
-        |lag: usize| g.windows(lag + 1).map(|w| (w[lag] - w[0]) * (w[lag] - w[0])).sum::<f64>() / (n - lag) as f64;
-    let slope = soffio::math::ln(structure(128) / structure(8)) / soffio::math::ln(16.0);
-    let mean = g.iter().sum::<f64>() / n as f64;
-    println!("structure function exponent {slope:.3} (2H = {}), mean {mean:.3}", 2.0 * h);
-    assert!((slope - 2.0 * h).abs() < TOLERANCE, "{slope}");
-    assert!((mean - 1.0).abs() < 0.2, "{mean}");
-}
-
-#[test]
 fn silence_fades_everything() {
     let mut synth = synth(&[spec("bell"), spec("wind-room")]);
     synth.command(SoundCommand::Strike(strike(0, 1e-3)));
@@ -583,43 +575,6 @@ fn silence_fades_everything() {
     assert!(peak(&before[40_000..]) > 1e-2);
     render(&mut synth, 48_000);
     assert_eq!(peak(&render(&mut synth, 4800)), 0.0);
-}
-
-#[test]
-fn shipped_timbres_compile_and_ring() {
-    for name in timbre::names() {
-        let preset = Preset::shipped(name).expect("valid");
-        let mut synth = synth(&[spec(name)]);
-        if preset.continuous() {
-            synth.command(SoundCommand::Wind(WindSound { sample: 0, speed: 2.0, ..WindSound::default() }));
-        } else {
-            synth.command(SoundCommand::Strike(strike(0, 5e-4)));
-        }
-        assert!(peak(&render(&mut synth, RATE as usize)) > 1e-3, "{name}");
-    }
-}
-
-#[test]
-fn errors_in_presets_are_located() {
-    let plate = timbre::source("plate").expect("shipped");
-    let check = |text: &str, key: &str, part: &str| {
-        let error = Preset::parse("plate", text).expect_err(key);
-        assert_eq!(error.file, "audio/timbres/plate.toml");
-        assert_eq!(error.key, key, "{error}");
-        assert!(error.problem.contains(part), "{error}");
-    };
-    check(&plate.replace("partials = 60", "partial = 60"), "node.body", "partial");
-    check(&plate.replace("partials = 60", "partials = 6000"), "node.body.partials", "1024");
-    check(&plate.replace("in = \"dull\"", "in = \"dul\""), "node.click.in", "dull");
-    check(&plate.replace("in = \"hiss\"", "in = \"click\""), "node", "ring");
-    check(&plate.replace("node.out", "node.sum"), "node.out", "missing");
-    check(&plate.replace("timbre = 1", "timbre = 2"), "timbre", "version 2");
-    check(&plate.replace("name = \"plate\"", "name = plate"), "line 3", "");
-    check(&plate.replace("description", "descriptoin"), "top level", "descriptoin");
-    let error = Preset::shipped("plat").expect_err("no such timbre");
-    assert!(error.problem.contains("did you mean \"plate\""), "{error}");
-    let flat = InstrumentSpec { body: SoundBody { thickness: 0.0, ..disc(0.1, 1e-3) }, ..spec("plate") };
-    assert!(Synth::new(RATE, &[flat], 1).is_err());
 }
 
 proptest! {

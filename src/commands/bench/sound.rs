@@ -167,7 +167,7 @@ fn preset(partials: &[Partial]) -> Result<Preset, Failure> {
 fn scene() -> Result<Scene, Failure> {
     let material = SoundMaterial { youngs_modulus: 1e10, poisson: 0.3, density: 600.0, loss_factor: 1e-2 };
     let body = SoundBody { half_extents: [0.1, 0.05], thickness: 0.01, area: 0.02, mass: 0.12 };
-    let spec = InstrumentSpec { timbre: "heavy".into(), body, material, gain: 1.0, max_voices: 4 };
+    let spec = InstrumentSpec { timbre: "heavy".into(), body, material, surface: None, gain: 1.0, max_voices: 4 };
     let mut presets = Vec::new();
     for (_, bodies, count, band) in SCENE {
         for _ in 0..bodies {

@@ -195,6 +195,7 @@ impl Context<'_> {
             timbre: given.timbre.clone(),
             body: size,
             material: sound_material,
+            surface: None,
             gain: from_decibels(given.gain.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };

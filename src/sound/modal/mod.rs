@@ -6,13 +6,10 @@
 //! | `kernel` | the inner loops, for every set of vector instructions |
 //! | `pulse` | a hit's force over time and the ringing it leaves |
 //! | `bank` | the partials of one body: hits, a force at audio rate, touch, what has died away |
-//! | `shape` | how strongly each partial moves where |
 
 mod bank;
 mod kernel;
 mod pulse;
-mod shape;
 
 pub use bank::{Bank, Partial};
 pub use kernel::{BLOCK, FRAME, GROUP};
-pub use shape::{Beam, Place, Shape, free_free_root};

@@ -40,7 +40,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-5.0, 9.0), drift: 4.0, on: 0.07, full: 0.22, longest_s: 6.0 }
+        Self { believed: (-5.0, 9.0), drift: 4.0, on: 0.07, full: 0.4, longest_s: 6.0 }
     }
 }
 

@@ -4,23 +4,24 @@
 //! Bound numbers are read on a fixed grid of [`CONTROL`] samples of the synth's own clock; levels glide from one grid
 //! point to the next. Everything between is a recurrence sample by sample, so that the result does not
 //! depend on how the caller cuts its blocks.
+//!
+//! Real-time: delays need room, which [`Graph::make_room`] makes before the first sound; nothing else allocates.
 
-use super::gusts::multifractal;
-use super::timbre::{FilterKind, Inputs, MAX_NODES, Node, NoiseKind, Number, Preset, TimbreError};
-use crate::math::{PI, exp};
-use crate::noise::{Random, hash_words};
+mod noises;
+mod operator;
+mod state;
+mod surface;
+
+use super::timbre::{Inputs, MAX_NODES, Number, Preset, TimbreError};
+use super::{InstrumentSpec, SurfaceLine};
+use crate::noise::hash_words;
+use operator::Kind;
+pub(super) use state::State;
 
 /// Samples between two readings of bound numbers.
 pub(super) const CONTROL: usize = 64;
-/// An envelope below this is over: −120 dB.
-const OVER: f64 = 1e-6;
 /// One operator's block.
 pub(super) type Block = [f32; CONTROL];
-
-/// A compiled timbre.
-pub(super) struct Graph {
-    operators: Vec<Operator>,
-}
 
 /// Whose sound is rendered: what rings belongs to the body and adds up there, the rest to each hit by itself. A sum of
 /// both is taken apart; everything else that takes what rings is the body's.
@@ -28,6 +29,11 @@ pub(super) struct Graph {
 pub(super) enum Part {
     Body,
     Hit,
+}
+
+/// A compiled timbre.
+pub(super) struct Graph {
+    operators: Vec<Operator>,
 }
 
 struct Operator {
@@ -41,52 +47,16 @@ struct Operator {
     hits: bool,
 }
 
-enum Kind {
-    Modal,
-    White,
-    Multifractal { base: f64, octaves: u32, roughness: f64 },
-    Filter { kind: FilterKind, cutoff: Number, q: Number },
-    Env { decay: Number },
-    Sum,
-    Product,
-}
-
-/// What one operator of one voice remembers.
-#[derive(Clone)]
-pub(super) struct State {
-    /// Level now, and its change per sample.
-    gain: f64,
-    gain_step: f64,
-    random: Random,
-    /// Env and gust: value now; env: factor per sample; gust: change per sample.
-    value: f64,
-    change: f64,
-    /// Filter: the two integrators, and the coefficients.
-    integrators: [f64; 2],
-    g: f64,
-    damping: f64,
-    shrink: f64,
-    /// Whether anything that is heard takes this operator.
-    needed: bool,
-}
-
 impl Graph {
-    /// Compiles a checked preset.
-    pub fn compile(preset: &Preset) -> Result<Self, TimbreError> {
+    /// Compiles a checked preset for a body.
+    pub fn compile(preset: &Preset, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
         let order = preset.order(&preset.name)?;
         let index = |name: &str| order.iter().position(|known| *known == name).unwrap_or_default();
         let mut operators: Vec<Operator> = Vec::with_capacity(order.len());
         for name in &order {
             let node = &preset.node[*name];
-            let kind = match *node {
-                Node::Modal { .. } => Kind::Modal,
-                Node::Noise { kind: NoiseKind::White, .. } => Kind::White,
-                Node::Noise { base, octaves, roughness, .. } => Kind::Multifractal { base, octaves, roughness },
-                Node::Filter { kind, cutoff, q, .. } => Kind::Filter { kind, cutoff, q },
-                Node::Env { decay, .. } => Kind::Env { decay },
-                Node::Sum { .. } => Kind::Sum,
-                Node::Product { .. } => Kind::Product,
-            };
+            let kind = Kind::compile(node, spec.surface.as_ref())
+                .map_err(|problem| TimbreError::new(&preset.name, format!("node.{name}"), problem))?;
             // A bank's level is in its partials already, so that what is inaudible is never started.
             let gain = if matches!(kind, Kind::Modal) { Number::Fixed(1.0) } else { node.gain() };
             let inputs: Vec<usize> = node.inputs().iter().map(|input| index(input)).collect();
@@ -118,7 +88,16 @@ impl Graph {
         modal.inputs.first().copied()
     }
 
-    /// States of a voice that begins with these inputs.
+    /// Room for the delays of voices that may play this. Allocates.
+    pub fn make_room(&self, states: &mut [State; MAX_NODES], sample_rate: f64) {
+        for (operator, state) in self.operators.iter().zip(states) {
+            if matches!(operator.kind, Kind::Delay { .. }) {
+                state.make_room(sample_rate);
+            }
+        }
+    }
+
+    /// States of a voice or a body that begins with these inputs.
     pub fn begin(
         &self,
         part: Part,
@@ -129,19 +108,10 @@ impl Graph {
         sample_rate: f64,
     ) {
         for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
-            *state = State::new(hash_words(&[seed, i as u64]));
+            state.reset(hash_words(&[seed, i as u64]));
             state.gain = operator.gain.at(inputs);
-            match &operator.kind {
-                Kind::Env { decay } => {
-                    state.value = 1.0;
-                    state.change = exp(-1.0 / (decay.at(inputs).max(1e-5) * sample_rate));
-                }
-                Kind::Multifractal { base, octaves, roughness } => {
-                    state.value = multifractal(time * base, *octaves, *roughness, i as u64);
-                }
-                _ => {}
-            }
-            operator.tune(state, inputs, sample_rate);
+            operator.kind.begin(state, inputs, i as u64, time, sample_rate);
+            operator.kind.tune(state, inputs, sample_rate);
         }
         self.find_needed(part, states);
     }
@@ -150,11 +120,8 @@ impl Graph {
     pub fn control(&self, part: Part, states: &mut [State; MAX_NODES], inputs: &Inputs, time: f64, sample_rate: f64) {
         for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
             state.gain_step = (operator.gain.at(inputs) - state.gain) / CONTROL as f64;
-            if let Kind::Multifractal { base, octaves, roughness } = &operator.kind {
-                let next = multifractal((time + CONTROL as f64 / sample_rate) * base, *octaves, *roughness, i as u64);
-                state.change = (next - state.value) / CONTROL as f64;
-            }
-            operator.tune(state, inputs, sample_rate);
+            operator.kind.control(state, inputs, i as u64, time, sample_rate);
+            operator.kind.tune(state, inputs, sample_rate);
         }
         self.find_needed(part, states);
     }
@@ -199,7 +166,7 @@ impl Graph {
                         out.iter_mut().zip(&before[input]).for_each(|(y, x)| *y += x);
                     }
                 }
-                _ => operator.render(state, before, out),
+                _ => operator.kind.render(state, &operator.inputs, before, out),
             }
             if state.gain == 1.0 && state.gain_step == 0.0 {
                 continue;
@@ -232,95 +199,6 @@ impl Operator {
         match part {
             Part::Body => input.rings || !(self.rings && matches!(self.kind, Kind::Modal | Kind::Sum)),
             Part::Hit => input.hits,
-        }
-    }
-
-    /// Coefficients of a filter for the inputs of this moment.
-    fn tune(&self, state: &mut State, inputs: &Inputs, sample_rate: f64) {
-        if let Kind::Filter { cutoff, q, .. } = &self.kind {
-            let hz = cutoff.at(inputs).clamp(5.0, 0.45 * sample_rate);
-            state.g = libm::tan(PI * hz / sample_rate);
-            state.damping = 1.0 / q.at(inputs).clamp(0.1, 100.0);
-            state.shrink = 1.0 / (1.0 + state.g * (state.damping + state.g));
-            // Ringing below −400 dB is not worth the slow arithmetic of denormal numbers.
-            for integrator in &mut state.integrators {
-                if integrator.abs() < 1e-20 {
-                    *integrator = 0.0;
-                }
-            }
-        }
-    }
-
-    fn render(&self, state: &mut State, blocks: &[Block], out: &mut [f32]) {
-        let first = self.inputs.first().map(|&i| &blocks[i][..out.len()]);
-        match (&self.kind, first) {
-            (Kind::White, _) => out.iter_mut().for_each(|y| *y = state.random.signed() as f32),
-            (Kind::Multifractal { .. }, _) => {
-                for y in out {
-                    *y = state.value as f32;
-                    state.value += state.change;
-                }
-            }
-            (Kind::Filter { kind, .. }, Some(input)) => {
-                for (y, x) in out.iter_mut().zip(input) {
-                    *y = state.filter(f64::from(*x), *kind) as f32;
-                }
-            }
-            (Kind::Env { .. }, Some(_)) if state.value == 0.0 => out.fill(0.0),
-            (Kind::Env { .. }, Some(input)) => {
-                for (y, x) in out.iter_mut().zip(input) {
-                    *y = (f64::from(*x) * state.value) as f32;
-                    state.value *= state.change;
-                    if state.value < OVER {
-                        state.value = 0.0;
-                    }
-                }
-            }
-            (Kind::Product, Some(input)) => {
-                out.copy_from_slice(input);
-                for &other in &self.inputs[1..] {
-                    out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y *= x);
-                }
-            }
-            // A checked preset gives each of these an input; the graph itself makes the others.
-            (Kind::Filter { .. } | Kind::Env { .. } | Kind::Product, None) | (Kind::Modal | Kind::Sum, _) => {
-                out.fill(0.0)
-            }
-        }
-    }
-}
-
-impl State {
-    /// At rest.
-    pub fn new(seed: u64) -> Self {
-        Self {
-            gain: 0.0,
-            gain_step: 0.0,
-            random: Random::new(seed),
-            value: 0.0,
-            change: 0.0,
-            integrators: [0.0; 2],
-            g: 0.0,
-            damping: 1.0,
-            shrink: 1.0,
-            needed: false,
-        }
-    }
-
-    /// One sample of the state-variable filter by trapezoidal integration (Zavalishin, "The Art of VA Filter Design",
-    /// 2018, 4.1): stable under any change of its coefficients. g = tan(π f/fs), damping = 1/Q,
-    /// shrink = 1/(1 + g (damping + g)).
-    fn filter(&mut self, x: f64, kind: FilterKind) -> f64 {
-        let [s1, s2] = self.integrators;
-        let (g, damping) = (self.g, self.damping);
-        let high = (x - (damping + g) * s1 - s2) * self.shrink;
-        let band = g * high + s1;
-        let low = g * band + s2;
-        self.integrators = [2.0 * band - s1, 2.0 * low - s2];
-        match kind {
-            FilterKind::LowPass => low,
-            FilterKind::BandPass => damping * band,
-            FilterKind::HighPass => high,
         }
     }
 }

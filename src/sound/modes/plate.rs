@@ -16,8 +16,8 @@
 //! tables), the upper half is thrown away.
 
 use super::eigen::{Matrix, generalised};
-use super::{SoundBody, SoundMaterial};
 use crate::math::{PI, cos, pow};
+use crate::sound::{SoundBody, SoundMaterial};
 
 /// Largest total degree of the Ritz polynomials.
 pub const DEGREE: usize = 18;

@@ -1,0 +1,73 @@
+//! One timbre by itself, on its specimen: for listening and measuring.
+
+use crate::simulation::SAMPLE_RATE;
+use crate::sound::timbre::Specimen;
+use crate::sound::{Preset, Slide, SoundCommand, Strike, SurfaceLine, Synth, TimbreError, WindSound};
+
+/// What plays the timbre, beside the numbers of the specimen.
+#[derive(Clone, Debug, Default)]
+pub struct Audition {
+    /// Greatest force of the hit, N, instead of its impulse: J = 2Fτ/π for a half sine of Hertz's duration τ.
+    pub peak_force: Option<f64>,
+    /// Where the wind goes, rad.
+    pub direction: f64,
+    /// Line of the surface, for timbres that read a picture.
+    pub surface: Option<SurfaceLine>,
+    /// Seed of everything drawn by chance.
+    pub seed: u64,
+}
+
+/// Why there is no sound.
+#[derive(Debug, thiserror::Error)]
+pub enum AuditionError {
+    /// The timbre cannot be built on this body.
+    #[error(transparent)]
+    Timbre(#[from] TimbreError),
+    /// A number is not one.
+    #[error("a number given cannot be played: all must be finite, an impulse, masses and forces at least 0")]
+    Number,
+}
+
+impl Audition {
+    /// Renders so many seconds, mono, dry, at 1 m: full scale is ±1, more is possible.
+    pub fn render(&self, preset: &Preset, specimen: &Specimen, seconds: f64) -> Result<Vec<f32>, AuditionError> {
+        let mut spec = specimen.spec(&preset.name);
+        spec.surface = self.surface.clone();
+        let mut synth = Synth::with_preset(SAMPLE_RATE, preset, &spec, self.seed)?;
+        synth.set_dry(true);
+        synth.command(self.command(preset, specimen, &synth));
+        let mut stereo = vec![0.0; 2 * (seconds * f64::from(SAMPLE_RATE)) as usize];
+        synth.render(&mut stereo);
+        if synth.faults() > 0 {
+            return Err(AuditionError::Number);
+        }
+        // A centred sound is 1/√2 on either side: their sum over √2 is the sound itself.
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        Ok(stereo.as_chunks::<2>().0.iter().map(|[left, right]| (left + right) * half).collect())
+    }
+
+    fn command(&self, preset: &Preset, s: &Specimen, synth: &Synth) -> SoundCommand {
+        let position = [s.at as f32, s.at_y as f32];
+        let (sample, instrument, pan, distance) = (0, 0, 0.0, 1.0);
+        if preset.slides() {
+            let (speed, force) = (s.slip as f32, s.force as f32);
+            return SoundCommand::Slide(Slide { sample, instrument, speed, force, position, pan, distance });
+        }
+        if preset.continuous() {
+            let (speed, direction) = (s.wind as f32, self.direction as f32);
+            return SoundCommand::Wind(WindSound { sample, speed, gust: 0.0, direction, pan });
+        }
+        let contact_time = synth.contact_time(0, s.hit_mass, s.speed).unwrap_or_default();
+        let impulse = self.peak_force.map_or(s.impulse, |force| 2.0 * force * contact_time / std::f64::consts::PI);
+        SoundCommand::Strike(Strike {
+            sample,
+            instrument,
+            impulse: impulse as f32,
+            speed: s.speed as f32,
+            mass: s.hit_mass as f32,
+            position,
+            pan,
+            distance,
+        })
+    }
+}

@@ -1,0 +1,109 @@
+//! What the pictures show: spectra, spectrograms, and how long each band rings.
+
+use std::sync::Arc;
+
+use realfft::{RealFftPlanner, RealToComplex};
+
+use crate::math::{PI, cos, decibels, log10};
+
+/// Power of frames of a sound, a row of bins each.
+pub struct Frames {
+    /// Power of each bin, full-scale sine = 1.
+    pub rows: Vec<Vec<f64>>,
+    /// Hz from bin to bin.
+    pub bin: f64,
+    /// s from row to row.
+    pub hop: f64,
+}
+
+impl Frames {
+    /// Frames of `n` samples, Hann's window, a quarter apart.
+    pub fn new(sound: &[f32], rate: f64, n: usize) -> Self {
+        let transform: Arc<dyn RealToComplex<f64>> = RealFftPlanner::new().plan_fft_forward(n);
+        let window: Vec<f64> = (0..n).map(|i| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / n as f64)).collect();
+        let mut bins = transform.make_output_vec();
+        let mut rows = Vec::new();
+        let hop = n / 4;
+        // The first frame is centred on the first sample, so that an attack is not windowed away.
+        let mut start = -(n as i64) / 2;
+        while start + (n as i64) / 2 < sound.len() as i64 {
+            let at = |i: usize| {
+                usize::try_from(start + i as i64).ok().and_then(|i| sound.get(i)).map_or(0.0, |x| f64::from(*x))
+            };
+            let mut part: Vec<f64> = window.iter().enumerate().map(|(i, w)| w * at(i)).collect();
+            if transform.process(&mut part, &mut bins).is_ok() {
+                let scale = 16.0 / (n * n) as f64;
+                rows.push(bins.iter().map(|b| scale * b.norm_sqr()).collect());
+            }
+            start += hop as i64;
+        }
+        Self { rows, bin: rate / n as f64, hop: hop as f64 / rate }
+    }
+
+    /// Mean power of each bin over all frames.
+    pub fn mean(&self) -> Vec<f64> {
+        let mut sum = vec![0.0; self.rows.first().map_or(0, Vec::len)];
+        for row in &self.rows {
+            sum.iter_mut().zip(row).for_each(|(s, p)| *s += p / self.rows.len() as f64);
+        }
+        sum
+    }
+
+    /// Power between two frequencies in each frame.
+    fn band(&self, low: f64, high: f64) -> Vec<f64> {
+        let (first, last) = ((low / self.bin) as usize, (high / self.bin).ceil() as usize);
+        self.rows.iter().map(|row| row[first.min(row.len() - 1)..last.min(row.len())].iter().sum()).collect()
+    }
+}
+
+/// T60 of half octaves as they are heard: (Hz, s) of each band that falls far enough to tell.
+pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
+    /// Fall over which the slope is taken, dB below the band's top.
+    const FALL: (f64, f64) = (-3.0, -23.0);
+    /// Bands this far below the loudest are not heard.
+    const FAINT: f64 = 1e-6;
+    let mut out = Vec::new();
+    let bands: Vec<(f64, Vec<f64>)> = (0..19)
+        .map(|i| {
+            let centre = 40.0 * crate::math::pow(2.0, 0.5 * f64::from(i));
+            (centre, frames.band(centre / 1.19, centre * 1.19))
+        })
+        .filter(|(centre, _)| *centre > 3.0 * frames.bin && *centre < 19_000.0)
+        .collect();
+    let top_of = |levels: &[f64]| levels.iter().copied().fold(0.0, f64::max);
+    let loudest = bands.iter().map(|(_, levels)| top_of(levels)).fold(0.0, f64::max);
+    for (centre, levels) in bands {
+        let top = top_of(&levels);
+        let start = levels.iter().position(|p| *p == top).unwrap_or(0);
+        if top <= FAINT * loudest {
+            continue;
+        }
+        let fallen = |db: f64| levels[start..].iter().position(|p| 10.0 * log10(p / top) < db).map(|i| start + i);
+        let (Some(from), Some(to)) = (fallen(FALL.0), fallen(FALL.1)) else { continue };
+        if to < from + 3 {
+            continue;
+        }
+        let points: Vec<(f64, f64)> =
+            (from..to).map(|i| (i as f64 * frames.hop, 10.0 * log10(levels[i].max(1e-30)))).collect();
+        let n = points.len() as f64;
+        let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
+        let slope = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum::<f64>()
+            / points.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum::<f64>();
+        if slope < 0.0 {
+            out.push((centre, -60.0 / slope));
+        }
+    }
+    out
+}
+
+/// Greatest sample, dBFS.
+pub fn peak(sound: &[f32]) -> f64 {
+    decibels(f64::from(sound.iter().fold(0.0f32, |m, x| m.max(x.abs()))))
+}
+
+/// Root mean square of the loudest 50 ms, dBFS.
+pub fn loudest(sound: &[f32], rate: f64) -> f64 {
+    let n = (0.05 * rate) as usize;
+    let power = |part: &[f32]| part.iter().map(|x| f64::from(*x) * f64::from(*x)).sum::<f64>() / part.len() as f64;
+    decibels(sound.chunks(n).map(power).fold(0.0, f64::max).sqrt())
+}

@@ -1,0 +1,190 @@
+//! The kinds of operators: how each begins, follows the motion, and renders.
+
+use std::sync::Arc;
+
+use super::noises::{Pink, Slow};
+use super::state::State;
+use super::surface::Pyramid;
+use super::{Block, CONTROL, SurfaceLine};
+use crate::math::{PI, exp};
+use crate::sound::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
+
+/// An envelope below this is over: −120 dB.
+const OVER: f64 = 1e-6;
+/// What is below this on a delay's line is not waited for: −100 dB.
+const INAUDIBLE: f32 = 1e-5;
+/// Shortest time constant of an envelope, s.
+const SHORTEST: f64 = 1e-5;
+
+pub(super) enum Kind {
+    Modal,
+    White,
+    Pink(Pink),
+    Slow(Slow),
+    Texture { line: Arc<Pyramid>, speed: Number },
+    Filter { kind: FilterKind, cutoff: Number, q: Number },
+    Env { attack: Number, decay: Number },
+    Value,
+    Map { points: Vec<[f64; 2]> },
+    Delay { time: Number, feedback: f32 },
+    Sum,
+    Product,
+}
+
+impl Kind {
+    /// An operator of a checked node. The error says what the node lacks.
+    pub fn compile(node: &Node, surface: Option<&SurfaceLine>) -> Result<Self, String> {
+        Ok(match node {
+            Node::Modal(_) => Self::Modal,
+            Node::Noise(noise) => match noise.kind {
+                NoiseKind::White => Self::White,
+                NoiseKind::Pink => Self::Pink(Pink::new()),
+                NoiseKind::Perlin | NoiseKind::Multifractal => Self::Slow(Slow::new(noise)),
+            },
+            Node::Texture(texture) => {
+                let line = match (texture.kind, surface) {
+                    (TextureKind::Image, Some(surface)) => Pyramid::of_picture(surface)?,
+                    (TextureKind::Image, None) => {
+                        return Err("kind \"image\" needs a body whose surface has a picture; this one has none".into());
+                    }
+                    _ => Pyramid::of_texture(texture),
+                };
+                Self::Texture { line: Arc::new(line), speed: texture.speed }
+            }
+            Node::Filter(filter) => Self::Filter { kind: filter.kind, cutoff: filter.cutoff, q: filter.q },
+            Node::Env(env) => Self::Env { attack: env.attack, decay: env.decay },
+            Node::Value(_) => Self::Value,
+            Node::Map(map) => Self::Map { points: map.points.clone() },
+            Node::Delay(delay) => Self::Delay { time: delay.time, feedback: delay.feedback as f32 },
+            Node::Sum(_) => Self::Sum,
+            Node::Product(_) => Self::Product,
+        })
+    }
+
+    /// The first state of a voice.
+    pub fn begin(&self, state: &mut State, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
+        match self {
+            Self::Env { attack, decay } => {
+                let attack = attack.at(inputs);
+                (state.value, state.rise) = if attack > 0.0 {
+                    let rise = (1.0 / (attack * sample_rate)).min(1.0);
+                    (rise, rise)
+                } else {
+                    (1.0, 0.0)
+                };
+                state.change = exp(-1.0 / (decay.at(inputs).max(SHORTEST) * sample_rate));
+            }
+            Self::Slow(slow) => slow.begin(state, seed, time, sample_rate),
+            Self::Texture { line, speed } => {
+                // Anywhere on the surface: no two strokes are the same.
+                state.place = state.random.unit() * line.points() as f64;
+                state.value = line.step(speed.at(inputs), sample_rate);
+                state.level[0] = line.level(state.value);
+            }
+            Self::Delay { time, .. } => {
+                let samples = (time.at(inputs).max(0.0) * sample_rate) as usize;
+                state.used = samples.min(state.line.len());
+                state.line[..state.used].fill(0.0);
+            }
+            _ => {}
+        }
+    }
+
+    /// A point of the control grid.
+    pub fn control(&self, state: &mut State, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
+        match self {
+            Self::Slow(slow) => slow.control(state, seed, time, sample_rate),
+            Self::Texture { line, speed } => {
+                let target = line.step(speed.at(inputs), sample_rate);
+                state.change = (target - state.value) / CONTROL as f64;
+                state.level[1] = (line.level(target) - state.level[0]) / CONTROL as f64;
+            }
+            _ => {}
+        }
+    }
+
+    /// Coefficients of a filter for the inputs of this moment.
+    pub fn tune(&self, state: &mut State, inputs: &Inputs, sample_rate: f64) {
+        if let Self::Filter { cutoff, q, .. } = self {
+            let hz = cutoff.at(inputs).clamp(5.0, 0.45 * sample_rate);
+            state.g = libm::tan(PI * hz / sample_rate);
+            state.damping = 1.0 / q.at(inputs).clamp(0.1, 100.0);
+            state.shrink = 1.0 / (1.0 + state.g * (state.damping + state.g));
+            // Ringing below −400 dB is not worth the slow arithmetic of denormal numbers.
+            for integrator in &mut state.integrators {
+                if integrator.abs() < 1e-20 {
+                    *integrator = 0.0;
+                }
+            }
+        }
+    }
+
+    /// The next samples. Sums and what rings are the graph's.
+    pub fn render(&self, state: &mut State, inputs: &[usize], blocks: &[Block], out: &mut [f32]) {
+        let first = inputs.first().map(|&i| &blocks[i][..out.len()]);
+        match (self, first) {
+            (Self::White, _) => out.iter_mut().for_each(|y| *y = state.random.signed() as f32),
+            (Self::Pink(pink), _) => pink.render(state, out),
+            (Self::Slow(slow), _) => slow.render(state, out),
+            (Self::Texture { line, .. }, _) => line.render(state, out),
+            (Self::Value, _) => out.fill(1.0),
+            (Self::Filter { kind, .. }, Some(input)) => {
+                for (y, x) in out.iter_mut().zip(input) {
+                    *y = state.filter(f64::from(*x), *kind) as f32;
+                }
+            }
+            (Self::Env { .. }, Some(_)) if state.value == 0.0 => out.fill(0.0),
+            (Self::Env { .. }, Some(input)) => {
+                for (y, x) in out.iter_mut().zip(input) {
+                    *y = (f64::from(*x) * state.value) as f32;
+                    if state.rise > 0.0 {
+                        state.value += state.rise;
+                        if state.value >= 1.0 {
+                            (state.value, state.rise) = (1.0, 0.0);
+                        }
+                    } else {
+                        state.value *= state.change;
+                        if state.value < OVER {
+                            state.value = 0.0;
+                        }
+                    }
+                }
+            }
+            (Self::Map { points }, Some(input)) => {
+                for (y, x) in out.iter_mut().zip(input) {
+                    *y = curve(points, f64::from(*x)) as f32;
+                }
+            }
+            (Self::Delay { .. }, Some(input)) if state.used == 0 => out.copy_from_slice(input),
+            (Self::Delay { feedback, .. }, Some(input)) => {
+                for (y, x) in out.iter_mut().zip(input) {
+                    *y = state.line[state.at];
+                    let again = x + feedback * *y;
+                    // Denormal numbers are slow and not heard.
+                    state.line[state.at] = if again.abs() < 1e-20 { 0.0 } else { again };
+                    state.held = if again.abs() > INAUDIBLE { state.used } else { state.held.saturating_sub(1) };
+                    state.at = if state.at + 1 == state.used { 0 } else { state.at + 1 };
+                }
+            }
+            (Self::Product, Some(input)) => {
+                out.copy_from_slice(input);
+                for &other in &inputs[1..] {
+                    out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y *= x);
+                }
+            }
+            // A checked preset gives each of these an input; the graph itself makes sums and what rings.
+            _ => out.fill(0.0),
+        }
+    }
+}
+
+/// Straight lines between ascending points, level beyond them.
+fn curve(points: &[[f64; 2]], x: f64) -> f64 {
+    let after = points.iter().position(|p| p[0] > x).unwrap_or(points.len());
+    match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
+        (None, Some(first)) => first[1],
+        (Some(last), None) => last[1],
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]),
+        (None, None) => 0.0,
+    }
+}
