@@ -25,9 +25,9 @@ use problem::{Problem, Source, Touch};
 use row::ROW_ENDS;
 
 pub use hit::{Strike, Struck, strike};
-pub use touching::Touching;
 pub(super) use rest::Verdict;
 pub(super) use row::Row;
+pub use touching::Touching;
 
 /// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
 const REST_SPEED: f64 = 4e-3;

@@ -47,9 +47,12 @@ impl Contacts {
         let across = |v: DVec3| v - v.dot(held.normal) * held.normal;
         let (one, other) = (velocity(first), velocity(second));
         // The way of the point in the substep that it was found in; a world that stands still has no lever.
-        let way = held.ends.iter().flatten().next().map_or(DVec3::ZERO, |lever| {
-            lever.way / held.span + bodies[lever.body].velocity
-        });
+        let way = held
+            .ends
+            .iter()
+            .flatten()
+            .next()
+            .map_or(DVec3::ZERO, |lever| lever.way / held.span + bodies[lever.body].velocity);
         Touching {
             pair,
             bodies: [first, second],
