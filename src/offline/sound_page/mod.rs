@@ -58,7 +58,7 @@ pub fn write(folder: &Path, subjects: &[Subject]) -> Result<(), PageError> {
     for subject in subjects {
         let (preset, ..) = subject;
         let sheet = Sheet::new(subject)?;
-        wav::write_float(&folder.join(format!("{}.wav", preset.name)), 1, SAMPLE_RATE, &sheet.sound)?;
+        wav::write_float(folder.join(format!("{}.wav", preset.name)), 1, SAMPLE_RATE, &sheet.sound)?;
         let mut bytes = Vec::new();
         sheet.draw()?.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)?;
         whole(&folder.join(format!("{}.png", preset.name)), &bytes)?;
