@@ -15,9 +15,9 @@
 //! Each fused multiply-add is rounded once on every processor (where there is no such instruction, exact arithmetic in
 //! f64 stands for it), and every sum has one order: the bits are the same at every level of instructions.
 //!
-//! **Driven** by a force f[j] at audio rate, z[j+1] = ρ (z[j] + b f[j]) for a partial of gain b. Over one frame the force
-//! adds d = Σ_k f[k] ρ^(16−k) to the phasor (by Horner's rule, a group side by side), and within the frame it is heard
-//! through the body's first sixteen samples of impulse response h[k] = Σ b Im ρ^k: exact but for rounding.
+//! **Driven** by a force f_j at audio rate, z_(j+1) = ρ (z_j + b f_j) for a partial of gain b. Over one frame the force
+//! adds d = Σ_k f_k ρ^(16−k) to the phasor (by Horner's rule, a group side by side), and within the frame it is heard
+//! through the body's first sixteen samples of impulse response h_k = Σ b Im ρ^k: exact but for rounding.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, f64x8};
