@@ -160,11 +160,11 @@ impl<'a> Sheet<'a> {
         };
         chart.frame(canvas, title, if scale > 1.0 { "ms" } else { "s" }, "full scale = 1");
         if part.len() > 2 * place[2] as usize {
-            // More samples than pixels: the range within each column.
+            // More samples than pixels: the range within each column, up to where the next begins.
             let per = part.len() as f64 / place[2];
             for column in 0..place[2] as usize {
-                let cell =
-                    &part[(column as f64 * per) as usize..(((column + 1) as f64 * per) as usize).min(part.len())];
+                let first = |column: usize| (column as f64 * per) as usize;
+                let cell = &part[first(column)..(first(column + 1) + 1).min(part.len())];
                 let low = cell.iter().copied().fold(f32::MAX, f32::min);
                 let high = cell.iter().copied().fold(f32::MIN, f32::max);
                 let t = chart.x.value((column as f64 + 0.5) / place[2]);
