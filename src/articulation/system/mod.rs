@@ -1,0 +1,351 @@
+//! The articulated figure: joints, their rows, and one factor that all solves share.
+//!
+//! Used in this order: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
+//! accelerations, displacements, velocity changes, responses to a unit impulse.
+
+mod joint;
+mod report;
+mod solve;
+
+use fearless_simd::Level;
+
+use super::activity::Activity;
+use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled};
+use super::dense::Dense;
+use super::hung::Hung;
+use super::loops::{LoopRow, Loops};
+use super::quads::Quads;
+use super::rows::Scene;
+use super::rows::coupling::{self, Gauge};
+use super::spatial::response;
+use super::tree::{Form, JointRows, Link, Tree};
+use super::{Constraint, ConstraintKind};
+use crate::bodies::RigidBody;
+use crate::math::{DMat3, DVec3};
+pub use joint::{Joint, RowState};
+use joint::{is_only_point, joints, lone_point};
+
+/// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
+pub(super) const PROJECTION_REACH: f64 = 1e-4;
+
+/// Most held rows of a pair of bodies, twice over; three of friction may come after them.
+const HELD: usize = MAX_ROWS - 3;
+
+/// Which linear solver finds the multipliers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// The tree factor, linear in the number of bodies.
+    #[default]
+    Sparse,
+    /// One dense matrix of all rows: the reference.
+    Dense,
+}
+
+/// A constraint that couples turns and ways.
+#[derive(Clone, Debug)]
+struct Coupling {
+    constraint: usize,
+    at: usize,
+    terms: Vec<(Gauge, f64)>,
+    /// Index among the loops' rows.
+    outside: usize,
+}
+
+/// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
+#[derive(Clone, Debug)]
+pub struct System {
+    constraints: Vec<Constraint>,
+    /// Is any row being drawn together?
+    gathering: bool,
+    /// What acts now.
+    pub activity: Activity,
+    joints: Vec<Joint>,
+    /// Joints that are not always one point by which a body hangs.
+    various: Vec<usize>,
+    couplings: Vec<Coupling>,
+    blocks: Vec<JointRows>,
+    states: Vec<RowState>,
+    tree: Tree,
+    hung: Hung,
+    /// Do the rows' numbers hold the values of the last evaluation?
+    told: bool,
+    loops: Loops,
+    dense: Option<Dense>,
+    quads: Quads,
+    /// Rotation matrices, where a row asks for them.
+    frames: Vec<DMat3>,
+    driven: Vec<bool>,
+    /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
+    pub b: Vec<Vec6>,
+    /// Wanted J a per row.
+    pub g: Vec<f64>,
+    /// Answer per body: acceleration, velocity change or displacement. Of driven bodies it is given.
+    pub a: Vec<Vec6>,
+    /// Answer per row: force or impulse.
+    pub lambda: Vec<f64>,
+}
+
+impl System {
+    /// The figure of `bodies` at its start, joined by `constraints`; `driven` says whose motion is given.
+    pub fn new(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
+        Self::at_level(Level::new(), bodies, driven, constraints, method)
+    }
+
+    /// The same for a processor of this level; what it finds does not depend on it.
+    pub fn at_level(
+        level: Level,
+        bodies: &[RigidBody],
+        driven: &[bool],
+        constraints: &[Constraint],
+        method: Method,
+    ) -> Self {
+        let (mut joints, mut count) = joints(constraints);
+        let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
+        let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
+        let points: Vec<bool> = joints
+            .iter()
+            .map(|joint| method == Method::Sparse && joint.constraints.iter().all(|&c| is_only_point(&constraints[c])))
+            .zip(&joints)
+            .map(|(all, joint)| all && joint.constraints.len() == 1)
+            .collect();
+        let tree = Tree::new(level, driven, &links, &at, &points);
+        let mut blocks = Vec::new();
+        let mut outside: Vec<LoopRow> = Vec::new();
+        for (index, joint) in joints.iter_mut().enumerate() {
+            joint.point = lone_point(joint, constraints, bodies);
+            let closes = tree.loops().contains(&index);
+            if closes || method == Method::Dense {
+                joint.outside = Some(outside.len());
+                let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
+                for k in 0..joint.capacity {
+                    outside.push(blank_row(joint.at + k, k, &parts));
+                }
+            }
+            if !points[index] || closes {
+                joint.block = Some(blocks.len());
+                blocks.push(JointRows::default());
+            }
+        }
+        let mut couplings = Vec::new();
+        for (index, constraint) in constraints.iter().enumerate() {
+            let ConstraintKind::Coupling { terms } = &constraint.kind else { continue };
+            let terms: Vec<_> = terms.iter().map(|t| (Gauge::new(t.measure, bodies), t.coefficient)).collect();
+            let mut parts: Vec<usize> = Vec::new();
+            for body in terms.iter().flat_map(|(gauge, _)| [gauge.bodies().0, gauge.bodies().1]).flatten() {
+                if !parts.contains(&body) {
+                    parts.push(body);
+                }
+            }
+            couplings.push(Coupling { constraint: index, at: count, terms, outside: outside.len() });
+            outside.push(blank_row(count, 0, &parts));
+            count += 1;
+        }
+        let (loop_rows, dense) = match method {
+            Method::Sparse => (outside, None),
+            Method::Dense => (Vec::new(), Some(Dense::new(outside, driven))),
+        };
+        let n = bodies.len();
+        for &body in tree.order() {
+            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !driven[body]) {
+                joints[joint].hangs = Some(body);
+            }
+        }
+        let ends = |body: usize| {
+            let joint = tree.joint_of(body).map(|joint| &joints[joint]).filter(|joint| joint.hangs == Some(body))?;
+            joint.point.map(|(a, b)| if joint.link.a == body { (a, b) } else { (b, a) })
+        };
+        let hung = Hung::new(&tree, ends);
+        let various: Vec<usize> = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none()).collect();
+        let asked = !(various.is_empty() && couplings.is_empty());
+        let mut states = vec![RowState::default(); count];
+        for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
+            (joint.rows, joint.hard) = (3, 3);
+            for state in &mut states[joint.at..joint.at + 3] {
+                (state.length, state.constraint, state.share) = (true, joint.constraints[0], 1.0);
+            }
+        }
+        Self {
+            gathering: false,
+            activity: Activity::new(constraints),
+            loops: Loops::new(loop_rows, &tree, driven, count),
+            constraints: constraints.to_vec(),
+            joints,
+            couplings,
+            blocks,
+            states,
+            quads: Quads::new(level, tree.members(), bodies),
+            tree,
+            hung,
+            told: false,
+            various,
+            dense,
+            frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
+            driven: driven.to_vec(),
+            b: vec![[0.0; 6]; n],
+            g: vec![0.0; count],
+            a: vec![[0.0; 6]; n],
+            lambda: vec![0.0; count],
+        }
+    }
+
+    /// The constraints, in the order given.
+    pub fn constraints(&self) -> &[Constraint] {
+        &self.constraints
+    }
+
+    /// The joints between pairs of bodies.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Numbers of all rows.
+    pub fn states(&self) -> &[RowState] {
+        &self.states
+    }
+
+    /// Whose motion is given?
+    pub fn driven(&self) -> &[bool] {
+        &self.driven
+    }
+
+    /// The coupling's row at an index, if there is one.
+    pub(super) fn coupling_row(&self, index: usize) -> Option<usize> {
+        self.couplings.get(index).map(|coupling| coupling.at)
+    }
+
+    /// What the bodies of a row answer to it, each alone.
+    pub(super) fn response(&self, row: usize) -> f64 {
+        response(&self.jacobian(row), &self.driven, &self.quads)
+    }
+
+    /// The bodies by fours, as they stood at the last evaluation.
+    pub fn quads(&self) -> &Quads {
+        &self.quads
+    }
+
+    /// The same, to be moved before an evaluation.
+    pub fn quads_mut(&mut self) -> &mut Quads {
+        &mut self.quads
+    }
+
+    /// Is there any joint that looks at the bodies themselves?
+    pub fn asks_bodies(&self) -> bool {
+        !self.frames.is_empty()
+    }
+
+    /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
+    pub fn evaluate(&mut self, bodies: &[RigidBody]) {
+        self.quads.look(bodies);
+        self.evaluate_quads(bodies);
+        self.tell_values();
+    }
+
+    /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
+    pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
+        self.hung.evaluate(self.quads.all(), &mut self.tree);
+        self.told = false;
+        for (body, frame) in self.frames.iter_mut().enumerate() {
+            *frame = self.quads.frame(body);
+        }
+        let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        for &index in &self.various {
+            let joint = &mut self.joints[index];
+            joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
+            joint.write_outside(&self.blocks, outside);
+        }
+        for coupling in &mut self.couplings {
+            let share = self.activity.share(coupling.constraint);
+            let slot = &mut outside[coupling.outside];
+            slot.active = share > 0.0;
+            slot.compliance[0] = 0.0;
+            let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
+            self.states[coupling.at].set(&row, coupling.constraint, share);
+        }
+        // Whoever draws open joints together, or lets them yield, asks how far they are open.
+        if self.gathering {
+            self.tell_values();
+        }
+    }
+
+    /// Adds the soft rows of pivot friction for a time `h` (s), with the loads (N) that the joints carry.
+    pub fn add_friction(&mut self, bodies: &[RigidBody], loads: &[f64], h: f64) {
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        for (joint, &load) in self.joints.iter_mut().zip(loads) {
+            joint.add_friction(&self.constraints, bodies, load, h, &mut self.blocks, &mut self.states);
+            joint.write_outside(&self.blocks, outside);
+        }
+    }
+
+    /// Factors the system at the configuration last evaluated.
+    pub fn factor(&mut self) {
+        self.factor_rows();
+        if self.activity.is_partial() {
+            self.soften();
+            self.factor_rows();
+        }
+    }
+
+    /// Factors the rows as they are.
+    fn factor_rows(&mut self) {
+        if let Some(dense) = &mut self.dense {
+            dense.factor(&self.quads, self.gathering);
+            return;
+        }
+        let (joints, blocks) = (&self.joints, &self.blocks);
+        self.tree.factor(self.quads.all(), |index| {
+            let joint = &joints[index];
+            match (joint.arms, joint.block) {
+                (Some((a, b)), _) => Form::Point(a, b),
+                (None, Some(block)) => Form::Rows(&blocks[block]),
+                (None, None) => unreachable!("a joint is a point or has a block"),
+            }
+        });
+        self.loops.factor(&self.tree, &self.quads, self.gathering);
+    }
+
+    /// Writes Γ = D K D among these rows of one joint or of a coupling, D diagonal.
+    pub(super) fn set_compliance(&mut self, rows: &[usize], k: &RowSquare, d: &RowVec) {
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        if let Some(joint) = self.joints.iter().find(|joint| (joint.at..joint.at + joint.hard).contains(&rows[0])) {
+            let Some(block) = joint.block else { return };
+            for (i, &row) in rows.iter().enumerate() {
+                for (j, &other) in rows[..=i].iter().enumerate() {
+                    self.blocks[block].compliance[row - joint.at][other - joint.at] = d[i] * d[j] * k[i][j];
+                }
+            }
+            joint.write_outside(&self.blocks, outside);
+        } else if let Some(coupling) = self.couplings.iter().find(|coupling| coupling.at == rows[0]) {
+            outside[coupling.outside].compliance[0] = d[0] * d[0] * k[0][0];
+        }
+    }
+
+    /// World arms of a joint that is one point now.
+    fn arms_of(&self, joint: &Joint) -> Option<(DVec3, DVec3)> {
+        joint.hangs.map_or(joint.arms, |body| Some(self.tree.arms(body)))
+    }
+
+    /// Rows outside the tree.
+    fn outside_rows(&self) -> &[LoopRow] {
+        self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
+    }
+
+    /// Adds `s` times a row's transposed blocks to the right-hand side.
+    pub fn push_impulse(&mut self, body: usize, block: &Vec6, s: f64) {
+        add_scaled(&mut self.b[body], s, block);
+    }
+
+    /// Counts the turns of couplings up to this state; once a step.
+    pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+        for coupling in &mut self.couplings {
+            for (gauge, _) in &mut coupling.terms {
+                gauge.count(bodies);
+            }
+        }
+    }
+}
+
+fn blank_row(at: usize, place: usize, bodies: &[usize]) -> LoopRow {
+    let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
+    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS] }
+}
