@@ -9,10 +9,10 @@
 //! Invariant: every piece of a [`Mobile`] but the first hangs at a mark of one before it, the poses say where.
 
 use soffio::bodies::MassProperties;
-use soffio::math::{DVec2, DVec3, PI, Pose};
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::outline::ring;
-use super::piece::{Bend, Piece, load};
+use super::piece::{Bend, Piece, load, yaw};
 
 /// Corners of an eye bent in wire.
 pub const EYE_STEPS: usize = 12;
@@ -92,6 +92,43 @@ pub fn branch(branch: &Branch) -> Piece {
     let start = left_load / (left_load + right_load) * branch.chord;
     let right = (0..40).fold(start, |right, _| right - loaded(&bend(right)).center.x);
     bend(right)
+}
+
+/// What the two branches of a [`cascade`] are bent from, the upper one first.
+pub struct Wires {
+    /// m.
+    pub radius: [f64; 2],
+    /// Radius of the loop and the eyes, m.
+    pub eye: [f64; 2],
+    /// Between the two loads, m.
+    pub chord: [f64; 2],
+    /// How far the ends droop, m.
+    pub droop: [f64; 2],
+    /// The lower branch against the upper one, rad.
+    pub lower_yaw: f64,
+}
+
+/// Three pieces on two branches: the large one on the left of the upper branch, on its right a lower one with the
+/// middle and the small one.
+pub fn cascade(hook: DVec3, wires: &Wires, [large, middle, small]: [Piece; 3], stand: Piece) -> Mobile {
+    let bent = |i: usize, names, loads| {
+        let Wires { radius, eye, chord, droop, .. } = wires;
+        branch(&Branch { names, radius: radius[i], eye: eye[i], chord: chord[i], droop: droop[i], loads })
+    };
+    let loads = [small.mass().mass, middle.mass().mass];
+    let lower = bent(1, ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"], loads);
+    let below = lower.mass().mass + small.mass().mass + middle.mass().mass;
+    let loads = [below, large.mass().mass];
+    let upper = bent(0, ["Upper", "UpperLoop", "UpperWire", "UpperRight", "UpperLeft"], loads);
+    let top = Pose { rotation: DQuat::IDENTITY, position: hook };
+    let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
+    let large_pose = hung(top, &upper, "UpperLeft");
+    let lower_pose = Pose { rotation: yaw(wires.lower_yaw), ..hung(top, &upper, "UpperRight") };
+    let small_pose = hung(lower_pose, &lower, "LowerRight");
+    let middle_pose = hung(lower_pose, &lower, "LowerLeft");
+    let pieces =
+        vec![(upper, top), (lower, lower_pose), (large, large_pose), (middle, middle_pose), (small, small_pose)];
+    Mobile { pieces, stand }
 }
 
 /// The figures of the balanced work.

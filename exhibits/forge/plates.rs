@@ -1,17 +1,17 @@
 //! A small mobile of three steel discs that hang so near to each other that a breath makes them meet and ring.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
+use soffio::math::{DVec2, DVec3, PI, Pose};
 
 use super::glb::Scene;
 use super::hung::disc;
-use super::mobile::{Branch, Mobile, branch};
-use super::piece::{Piece, yaw};
+use super::mobile::{Mobile, Wires, cascade};
 use super::stock::{MM, STEEL, finishes, gallows};
 
 /// Where the mobile hangs.
 const HOOK: f64 = 330.0 * MM;
 const SHEET: f64 = 0.6 * MM;
-/// The lower branch against the upper one, rad.
+/// The lower branch against the upper one, rad: so that the middle disc hangs before the large one's rim, and a breath that
+/// drives it back makes them meet.
 const LOWER_YAW: f64 = 0.6;
 
 /// Draws, balances and writes the model.
@@ -22,40 +22,15 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let large = plate(["LargeDisc", "LargeHook", "LargeStem"], 62.0 * MM, 66.0 * MM, finishes.steel);
     let middle = plate(["MiddleDisc", "MiddleHook", "MiddleStem"], 46.0 * MM, 62.0 * MM, finishes.blue);
     let small = plate(["SmallDisc", "SmallHook", "SmallStem"], 36.0 * MM, 70.0 * MM, finishes.red);
-    let lower = branch(&Branch {
-        names: ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"],
-        radius: 0.6 * MM,
-        eye: 1.8 * MM,
-        chord: 98.0 * MM,
-        droop: 5.0 * MM,
-        loads: [small.mass().mass, middle.mass().mass],
-    });
-    let below = lower.mass().mass + small.mass().mass + middle.mass().mass;
-    let upper = branch(&Branch {
-        names: ["Upper", "UpperLoop", "UpperWire", "UpperRight", "UpperLeft"],
-        radius: 0.8 * MM,
-        eye: 2.2 * MM,
-        chord: 80.0 * MM,
-        droop: 8.0 * MM,
-        loads: [below, large.mass().mass],
-    });
-    let top = Pose { rotation: DQuat::IDENTITY, position: HOOK * DVec3::Y };
-    let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
-    let large_pose = hung(top, &upper, "UpperLeft");
-    // Turned, so that the middle disc hangs before the large one's rim: a breath that drives it back makes them meet.
-    let lower_pose = Pose { rotation: yaw(LOWER_YAW), ..hung(top, &upper, "UpperRight") };
-    let small_pose = hung(lower_pose, &lower, "LowerRight");
-    let middle_pose = hung(lower_pose, &lower, "LowerLeft");
-    let work = Mobile {
-        pieces: vec![
-            (upper, top),
-            (lower, lower_pose),
-            (large, large_pose),
-            (middle, middle_pose),
-            (small, small_pose),
-        ],
-        stand: gallows(HOOK * DVec3::Y, DVec2::new(0.0, -110.0 * MM), finishes.black),
+    let wires = Wires {
+        radius: [0.8 * MM, 0.6 * MM],
+        eye: [2.2 * MM, 1.8 * MM],
+        chord: [80.0 * MM, 98.0 * MM],
+        droop: [8.0 * MM, 5.0 * MM],
+        lower_yaw: LOWER_YAW,
     };
+    let stand = gallows(HOOK * DVec3::Y, DVec2::new(0.0, -110.0 * MM), finishes.black);
+    let work = cascade(HOOK * DVec3::Y, &wires, [large, middle, small], stand);
     work.stand.write(&mut scene, Pose::IDENTITY);
     for (piece, pose) in &work.pieces {
         piece.write(&mut scene, *pose);

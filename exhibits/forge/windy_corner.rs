@@ -4,9 +4,9 @@ use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
 
 use super::glb::Scene;
 use super::hung::{HOLE_RADIUS, hung_plate};
-use super::mobile::{Branch, Mobile, branch};
+use super::mobile::{Mobile, Wires, cascade};
 use super::outline::{Polygon, ellipse};
-use super::piece::{Piece, yaw};
+use super::piece::Piece;
 use super::solid::{sheet, turned};
 use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
 
@@ -96,39 +96,14 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let large = strip(["LargeStrip", "LargeHook", "LargeStem"], [30.0 * MM, 130.0 * MM], 40.0 * MM, finishes.blue);
     let middle = strip(["MiddleStrip", "MiddleHook", "MiddleStem"], [24.0 * MM, 100.0 * MM], 36.0 * MM, finishes.red);
     let small = strip(["SmallStrip", "SmallHook", "SmallStem"], [20.0 * MM, 80.0 * MM], 44.0 * MM, finishes.white);
-    let lower = branch(&Branch {
-        names: ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"],
-        radius: 0.4 * MM,
-        eye: 1.8 * MM,
-        chord: 92.0 * MM,
-        droop: 5.0 * MM,
-        loads: [small.mass().mass, middle.mass().mass],
-    });
-    let below = lower.mass().mass + small.mass().mass + middle.mass().mass;
-    let upper = branch(&Branch {
-        names: ["Upper", "UpperLoop", "UpperWire", "UpperRight", "UpperLeft"],
-        radius: 0.5 * MM,
-        eye: 2.2 * MM,
-        chord: 120.0 * MM,
-        droop: 8.0 * MM,
-        loads: [below, large.mass().mass],
-    });
-    let top = Pose { rotation: DQuat::IDENTITY, position: HOOK };
-    let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
-    let large_pose = hung(top, &upper, "UpperLeft");
-    let lower_pose = Pose { rotation: yaw(LOWER_YAW), ..hung(top, &upper, "UpperRight") };
-    let small_pose = hung(lower_pose, &lower, "LowerRight");
-    let middle_pose = hung(lower_pose, &lower, "LowerLeft");
-    let work = Mobile {
-        pieces: vec![
-            (upper, top),
-            (lower, lower_pose),
-            (large, large_pose),
-            (middle, middle_pose),
-            (small, small_pose),
-        ],
-        stand: gallows(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black),
+    let wires = Wires {
+        radius: [0.5 * MM, 0.4 * MM],
+        eye: [2.2 * MM, 1.8 * MM],
+        chord: [120.0 * MM, 92.0 * MM],
+        droop: [8.0 * MM, 5.0 * MM],
+        lower_yaw: LOWER_YAW,
     };
+    let work = cascade(HOOK, &wires, [large, middle, small], gallows(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black));
 
     let floor = |point: DVec3| DVec3::new(point.x, 0.0, point.z);
     let standing = [
