@@ -33,8 +33,9 @@ pub const GROUP: usize = 16;
 
 /// Numbers of a group's partials: real parts, then imaginary ones.
 pub(super) type Phasors<T> = [[T; GROUP]; 2];
-/// The phasors at the start of each frame.
-type States = [Phasors<f32>; FRAMES];
+/// The phasors at the start of each frame; aligned, so that no store crosses the lines that are read again at once.
+#[repr(C, align(64))]
+struct States([Phasors<f32>; FRAMES]);
 /// Sums of a block: what the real parts gave, and the imaginary ones; apart, so that neither waits for the other.
 pub(super) type Sums = [[f32; BLOCK]; 2];
 
@@ -138,8 +139,8 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
     for (m, force) in force.as_chunks::<FRAME>().0.iter().enumerate() {
         if m > 0 {
             for i in 0..GROUP {
-                states[m][0][i] += group.push[i] * driven[0][i];
-                states[m][1][i] += group.push[i] * driven[1][i];
+                states.0[m][0][i] += group.push[i] * driven[0][i];
+                states.0[m][1][i] += group.push[i] * driven[1][i];
             }
         }
         let mut d: Phasors<f32> = [[0.0; GROUP]; 2];
@@ -199,9 +200,9 @@ fn turn<S: Simd>(simd: S, z: &mut Phasors<f64>, group: &Turns) -> States {
         (re * jump_re - im * jump_im).store_slice(&mut z[0][from..from + 8]);
         (re * jump_im + im * jump_re).store_slice(&mut z[1][from..from + 8]);
     }
-    let mut states = [[[0.0; GROUP]; 2]; FRAMES];
-    states[0] = [re.into(), im.into()];
-    for (state, step) in states[1..].iter_mut().zip(&group.steps) {
+    let mut states = States([[[0.0; GROUP]; 2]; FRAMES]);
+    states.0[0] = [re.into(), im.into()];
+    for (state, step) in states.0[1..].iter_mut().zip(&group.steps) {
         let (step_re, step_im): (f32x16<S>, f32x16<S>) = (step[0].simd_into(simd), step[1].simd_into(simd));
         state[0] = (re * step_re - im * step_im).into();
         state[1] = (re * step_im + im * step_re).into();
@@ -222,7 +223,7 @@ fn read<S: Simd>(simd: S, group: &Group, states: &States, sums: &mut Sums) {
 #[inline(always)]
 fn read_at_once<S: Simd, const N: usize>(simd: S, group: &Group, states: &States, sums: &mut Sums) {
     let [from_re, from_im] = sums;
-    let frames = states.as_chunks::<N>().0;
+    let frames = states.0.as_chunks::<N>().0;
     let from_re = from_re.as_chunks_mut::<FRAME>().0.as_chunks_mut::<N>().0;
     let from_im = from_im.as_chunks_mut::<FRAME>().0.as_chunks_mut::<N>().0;
     for ((states, from_re), from_im) in frames.iter().zip(from_re).zip(from_im) {
