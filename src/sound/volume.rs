@@ -1,7 +1,7 @@
 //! How loud the kiosk may be: a visitor's steps, the site's cap, the staff's mute.
 //!
 //! ```text
-//! volume = min(default + steps · step, cap, 0 dB) − ease          cap = LAeq_max − (S + PROGRAMME)
+//! volume = min(min(default, cap) + steps · step, cap) − ease          cap = min(LAeq_max − (S + PROGRAMME), 0 dB)
 //! ```
 //!
 //! S is what a sound meter shows at the visitor's ear, dB(A), for a sine at full scale (1 kHz, both sides) while the
@@ -52,12 +52,9 @@ impl Volume {
     /// So many steps louder, or softer: as far as there are steps, and not beyond what is heard of them.
     pub fn step(&mut self, by: i32) {
         let most = i32::try_from(self.settings.steps).unwrap_or(i32::MAX);
-        let before = (self.steps, self.db());
-        self.steps = self.steps.saturating_add(by).clamp(-most, most);
-        // A step that the cap swallows would have to be taken back before a step down is heard.
-        if by > 0 && self.db() <= before.1 {
-            self.steps = before.0;
-        }
+        // Steps that the cap swallows would have to be taken back before a step down is heard.
+        let heard = ((self.cap_db() - self.base_db()) / self.settings.step_db).ceil();
+        self.steps = self.steps.saturating_add(by).clamp(-most, most.min(heard as i32));
     }
 
     /// Steps above the default.
@@ -86,9 +83,14 @@ impl Volume {
         cap.unwrap_or(0.0).min(0.0)
     }
 
+    /// What a visitor finds, dB.
+    fn base_db(&self) -> f64 {
+        self.settings.default_db.min(self.cap_db())
+    }
+
     /// Now, dB, muted or not.
     pub fn db(&self) -> f64 {
-        let asked = self.settings.default_db + f64::from(self.steps) * self.settings.step_db;
+        let asked = self.base_db() + f64::from(self.steps) * self.settings.step_db;
         asked.min(self.cap_db()) - self.ease_db
     }
 
