@@ -274,6 +274,6 @@ fn lengths(sample_rate: f64) -> [usize; LINES] {
 
 /// The first prime from here on.
 fn prime(from: usize) -> usize {
-    let is_prime = |n: usize| (2..).take_while(|d| d * d <= n).all(|d| n % d != 0);
+    let is_prime = |n: usize| (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
     (from.max(2)..).find(|&n| is_prime(n)).unwrap_or(from)
 }
