@@ -76,7 +76,7 @@ pub struct Levelled {
     pub exhibit: String,
     /// As it is.
     pub now: Measured,
-    /// `level` of the exhibit's [scene] as it is, dB.
+    /// The exhibit's `scene.level` as it is, dB.
     pub level_db: f64,
     /// The one that makes it as loud as the others, dB.
     pub fitting_db: f64,
