@@ -11,13 +11,16 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::simulation::{Profile, Settings};
+use crate::sound::{MOST_PARTIALS, RoomSpec, VolumeSettings};
 
 pub mod chord;
 mod diagnose;
+mod hours;
 pub mod remedies;
 
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
+pub use hours::{Hours, TimeOfDay};
 
 /// Where the file lies, below the working directory or one of its parents.
 pub const FILE: &str = "kiosk-config/kiosk.toml";
@@ -34,6 +37,12 @@ pub struct Config {
     pub breath: Breath,
     /// Microphone and loudspeaker.
     pub audio: AudioSettings,
+    /// The room that the sounds are heard in.
+    pub room: RoomSettings,
+    /// How loud it may be.
+    pub volume: Loudness,
+    /// When the house is quiet.
+    pub night: Hours,
     /// Other ways to blow and to aim.
     pub controllers: ControllerSettings,
     /// What happens when nobody is there.
@@ -132,10 +141,12 @@ pub struct AudioSettings {
     pub second_capsule_channel: u16,
     /// Id or any part of the loudspeaker's name; empty is the system's own choice.
     pub loudspeaker: String,
-    /// Loudness of the kiosk, dB of full scale.
+    /// Volume that every visitor finds, dB of full scale.
     pub volume_db: f64,
     /// Length of one block of either device, ms: short answers at once, long never stutters.
     pub block_ms: f64,
+    /// Most partials that ring at once; the quietest leave first.
+    pub most_partials: u32,
 }
 
 impl Default for AudioSettings {
@@ -147,7 +158,66 @@ impl Default for AudioSettings {
             loudspeaker: String::new(),
             volume_db: -6.0,
             block_ms: 10.0,
+            most_partials: MOST_PARTIALS as u32,
         }
+    }
+}
+
+/// The room that the sounds are heard in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RoomSettings {
+    /// Which one.
+    pub name: RoomName,
+    /// Energy of its reverberation over the sound itself, dB.
+    pub level_db: f64,
+    /// Times in which it decays by 60 dB at 125, 250, 500, 1000, 2000, 4000 and 8000 Hz, s; empty: the named room's own.
+    pub t60_s: Vec<f64>,
+}
+
+/// A room by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum RoomName {
+    /// The open air.
+    Off,
+    /// A gallery with plastered walls.
+    Gallery,
+}
+
+impl Default for RoomSettings {
+    fn default() -> Self {
+        Self { name: RoomName::Gallery, level_db: RoomSpec::GALLERY.level_db, t60_s: Vec::new() }
+    }
+}
+
+impl RoomSettings {
+    /// The room as the synth builds it; `None` is the open air.
+    pub fn spec(&self) -> Option<RoomSpec> {
+        let RoomName::Gallery = self.name else { return None };
+        let t60 = self.t60_s.as_slice().try_into().unwrap_or(RoomSpec::GALLERY.t60);
+        Some(RoomSpec { level_db: self.level_db, t60 })
+    }
+}
+
+/// How loud it may be.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Loudness {
+    /// One step of a visitor's, dB.
+    pub step_db: f64,
+    /// Steps up, and as many down; 0 leaves the volume to staff.
+    pub steps: u32,
+    /// What a sound meter shows at the visitor's ear for a full-scale sine at a volume of 0 dB, dB(A); 0 where nobody has
+    /// measured it, and then there is no cap.
+    pub full_scale_db_spl: f64,
+    /// Greatest mean level at the visitor's ear, dB(A).
+    pub max_laeq_db: f64,
+}
+
+impl Default for Loudness {
+    fn default() -> Self {
+        Self { step_db: 3.0, steps: 3, full_scale_db_spl: 0.0, max_laeq_db: 70.0 }
     }
 }
 
@@ -222,11 +292,13 @@ pub struct AttractSettings {
     pub enabled: bool,
     /// Time without any input, breath included, after which nobody is there, s.
     pub idle_s: f64,
+    /// Play it without a sound.
+    pub silent: bool,
 }
 
 impl Default for AttractSettings {
     fn default() -> Self {
-        Self { enabled: true, idle_s: 60.0 }
+        Self { enabled: true, idle_s: 60.0, silent: false }
     }
 }
 
@@ -236,11 +308,18 @@ impl Default for AttractSettings {
 pub struct Staff {
     /// Keys that open and close the staff panel.
     pub chord: Chord,
+    /// Keys that mute the kiosk, and let it sound again.
+    pub mute: Chord,
+    /// Keys that go from the configured hours to night, to day, and back.
+    pub night: Chord,
+    /// File that gets the kiosk's numbers every 15 s, in the text format of Prometheus; empty for none.
+    pub metrics: PathBuf,
 }
 
 impl Default for Staff {
     fn default() -> Self {
-        Self { chord: Chord::new(true, true, false, "S") }
+        let chord = |key| Chord::new(true, true, false, key);
+        Self { chord: chord("S"), mute: chord("M"), night: chord("N"), metrics: PathBuf::new() }
     }
 }
 
@@ -279,6 +358,12 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "audio.second_capsule_channel", low: 0.0, high: 64.0, unit: "1" },
     Limit { key: "audio.volume_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.block_ms", low: 2.0, high: 100.0, unit: "ms" },
+    Limit { key: "audio.most_partials", low: 16.0, high: 65_536.0, unit: "1" },
+    Limit { key: "room.level_db", low: -40.0, high: 6.0, unit: "dB" },
+    Limit { key: "volume.step_db", low: 1.0, high: 10.0, unit: "dB" },
+    Limit { key: "volume.steps", low: 0.0, high: 10.0, unit: "1" },
+    Limit { key: "volume.full_scale_db_spl", low: 0.0, high: 140.0, unit: "dB(A)" },
+    Limit { key: "volume.max_laeq_db", low: 40.0, high: 85.0, unit: "dB(A)" },
     Limit { key: "controllers.stick_speed", low: 0.05, high: 5.0, unit: "1/s" },
     Limit { key: "controllers.midi_controller", low: 0.0, high: 127.0, unit: "1" },
     Limit { key: "controllers.serial_baud", low: 300.0, high: 4e6, unit: "1/s" },
@@ -298,6 +383,17 @@ impl Config {
     /// Reads a configuration from the text of `file` (the name appears in messages). All problems are said at once.
     pub fn parse(text: &str, file: &Path) -> Result<Self, ConfigError> {
         diagnose::parse(text, file)
+    }
+
+    /// What the volume needs of it.
+    pub fn volume_settings(&self) -> VolumeSettings {
+        VolumeSettings {
+            default_db: self.audio.volume_db,
+            step_db: self.volume.step_db,
+            steps: self.volume.steps,
+            full_scale_db_spl: Some(self.volume.full_scale_db_spl).filter(|spl| *spl > 0.0),
+            max_laeq_db: self.volume.max_laeq_db,
+        }
     }
 
     /// What the simulation needs of it.

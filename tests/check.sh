@@ -36,7 +36,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live million-hits clock-hour turning-gears visits wind; do
+    for part in soak-blow soak-still soak-live stream-live loaded-live million-hits clock-hour turning-gears visits wind; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue
@@ -51,6 +51,7 @@ long() {
                             awk -F'"(ms_per_step|ratio)":' '{ split($2, ms, /[,}]/); split($3, ratio, /[,}]/); exit !(ms[1] <= 4 && ratio[1] >= 20) }' ;;
             soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh "$built/soffio" ;;
             stream-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_STREAM=600 tests/live/run.sh "$built/soffio" ;;
+            loaded-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_LOAD=600 tests/live/run.sh "$built/soffio" ;;
             million-hits)  ignored hits::a_million_hits_keep_joints_energy_cone_and_momentum ;;
             turning-gears) ignored motion::gears::gears_keep_their_phase_over_a_hundred_thousand_turns ;;
             clock-hour)    ignored escapement::an_anchor_keeps_a_pendulum_going_for_an_hour ;;

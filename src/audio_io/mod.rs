@@ -6,6 +6,7 @@
 //! AudioIo::read_microphone ←── reference ring ───────────────── Player: what was played, mono
 //!                          ←── microphone ring ──────────────── Recorder ← microphone
 //! AudioIo::set_instruments ──→ builds the Synth ── synth ring → Player; the old one ── retired ring ─→ dropped here
+//! AudioIo::knobs ←──────────── volume, night, energy ───────────→ Player
 //! AudioIo::status ←──────────── opens, watches, reopens
 //! ```
 //!
@@ -18,6 +19,7 @@
 mod clock;
 pub mod devices;
 pub mod input;
+mod knobs;
 pub mod output;
 mod reference;
 mod supervisor;
@@ -30,9 +32,11 @@ use std::thread::JoinHandle;
 pub use crate::config::AudioSettings;
 pub use clock::ClockMap;
 pub use input::Heard;
+pub use knobs::Knobs;
 pub use reference::ReferenceTap;
 use supervisor::{Link, Request, Supervisor};
 
+use crate::math::from_decibels;
 use crate::sound::{SoundCommand, Synth};
 
 /// Builds the synth for the rate of a loudspeaker, Hz.
@@ -47,6 +51,8 @@ pub struct AudioStatus {
     pub output: DeviceState,
     /// Gaps in either since the start: the machine was too slow.
     pub xruns: u64,
+    /// Times that a loudspeaker was opened: more than once when it was lost and came back.
+    pub openings: u64,
     /// Capsules of the microphone that listen: 0 without one.
     pub capsules: usize,
 }
@@ -83,6 +89,7 @@ pub struct AudioIo {
     requests: Sender<Request>,
     links: Receiver<Link>,
     status: Arc<Mutex<AudioStatus>>,
+    knobs: Arc<Knobs>,
     supervisor: Option<JoinHandle<()>>,
     generation: u64,
     microphone: Option<input::Ears>,
@@ -96,7 +103,9 @@ impl AudioIo {
         let (requests, inbox) = std::sync::mpsc::channel();
         let (outbox, links) = std::sync::mpsc::channel();
         let status = Arc::new(Mutex::new(AudioStatus::default()));
-        let supervisor = Supervisor::new(settings.clone(), Box::new(synth), inbox, outbox, status.clone());
+        let knobs = Arc::new(Knobs::new(from_decibels(settings.volume_db) as f32));
+        let supervisor =
+            Supervisor::new(settings.clone(), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
         let supervisor = std::thread::Builder::new().name("audio".into()).spawn(move || supervisor.run());
         if let Err(error) = &supervisor {
             let missing = DeviceState::Missing(format!("no thread for the devices: {error}"));
@@ -107,6 +116,7 @@ impl AudioIo {
             requests,
             links,
             status,
+            knobs,
             supervisor: supervisor.ok(),
             generation: 0,
             microphone: None,
@@ -148,6 +158,11 @@ impl AudioIo {
     /// How the devices are.
     pub fn status(&self) -> AudioStatus {
         self.status.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Volume and night, and how loud it was.
+    pub fn knobs(&self) -> &Knobs {
+        &self.knobs
     }
 
     /// Frames the loudspeaker has been given so far; `None` without one.

@@ -7,7 +7,9 @@ use cpal::{FromSample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::clock::ClockMap;
-use crate::sound::{SoundCommand, Synth};
+use super::knobs::Knobs;
+use crate::math::exp;
+use crate::sound::{AWeighting, SoundCommand, Synth};
 
 /// Frames rendered at once, however long the device's blocks are.
 const CHUNK: usize = 256;
@@ -17,6 +19,10 @@ const COMMANDS: usize = 2048;
 const REFERENCE: u32 = 1;
 /// A synth that was replaced fades and is dropped after this time, s.
 const FAREWELL: f64 = 0.1;
+/// Time constant with which the volume follows its knob, s: no click, and no jump in loudness.
+const VOLUME_GLIDE: f64 = 0.05;
+/// A volume this near to its knob is there.
+const THERE: f32 = 1e-5;
 
 /// A command for the loudspeaker's own clock and for one generation of instruments.
 #[derive(Clone, Copy, Debug)]
@@ -54,8 +60,12 @@ pub struct Player {
     retired: Producer<Engine>,
     reference: Producer<f32>,
     shared: Arc<Shared>,
+    knobs: Arc<Knobs>,
     channels: usize,
     gain: f32,
+    glide: f32,
+    weighting: AWeighting,
+    seconds: f64,
     farewell: usize,
     frame: u64,
 }
@@ -75,8 +85,8 @@ pub struct Workshop {
     retired: Consumer<Engine>,
 }
 
-/// The three ends of one loudspeaker. `gain` is linear.
-pub fn open(sample_rate: u32, channels: usize, gain: f32) -> (Player, Voice, Workshop) {
+/// The three ends of one loudspeaker.
+pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Voice, Workshop) {
     let (to_player, commands) = RingBuffer::new(COMMANDS);
     let (reference, from_player) = RingBuffer::new((REFERENCE * sample_rate) as usize);
     let (new_engines, engines) = RingBuffer::new(4);
@@ -92,7 +102,12 @@ pub fn open(sample_rate: u32, channels: usize, gain: f32) -> (Player, Voice, Wor
         reference,
         shared: shared.clone(),
         channels: channels.max(1),
-        gain: gain.clamp(0.0, 1.0),
+        // From silence: a loudspeaker that comes back in the middle of a sound does not bang.
+        gain: 0.0,
+        glide: (1.0 - exp(-1.0 / (VOLUME_GLIDE * f64::from(sample_rate)))) as f32,
+        weighting: AWeighting::new(f64::from(sample_rate)),
+        seconds: 1.0 / f64::from(sample_rate),
+        knobs,
         farewell: (FAREWELL * f64::from(sample_rate)) as usize,
         frame: 0,
     };
@@ -106,6 +121,11 @@ impl Player {
     pub fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
         let frames = data.len() / self.channels;
         self.change_engine();
+        let night = self.knobs.night();
+        for engine in self.engine.iter_mut().chain(self.leaving.iter_mut().map(|(engine, _)| engine)) {
+            engine.synth.set_night(night);
+        }
+        let mut power = 0.0;
         while let Ok(Timed { command, generation }) = self.commands.pop() {
             if let Some(engine) = self.engine.as_mut().filter(|engine| engine.generation == generation) {
                 engine.synth.command(command.at(command.sample().saturating_sub(self.origin)));
@@ -117,10 +137,12 @@ impl Player {
             self.render(stereo);
             for (frame, lr) in out.chunks_mut(self.channels).zip(stereo.as_chunks::<2>().0) {
                 put(frame, *lr);
+                power += self.weighting.power(*lr);
                 // A full ring means that nobody listens.
                 let _ = self.reference.push(0.5 * (lr[0] + lr[1]));
             }
         }
+        self.knobs.note(power * self.seconds, frames as f64 * self.seconds);
         self.frame += frames as u64;
         self.shared.played.store(self.frame, Ordering::Release);
         self.shared.block.store(frames as u32, Ordering::Relaxed);
@@ -158,7 +180,12 @@ impl Player {
             stereo.iter_mut().zip(old).for_each(|(s, o)| *s = (*s + *o).clamp(-1.0, 1.0));
             *left = left.saturating_sub(stereo.len() / 2);
         }
-        stereo.iter_mut().for_each(|sample| *sample *= self.gain);
+        let volume = self.knobs.volume();
+        for frame in stereo.as_chunks_mut::<2>().0 {
+            let off = volume - self.gain;
+            self.gain = if off.abs() < THERE { volume } else { self.gain + off * self.glide };
+            frame.iter_mut().for_each(|sample| *sample *= self.gain);
+        }
     }
 }
 

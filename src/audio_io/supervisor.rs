@@ -10,13 +10,13 @@ use std::time::{Duration, Instant};
 
 use cpal::traits::{DeviceTrait, StreamTrait};
 use cpal::{BufferSize, Device, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
+use cpu_time::ThreadTime;
 
 use super::devices::{Chosen, Direction, choose, is_present};
 use super::input::{self, Ears, Recorder};
 use super::output::{self, Engine, Player, Voice, Workshop};
-use super::{AudioSettings, AudioStatus, DeviceState, SynthFactory};
+use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SynthFactory};
 use crate::config::remedies;
-use crate::math::from_decibels;
 
 /// Between two looks at the devices.
 const LOOK: Duration = Duration::from_millis(100);
@@ -28,6 +28,9 @@ const ROLL_CALL: Duration = Duration::from_secs(1);
 const ENOUGH_BLOCKS: u64 = 50;
 /// The first pause before a device is tried again, and the longest.
 const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(10));
+
+/// Where this is set, the loudspeaker's callback measures its processor time, for the log's last line.
+const MEASURE: &str = "SOFFIO_MEASURE_CALLBACK";
 
 /// What the kiosk asks of the supervisor.
 pub(super) enum Request {
@@ -52,6 +55,8 @@ struct Health {
     longest: AtomicU64,
     /// Gaps so far.
     xruns: AtomicU64,
+    /// Greatest share of its own time that a block took of a processor, millionths; only where it is measured.
+    worst: AtomicU64,
     /// Why the stream is over.
     lost: OnceLock<String>,
 }
@@ -61,6 +66,12 @@ impl Health {
     fn block(&self, frames: usize) {
         self.blocks.fetch_add(1, Ordering::Relaxed);
         self.longest.fetch_max(frames as u64, Ordering::Relaxed);
+    }
+
+    /// A callback of so many frames took so much processor time, s.
+    fn worked(&self, seconds: f64, frames: usize, sample_rate: u32) {
+        let share = 1e6 * seconds * f64::from(sample_rate) / frames.max(1) as f64;
+        self.worst.fetch_max(share as u64, Ordering::Relaxed);
     }
 
     fn report(&self, error: &cpal::Error) {
@@ -179,6 +190,7 @@ pub(super) struct Supervisor {
     inbox: Receiver<Request>,
     links: Sender<Link>,
     status: Arc<Mutex<AudioStatus>>,
+    knobs: Arc<Knobs>,
     microphone: Line,
     loudspeaker: Line,
     workshop: Option<(Workshop, u32)>,
@@ -191,6 +203,7 @@ impl Supervisor {
         inbox: Receiver<Request>,
         links: Sender<Link>,
         status: Arc<Mutex<AudioStatus>>,
+        knobs: Arc<Knobs>,
     ) -> Self {
         Self {
             settings,
@@ -199,6 +212,7 @@ impl Supervisor {
             inbox,
             links,
             status,
+            knobs,
             microphone: Line::new(Direction::Input),
             loudspeaker: Line::new(Direction::Output),
             workshop: None,
@@ -229,6 +243,13 @@ impl Supervisor {
                     }
                 }
             }
+        }
+        let health = &self.loudspeaker.health;
+        let blocks = health.blocks.load(Ordering::Relaxed);
+        let worst = health.worst.load(Ordering::Relaxed) as f64 / 1e4;
+        if std::env::var_os(MEASURE).is_some() {
+            let xruns = self.loudspeaker.xruns();
+            tracing::info!("loudspeaker: {blocks} blocks, xruns: {xruns}, the worst took {worst:.2} % of its time");
         }
     }
 
@@ -261,9 +282,9 @@ impl Supervisor {
         }
         let result = choose(Direction::Output, &self.settings.loudspeaker, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format } = chosen;
-            let gain = from_decibels(self.settings.volume_db.min(0.0)) as f32;
             let open = |config: StreamConfig| {
-                let (player, voice, workshop) = output::open(config.sample_rate, config.channels.into(), gain);
+                let (player, voice, workshop) =
+                    output::open(config.sample_rate, config.channels.into(), self.knobs.clone());
                 let stream = play(&device, config, format, player, self.loudspeaker.health.clone())?;
                 Ok((stream, voice, workshop))
             };
@@ -277,7 +298,10 @@ impl Supervisor {
                 self.workshop = Some((workshop, sample_rate));
                 self.install_synth();
                 self.link(Link::Loudspeaker(Some(voice)));
-                self.tell(|status| status.output = DeviceState::Ok { name, sample_rate });
+                self.tell(|status| {
+                    status.output = DeviceState::Ok { name, sample_rate };
+                    status.openings += 1;
+                });
             }
             Err(reason) => {
                 self.loudspeaker.give_up();
@@ -348,8 +372,14 @@ fn play(
     ) -> Result<Stream, cpal::Error> {
         let errors = health.clone();
         let channels = usize::from(config.channels).max(1);
+        // Asking the time of a thread is a system call, so it is asked only in a test of it.
+        let measured = std::env::var_os(MEASURE).is_some();
         let callback = move |data: &mut [T], _: &cpal::OutputCallbackInfo| {
+            let before = measured.then(ThreadTime::now);
             player.play(data);
+            if let Some(before) = before {
+                health.worked(before.elapsed().as_secs_f64(), data.len() / channels, config.sample_rate);
+            }
             health.block(data.len() / channels);
         };
         let stream = device.build_output_stream(config, callback, move |error| errors.report(&error), None)?;

@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand};
 use crate::config::Config;
 use crate::exhibit::{self, Exhibit};
 use crate::simulation::Settings;
+use crate::sound::RoomSpec;
 
 pub mod bench;
 pub mod breath;
@@ -18,6 +19,7 @@ pub mod doctor;
 pub mod explain;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
+pub mod loudness;
 pub mod play;
 #[cfg(feature = "kiosk")]
 pub mod render;
@@ -57,6 +59,12 @@ fn settings() -> Result<Settings, Failure> {
     Ok(config.simulation_settings(1))
 }
 
+/// The room of the site's configuration.
+fn room() -> Result<Option<RoomSpec>, Failure> {
+    let (config, _) = Config::load(None).map_err(Failure::input)?;
+    Ok(config.room.spec())
+}
+
 /// Raises `stop` at Ctrl-C, so that a run ends without half-written files.
 fn stop_on_ctrl_c(stop: &Arc<AtomicBool>) {
     let stop = stop.clone();
@@ -83,6 +91,7 @@ enum Command {
     Play(play::Args),
     Breath(breath::Args),
     Sound(sound::Args),
+    Loudness(loudness::Args),
     #[cfg(feature = "kiosk")]
     Render(render::Args),
     Check(check::Args),
@@ -106,6 +115,7 @@ pub fn run() -> ExitCode {
         Some(Command::Play(args)) => play::run(args),
         Some(Command::Breath(args)) => breath::run(args),
         Some(Command::Sound(args)) => sound::run(args),
+        Some(Command::Loudness(args)) => loudness::run(args),
         #[cfg(feature = "kiosk")]
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Check(args)) => check::run(args),

@@ -139,6 +139,7 @@ pub fn run(args: Args) -> Outcome {
         seconds,
         aspect: f64::from(args.size.0) / f64::from(args.size.1),
         audio: args.audio.clone(),
+        room: super::room()?,
         dry: args.dry,
         trace: args.trace.clone(),
         events: args.events.clone(),

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{Document, Item, TableLike};
 
 use super::{Config, LIMITS};
+use crate::sound::BANDS;
 
 /// A configuration that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -80,13 +81,42 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
             return fail(vec![located(text, error.span(), message, String::new())]);
         }
     };
-    match capsules(&config) {
-        Some((message, help)) => {
-            let key = document.get("audio").and_then(|audio| audio.get("second_capsule_channel"));
-            fail(vec![located(text, key.and_then(Item::span), message, help)])
-        }
-        None => Ok(config),
+    let one_end = if config.night.from.is_some() { "from" } else { "to" };
+    let together = [("audio", "second_capsule_channel", capsules(&config)), ("room", "t60_s", room(&config))]
+        .into_iter()
+        .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))]);
+    let problems: Vec<Problem> = together
+        .filter_map(|(table, key, problem)| {
+            let item = document.get(table).and_then(|table| table.get(key));
+            problem.map(|(message, help)| located(text, item.and_then(Item::span), message, help))
+        })
+        .collect();
+    if problems.is_empty() { Ok(config) } else { fail(problems) }
+}
+
+/// Seven decays, or none.
+fn room(config: &Config) -> Option<(String, String)> {
+    let given = &config.room.t60_s;
+    let help = "give seven times, s, for 125, 250, 500, 1000, 2000, 4000 and 8000 Hz, or [] for the room's own";
+    if !given.is_empty() && given.len() != BANDS.len() {
+        return Some((format!("{} times for {} octaves", given.len(), BANDS.len()), help.into()));
     }
+    config.room.spec().and_then(|spec| spec.problem()).map(|problem| (problem, help.into()))
+}
+
+/// A night has an end.
+fn night(config: &Config) -> Option<(String, String)> {
+    let help = "give both `from` and `to`, as in \"22:00\" and \"08:00\", or leave both empty";
+    (config.night.from.is_some() != config.night.to.is_some()).then(|| ("a night with one end".into(), help.into()))
+}
+
+/// A chord does one thing.
+fn chords(config: &Config) -> Option<(String, String)> {
+    let staff = &config.staff;
+    let twice = [(&staff.chord, &staff.mute), (&staff.chord, &staff.night), (&staff.mute, &staff.night)]
+        .into_iter()
+        .find(|(a, b)| a == b);
+    twice.map(|(chord, _)| (format!("{chord} has two meanings in [staff]"), "give each its own key".into()))
 }
 
 /// Two capsules are two channels: what is wrong, and what to do.

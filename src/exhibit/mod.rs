@@ -87,6 +87,8 @@ pub struct Exhibit {
     pub winds: Vec<Wind>,
     /// What a breath is to this exhibit.
     pub breath: BreathTuning,
+    /// Level of all sounds, dB; their own gains hold it already.
+    pub level_db: f64,
     /// Sounding bodies.
     pub instruments: Vec<InstrumentSpec>,
     /// Which motion plays which instrument.

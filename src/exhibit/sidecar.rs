@@ -100,6 +100,9 @@ pub struct Scene {
     pub gravity: Option<[Acceleration; 3]>,
     /// A glTF camera node; without it the bounds are framed.
     pub camera: Option<String>,
+    /// Level of all its sounds; `soffio loudness` finds the one that makes exhibits alike.
+    #[serde(default)]
+    pub level: Decibel,
     /// Length of one run: the exhibit then starts again; by default "inf".
     pub duration: Option<Until>,
 }

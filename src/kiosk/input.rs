@@ -67,6 +67,12 @@ pub enum Request {
     NextLanguage,
     /// The language at this place among those offered.
     Language(usize),
+    /// So many steps louder.
+    Louder(i32),
+    /// Staff mute the kiosk, or let it sound again.
+    Mute,
+    /// Staff go on from the configured hours to night, to day, and back.
+    Night,
     /// Open or close the staff panel.
     ToggleStaff,
     /// Close a window on somebody's desk. Nothing a visitor can do in the gallery asks for it.
@@ -92,11 +98,19 @@ pub struct Visitor {
 /// Names of the arrow keys, in the order of `Visitor::arrows`.
 const ARROWS: [&str; 4] = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
 
+/// Keys of the volume: + and −, beside the digits, on the number pad, and those made for it.
+const LOUDER: [&str; 3] = ["Equal", "NumpadAdd", "AudioVolumeUp"];
+const SOFTER: [&str; 3] = ["Minus", "NumpadSubtract", "AudioVolumeDown"];
+
 /// Keys that the site chooses.
 #[derive(Clone, Copy, Debug)]
 pub struct Keys<'a> {
     /// Opens the staff panel.
     pub staff: &'a Chord,
+    /// Mutes the kiosk.
+    pub mute: &'a Chord,
+    /// Changes between day and night.
+    pub night: &'a Chord,
     /// Blows while it is held.
     pub blow: &'a str,
 }
@@ -195,8 +209,13 @@ impl Visitor {
         if !key.pressed || key.repeat {
             return None;
         }
+        let pressed = |chord: &Chord| chord.matches(key.ctrl, key.alt, key.shift, &key.name);
         match key.name.as_str() {
-            name if keys.staff.matches(key.ctrl, key.alt, key.shift, name) => Some(Request::ToggleStaff),
+            _ if pressed(keys.staff) => Some(Request::ToggleStaff),
+            _ if pressed(keys.mute) => Some(Request::Mute),
+            _ if pressed(keys.night) => Some(Request::Night),
+            name if plain && LOUDER.contains(&name) => Some(Request::Louder(1)),
+            name if plain && SOFTER.contains(&name) => Some(Request::Louder(-1)),
             "L" if plain => Some(Request::NextLanguage),
             "Escape" if windowed => Some(Request::Close),
             _ => None,

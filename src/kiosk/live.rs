@@ -12,15 +12,17 @@ use std::thread::JoinHandle;
 use std::time::Instant;
 
 use crate::audio_io::{AudioIo, AudioStatus, DeviceState, Heard};
-use crate::config::{AudioSettings, ControllerSettings};
+use crate::config::{AudioSettings, ControllerSettings, Hours};
 use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{STEPS_PER_SECOND, Settings, Snapshot};
-use crate::sound::{SoundCommand, Synth};
+use crate::sound::{RoomSpec, SoundCommand, Synth, VolumeSettings};
 
 use super::breaths::{Breaths, Turn};
+use super::loudness::{Loudness, View, Wishes};
+use super::metrics::Metrics;
 use super::microphone::MicrophoneHealth;
 use super::pace::Pacer;
 use super::stage::{Controls, Stage};
@@ -33,6 +35,16 @@ pub struct Options {
     pub settings: Settings,
     /// Devices.
     pub audio: AudioSettings,
+    /// What the sounds are heard in; `None` is the open air.
+    pub room: Option<RoomSpec>,
+    /// How loud it may be.
+    pub volume: VolumeSettings,
+    /// When the house is quiet.
+    pub night: Hours,
+    /// Does attract mode play without a sound?
+    pub silent_attract: bool,
+    /// Where the kiosk's numbers go; empty for nowhere.
+    pub metrics: PathBuf,
     /// Other ways to blow and to aim.
     pub controllers: ControllerSettings,
     /// A recording in the microphone's place.
@@ -88,6 +100,8 @@ pub struct Load {
     pub microphone: MicrophoneHealth,
     /// What the devices say.
     pub audio: AudioStatus,
+    /// How loud it is.
+    pub loudness: View,
     /// What the controllers say, by kind.
     pub controllers: Vec<(&'static str, State)>,
 }
@@ -119,6 +133,10 @@ pub struct Report {
     pub dropped: u64,
     /// Impacts of the last exhibit.
     pub impacts: u64,
+    /// Gaps of microphone and loudspeaker.
+    pub xruns: u64,
+    /// A-weighted mean level of all that was played, dB of a full-scale sine; null for silence.
+    pub level_dba: Option<f64>,
     /// Says whether two runs are the same run.
     #[serde(serialize_with = "hex")]
     pub state_hash: u64,
@@ -211,11 +229,13 @@ struct Thread {
     stage: Stage,
     trace: Option<TraceWriter>,
     audio: AudioIo,
+    voice: Voice,
+    loudness: Loudness,
+    metrics: Metrics,
     controllers: Controllers,
     stick_speed: f64,
     shared: Arc<Shared>,
     limit: u64,
-    seed: u64,
     recorded: bool,
     previous: Snapshot,
     heard: Heard,
@@ -229,17 +249,24 @@ struct Thread {
 
 impl Thread {
     fn new(stage: Stage, trace: Option<TraceWriter>, options: Options, shared: Arc<Shared>) -> Self {
-        let audio = AudioIo::start(&options.audio, synth(&options.exhibit, options.settings.seed));
+        let voice = Voice {
+            room: options.room,
+            most_partials: options.audio.most_partials as usize,
+            seed: options.settings.seed,
+        };
+        let audio = AudioIo::start(&options.audio, voice.synth(&options.exhibit));
         Self {
             previous: stage.snapshot().clone(),
             stage,
             trace,
             audio,
+            voice,
+            loudness: Loudness::new(options.volume, options.night, options.silent_attract),
+            metrics: Metrics::start(options.metrics),
             controllers: Controllers::start(&options.controllers),
             stick_speed: options.controllers.stick_speed,
             shared,
             limit: options.steps.unwrap_or(u64::MAX),
-            seed: options.settings.seed,
             recorded: options.recording.is_some(),
             heard: Heard::default(),
             sounds: Vec::new(),
@@ -269,6 +296,8 @@ impl Thread {
         Ok(Report {
             steps: self.stage.steps(),
             dropped: pacer.dropped(),
+            xruns: self.audio.status().xruns,
+            level_dba: Some(self.loudness.view().level_db[1]).filter(|level| level.is_finite()),
             impacts: self.stage.snapshot().diagnostics.impacts,
             state_hash: self.stage.state_hash(),
         })
@@ -281,6 +310,7 @@ impl Thread {
             let taken = shared.clone();
             shared.commands.clear();
             shared.exhibit = None;
+            shared.loudness = Wishes::default();
             taken
         };
         if let Some(exhibit) = controls.exhibit.take() {
@@ -310,12 +340,13 @@ impl Thread {
         let each = before.elapsed().as_secs_f64() / due as f64;
         self.load.step_s += 0.02 * (each - self.load.step_s);
         self.audio.send(self.stage.sample(), &self.sounds);
+        self.loudness.tend(controls.loudness, self.stage.attracts(), self.audio.knobs());
         Ok(rate.is_some() && !self.load.microphone.is_silent() || self.recorded)
     }
 
     /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
-        self.audio.set_instruments(synth(&exhibit, self.seed));
+        self.audio.set_instruments(self.voice.synth(&exhibit));
         self.stage.swap(exhibit);
         self.onset = None;
         if let Some(trace) = self.trace.take() {
@@ -335,6 +366,8 @@ impl Thread {
 
     fn publish(&mut self, due: Instant, hears: bool) {
         self.load.audio = self.audio.status();
+        self.load.loudness = self.loudness.view();
+        self.metrics.tend(&self.load);
         self.load.controllers.clear();
         self.load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));
         if let Some(onset) = &mut self.onset
@@ -369,14 +402,27 @@ fn add(controls: &mut Controls, reading: &Reading, stick_speed: f64) {
     controls.activity += reading.activity;
 }
 
-/// Builds the voice of an exhibit for a loudspeaker's rate.
-fn synth(exhibit: &Exhibit, seed: u64) -> impl Fn(u32) -> Synth + Send + 'static {
-    let instruments = exhibit.instruments.clone();
-    move |rate| {
-        Synth::new(rate, &instruments, seed).unwrap_or_else(|error| {
-            tracing::error!("the exhibit stays silent: {error}");
-            Synth::silent(rate)
-        })
+/// What the site adds to an exhibit's instruments.
+#[derive(Clone, Copy)]
+struct Voice {
+    room: Option<RoomSpec>,
+    most_partials: usize,
+    seed: u64,
+}
+
+impl Voice {
+    /// Builds the voice of an exhibit for a loudspeaker's rate.
+    fn synth(self, exhibit: &Exhibit) -> impl Fn(u32) -> Synth + Send + 'static {
+        let instruments = exhibit.instruments.clone();
+        move |rate| {
+            let mut synth = Synth::new(rate, &instruments, self.seed).unwrap_or_else(|error| {
+                tracing::error!("the exhibit stays silent: {error}");
+                Synth::silent(rate)
+            });
+            synth.set_room(self.room.as_ref());
+            synth.set_most_partials(self.most_partials);
+            synth
+        }
     }
 }
 

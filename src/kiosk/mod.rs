@@ -10,6 +10,8 @@ pub mod events;
 pub mod fonts;
 pub mod input;
 pub mod live;
+pub mod loudness;
+pub mod metrics;
 pub mod microphone;
 pub mod overlay;
 pub mod pace;

@@ -51,6 +51,8 @@ pub struct Scene<'a> {
     pub languages: &'a [String],
     /// Code of the language shown.
     pub language: &'a str,
+    /// May a visitor change the volume?
+    pub volume: bool,
     /// Seconds, for fading.
     pub time: f64,
     /// Points per millimetre of glass.
@@ -85,7 +87,10 @@ impl Overlay {
         let privacy = scene.hears.then_some(words(code).privacy);
         page.wall_label(label, scene.exhibit.credit.notice.trim(), privacy);
         page.invitation(&invitation(label, code, scene), self.invitation as f32);
-        page.languages(scene)
+        let mut buttons = Vec::new();
+        let left = page.languages(scene, &mut buttons);
+        page.volume(scene, left, &mut buttons);
+        buttons
     }
 
     /// The invitation fades when somebody blows and returns when nobody has for a while.
@@ -147,13 +152,13 @@ impl Page<'_> {
     }
 
     /// One button per language, each with its own name, bottom right; none where there is no choice.
-    fn languages(&self, scene: &Scene) -> Vec<(Rect, Request)> {
+    /// Where they begin.
+    fn languages(&self, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
+        let mut right = self.picture.right();
         if scene.languages.len() < 2 {
-            return Vec::new();
+            return right;
         }
         let side = BUTTON_MM * scene.points_per_mm;
-        let mut right = self.picture.right();
-        let mut buttons = Vec::new();
         for (i, code) in scene.languages.iter().enumerate().rev() {
             let shown = code == scene.language;
             let font = FontId::proportional(0.85 * self.em);
@@ -170,7 +175,23 @@ impl Page<'_> {
             buttons.push((rect, Request::Language(i)));
             right -= size.x;
         }
-        buttons
+        right
+    }
+
+    /// Softer and louder, left of the languages: two signs that need no words.
+    fn volume(&self, scene: &Scene, mut right: f32, buttons: &mut Vec<(Rect, Request)>) {
+        if !scene.volume {
+            return;
+        }
+        let side = (2.0 * self.em).max(BUTTON_MM * scene.points_per_mm);
+        for (sign, by) in [("+", 1), ("\u{2212}", -1)] {
+            let rect = Rect::from_min_size(pos2(right - side, self.picture.bottom() - side), vec2(side, side));
+            let galley = self.painter.layout_no_wrap(sign.into(), FontId::proportional(1.2 * self.em), SOFT_INK);
+            self.painter.circle_stroke(rect.center(), 0.75 * self.em, Stroke::new(0.07 * self.em, SOFT_INK));
+            self.painter.galley(rect.center() - 0.5 * galley.size(), galley, SOFT_INK);
+            buttons.push((rect, Request::Louder(by)));
+            right -= side;
+        }
     }
 
     /// The aim ring where the jet meets the sculpture, and the breath as an arc along it.

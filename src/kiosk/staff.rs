@@ -1,4 +1,4 @@
-//! The staff panel: every number that says whether the kiosk is well, and three buttons.
+//! The staff panel: every number that says whether the kiosk is well, and a few buttons.
 //!
 //! It opens by a key chord only (`staff.chord`) and is plain on purpose. Messages that visitors never see, such as
 //! what is wrong with a file that a curator just saved, are kept here.
@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use egui::{Align2, Color32, Grid, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 
 use super::live::Frame;
+use super::loudness::NightBy;
 use crate::controllers::State;
 use crate::wind::blow::BlowEstimate;
 
@@ -30,6 +31,10 @@ pub enum Wish {
     Reset,
     /// Load the exhibit from its folder again.
     Reload,
+    /// Silence, or an end of it.
+    Mute,
+    /// From the configured hours to night, to day, and back.
+    Night,
     /// End the kiosk.
     Close,
 }
@@ -80,9 +85,14 @@ impl Staff {
                     numbers(ui, frame, vitals);
                     ui.separator();
                     ui.horizontal(|ui| {
-                        for (name, asked) in
-                            [("Reset", Wish::Reset), ("Reload exhibit", Wish::Reload), ("Close kiosk", Wish::Close)]
-                        {
+                        let loud = &frame.load.loudness;
+                        for (name, asked) in [
+                            ("Reset", Wish::Reset),
+                            ("Reload exhibit", Wish::Reload),
+                            (if loud.muted { "Sound on" } else { "Mute" }, Wish::Mute),
+                            ("Night", Wish::Night),
+                            ("Close kiosk", Wish::Close),
+                        ] {
                             if ui.button(name).clicked() {
                                 wish = Some(asked);
                             }
@@ -170,5 +180,23 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         }
         row("loudspeaker", audio.output.to_string(), false);
         row("late blocks", audio.xruns.to_string(), audio.xruns > 0);
+        let loud = &frame.load.loudness;
+        let muted = if loud.muted { ", muted" } else { "" };
+        let eased = if loud.eased_db > 0.0 { format!(", {:.1} dB eased", loud.eased_db) } else { String::new() };
+        row("volume", format!("{:.1} dB, {:+} steps{eased}{muted}", loud.volume_db, loud.steps), loud.muted);
+        let by = match loud.by {
+            NightBy::Hours => "the hours",
+            NightBy::Night | NightBy::Day => "staff",
+        };
+        row("sound of the", format!("{}, by {by}", if loud.night { "night" } else { "day" }), false);
+        for (name, level, laeq) in
+            [("level, minute", loud.level_db[0], loud.laeq_db[0]), ("level, day", loud.level_db[1], loud.laeq_db[1])]
+        {
+            let value = match laeq {
+                Some(laeq) => format!("{laeq:.1} dB(A)"),
+                None => format!("{level:.1} dB(A) of full scale, not calibrated"),
+            };
+            row(name, value, false);
+        }
     });
 }

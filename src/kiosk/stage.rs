@@ -12,6 +12,7 @@ use crate::simulation::{Command, Microphone, SAMPLES_PER_STEP, Settings, Simulat
 use crate::sound::SoundCommand;
 
 use super::attract::Attract;
+use super::loudness::Wishes;
 use super::pointing::Pointing;
 
 /// What the visitor does, as the window tells it.
@@ -31,6 +32,8 @@ pub struct Controls {
     pub aspect: f64,
     /// Inputs so far.
     pub activity: u64,
+    /// What is asked of the loudness and not yet done.
+    pub loudness: Wishes,
     /// Commands not yet carried out.
     pub commands: Vec<Command>,
     /// A reloaded exhibit that waits for the next step boundary.

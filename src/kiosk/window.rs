@@ -22,6 +22,7 @@ use crate::simulation::{Command, Snapshot};
 use super::events::translate;
 use super::input::{Keys, Request, Visitor};
 use super::live::{self, Frame, Live, Onset, Report};
+use super::loudness::Wishes;
 use super::overlay::{Overlay, Scene};
 use super::reload::Reload;
 use super::screen::{Drawn, Screen};
@@ -249,7 +250,9 @@ impl ApplicationHandler for App<'_> {
                 Some(request)
             }
             None => {
-                let keys = Keys { staff: &self.config.staff.chord, blow: &self.config.controllers.key };
+                let staff = &self.config.staff;
+                let (mute, night) = (&staff.mute, &staff.night);
+                let keys = Keys { staff: &staff.chord, mute, night, blow: &self.config.controllers.key };
                 self.visitor.signal(&signal, keys, desk)
             }
         };
@@ -322,6 +325,7 @@ impl App<'_> {
                 hears: !frame.is_deaf(),
                 languages: &self.languages,
                 language: &self.language,
+                volume: self.config.volume.steps > 0 && !frame.load.loudness.muted,
                 time: vitals.time,
                 points_per_mm: 1.0 / (self.config.screen.mm_per_px as f32 * ui.ctx().pixels_per_point()),
             };
@@ -338,6 +342,8 @@ impl App<'_> {
             Some(Wish::Close) => events.exit(),
             Some(Wish::Reload) => self.reload.ask(),
             Some(Wish::Reset) => self.command(Command::Reset),
+            Some(Wish::Mute) => self.grant(events, Request::Mute),
+            Some(Wish::Night) => self.grant(events, Request::Night),
             None => {}
         }
         if drawn == Drawn::DeviceLost {
@@ -406,6 +412,9 @@ impl App<'_> {
                 let next = shown.map_or(0, |shown| (shown + 1) % self.languages.len());
                 self.language = self.languages.get(next).cloned().unwrap_or_default();
             }
+            Request::Louder(steps) => self.wish(|wishes| wishes.louder += steps),
+            Request::Mute => self.wish(|wishes| wishes.mutes += 1),
+            Request::Night => self.wish(|wishes| wishes.nights += 1),
             Request::ToggleStaff => {
                 self.staff.open = !self.staff.open;
                 if let Some(show) = &self.show {
@@ -423,6 +432,13 @@ impl App<'_> {
         controls.stick = self.visitor.stick().map(|tilt| tilt * self.config.controllers.stick_speed);
         controls.hold = self.visitor.holds();
         controls.activity = self.visitor.activity();
+    }
+
+    /// Asks something of the loudness.
+    fn wish(&self, change: impl FnOnce(&mut Wishes)) {
+        if let Some(show) = &self.show {
+            change(&mut show.live.controls().loudness);
+        }
     }
 
     fn command(&self, command: Command) {

@@ -10,6 +10,7 @@ use super::play::{self, Play, Summary};
 use super::trace::DEFAULT_FPS;
 use crate::exhibit::{AttractAction, Exhibit};
 use crate::simulation::{Settings, Simulation};
+use crate::sound::RoomSpec;
 
 /// The run goes on after the breath, s.
 const TAIL: f64 = 5.0;
@@ -42,6 +43,7 @@ pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &Ato
         seconds: breath.as_ref().map_or(0.0, WavFeed::duration) + TAIL,
         breath,
         audio: Some(file("wav")),
+        room: Some(RoomSpec::GALLERY),
         trace: Some(file("csv")),
         fps: DEFAULT_FPS,
         ..Play::default()

@@ -5,6 +5,7 @@ pub mod demo;
 pub mod ear;
 pub mod events;
 pub mod feed;
+pub mod loudness;
 #[cfg(feature = "kiosk")]
 pub mod pictures;
 pub mod play;

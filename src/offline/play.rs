@@ -14,6 +14,7 @@ use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
 use crate::exhibit::Exhibit;
 use crate::simulation::{STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+use crate::sound::RoomSpec;
 
 /// What to run and what to keep of it.
 #[derive(Default)]
@@ -32,6 +33,8 @@ pub struct Play {
     pub aspect: f64,
     /// Sound, stereo 48 kHz float.
     pub audio: Option<PathBuf>,
+    /// What the sounds are heard in; `None` is the open air.
+    pub room: Option<RoomSpec>,
     /// Without room and limiter.
     pub dry: bool,
     /// Poses, CSV.
@@ -103,10 +106,11 @@ pub fn run(
     mut on_step: impl FnMut(u64),
     mut on_frame: Option<&mut OnFrame>,
 ) -> Result<Summary, PlayError> {
-    let Play { settings, mut breath, aim, mut script, seconds, aspect, audio, dry, trace, events, fps } = play;
+    let Play { settings, mut breath, aim, mut script, seconds, aspect, audio, room, dry, trace, events, fps } = play;
     let (wall, cpu) = (Instant::now(), ProcessTime::now());
     let mut simulation = Simulation::new(exhibit.clone(), settings);
-    let mut soundtrack = Soundtrack::new(exhibit, settings.seed, dry, audio.as_deref()).map_err(PlayError::Output)?;
+    let mut soundtrack =
+        Soundtrack::new(exhibit, settings.seed, room.as_ref(), dry, audio.as_deref()).map_err(PlayError::Output)?;
     let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;
     let mut events = events.map(|path| EventWriter::create(&path, exhibit)).transpose()?;
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;

@@ -11,7 +11,7 @@ use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::decibels;
 use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use crate::sound::{SoundCommand, Synth};
+use crate::sound::{RoomSpec, SoundCommand, Synth};
 
 /// Stereo.
 const CHANNELS: u16 = 2;
@@ -37,10 +37,18 @@ pub struct Levels {
 }
 
 impl Soundtrack {
-    /// The exhibit's instruments; `dry` bypasses room and limiter. Errors name the timbre or the file.
-    pub fn new(exhibit: &Exhibit, seed: u64, dry: bool, path: Option<&Path>) -> Result<Self, String> {
+    /// The exhibit's instruments in a room (`None` is the open air); `dry` bypasses room and limiter. Errors name the timbre
+    /// or the file.
+    pub fn new(
+        exhibit: &Exhibit,
+        seed: u64,
+        room: Option<&RoomSpec>,
+        dry: bool,
+        path: Option<&Path>,
+    ) -> Result<Self, String> {
         let mut synth = Synth::new(SAMPLE_RATE, &exhibit.instruments, seed).map_err(|e| e.to_string())?;
         synth.set_dry(dry);
+        synth.set_room(room);
         let file = path.map(WholeWav::create).transpose()?;
         Ok(Self {
             early: synth.latency() * usize::from(CHANNELS),

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! timbre (preset files) ─→ instrument ─→ graph of operators ─┬─→ voices of hits ──┐
-//! modes (of all sources) ─↗  excitation (Hertz, radiation)   └─→ bodies ──────────┴─→ mix ─→ limiter ─→ out
+//! modes (of all sources) ─↗  excitation (Hertz, radiation)   └─→ bodies ──────────┴─→ mix ─→ master ─→ out
 //!                                                    modal (banks of partials) ──↗
 //! ```
 
@@ -13,20 +13,30 @@ mod body;
 mod excitation;
 mod graph;
 mod gusts;
+mod habit;
 mod instrument;
+mod level;
 mod limiter;
+mod master;
 pub mod modal;
 pub mod modes;
+mod night;
+mod room;
 mod synth;
 pub mod timbre;
+mod true_peak;
 mod voice;
+mod volume;
 
 pub use gusts::multifractal;
 pub use instrument::partials;
-pub use limiter::CEILING;
+pub use level::{AWeighting, Exposure, weighted_level};
+pub use limiter::{CEILING, SUDDEN};
 pub use modes::{Mode, PlateMode, free_plate_modes};
+pub use room::{BANDS, Room, RoomSpec, STEEPEST, T60_RANGE};
 pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, MOST_PARTIALS, Synth};
 pub use timbre::{Preset, TimbreError};
+pub use volume::{PROGRAMME, Volume, VolumeSettings};
 
 /// What the synth is told. Fixed size, so that it travels through a wait-free ring.
 #[derive(Clone, Copy, Debug, PartialEq)]

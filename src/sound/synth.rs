@@ -14,8 +14,10 @@ use std::collections::VecDeque;
 
 use super::body::Body;
 use super::graph::{Block, CONTROL, Part};
+use super::habit::Habit;
 use super::instrument::Instrument;
-use super::limiter::Limiter;
+use super::master::Master;
+use super::room::RoomSpec;
 use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
 use super::{InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
@@ -64,7 +66,9 @@ pub struct Synth {
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
     blocks: Box<[Block; MAX_NODES]>,
-    limiter: Limiter,
+    /// One for each instrument.
+    habits: Vec<Habit>,
+    master: Master,
     dry: bool,
     position: u64,
     strikes: u64,
@@ -154,6 +158,7 @@ impl Synth {
             sample_rate,
             seed,
             sliders: vec![Slider::default(); instruments.len()],
+            habits: vec![Habit::default(); instruments.len()],
             instruments,
             bodies,
             body_of,
@@ -163,7 +168,7 @@ impl Synth {
             wind: Wind::default(),
             commands: VecDeque::with_capacity(MAX_COMMANDS),
             blocks: Box::new([[0.0; CONTROL]; MAX_NODES]),
-            limiter: Limiter::new(sample_rate),
+            master: Master::new(sample_rate),
             dry: false,
             position: 0,
             strikes: 0,
@@ -184,12 +189,23 @@ impl Synth {
 
     /// Frames by which the output comes after the synth's clock: the limiter's look-ahead, 0 when dry.
     pub fn latency(&self) -> usize {
-        if self.dry { 0 } else { self.limiter.latency() }
+        if self.dry { 0 } else { self.master.latency() }
     }
 
-    /// Bypasses the limiter. To be called before the first sample: it changes the latency.
+    /// Bypasses room, limiter and whatever else comes after the sum of all sounds, and eases no repetition. To be called
+    /// before the first sample: it changes the latency.
     pub fn set_dry(&mut self, dry: bool) {
         self.dry = dry;
+    }
+
+    /// The room that all is heard in; `None`, which is also the beginning, is the open air. Allocates.
+    pub fn set_room(&mut self, room: Option<&RoomSpec>) {
+        self.master.set_room(room);
+    }
+
+    /// The night's sound or the day's, to which it glides; before the first sample it is so at once. Real-time.
+    pub fn set_night(&mut self, night: bool) {
+        self.master.set_night(night);
     }
 
     /// Bounds the partials that ring at once: the quietest leave first, by groups of sixteen.
@@ -250,7 +266,7 @@ impl Synth {
             right.fill(0.0);
             self.mix(left, right);
             for ((frame, l), r) in now.iter_mut().zip(left).zip(right) {
-                *frame = if self.dry { [*l, *r] } else { self.limiter.process([*l, *r]) };
+                *frame = if self.dry { [*l, *r] } else { self.master.process([*l, *r]) };
             }
             self.position += n as u64;
             frames = later;
@@ -299,7 +315,9 @@ impl Synth {
         };
         self.strikes += 1;
         let [l, r] = equal_power(f64::from(strike.pan));
-        let gain = instrument.gain as f32 / strike.distance.max(NEAREST);
+        let time = self.position as f64 / self.sample_rate;
+        let eased = if self.dry { 1.0 } else { self.habits[index].hit(f64::from(strike.impulse), time) };
+        let gain = eased * instrument.gain as f32 / strike.distance.max(NEAREST);
         let gains = [l * gain, r * gain];
         let inputs = instrument.inputs(strike);
         let clock = self.clock();

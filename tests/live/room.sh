@@ -62,13 +62,12 @@ enter_room() {
 load-module module-native-protocol-unix auth-anonymous=1
 load-module module-null-sink sink_name=air rate=48000 channels=3 channel_map=aux0,aux1,aux2 format=float32le norewinds=1
 load-module module-remap-sink sink_name=mic_in master=air channels=1 channel_map=mono master_channel_map=aux0 remix=no
-load-module module-remap-sink sink_name=speakers master=air channels=2 channel_map=front-left,front-right master_channel_map=aux1,aux2 remix=no
-set-default-sink speakers
 PA
     start pulse pulseaudio -n -F "$room/room.pa" --daemonize=no --exit-idle-time=-1 --use-pid-file=no --disallow-exit \
         --realtime=no --high-priority=no
     within 10 pactl info || { cat "$room/pulse.err" >&2; return 1; }
     plug_microphone
+    plug_loudspeaker
     # The server finds a free number itself and says which.
     start xvfb Xvfb -displayfd 1 -screen 0 "${1:-1280x720}x24" -nolisten tcp
     within 10 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
@@ -79,11 +78,19 @@ PA
     within 10 xdotool get_desktop
 }
 
-# The microphone's plug.
+# The plugs of microphone and loudspeaker.
 plug_microphone() {
     pactl load-module module-remap-source source_name=mic master=air.monitor channels=1 channel_map=mono \
         master_channel_map=aux0 remix=no >"$room/plug"
     pactl set-default-source mic
+}
+plug_loudspeaker() {
+    pactl load-module module-remap-sink sink_name=speakers master=air channels=2 channel_map=front-left,front-right \
+        master_channel_map=aux1,aux2 remix=no >"$room/speaker-plug"
+    pactl set-default-sink speakers
+}
+pull_loudspeaker() {
+    pactl unload-module "$(cat "$room/speaker-plug")"
 }
 pull_microphone() {
     pactl unload-module "$(cat "$room/plug")"

@@ -3,7 +3,8 @@
 #
 #   tests/live/run.sh target/debug/soffio
 #
-# SOFFIO_LIVE_SECONDS=1800 adds a soak of that length, SOFFIO_LIVE_STREAM=600 a stream of breaths whose delays are measured;
+# SOFFIO_LIVE_SECONDS=1800 adds a soak of that length, SOFFIO_LIVE_STREAM=600 a stream of breaths whose delays are measured,
+# SOFFIO_LIVE_LOAD=600 sound under a load of one process more than there are processors;
 # SOFFIO_LIVE_PARTS names the parts to run; SOFFIO_LIVE_KEEP=FOLDER keeps pictures, logs, traces and sounds.
 # One line per bar; every threshold says why it is what it is. Nothing here depends on how fast the machine draws.
 set -euo pipefail
@@ -317,6 +318,63 @@ replugged() {
 lost_times() { [ "$(grep -c 'microphone lost' "$room/$1.err")" -ge "$2" ]; }
 listens_times() { [ "$(grep -c 'supervisor: microphone: ' "$room/$1.err")" -ge "$2" ]; }
 
+# ---- the loudspeaker is pulled out and put in again: it sounds again, and the motion never stopped -------------------
+speaker_replugged() {
+    local i rows gaps
+    printf '[audio]\nloudspeaker = "speakers"\n' >"$room/mute.toml"
+    start_kiosk mute --no-attract --config "$room/mute.toml" --trace "$room/mute.csv" --for 40
+    within 10 grep -q 'supervisor: loudspeaker: ' "$room/mute.err"
+    for i in 1 2 3; do
+        pull_loudspeaker
+        within 8 spoken mute 'loudspeaker lost' "$i" || break
+        plug_loudspeaker
+        within 8 spoken mute 'supervisor: loudspeaker: ' $((i + 1)) || break
+    done
+    sleep 1
+    start back parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 --raw
+    local recorder=$last
+    xdotool keydown space
+    sleep 3
+    xdotool keyup space
+    kill "$recorder"
+    wait "$recorder" 2>/dev/null || true
+    end_kiosk mute || true
+    bar "loudspeaker replugged" "$(grep -c 'loudspeaker lost' "$room/mute.err") == 3 && $(grep -c 'supervisor: loudspeaker: ' "$room/mute.err") == 4" \
+        "lost $(grep -c 'loudspeaker lost' "$room/mute.err") times, $(grep -c 'supervisor: loudspeaker: ' "$room/mute.err") times opened"
+    bar "back: it sounds" "$(level "$room/back.out" 1 2) > -50" "$(level "$room/back.out" 1 2) dBFS"
+    # A row 60 times a second, whatever the loudspeaker does.
+    read -r rows gaps < <(awk -F, 'FNR > 2 && $1 - t > 0.018 { gaps++ } FNR > 1 { t = $1; times[$1] } END { print length(times), gaps + 0 }' "$room/mute.csv")
+    bar "the motion goes on" "$rows >= 2390 && $gaps == 0" "$rows moments in 40 s, $gaps gaps"
+}
+spoken() { [ "$(grep -c "$2" "$room/$1.err")" -ge "$3" ]; }
+
+# ---- sound under load -----------------------------------------------------------------------------------------------
+# Every processor is kept busy, and one process more. What is ours is the callback: it must need far less than its block
+# lasts, so that a kiosk of real-time priority has no gap. Here nobody grants that priority, and a block may still be late.
+loaded() {
+    local i busy=() blown=0 worst xruns code=0
+    for i in $(seq 0 "$(nproc)"); do
+        nice -n 5 sh -c 'while :; do :; done' &
+        busy+=($!)
+        started+=($!)
+    done
+    SOFFIO_MEASURE_CALLBACK=1 limit=$(($1 + 120)) start_kiosk loaded --no-attract --for "$1"
+    local end=$((SECONDS + $1 - 15))
+    sleep 5
+    while [ "$SECONDS" -lt "$end" ] && kill -0 "$kiosk" 2>/dev/null; do
+        before_microphone "$room/strong.wav"
+        blown=$((blown + 1))
+        sleep 2
+    done
+    end_kiosk loaded || code=$?
+    kill "${busy[@]}"
+    worst=$(sed -nE 's/.*the worst took ([0-9.]+) % of its time.*/\1/p' "$room/loaded.err")
+    xruns=$(sed -nE 's/.*blocks, xruns: ([0-9]+),.*/\1/p' "$room/loaded.err")
+    bar "under load: runs on" "$code == 0" "exit code $code after $1 s, $blown breaths"
+    bar "under load: no gap" "${xruns:-1} == 0" "${xruns:-?} gaps"
+    bar "under load: callback" "${worst:-100} < 25" "the worst block took ${worst:-?} % of its time"
+}
+
 # ---- live and offline are one run ------------------------------------------------------------------------------
 one_run() {
     start_kiosk windowed --no-attract --windowed --breath "$recordings/normal.wav" --trace "$room/live.csv" --for 6
@@ -399,11 +457,14 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged privacy own_voice one_run doctor_blow no_devices no_display}; do
+for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice one_run doctor_blow no_devices no_display}; do
     "$part"
 done
 if [ -n "${SOFFIO_LIVE_STREAM:-}" ]; then
     streaming "$SOFFIO_LIVE_STREAM"
+fi
+if [ -n "${SOFFIO_LIVE_LOAD:-}" ]; then
+    loaded "$SOFFIO_LIVE_LOAD"
 fi
 if [ -n "${SOFFIO_LIVE_SECONDS:-}" ]; then
     soak "$SOFFIO_LIVE_SECONDS"

@@ -149,7 +149,7 @@ fn a_recording_is_heard_whole_in_order_and_without_a_gap_at_any_rate() {
 #[cfg(feature = "kiosk")]
 mod live {
     use std::path::Path;
-    use std::sync::Arc;
+    use std::sync::{Arc, LazyLock};
     use std::time::Duration;
 
     use soffio::config::Chord;
@@ -192,8 +192,37 @@ mod live {
         Signal::Key(Key { name: name.into(), pressed, ..Key::default() })
     }
 
+    /// The keys of a site, with a staff chord and a key to blow of its own.
+    fn keys<'a>(staff: &'a Chord, blow: &'a str) -> Keys<'a> {
+        static OTHERS: LazyLock<[Chord; 2]> =
+            LazyLock::new(|| ["M", "N"].map(|key| Chord::new(true, true, false, key)));
+        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], blow }
+    }
+
     fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
-        visitor.signal(&signal, Keys { staff: &chord(), blow: "Space" }, false)
+        visitor.signal(&signal, keys(&chord(), "Space"), false)
+    }
+
+    #[test]
+    fn plus_and_minus_turn_the_volume_and_two_chords_are_the_staffs() {
+        let mut visitor = Visitor::default();
+        for (name, asked) in [
+            ("Equal", Some(Request::Louder(1))),
+            ("NumpadAdd", Some(Request::Louder(1))),
+            ("AudioVolumeUp", Some(Request::Louder(1))),
+            ("Minus", Some(Request::Louder(-1))),
+            ("NumpadSubtract", Some(Request::Louder(-1))),
+            ("M", None),
+            ("N", None),
+        ] {
+            assert_eq!(tell(&mut visitor, key(name, true)), asked, "{name}");
+            assert_eq!(tell(&mut visitor, key(name, false)), None, "{name}");
+        }
+        for (name, asked) in [("M", Request::Mute), ("N", Request::Night), ("S", Request::ToggleStaff)] {
+            let key = Key { name: name.into(), pressed: true, ctrl: true, alt: true, ..Key::default() };
+            assert_eq!(tell(&mut visitor, Signal::Key(key)), Some(asked), "{name}");
+        }
+        assert!(!visitor.holds());
     }
 
     #[test]
@@ -235,7 +264,7 @@ mod live {
         let mut visitor = Visitor::default();
         let chord = chord();
         let mut press = |name: &str, down: bool| {
-            visitor.signal(&key(name, down), Keys { staff: &chord, blow: "F9" }, false);
+            visitor.signal(&key(name, down), keys(&chord, "F9"), false);
             (visitor.holds(), visitor.stick())
         };
         assert_eq!(press("Space", true), (false, [0.0, 0.0]));
@@ -280,7 +309,7 @@ mod live {
             }
         }
         assert_eq!(
-            visitor.signal(&key("Escape", true), Keys { staff: &chord(), blow: "Space" }, true),
+            visitor.signal(&key("Escape", true), keys(&chord(), "Space"), true),
             Some(Request::Close),
             "on a desk it may"
         );

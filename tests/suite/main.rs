@@ -13,6 +13,7 @@ mod exhibits_in_motion;
 mod forge;
 mod hits;
 mod kiosk;
+mod loudness;
 mod modal;
 mod motion;
 #[cfg(feature = "kiosk")]
@@ -24,5 +25,6 @@ mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;
 mod sound;
+mod space;
 mod steel_fish;
 mod wind;

@@ -70,7 +70,8 @@ fn the_synth_never_allocates() {
 mod callback {
     use super::*;
     use soffio::audio_io::output::{Engine, open};
-    use soffio::audio_io::{ClockMap, Heard, input};
+    use soffio::audio_io::{ClockMap, Heard, Knobs, input};
+    use std::sync::Arc;
 
     fn engine(rate: u32, generation: u64) -> Engine {
         Engine { synth: Box::new(synth(rate)), generation }
@@ -78,7 +79,7 @@ mod callback {
 
     #[test]
     fn the_loudspeakers_callback_never_allocates_even_when_the_exhibit_changes() {
-        let (mut player, mut voice, mut workshop) = open(48_000, 2, 0.5);
+        let (mut player, mut voice, mut workshop) = open(48_000, 2, Arc::new(Knobs::new(0.5)));
         workshop.exchange(Some(engine(48_000, 0)));
         let mut block = vec![0.0f32; 2 * 480];
         let mut generation = 0;
@@ -104,7 +105,7 @@ mod callback {
     #[test]
     fn every_layout_of_channels_and_every_block_is_played() {
         for channels in [1, 2, 6] {
-            let (mut player, mut voice, mut workshop) = open(48_000, channels, 1.0);
+            let (mut player, mut voice, mut workshop) = open(48_000, channels, Arc::new(Knobs::new(1.0)));
             workshop.exchange(Some(engine(48_000, 0)));
             let mut block = vec![0i16; channels * 777];
             assert_no_alloc(|| player.play(&mut block));
@@ -122,8 +123,31 @@ mod callback {
     }
 
     #[test]
+    fn the_volume_glides_and_what_is_heard_is_measured() {
+        // From half to exact silence within half a second, and no click: no allocation on the way.
+        let knobs = Arc::new(Knobs::new(0.5));
+        let (mut player, mut voice, mut workshop) = open(48_000, 2, knobs.clone());
+        workshop.exchange(Some(engine(48_000, 0)));
+        let mut block = vec![0.0f32; 2 * 480];
+        voice.send(0, &[strike(0, 1)], 0);
+        for i in 0..150 {
+            match i {
+                50 => knobs.set_volume(0.0),
+                60 => knobs.set_night(true),
+                _ => {}
+            }
+            assert_no_alloc(|| player.play(&mut block));
+            if i > 50 + 60 {
+                assert!(block.iter().all(|s| *s == 0.0), "block {i}");
+            }
+        }
+        let (energy, seconds) = knobs.played();
+        assert!((seconds - 1.5).abs() < 1e-9 && energy > 0.0, "{energy}, {seconds}");
+    }
+
+    #[test]
     fn commands_for_other_instruments_are_not_played() {
-        let (mut player, mut voice, mut workshop) = open(48_000, 2, 1.0);
+        let (mut player, mut voice, mut workshop) = open(48_000, 2, Arc::new(Knobs::new(1.0)));
         workshop.exchange(Some(engine(48_000, 3)));
         let mut block = vec![0.0f32; 960];
         player.play(&mut block);

@@ -13,7 +13,7 @@ use crate::math::{exp, ln};
 use crate::noise::Random;
 use crate::simulation::SAMPLE_RATE;
 use crate::sound::modal::{BLOCK, Bank, Partial};
-use crate::sound::{InstrumentSpec, Preset, SoundBody, SoundCommand, SoundMaterial, Strike, Synth};
+use crate::sound::{InstrumentSpec, Preset, Room, RoomSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth};
 
 /// Rounds of each measurement; the best is reported, as the machine's other work can only add.
 const ROUNDS: usize = 5;
@@ -50,10 +50,17 @@ struct Scene {
     bodies: usize,
     /// Partials that ring at the end: all of them.
     partials: usize,
-    /// % of one core, hits and limiter included.
+    /// % of one core, hits, room and limiter included.
     core_percent: f64,
     /// The longest block's own time, % of what it lasts.
     worst_block_percent: f64,
+}
+
+/// The room.
+#[derive(Serialize)]
+struct RoomCost {
+    /// % of one core.
+    room_percent: f64,
 }
 
 /// Measures and prints.
@@ -73,6 +80,12 @@ pub fn run(json: bool) -> Outcome {
                 println!("{:<10} {:>9} {:>18.0} {:>16.0} %", row.level, partials, rate, 100.0 * share_of_ceiling);
             }
         }
+    }
+    let room_percent = (0..ROUNDS).map(|_| room()).fold(f64::INFINITY, f64::min);
+    if json {
+        println!("{}", serde_json::to_string(&RoomCost { room_percent }).map_err(Failure::input)?);
+    } else {
+        println!("room: {room_percent:.2} % of a core");
     }
     let scene = scene()?;
     if json {
@@ -164,6 +177,19 @@ fn preset(partials: &[Partial]) -> Result<Preset, Failure> {
     Preset::parse("heavy", &(text + "]\n")).map_err(Failure::input)
 }
 
+/// The gallery, busy, % of one core.
+fn room() -> f64 {
+    let rate = f64::from(SAMPLE_RATE);
+    let Some(mut room) = Room::new(&RoomSpec::GALLERY, rate) else { return f64::NAN };
+    let mut random = Random::new(1);
+    let noise: Vec<f32> = (0..SAMPLE_RATE).map(|_| random.signed() as f32).collect();
+    let start = ThreadTime::now();
+    for x in &noise {
+        black_box(room.process([*x, -*x]));
+    }
+    100.0 * start.elapsed().as_secs_f64() * rate / noise.len() as f64
+}
+
 fn scene() -> Result<Scene, Failure> {
     let material = SoundMaterial { youngs_modulus: 1e10, poisson: 0.3, density: 600.0, loss_factor: 1e-2 };
     let body = SoundBody { half_extents: [0.1, 0.05], thickness: 0.01, area: 0.02, mass: 0.12 };
@@ -179,6 +205,7 @@ fn scene() -> Result<Scene, Failure> {
     let lasts = SCENE_BLOCK as f64 / f64::from(SAMPLE_RATE);
     for _ in 0..ROUNDS {
         let mut synth = Synth::with_presets(SAMPLE_RATE, &instruments, 1).map_err(Failure::input)?;
+        synth.set_room(Some(&RoomSpec::GALLERY));
         let mut random = Random::new(1);
         let mut strike = |sample: u64, instrument: usize| {
             SoundCommand::Strike(Strike {

@@ -196,7 +196,7 @@ impl Context<'_> {
             body: size,
             material: sound_material,
             surface: None,
-            gain: from_decibels(given.gain.0),
+            gain: from_decibels(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };
         let on = match given.on {

@@ -1,0 +1,80 @@
+//! Times of day, and the hours between two of them.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// Minutes of a day.
+const DAY: u16 = 24 * 60;
+
+/// A time of day, `22:30`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TimeOfDay(u16);
+
+impl TimeOfDay {
+    /// So many minutes after midnight; whole days count for nothing.
+    pub fn from_minutes(minutes: u16) -> Self {
+        Self(minutes % DAY)
+    }
+}
+
+impl FromStr for TimeOfDay {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("\"{text}\" is no time of day: write hours and minutes, as in \"22:30\"");
+        let (hours, minutes) = text.trim().split_once(':').ok_or_else(wrong)?;
+        let read = |part: &str, below: u16| {
+            let digits = part.len() <= 2 && part.bytes().all(|b| b.is_ascii_digit());
+            part.parse::<u16>().ok().filter(|n| digits && *n < below)
+        };
+        let (hours, minutes) = (read(hours, 24).ok_or_else(wrong)?, read(minutes, 60).ok_or_else(wrong)?);
+        Ok(Self(60 * hours + minutes))
+    }
+}
+
+impl fmt::Display for TimeOfDay {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:02}:{:02}", self.0 / 60, self.0 % 60)
+    }
+}
+
+/// When the house is quiet: from one time of day to another, over midnight where the first is the later.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Hours {
+    /// Local time at which the night's sound begins, `22:00`; empty leaves it to staff.
+    #[serde(with = "text")]
+    #[schemars(with = "String")]
+    pub from: Option<TimeOfDay>,
+    /// Local time at which the day's begins.
+    #[serde(with = "text")]
+    #[schemars(with = "String")]
+    pub to: Option<TimeOfDay>,
+}
+
+impl Hours {
+    /// Is this time inside? Never where one of the two is missing, or both are the same.
+    pub fn contain(&self, time: TimeOfDay) -> bool {
+        let (Some(from), Some(to)) = (self.from, self.to) else { return false };
+        let since = |time: TimeOfDay| (time.0 + DAY - from.0) % DAY;
+        since(time) < since(to)
+    }
+}
+
+/// An empty text is no time.
+mod text {
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use super::TimeOfDay;
+
+    pub fn serialize<S: Serializer>(time: &Option<TimeOfDay>, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&time.map(|time| time.to_string()).unwrap_or_default())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<TimeOfDay>, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        if text.is_empty() { Ok(None) } else { text.parse().map(Some).map_err(de::Error::custom) }
+    }
+}

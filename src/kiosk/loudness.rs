@@ -1,0 +1,165 @@
+//! How loud the kiosk is: what visitors and staff ask for, what the house allows, and what is heard in the end.
+//!
+//! Looks once a second: a change of volume by a visitor is heard at once, everything else within that second.
+
+use std::time::{Duration, Instant};
+
+use jiff::Zoned;
+
+use crate::audio_io::Knobs;
+use crate::config::{Hours, TimeOfDay};
+use crate::math::from_decibels;
+use crate::sound::{Exposure, Volume, VolumeSettings};
+
+/// Between two looks.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// Who says whether it is night.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NightBy {
+    /// The configured hours.
+    #[default]
+    Hours,
+    /// Staff: it is.
+    Night,
+    /// Staff: it is not.
+    Day,
+}
+
+impl NightBy {
+    fn next(self) -> Self {
+        match self {
+            Self::Hours => Self::Night,
+            Self::Night => Self::Day,
+            Self::Day => Self::Hours,
+        }
+    }
+}
+
+/// What is asked of the loudness, as the window tells it; taken with each step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wishes {
+    /// Steps louder.
+    pub louder: i32,
+    /// Presses of the staff's mute.
+    pub mutes: u32,
+    /// Presses of the staff's night key.
+    pub nights: u32,
+}
+
+/// The loudness as staff see it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct View {
+    /// Volume, dB.
+    pub volume_db: f64,
+    /// A visitor's steps.
+    pub steps: i32,
+    /// Muted by staff?
+    pub muted: bool,
+    /// Is it night?
+    pub night: bool,
+    /// By whom.
+    pub by: NightBy,
+    /// Taken off because the last minute was too loud, dB.
+    pub eased_db: f64,
+    /// A-weighted level of the last minute and of the day, dB of a full-scale sine; −∞ for silence.
+    pub level_db: [f64; 2],
+    /// The same at the visitor's ear, dB(A), where the kiosk is calibrated.
+    pub laeq_db: [Option<f64>; 2],
+}
+
+/// The kiosk's loudness.
+pub struct Loudness {
+    volume: Volume,
+    exposure: Exposure,
+    hours: Hours,
+    by: NightBy,
+    night: bool,
+    silent_attract: bool,
+    attracts: bool,
+    looked: Option<Instant>,
+    /// Energy and time at the last look.
+    before: (f64, f64),
+}
+
+impl Loudness {
+    /// As a visitor finds it.
+    pub fn new(volume: VolumeSettings, hours: Hours, silent_attract: bool) -> Self {
+        Self {
+            volume: Volume::new(volume),
+            exposure: Exposure::default(),
+            hours,
+            by: NightBy::Hours,
+            night: false,
+            silent_attract,
+            attracts: false,
+            looked: None,
+            before: (0.0, 0.0),
+        }
+    }
+
+    /// Heeds what is asked for, and turns the knobs.
+    pub fn tend(&mut self, wishes: Wishes, attracts: bool, knobs: &Knobs) {
+        let asked = wishes != Wishes::default() || attracts != self.attracts;
+        let due = self.looked.is_none_or(|at| at.elapsed() >= LOOK);
+        if !(asked || due) {
+            return;
+        }
+        self.volume.step(wishes.louder);
+        if wishes.mutes % 2 == 1 {
+            self.volume.toggle_mute();
+            tracing::info!("{}", if self.volume.is_muted() { "muted by staff" } else { "sounds again" });
+        }
+        (0..wishes.nights).for_each(|_| self.by = self.by.next());
+        if attracts && !self.attracts {
+            // The last visitor has left.
+            self.volume.reset();
+        }
+        self.attracts = attracts;
+        self.look(due, knobs);
+        let silent = self.volume.is_muted() || attracts && self.silent_attract;
+        knobs.set_volume(if silent { 0.0 } else { from_decibels(self.volume.db()) as f32 });
+        knobs.set_night(self.night);
+    }
+
+    fn look(&mut self, due: bool, knobs: &Knobs) {
+        let now = Zoned::now();
+        let minutes = 60 * u16::from(now.hour().unsigned_abs()) + u16::from(now.minute().unsigned_abs());
+        let night = match self.by {
+            NightBy::Hours => self.hours.contain(TimeOfDay::from_minutes(minutes)),
+            NightBy::Night => true,
+            NightBy::Day => false,
+        };
+        if night != self.night {
+            tracing::info!("the sound of the {}", if night { "night" } else { "day" });
+        }
+        self.night = night;
+        if !due {
+            return;
+        }
+        self.looked = Some(Instant::now());
+        let (energy, seconds) = knobs.played();
+        let passed = seconds - self.before.1;
+        if passed > 0.0 {
+            let day = 366 * u64::from(now.year().unsigned_abs()) + u64::from(now.day_of_year().unsigned_abs());
+            self.exposure.note((energy - self.before.0) / passed, passed, day);
+            self.volume.heed(self.exposure.minute(), passed);
+            self.before = (energy, seconds);
+        }
+    }
+
+    /// As staff see it.
+    pub fn view(&self) -> View {
+        let level_db = [self.exposure.minute(), self.exposure.day()];
+        View {
+            volume_db: self.volume.db(),
+            steps: self.volume.steps(),
+            muted: self.volume.is_muted(),
+            night: self.night,
+            by: self.by,
+            eased_db: self.volume.eased_db(),
+            level_db,
+            laeq_db: level_db.map(|level| self.volume.spl(level)),
+        }
+    }
+}

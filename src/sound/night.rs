@@ -1,0 +1,113 @@
+//! How the kiosk sounds at night, or beside a quiet gallery: lower, closer together, and softer at the top.
+//!
+//! ```text
+//! L = mean square, 5 ms up and 150 ms down        G = LEVEL − (1 − 1/RATIO) max(0, L − THRESHOLD)   dB
+//! y = 10^(G/20) · shelf(x)                         shelf: first order, SOFTER above CORNER
+//! ```
+//!
+//! Walls and doors let low sounds through and take high ones, but it is the high ones and the sudden ones that draw
+//! attention in a quiet house; so loud is brought down to soft, and brightness taken off. By day all of this is bypassed,
+//! to the bit; between day and night it glides for [`GLIDE`].
+//!
+//! Gains are found once in [`STRIDE`] frames of the signal itself and run straight between, so that blocks do not matter.
+
+use crate::math::{PI, decibels, exp, from_decibels, sincos};
+
+/// Level of soft sounds, dB.
+pub const LEVEL: f64 = -8.0;
+/// Above this, dB of full scale (root mean square), sounds are brought together by [`RATIO`].
+pub const THRESHOLD: f64 = -36.0;
+/// Of so many dB above the threshold one is left.
+pub const RATIO: f64 = 3.0;
+/// What lies above this, Hz, is softer by [`SOFTER`] dB.
+pub const CORNER: f64 = 2500.0;
+/// dB.
+pub const SOFTER: f64 = -9.0;
+/// From day to night, s.
+pub const GLIDE: f64 = 2.0;
+/// The level follows what rises and what falls in these times, s.
+const FOLLOW: (f64, f64) = (0.005, 0.15);
+/// Frames from one gain to the next.
+const STRIDE: u32 = 32;
+
+pub(super) struct Night {
+    wanted: bool,
+    /// 0 day … 1 night.
+    amount: f64,
+    /// Of the amount, once a stride.
+    glide: f64,
+    /// First-order shelf b0, b1, a1, and its state on either side.
+    shelf: [f64; 3],
+    states: [f64; 2],
+    follow: (f64, f64),
+    square: f64,
+    gain: f64,
+    step: f64,
+    frame: u32,
+}
+
+impl Night {
+    pub fn new(sample_rate: f64) -> Self {
+        let rise = from_decibels(SOFTER);
+        let (s, c) = sincos(PI * CORNER / sample_rate);
+        // As in `room/absorption.rs`, of first order: (h s + √h w)/(s + √h w).
+        let w = s / c * rise.sqrt();
+        let norm = 1.0 / (1.0 + w);
+        let share = |time: f64| 1.0 - exp(-1.0 / (time * sample_rate));
+        Self {
+            wanted: false,
+            amount: 0.0,
+            glide: f64::from(STRIDE) / (GLIDE * sample_rate),
+            shelf: [(rise + w) * norm, (w - rise) * norm, (w - 1.0) * norm],
+            states: [0.0; 2],
+            follow: (share(FOLLOW.0), share(FOLLOW.1)),
+            square: 0.0,
+            gain: 1.0,
+            step: 0.0,
+            frame: 0,
+        }
+    }
+
+    /// From now on; it glides there. Before the first frame it is so at once.
+    pub fn set(&mut self, night: bool, at_once: bool) {
+        self.wanted = night;
+        if at_once {
+            self.amount = f64::from(u8::from(night));
+            self.gain = from_decibels(self.amount * LEVEL);
+        }
+    }
+
+    pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
+        if self.amount == 0.0 && !self.wanted {
+            return frame;
+        }
+        let [l, r] = frame.map(f64::from);
+        let square = 0.5 * (l * l + r * r);
+        let (up, down) = self.follow;
+        self.square += (square - self.square) * if square > self.square { up } else { down };
+        if self.frame == 0 {
+            let step = if self.wanted { self.glide } else { -self.glide };
+            self.amount = (self.amount + step).clamp(0.0, 1.0);
+            let above = (0.5 * decibels(self.square.max(1e-20)) - THRESHOLD).max(0.0);
+            let wanted = from_decibels(self.amount * (LEVEL - (1.0 - 1.0 / RATIO) * above));
+            self.step = (wanted - self.gain) / f64::from(STRIDE);
+        }
+        self.frame = (self.frame + 1) % STRIDE;
+        self.gain += self.step;
+        let [b0, b1, a1] = self.shelf;
+        let mut out = [l, r];
+        for (x, state) in out.iter_mut().zip(&mut self.states) {
+            let y = b0 * *x + *state;
+            *state = b1 * *x - a1 * y;
+            // Far below what is heard: numbers that make processors slow.
+            if state.abs() < 1e-20 {
+                *state = 0.0;
+            }
+            *x = (*x + self.amount * (y - *x)) * self.gain;
+        }
+        if self.amount == 0.0 {
+            (self.states, self.square, self.gain, self.frame) = ([0.0; 2], 0.0, 1.0, 0);
+        }
+        out.map(|y| y as f32)
+    }
+}
