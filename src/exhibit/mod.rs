@@ -253,6 +253,8 @@ pub struct SoundBinding {
 pub enum SoundTrigger {
     /// A hit on the body.
     Impact,
+    /// What slides or rolls over the body.
+    Slide,
     /// The wind at the body.
     Wind,
 }

@@ -1,14 +1,8 @@
-//! From motion to sound: which impact strikes which instrument, where on the body, and how the wind is heard.
+//! From motion to sound: where things are heard, where on a body they are, and how the wind sounds.
 
-use super::event::Event;
-use crate::bodies::RigidBody;
-use crate::dynamics::Impact;
-use crate::exhibit::{Exhibit, SoundTrigger, View};
+use crate::exhibit::{Exhibit, SoundBinding, View};
 use crate::math::DVec3;
-use crate::sound::{SoundCommand, Strike, WindSound};
-
-/// Impacts softer than this make no sound, N s: a milligram at walking pace.
-const SILENT: f64 = 1e-7;
+use crate::sound::{SoundCommand, WindSound};
 
 /// The visitor's ears, at the camera.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +19,7 @@ impl Listener {
     }
 
     /// Pan (−1 left … 1 right) and distance (m) of a point.
-    fn place(&self, point: DVec3) -> (f32, f32) {
+    pub fn place(&self, point: DVec3) -> (f32, f32) {
         let from = point - self.eye;
         // The sine of the angle to the side, spread so that the picture's edges come from the loudspeakers.
         let side = from.dot(self.right) / from.length().max(1e-3);
@@ -33,37 +27,12 @@ impl Listener {
     }
 }
 
-/// Strikes of an impact: each of the two bodies that has a sound for it.
-pub fn strikes(
-    exhibit: &Exhibit,
-    event: &Event,
-    impact: &Impact,
-    bodies: &[RigidBody],
-    listener: &Listener,
-    out: &mut Vec<SoundCommand>,
-) {
-    if impact.impulse < SILENT {
-        return;
-    }
-    let (pan, distance) = listener.place(event.point);
-    for body in event.bodies.into_iter().flatten() {
-        for sound in exhibit.sounds.iter().filter(|s| s.body == body && s.on == SoundTrigger::Impact) {
-            let (first, second, center) = sound.frame;
-            let local = bodies[body].pose().inverse_point(event.point) - center;
-            let half = exhibit.instruments[sound.instrument].body.half_extents;
-            let along = |axis: DVec3, half: f64| (local.dot(axis) / half.max(1e-6)).clamp(-1.0, 1.0) as f32;
-            out.push(SoundCommand::Strike(Strike {
-                sample: event.sample,
-                instrument: sound.instrument as u16,
-                impulse: impact.impulse as f32,
-                speed: impact.speed as f32,
-                mass: impact.mass as f32,
-                position: [along(first, half[0]), along(second, half[1])],
-                pan,
-                distance,
-            }));
-        }
-    }
+/// A point of a body's node frame as coordinates along the two half extents of its sound, −1…1.
+pub fn place_on(exhibit: &Exhibit, sound: &SoundBinding, local: DVec3) -> [f32; 2] {
+    let (first, second, center) = sound.frame;
+    let half = exhibit.instruments[sound.instrument].body.half_extents;
+    let along = |axis: DVec3, half: f64| ((local - center).dot(axis) / half.max(1e-6)).clamp(-1.0, 1.0) as f32;
+    [along(first, half[0]), along(second, half[1])]
 }
 
 /// The wind as it is heard: the speed of the air where the breath is aimed.

@@ -88,6 +88,7 @@ struct Slider {
     target: Slide,
     speed: f64,
     force: f64,
+    position: [f64; 2],
 }
 
 impl Synth {
@@ -335,12 +336,14 @@ impl Synth {
     /// Something rests on a body from now on, or no longer.
     fn touch(&mut self, touch: &Touch) {
         let index = usize::from(touch.instrument);
-        match self.body_of.get(index).copied().flatten() {
-            Some(body) => {
+        match self.body_of.get(index) {
+            Some(Some(body)) => {
                 let position = touch.position.map(f64::from);
-                let bank = &mut self.bodies[body].bank;
+                let bank = &mut self.bodies[*body].bank;
                 self.instruments[index].touch(bank, position, f64::from(touch.resistance));
             }
+            // Nothing of it rings.
+            Some(None) => {}
             None => self.faults += 1,
         }
     }
@@ -399,7 +402,7 @@ impl Synth {
                 let inputs = Inputs {
                     slip_speed: slider.speed,
                     normal_force: slider.force,
-                    position: slide.position.map(f64::from),
+                    position: slider.position,
                     ..air
                 };
                 (inputs, f64::from(slide.pan), slide.distance.max(NEAREST), parted, slider.force == 0.0)
@@ -407,6 +410,7 @@ impl Synth {
                 (air, self.wind.pan, 1.0, calm_before, self.wind.speed == 0.0)
             };
             let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
+            let drives = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
             match (voice.state, still) {
                 (VoiceState::Free, true) => continue,
                 (VoiceState::Free, false) => {
@@ -414,7 +418,7 @@ impl Synth {
                     let calm = Inputs { position: inputs.position, ..Inputs::default() };
                     let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
                     instrument.graph.begin(Part::Hit, &mut voice.operators, &calm, seed, time, sample_rate);
-                    if let Some(body) = self.body_of[voice.instrument].filter(|_| instrument.graph.drives()) {
+                    if let Some(body) = drives {
                         self.bodies[body].push(instrument, &inputs, gains, clock);
                     }
                 }
@@ -423,7 +427,11 @@ impl Synth {
                     voice.state = VoiceState::Free;
                     continue;
                 }
-                _ => {}
+                _ => {
+                    if let Some(body) = drives {
+                        self.bodies[body].push_on(instrument, &inputs, gains, clock);
+                    }
+                }
             }
             voice.gains = gains;
             voice.inputs = inputs;
@@ -469,7 +477,9 @@ impl Wind {
         self.speed += (target - self.speed) * share;
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
-        self.direction += (f64::from(self.target.direction) - self.direction) * share;
+        // The shorter way round.
+        let turn = f64::from(self.target.direction) - self.direction;
+        self.direction += (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) * share;
         if target == 0.0 && self.speed < CALM {
             self.speed = 0.0;
         }
@@ -480,6 +490,12 @@ impl Slider {
     /// One step of a one-pole glide towards the commanded slide.
     fn glide(&mut self, share: f64) {
         let target = f64::from(self.target.force).max(0.0);
+        let position = self.target.position.map(|p| f64::from(p).clamp(-1.0, 1.0));
+        if self.force == 0.0 {
+            // What begins to slide begins where it is.
+            self.position = position;
+        }
+        (0..2).for_each(|k| self.position[k] += (position[k] - self.position[k]) * share);
         self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
         self.force += (target - self.force) * share;
         if target == 0.0 && self.force < PARTED {

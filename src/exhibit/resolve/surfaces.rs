@@ -143,8 +143,8 @@ impl Context<'_> {
             Some(name) => self.node_below(Some(body_node), name, &format!("{at}/node"), &used_for)?,
             None => body_node,
         };
-        if given.on == Trigger::Impact && !colliders.iter().any(|c| c.body == Some(body)) {
-            let message = format!("{used_for} waits for hits on \"{}\", which has no collider", given.body);
+        if given.on != Trigger::Wind && !colliders.iter().any(|c| c.body == Some(body)) {
+            let message = format!("{used_for} waits for contacts of \"{}\", which has no collider", given.body);
             let help = format!("add [[collider]] node = \"{}\"", given.node.as_ref().unwrap_or(&given.body));
             self.report(&format!("{at}/body"), Diagnostic::new(codes::NO_COLLIDER, message).help(help));
         }
@@ -201,6 +201,7 @@ impl Context<'_> {
         };
         let on = match given.on {
             Trigger::Impact => SoundTrigger::Impact,
+            Trigger::Slide => SoundTrigger::Slide,
             Trigger::Wind => SoundTrigger::Wind,
         };
         let frame = (extents.axes.x_axis, extents.axes.y_axis, extents.center);

@@ -232,6 +232,8 @@ pub struct SoundParams {
 pub enum Trigger {
     /// A hit on the body.
     Impact,
+    /// What slides or rolls over the body, or the body over it.
+    Slide,
     /// The wind at the body.
     Wind,
 }

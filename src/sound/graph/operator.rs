@@ -78,6 +78,7 @@ impl Kind {
             Self::Texture { line, speed } => {
                 // Anywhere on the surface: no two strokes are the same.
                 state.place = state.random.unit() * line.points() as f64;
+                (state.left, state.next) = (line.piece(&mut state.random), None);
                 state.value = line.step(speed.at(inputs), sample_rate);
                 state.level[0] = line.level(state.value);
             }
