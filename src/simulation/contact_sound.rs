@@ -313,7 +313,8 @@ impl ContactSound {
         let Ok(index) = self.keys.binary_search(&key) else { return };
         self.wake(index);
         let pair = &mut self.pairs[index];
-        let local = |body: Option<usize>| body.map_or(impact.point, |b| scene.bodies[b].pose().inverse_point(impact.point));
+        let local =
+            |body: Option<usize>| body.map_or(impact.point, |b| scene.bodies[b].pose().inverse_point(impact.point));
         let blow = Blow {
             sample,
             impulse: impact.impulse,
@@ -445,23 +446,11 @@ fn key(exhibit: &Exhibit, colliders: [usize; 2]) -> [usize; 2] {
 
 /// The ends of a limit: bodies, and behind them the world.
 fn limit_key(kind: &LimitKind) -> [usize; 2] {
-    let bodies = match kind {
-        LimitKind::Tilt { a, b, .. } => [a.body, b.body],
-        LimitKind::Distance { a, b, .. } => [a.body, b.body],
-        LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => measure.bodies().into(),
-        LimitKind::Play { terms, .. } => terms.map(|term| term.measure.bodies().0),
-    };
-    sorted(bodies.map(|body| body.unwrap_or(usize::MAX)))
+    sorted(kind.bodies().map(|body| body.unwrap_or(usize::MAX)))
 }
 
 /// Strikes each of the two bodies that has a sound for it.
-fn strike(
-    blow: &Blow,
-    bodies: [Option<usize>; 2],
-    of_body: &[Vec<usize>],
-    scene: &Scene,
-    out: &mut Vec<SoundCommand>,
-) {
+fn strike(blow: &Blow, bodies: [Option<usize>; 2], of_body: &[Vec<usize>], scene: &Scene, out: &mut Vec<SoundCommand>) {
     for (body, local) in bodies.into_iter().zip(blow.points) {
         let Some(body) = body else { continue };
         let (pan, distance) = scene.listener.place(scene.bodies[body].pose().point(local));
@@ -492,9 +481,55 @@ fn tell(pair: &Pair, of_body: &[Vec<usize>], players: &mut [Player], scene: &Sce
             let place = place_on(scene.exhibit, sound, local);
             match (sound.on, pair.state) {
                 (SoundTrigger::Slide, State::Scrape) => players[i].slides.add(force, slip / force, point, place),
-                (SoundTrigger::Slide, State::Roll) => players[i].slides.add(ROLLING * force, roll / force, point, place),
+                (SoundTrigger::Slide, State::Roll) => {
+                    players[i].slides.add(ROLLING * force, roll / force, point, place)
+                }
                 _ => players[i].rests.add(force, 0.0, point, place),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blow(milliseconds: u64, impulse: f64) -> Blow {
+        Blow { sample: milliseconds * 48, impulse, ..Blow::default() }
+    }
+
+    #[test]
+    fn hits_of_one_moment_are_one_and_lose_nothing() {
+        let mut window = Window::default();
+        let rung = |blow: Option<Blow>| blow.map(|blow| (blow.sample / 48, (blow.impulse * 1e6).round() as i64));
+        assert_eq!(rung(window.take(blow(100, 4e-3))), Some((100, 4000)));
+        // Two softer ones wait and ring together: 2.4 and 3.2 are 4.
+        assert_eq!(rung(window.take(blow(103, 2.4e-3))), None);
+        assert_eq!(rung(window.due(114 * 48)), None);
+        assert_eq!(rung(window.take(blow(114, 3.2e-3))), None);
+        assert_eq!(rung(window.due(115 * 48)), Some((115, 4000)));
+        // One that outdoes what rang does not wait, and takes with it what waits.
+        assert_eq!(rung(window.take(blow(116, 3e-3))), None);
+        assert_eq!(rung(window.take(blow(120, 40e-3))), Some((120, 40112)));
+        assert_eq!(rung(window.due(200 * 48)), None);
+        assert_eq!(rung(window.take(blow(200, 1e-6))), Some((200, 1)));
+    }
+
+    #[test]
+    fn states_have_hysteresis_and_scraping_goes_first() {
+        let mut state = State::Apart;
+        for (slip, roll, expected) in [
+            (0.015, 0.0, State::Rest),
+            (0.021, 0.0, State::Scrape),
+            (0.011, 1.0, State::Scrape),
+            (0.009, 0.03, State::Rest),
+            (0.009, 0.05, State::Roll),
+            (0.009, 0.03, State::Roll),
+            (0.03, 0.5, State::Scrape),
+            (0.0, 0.01, State::Rest),
+        ] {
+            state = state.next(slip, roll);
+            assert_eq!(state, expected, "slip {slip}, roll {roll} m/s");
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
 use crate::exhibit::{Exhibit, View};
-use crate::math::StateHash;
+use crate::math::{DVec3, StateHash};
 use crate::sound::SoundCommand;
 use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
@@ -34,7 +34,7 @@ pub use event::{Event, EventKind, Part};
 use motes::Motes;
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
-use sonify::Listener;
+use sonify::{Listener, Wires};
 use source::BreathSource;
 
 /// Simulation steps per second.
@@ -182,6 +182,7 @@ pub struct Simulation {
     wrenches: Vec<Vec6>,
     impacts: Vec<Impact>,
     contact_sound: ContactSound,
+    wires: Wires,
     events: Vec<Event>,
     sounds: Vec<SoundCommand>,
     speed: f64,
@@ -209,6 +210,7 @@ impl Simulation {
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
             contact_sound: ContactSound::new(&exhibit),
+            wires: Wires::new(&exhibit),
             exhibit,
             settings,
             step: 0,
@@ -329,7 +331,8 @@ impl Simulation {
         }
         let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         // What is heard is the wind the sculpture feels: a gain on the force is its root on the speed.
-        let air = blown.map_or(0.0, |blown| blown.gain.sqrt() * self.wind.breath_at(&blown, self.aim.target).length());
+        let air = blown.map_or(DVec3::ZERO, |blown| blown.gain.sqrt() * self.wind.breath_at(&blown, self.aim.target));
+        self.wires.turn((sample, air), exhibit, bodies, &mut self.sounds);
         self.sounds.push(sonify::wind(sample, air, self.report.gust, self.aim.target, &listener));
     }
 

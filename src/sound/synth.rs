@@ -18,7 +18,7 @@ use super::instrument::Instrument;
 use super::limiter::Limiter;
 use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
+use super::{Across, InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
 use crate::math::{PI, exp, sincos};
 use crate::noise::hash_words;
 
@@ -61,6 +61,8 @@ pub struct Synth {
     wind: Wind,
     /// One for each instrument.
     sliders: Vec<Slider>,
+    /// Part of the wind that each instrument hears: commanded, and now.
+    across: Vec<[f64; 2]>,
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
     blocks: Box<[Block; MAX_NODES]>,
@@ -155,6 +157,7 @@ impl Synth {
             sample_rate,
             seed,
             sliders: vec![Slider::default(); instruments.len()],
+            across: vec![[1.0; 2]; instruments.len()],
             instruments,
             bodies,
             body_of,
@@ -282,6 +285,12 @@ impl Synth {
                 None => self.faults += 1,
             },
             SoundCommand::Wind(wind) => self.wind.target = wind,
+            SoundCommand::Across(Across { instrument, share, .. }) => {
+                match self.across.get_mut(usize::from(instrument)) {
+                    Some(across) => across[0] = f64::from(share).clamp(0.0, 1.0),
+                    None => self.faults += 1,
+                }
+            }
             SoundCommand::Silence { .. } => {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
@@ -384,6 +393,7 @@ impl Synth {
         }
         let share = 1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate));
         let calm_before = self.wind.speed == 0.0;
+        self.across.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
         self.wind.glide(share);
         let air = Inputs {
             wind_speed: self.wind.speed,
@@ -399,14 +409,11 @@ impl Synth {
                 let parted = slider.force == 0.0;
                 slider.glide(share);
                 let slide = slider.target;
-                let inputs = Inputs {
-                    slip_speed: slider.speed,
-                    normal_force: slider.force,
-                    position: slider.position,
-                    ..air
-                };
+                let inputs =
+                    Inputs { slip_speed: slider.speed, normal_force: slider.force, position: slider.position, ..air };
                 (inputs, f64::from(slide.pan), slide.distance.max(NEAREST), parted, slider.force == 0.0)
             } else {
+                let air = Inputs { wind_speed: self.wind.speed * self.across[voice.instrument][1], ..air };
                 (air, self.wind.pan, 1.0, calm_before, self.wind.speed == 0.0)
             };
             let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
@@ -477,9 +484,11 @@ impl Wind {
         self.speed += (target - self.speed) * share;
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
-        // The shorter way round.
-        let turn = f64::from(self.target.direction) - self.direction;
-        self.direction += (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) * share;
+        if target > 0.0 {
+            // The shorter way round; what dies away keeps its direction.
+            let turn = f64::from(self.target.direction) - self.direction;
+            self.direction += (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) * share;
+        }
         if target == 0.0 && self.speed < CALM {
             self.speed = 0.0;
         }
@@ -523,6 +532,7 @@ fn is_finite(command: &SoundCommand) -> bool {
             [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
         }
         SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
+        SoundCommand::Across(across) => across.share.is_finite(),
         SoundCommand::Silence { .. } => true,
     }
 }

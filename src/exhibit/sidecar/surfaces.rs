@@ -199,6 +199,8 @@ pub struct Sound {
     pub node: Option<String>,
     /// What sets it off.
     pub on: Trigger,
+    /// Of wind: the wire that sings; only what blows across it is heard.
+    pub wire: Option<String>,
     /// Name of the timbre.
     pub timbre: String,
     /// Level.
