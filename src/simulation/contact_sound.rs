@@ -11,18 +11,17 @@
 //!     │              r < SETTLES└───────────→ roll ─────────────┘  │
 //!     └── N < PRESSES for longer than PATIENCE steps, from each ───┘
 //!
-//!   hit:  in any state; at once, or where one has just rung:
-//!         rung ──(within WINDOW)──→ waits, energies add: Σ J² ──(WINDOW is over, or one is LOUDER)──→ rings as √(Σ J²)
+//!   hit:  in any state
 //! ```
 //!
 //! A hit strikes; scraping and rolling slide over the bodies' surfaces; whatever lies on a body takes from its ringing.
 //! Commands are sent when something is heard to change, so what lies still sends none, and however fast surfaces
-//! chatter a pair strikes each instrument once in a [`WINDOW`], but for a hit that outdoes what rang.
+//! chatter a pair strikes each instrument once in 15 ms, but for a hit that outdoes what rang (`merge`).
 //!
 //! Nothing allocates after [`ContactSound::new`], and all orders are fixed.
 
+use super::merge::{Blow, Window};
 use super::sonify::{Listener, place_on};
-use super::{SAMPLE_RATE, STEPS_PER_SECOND};
 use crate::articulation::LimitKind;
 use crate::bodies::RigidBody;
 use crate::dynamics::{Impact, ImpactKind, Touching};
@@ -34,11 +33,6 @@ use crate::sound::{Slide, SoundCommand, Strike, Touch};
 const SILENT: f64 = 1e-7;
 /// What begins to rest faster than this is heard as a hit all the same, m/s: as much as bounces.
 const AUDIBLE: f64 = 4e-3;
-/// Hits of one pair within this are one, samples: 15 ms, in which real impacts have their micro-collisions (van den Doel,
-/// Kry and Pai, "FoleyAutomatic", 2001).
-const WINDOW: u64 = SAMPLE_RATE as u64 * 15 / 1000;
-/// A hit of this many times the energy that rang last does not wait: it is the hit, and that was its beginning.
-const LOUDER: f64 = 2.0;
 /// Less force is no touch, N: the weight of ten milligrams.
 const PRESSES: f64 = 1e-4;
 /// Steps for which a touch may be missing without being over: as joints gather or a substep is cut.
@@ -63,8 +57,6 @@ const DAMPS: f64 = 0.25;
 const MOVED_OFF: f32 = 0.2;
 /// No pair that sounds.
 const NONE: u32 = u32::MAX;
-
-const _: () = assert!(STEPS_PER_SECOND > 0 && WINDOW > SAMPLE_RATE as u64 / STEPS_PER_SECOND);
 
 /// What contacts are heard in.
 #[derive(Clone, Copy)]
@@ -96,56 +88,6 @@ impl State {
         } else {
             Self::Rest
         }
-    }
-}
-
-/// A hit as it will ring.
-#[derive(Clone, Copy, Debug, Default)]
-struct Blow {
-    sample: u64,
-    impulse: f64,
-    speed: f64,
-    mass: f64,
-    /// In the node frames of the two bodies, m.
-    points: [DVec3; 2],
-}
-
-/// Hits that are one.
-#[derive(Clone, Copy, Debug, Default)]
-struct Window {
-    /// Until when hits wait.
-    until: u64,
-    /// J² of what rang, and Σ J² of what waits, (N s)².
-    rung: f64,
-    waiting: f64,
-    /// The strongest of those that wait.
-    strongest: Blow,
-}
-
-impl Window {
-    /// Takes a hit; what rings now.
-    fn take(&mut self, blow: Blow) -> Option<Blow> {
-        let energy = blow.impulse * blow.impulse;
-        if blow.sample >= self.until {
-            *self = Self { until: blow.sample + WINDOW, rung: energy, waiting: 0.0, strongest: blow };
-            return Some(blow);
-        }
-        if self.waiting == 0.0 || blow.impulse > self.strongest.impulse {
-            self.strongest = blow;
-        }
-        self.waiting += energy;
-        (energy >= LOUDER * self.rung).then(|| self.ring(blow.sample))
-    }
-
-    /// What waits and is due.
-    fn due(&mut self, now: u64) -> Option<Blow> {
-        (self.waiting > 0.0 && self.until <= now).then(|| self.ring(self.until))
-    }
-
-    fn ring(&mut self, sample: u64) -> Blow {
-        let impulse = self.waiting.sqrt();
-        (self.rung, self.waiting, self.until) = (self.waiting, 0.0, sample + WINDOW);
-        Blow { sample, impulse, ..self.strongest }
     }
 }
 
@@ -354,7 +296,7 @@ impl ContactSound {
                 strike(&blow, pair.bodies, &self.of_body, scene, out);
             }
             pair.follow();
-            pair.active = pair.state != State::Apart || pair.window.until > sample;
+            pair.active = pair.state != State::Apart || pair.window.is_open(sample);
             if pair.state != State::Apart {
                 tell(pair, &self.of_body, &mut self.players, scene);
             }
@@ -493,27 +435,6 @@ fn tell(pair: &Pair, of_body: &[Vec<usize>], players: &mut [Player], scene: &Sce
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn blow(milliseconds: u64, impulse: f64) -> Blow {
-        Blow { sample: milliseconds * 48, impulse, ..Blow::default() }
-    }
-
-    #[test]
-    fn hits_of_one_moment_are_one_and_lose_nothing() {
-        let mut window = Window::default();
-        let rung = |blow: Option<Blow>| blow.map(|blow| (blow.sample / 48, (blow.impulse * 1e6).round() as i64));
-        assert_eq!(rung(window.take(blow(100, 4e-3))), Some((100, 4000)));
-        // Two softer ones wait and ring together: 2.4 and 3.2 are 4.
-        assert_eq!(rung(window.take(blow(103, 2.4e-3))), None);
-        assert_eq!(rung(window.due(114 * 48)), None);
-        assert_eq!(rung(window.take(blow(114, 3.2e-3))), None);
-        assert_eq!(rung(window.due(115 * 48)), Some((115, 4000)));
-        // One that outdoes what rang does not wait, and takes with it what waits.
-        assert_eq!(rung(window.take(blow(116, 3e-3))), None);
-        assert_eq!(rung(window.take(blow(120, 40e-3))), Some((120, 40112)));
-        assert_eq!(rung(window.due(200 * 48)), None);
-        assert_eq!(rung(window.take(blow(200, 1e-6))), Some((200, 1)));
-    }
 
     #[test]
     fn states_have_hysteresis_and_scraping_goes_first() {

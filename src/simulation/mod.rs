@@ -7,6 +7,7 @@
 mod aim;
 mod contact_sound;
 mod event;
+mod merge;
 mod motes;
 mod script;
 mod snapshot;
