@@ -275,6 +275,16 @@ impl ConstraintKind {
 }
 
 impl LimitKind {
+    /// The bodies that it acts between; `None` is the world.
+    pub fn bodies(&self) -> [Option<usize>; 2] {
+        match self {
+            Self::Tilt { a, b, .. } => [a.body, b.body],
+            Self::Range { measure, .. } | Self::Ratchet { measure, .. } => measure.bodies().into(),
+            Self::Distance { a, b, .. } => [a.body, b.body],
+            Self::Play { terms, .. } => terms.map(|term| term.measure.bodies().0),
+        }
+    }
+
     /// Does it act on this body?
     pub fn touches(&self, body: usize) -> bool {
         let either = |(a, b): (Option<usize>, Option<usize>)| a == Some(body) || b == Some(body);

@@ -137,12 +137,7 @@ impl Limits {
 
     /// The two bodies of a bound.
     pub fn bodies(&self, bound: usize) -> [Option<usize>; 2] {
-        match &self.limits[self.bounds[bound].limit].kind {
-            LimitKind::Tilt { a, b, .. } => [a.body, b.body],
-            LimitKind::Range { measure, .. } | LimitKind::Ratchet { measure, .. } => measure.bodies().into(),
-            LimitKind::Distance { a, b, .. } => [a.body, b.body],
-            LimitKind::Play { terms, .. } => terms.map(|term| term.measure.bodies().0),
-        }
+        self.limits[self.bounds[bound].limit].kind.bodies()
     }
 
     /// What is left to a bound, rad or m; negative beyond it.

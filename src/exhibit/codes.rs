@@ -59,12 +59,14 @@ codes! {
     NO_MOTION = "E0245", "a kinematic body has no motion to follow";
     NO_MESH = "E0240", "a node has no mesh to take a shape from";
     NOT_FLAT = "E0241", "a mesh has no outline to fit a plate to";
-    NO_COLLIDER = "E0250", "an impact sound needs a collider on its body";
+    NO_COLLIDER = "E0250", "a sound of hits or sliding needs a collider on its body";
     TRIGGER = "E0251", "a trigger waits for hits on a body without a collider";
     NO_TEXT = "E0260", "a label text is missing";
     BREATH = "E0261", "a recorded breath cannot be read";
     ATTRACT_ORDER = "E0262", "the attract script is out of order";
     UNKNOWN_TIMBRE = "E0263", "no timbre of this name";
+    UNPLAYED = "E0264", "a timbre is not played by this motion";
+    UNKNOWN_WIRE = "E0265", "no wire of this name";
     BROKEN_MODEL = "E0301", "the model is broken";
     EXTENSION = "E0302", "the model requires an extension that is not supported";
     MODEL_LIMIT = "E0303", "the model exceeds a limit";

@@ -246,6 +246,8 @@ pub struct SoundBinding {
     pub instrument: usize,
     /// Node-frame axes of the two largest half extents and the centre, to place a hit on the body.
     pub frame: (DVec3, DVec3, DVec3),
+    /// Index of the wire that the wind plays, where it is one: it hears only what blows across it.
+    pub wire: Option<usize>,
     /// Key of the caption in the labels.
     pub caption: Option<String>,
 }
@@ -255,6 +257,8 @@ pub struct SoundBinding {
 pub enum SoundTrigger {
     /// A hit on the body.
     Impact,
+    /// What slides or rolls over the body.
+    Slide,
     /// The wind at the body.
     Wind,
 }

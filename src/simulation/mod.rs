@@ -5,7 +5,9 @@
 //! offline one with the same inputs are the same run, bit for bit.
 
 mod aim;
+mod contact_sound;
 mod event;
+mod merge;
 mod motes;
 mod script;
 mod snapshot;
@@ -19,7 +21,7 @@ use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
 use crate::exhibit::{Exhibit, View};
-use crate::math::StateHash;
+use crate::math::{DVec3, StateHash};
 use crate::sound::SoundCommand;
 use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
@@ -28,11 +30,12 @@ use crate::wind::force::{Blown, WindField, WindReport};
 use crate::wind::front::Front;
 
 use aim::{Aim, AimTarget};
+use contact_sound::{ContactSound, Scene};
 pub use event::{Event, EventKind, Part};
 use motes::Motes;
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
-use sonify::Listener;
+use sonify::{Listener, Wires};
 use source::BreathSource;
 
 /// Simulation steps per second.
@@ -179,6 +182,8 @@ pub struct Simulation {
     motes: Motes,
     wrenches: Vec<Vec6>,
     impacts: Vec<Impact>,
+    contact_sound: ContactSound,
+    wires: Wires,
     events: Vec<Event>,
     sounds: Vec<SoundCommand>,
     speed: f64,
@@ -205,6 +210,8 @@ impl Simulation {
             motes: Motes::new(view.target, settings.seed),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
+            contact_sound: ContactSound::new(&exhibit),
+            wires: Wires::new(&exhibit),
             exhibit,
             settings,
             step: 0,
@@ -251,7 +258,9 @@ impl Simulation {
                     self.dynamics = start_dynamics(&self.exhibit, &self.settings);
                     self.start_step = self.step;
                     self.front.clear();
-                    self.sounds.push(SoundCommand::Silence { sample: self.step * SAMPLES_PER_STEP });
+                    let sample = self.step * SAMPLES_PER_STEP;
+                    self.contact_sound.reset(sample, &mut self.sounds);
+                    self.sounds.push(SoundCommand::Silence { sample });
                 }
                 Command::Blow(speed) => self.source.command(speed),
             }
@@ -296,14 +305,17 @@ impl Simulation {
         let listener = Listener::new(&self.view.1);
         let began = self.step as f64 * DT;
         let (exhibit, bodies) = (&*self.exhibit, &self.dynamics.bodies);
+        let scene = Scene { exhibit, bodies, listener: &listener };
         for impact in &self.impacts {
             let event = Event::hit(began, impact);
             if event.kind == EventKind::Impact {
                 self.impact_count += 1;
-                sonify::strikes(exhibit, &event, impact, bodies, &listener, &mut self.sounds);
             }
+            self.contact_sound.hit(impact, event.sample, &scene, &mut self.sounds);
             enter(&mut self.events, event);
         }
+        let sample = (self.step + 1) * SAMPLES_PER_STEP;
+        self.contact_sound.advance(sample, self.dynamics.touching(), &scene, &mut self.sounds);
         // The figure's own clock starts anew with a reset, and rounds.
         let offset = began - (self.dynamics.time() - DT);
         let mut part =
@@ -320,8 +332,8 @@ impl Simulation {
         }
         let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         // What is heard is the wind the sculpture feels: a gain on the force is its root on the speed.
-        let air = blown.map_or(0.0, |blown| blown.gain.sqrt() * self.wind.breath_at(&blown, self.aim.target).length());
-        let sample = (self.step + 1) * SAMPLES_PER_STEP;
+        let air = blown.map_or(DVec3::ZERO, |blown| blown.gain.sqrt() * self.wind.breath_at(&blown, self.aim.target));
+        self.wires.turn((sample, air), exhibit, bodies, &mut self.sounds);
         self.sounds.push(sonify::wind(sample, air, self.report.gust, self.aim.target, &listener));
     }
 

@@ -19,6 +19,8 @@ const INAUDIBLE: f64 = 1e-5;
 const GLIDE: f32 = 0.065;
 /// Grid points of silence after which a body is at rest.
 const QUIET_GRID_POINTS: u32 = 16;
+/// A contact that has moved by less than this part of the body's half extents acts where it did.
+const MOVED: f64 = 2e-3;
 /// Hits of one body between two grid points that are carried out one by one; more are one hit at the next grid point.
 const HITS: u32 = 6;
 
@@ -35,6 +37,8 @@ pub(super) struct Body {
     /// Sum of the forces since the last grid point, N, and whether there was one.
     force: [f32; BLOCK],
     pushed: bool,
+    /// Where on the body it acts.
+    pushed_at: [f64; 2],
     /// Left and right, distance included: now, their change per sample, and where they go.
     gains: [f32; 2],
     steps: [f32; 2],
@@ -64,6 +68,7 @@ impl Body {
             ready: 0,
             force: [0.0; BLOCK],
             pushed: false,
+            pushed_at: [0.0; 2],
             gains: [0.0; 2],
             steps: [0.0; 2],
             places: [0.0; 2],
@@ -141,7 +146,21 @@ impl Body {
     /// A voice pushes it: it sounds, from there.
     pub fn push(&mut self, instrument: &Instrument, inputs: &Inputs, gains: [f32; 2], clock: (f64, f64)) {
         self.begin(instrument, inputs, gains, clock);
-        instrument.push_at(&mut self.bank, inputs, clock.1);
+        self.pushed_at = inputs.position;
+        instrument.push_at(&mut self.bank, inputs, false, clock.1);
+    }
+
+    /// The voice that pushes it goes on, from there.
+    pub fn push_on(&mut self, instrument: &Instrument, inputs: &Inputs, gains: [f32; 2], clock: (f64, f64)) {
+        if !self.sounds {
+            self.push(instrument, inputs, gains, clock);
+            return;
+        }
+        (self.places, self.inputs) = (gains, *inputs);
+        if (0..2).any(|k| (inputs.position[k] - self.pushed_at[k]).abs() > MOVED) {
+            self.pushed_at = inputs.position;
+            instrument.push_at(&mut self.bank, inputs, true, clock.1);
+        }
     }
 
     /// A grid point: the next block is made. `false`: bad numbers were found; the body is silent and at rest.

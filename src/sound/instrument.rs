@@ -114,13 +114,14 @@ impl Instrument {
         });
     }
 
-    /// Where a force in N acts on the body from now on.
-    pub fn push_at(&self, bank: &mut Bank, inputs: &Inputs, sample_rate: f64) {
+    /// Where a force in N acts on the body from now on; one that `moves` goes there over the next block.
+    pub fn push_at(&self, bank: &mut Bank, inputs: &Inputs, moves: bool, sample_rate: f64) {
         let Some(modal) = &self.modal else { return };
         let place = Place::new(inputs.position, modal.outline);
         // A force of 1 N gives an impulse of 1/fs per sample.
         let level = modal.gain.at(inputs) / sample_rate;
-        bank.push_at(|i| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place));
+        let gain = |i: usize| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place);
+        if moves { bank.push_towards(gain) } else { bank.push_at(gain) }
     }
 }
 

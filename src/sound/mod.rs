@@ -49,6 +49,8 @@ pub enum SoundCommand {
     Slide(Slide),
     /// The wind of one simulation step; the synth glides from one to the next.
     Wind(WindSound),
+    /// How much of the wind an instrument hears from now on.
+    Across(Across),
     /// Fade out everything (an exhibit was changed or reset).
     Silence {
         /// When.
@@ -64,6 +66,7 @@ impl SoundCommand {
             Self::Touch(touch) => touch.sample,
             Self::Slide(slide) => slide.sample,
             Self::Wind(wind) => wind.sample,
+            Self::Across(across) => across.sample,
             Self::Silence { sample } => *sample,
         }
     }
@@ -75,6 +78,7 @@ impl SoundCommand {
             Self::Touch(touch) => touch.sample = time,
             Self::Slide(slide) => slide.sample = time,
             Self::Wind(wind) => wind.sample = time,
+            Self::Across(across) => across.sample = time,
             Self::Silence { sample } => *sample = time,
         }
         self
@@ -147,6 +151,17 @@ pub struct WindSound {
     pub direction: f32,
     /// −1 left … 1 right.
     pub pan: f32,
+}
+
+/// The wind at one instrument, of the wind as it is heard: a wire sounds from what blows across it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Across {
+    /// When.
+    pub sample: u64,
+    /// Index into the exhibit's instruments.
+    pub instrument: u16,
+    /// Part of the wind's speed: the sine of its angle with the wire. 1 until something else is said.
+    pub share: f32,
 }
 
 /// What a sounding body is made of.

@@ -20,7 +20,7 @@ use super::master::Master;
 use super::room::RoomSpec;
 use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
+use super::{Across, InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
 use crate::math::{PI, exp, sincos};
 use crate::noise::hash_words;
 
@@ -63,6 +63,8 @@ pub struct Synth {
     wind: Wind,
     /// One for each instrument.
     sliders: Vec<Slider>,
+    /// Part of the wind that each instrument hears: commanded, and now.
+    across: Vec<[f64; 2]>,
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
     blocks: Box<[Block; MAX_NODES]>,
@@ -92,6 +94,7 @@ struct Slider {
     target: Slide,
     speed: f64,
     force: f64,
+    position: [f64; 2],
 }
 
 impl Synth {
@@ -159,6 +162,7 @@ impl Synth {
             seed,
             sliders: vec![Slider::default(); instruments.len()],
             habits: vec![Habit::default(); instruments.len()],
+            across: vec![[1.0; 2]; instruments.len()],
             instruments,
             bodies,
             body_of,
@@ -297,6 +301,12 @@ impl Synth {
                 None => self.faults += 1,
             },
             SoundCommand::Wind(wind) => self.wind.target = wind,
+            SoundCommand::Across(Across { instrument, share, .. }) => {
+                match self.across.get_mut(usize::from(instrument)) {
+                    Some(across) => across[0] = f64::from(share).clamp(0.0, 1.0),
+                    None => self.faults += 1,
+                }
+            }
             SoundCommand::Silence { .. } => {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
@@ -353,12 +363,14 @@ impl Synth {
     /// Something rests on a body from now on, or no longer.
     fn touch(&mut self, touch: &Touch) {
         let index = usize::from(touch.instrument);
-        match self.body_of.get(index).copied().flatten() {
-            Some(body) => {
+        match self.body_of.get(index) {
+            Some(Some(body)) => {
                 let position = touch.position.map(f64::from);
-                let bank = &mut self.bodies[body].bank;
+                let bank = &mut self.bodies[*body].bank;
                 self.instruments[index].touch(bank, position, f64::from(touch.resistance));
             }
+            // Nothing of it rings.
+            Some(None) => {}
             None => self.faults += 1,
         }
     }
@@ -399,6 +411,7 @@ impl Synth {
         }
         let share = 1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate));
         let calm_before = self.wind.speed == 0.0;
+        self.across.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
         self.wind.glide(share);
         let air = Inputs {
             wind_speed: self.wind.speed,
@@ -414,17 +427,15 @@ impl Synth {
                 let parted = slider.force == 0.0;
                 slider.glide(share);
                 let slide = slider.target;
-                let inputs = Inputs {
-                    slip_speed: slider.speed,
-                    normal_force: slider.force,
-                    position: slide.position.map(f64::from),
-                    ..air
-                };
+                let inputs =
+                    Inputs { slip_speed: slider.speed, normal_force: slider.force, position: slider.position, ..air };
                 (inputs, f64::from(slide.pan), slide.distance.max(NEAREST), parted, slider.force == 0.0)
             } else {
+                let air = Inputs { wind_speed: self.wind.speed * self.across[voice.instrument][1], ..air };
                 (air, self.wind.pan, 1.0, calm_before, self.wind.speed == 0.0)
             };
             let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
+            let drives = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
             match (voice.state, still) {
                 (VoiceState::Free, true) => continue,
                 (VoiceState::Free, false) => {
@@ -432,7 +443,7 @@ impl Synth {
                     let calm = Inputs { position: inputs.position, ..Inputs::default() };
                     let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
                     instrument.graph.begin(Part::Hit, &mut voice.operators, &calm, seed, time, sample_rate);
-                    if let Some(body) = self.body_of[voice.instrument].filter(|_| instrument.graph.drives()) {
+                    if let Some(body) = drives {
                         self.bodies[body].push(instrument, &inputs, gains, clock);
                     }
                 }
@@ -441,7 +452,11 @@ impl Synth {
                     voice.state = VoiceState::Free;
                     continue;
                 }
-                _ => {}
+                _ => {
+                    if let Some(body) = drives {
+                        self.bodies[body].push_on(instrument, &inputs, gains, clock);
+                    }
+                }
             }
             voice.gains = gains;
             voice.inputs = inputs;
@@ -487,7 +502,11 @@ impl Wind {
         self.speed += (target - self.speed) * share;
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
-        self.direction += (f64::from(self.target.direction) - self.direction) * share;
+        if target > 0.0 {
+            // The shorter way round; what dies away keeps its direction.
+            let turn = f64::from(self.target.direction) - self.direction;
+            self.direction += (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) * share;
+        }
         if target == 0.0 && self.speed < CALM {
             self.speed = 0.0;
         }
@@ -498,6 +517,12 @@ impl Slider {
     /// One step of a one-pole glide towards the commanded slide.
     fn glide(&mut self, share: f64) {
         let target = f64::from(self.target.force).max(0.0);
+        let position = self.target.position.map(|p| f64::from(p).clamp(-1.0, 1.0));
+        if self.force == 0.0 {
+            // What begins to slide begins where it is.
+            self.position = position;
+        }
+        (0..2).for_each(|k| self.position[k] += (position[k] - self.position[k]) * share);
         self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
         self.force += (target - self.force) * share;
         if target == 0.0 && self.force < PARTED {
@@ -525,6 +550,7 @@ fn is_finite(command: &SoundCommand) -> bool {
             [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
         }
         SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
+        SoundCommand::Across(across) => across.share.is_finite(),
         SoundCommand::Silence { .. } => true,
     }
 }

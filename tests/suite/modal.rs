@@ -214,16 +214,21 @@ fn a_force_at_audio_rate_drives_the_partials_exactly() {
     for seed in 0..6 {
         let mut random = Random::new(100 + seed);
         let partials = table(&mut random, 40);
-        let gains: Vec<f64> = partials.iter().map(|_| random.signed()).collect();
+        let gains: Vec<[f64; 2]> = partials.iter().map(|_| [random.signed(), random.signed()]).collect();
+        // It acts at one place, then at another, and goes from one to the other over a block, frame by frame.
+        let place = |block: usize| block / 7 % 2;
         let blocks = 400;
         let force: Vec<f32> = (0..blocks * BLOCK).map(|_| random.signed() as f32).collect();
         let mut first: Option<Vec<f32>> = None;
         for level in levels() {
             let mut bank = Bank::new(&partials, RATE, level);
-            bank.push_at(|i| gains[i]);
+            bank.push_at(|i| gains[i][0]);
             let mut out = vec![0.0f32; force.len()];
             let parts = out.as_chunks_mut::<BLOCK>().0.iter_mut().zip(force.as_chunks::<BLOCK>().0);
             for (i, (out, force)) in parts.enumerate() {
+                if i > 0 && place(i) != place(i - 1) {
+                    bank.push_towards(|k| gains[k][place(i)]);
+                }
                 // Half of the time it is left to itself.
                 bank.render((i % 40 < 20).then_some(force), out);
             }
@@ -247,8 +252,11 @@ fn a_force_at_audio_rate_drives_the_partials_exactly() {
                 let y: f64 = z.iter().map(|z| z[1]).sum();
                 wrong.push(f64::from(out[t]) - y);
                 right.push(y);
+                let block = t / BLOCK;
+                let (from, to) = (place(block.max(1) - 1), place(block));
+                let way = (t % BLOCK / 16) as f64 / (BLOCK / 16) as f64;
                 for ((z, rho), b) in z.iter_mut().zip(&rho).zip(&gains) {
-                    let re = z[0] + b * f;
+                    let re = z[0] + (b[from] + way * (b[to] - b[from])) * f;
                     *z = [re * rho[0] - z[1] * rho[1], re * rho[1] + z[1] * rho[0]];
                 }
             }

@@ -1,6 +1,7 @@
 //! The synth: pitch, decay, level, place, timing, limits, determinism.
 
 mod beams;
+mod contact;
 pub mod presets;
 mod sources;
 mod surfaces;

@@ -10,6 +10,7 @@ mod joints;
 mod materials;
 mod motion;
 mod nodes;
+mod picture;
 mod surfaces;
 mod winds;
 mod wires;
@@ -242,7 +243,7 @@ impl<'a> Context<'a> {
         let shelters = self.shelters(&wind_surfaces);
         let winds = self.winds();
         let breath = self.breath_tuning();
-        let (instruments, sounds) = self.sounds(&bodies, &colliders);
+        let (instruments, sounds) = self.sounds(&bodies, &colliders, &wires);
         let (integrator, solver, stabilization_time) = self.solver();
         let labels = self.labels();
         let attract = self.attract(&labels);

@@ -107,13 +107,14 @@ impl Context<'_> {
         &mut self,
         bodies: &[Body],
         colliders: &[Collider],
+        wires: &[Wire],
     ) -> (Vec<InstrumentSpec>, Vec<SoundBinding>) {
         let sidecar = self.sidecar;
         let (mut instruments, mut bindings): (Vec<InstrumentSpec>, Vec<SoundBinding>) = (Vec::new(), Vec::new());
         for (i, given) in sidecar.sound.iter().enumerate() {
             let at = format!("/sound/{i}");
             self.unique(&given.name, bindings.iter().any(|b| b.name == given.name), &format!("{at}/name"));
-            if let Some((instrument, binding)) = self.sound(given, bodies, colliders, instruments.len(), &at) {
+            if let Some((instrument, binding)) = self.sound(given, bodies, colliders, wires, instruments.len(), &at) {
                 instruments.push(instrument);
                 bindings.push(binding);
             }
@@ -126,6 +127,7 @@ impl Context<'_> {
         given: &sidecar::Sound,
         bodies: &[Body],
         colliders: &[Collider],
+        wires: &[Wire],
         instrument: usize,
         at: &str,
     ) -> Option<(InstrumentSpec, SoundBinding)> {
@@ -143,12 +145,13 @@ impl Context<'_> {
             Some(name) => self.node_below(Some(body_node), name, &format!("{at}/node"), &used_for)?,
             None => body_node,
         };
-        if given.on == Trigger::Impact && !colliders.iter().any(|c| c.body == Some(body)) {
-            let message = format!("{used_for} waits for hits on \"{}\", which has no collider", given.body);
+        if given.on != Trigger::Wind && !colliders.iter().any(|c| c.body == Some(body)) {
+            let message = format!("{used_for} waits for contacts of \"{}\", which has no collider", given.body);
             let help = format!("add [[collider]] node = \"{}\"", given.node.as_ref().unwrap_or(&given.body));
             self.report(&format!("{at}/body"), Diagnostic::new(codes::NO_COLLIDER, message).help(help));
         }
-        self.check_timbre(&given.timbre, &format!("{at}/timbre"), &used_for);
+        self.check_timbre(given, at, &used_for);
+        let wire = given.wire.as_ref().and_then(|name| self.sounding_wire(name, wires, at, &used_for));
         if given.caption.is_none() {
             let problem = Diagnostic::new(codes::NO_CAPTION, format!("{used_for} has no caption"));
             self.report(
@@ -195,24 +198,65 @@ impl Context<'_> {
             timbre: given.timbre.clone(),
             body: size,
             material: sound_material,
-            surface: None,
+            // Only what slides reads it.
+            surface: (given.on == Trigger::Slide).then(|| self.surface_line(node)).flatten(),
             gain: from_decibels(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };
         let on = match given.on {
             Trigger::Impact => SoundTrigger::Impact,
+            Trigger::Slide => SoundTrigger::Slide,
             Trigger::Wind => SoundTrigger::Wind,
         };
         let frame = (extents.axes.x_axis, extents.axes.y_axis, extents.center);
         Some((
             spec,
-            SoundBinding { name: given.name.clone(), body, on, instrument, frame, caption: given.caption.clone() },
+            SoundBinding {
+                name: given.name.clone(),
+                body,
+                on,
+                instrument,
+                frame,
+                wire,
+                caption: given.caption.clone(),
+            },
         ))
     }
 
-    /// Reports a timbre that is not shipped.
-    fn check_timbre(&mut self, name: &str, at: &str, used_for: &str) {
-        if timbre::names().any(|known| known == name) {
+    /// Index of the wire that a sound names.
+    fn sounding_wire(&mut self, name: &str, wires: &[Wire], at: &str, used_for: &str) -> Option<usize> {
+        let found = wires.iter().position(|wire| wire.name == name);
+        if found.is_none() {
+            let likely = near(name, wires.iter().map(|wire| wire.name.as_str()));
+            let help = match likely.as_slice() {
+                [] => "give the name of a [[wire]]".to_owned(),
+                names => format!("did you mean {}?", quoted(names)),
+            };
+            let problem = Diagnostic::new(codes::UNKNOWN_WIRE, format!("no wire named \"{name}\""));
+            self.report(&format!("{at}/wire"), problem.label(format!("used for {used_for}")).help(help));
+        }
+        found
+    }
+
+    /// Reports a timbre that is not shipped, or that what sets off the sound does not play.
+    fn check_timbre(&mut self, given: &sidecar::Sound, at: &str, used_for: &str) {
+        let (name, at) = (given.timbre.as_str(), &format!("{at}/timbre"));
+        if let Ok(preset) = timbre::Preset::shipped(name) {
+            let player = match (preset.continuous(), preset.slides()) {
+                (false, _) => Trigger::Impact,
+                (true, false) => Trigger::Wind,
+                (true, true) => Trigger::Slide,
+            };
+            if player != given.on {
+                let word = |trigger| match trigger {
+                    Trigger::Impact => "impact",
+                    Trigger::Slide => "slide",
+                    Trigger::Wind => "wind",
+                };
+                let message = format!("timbre \"{name}\" is not played by on = \"{}\"", word(given.on));
+                let help = format!("it sounds on = \"{}\"; `soffio sound --list` names all timbres", word(player));
+                self.report(at, Diagnostic::new(codes::UNPLAYED, message).label(used_for).help(help));
+            }
             return;
         }
         let likely = near(name, timbre::names());

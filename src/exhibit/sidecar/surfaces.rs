@@ -199,6 +199,8 @@ pub struct Sound {
     pub node: Option<String>,
     /// What sets it off.
     pub on: Trigger,
+    /// Of wind: the wire that sings; only what blows across it is heard.
+    pub wire: Option<String>,
     /// Name of the timbre.
     pub timbre: String,
     /// Level.
@@ -232,6 +234,8 @@ pub struct SoundParams {
 pub enum Trigger {
     /// A hit on the body.
     Impact,
+    /// What slides or rolls over the body, or the body over it.
+    Slide,
     /// The wind at the body.
     Wind,
 }

@@ -21,14 +21,31 @@ pub(super) enum Kind {
     White,
     Pink(Pink),
     Slow(Slow),
-    Texture { line: Arc<Pyramid>, speed: Number },
-    Filter { kind: FilterKind, cutoff: Number, q: Number },
-    Env { attack: Number, decay: Number },
+    Texture {
+        line: Arc<Pyramid>,
+        speed: Number,
+    },
+    Filter {
+        kind: FilterKind,
+        cutoff: Number,
+        q: Number,
+    },
+    Env {
+        attack: Number,
+        decay: Number,
+    },
     Value,
-    Map { points: Vec<[f64; 2]> },
-    Delay { time: Number, feedback: f32 },
+    Map {
+        points: Vec<[f64; 2]>,
+    },
+    Delay {
+        time: Number,
+        feedback: f32,
+    },
     Sum,
     Product,
+    /// A surface without a picture.
+    Smooth,
 }
 
 impl Kind {
@@ -43,6 +60,7 @@ impl Kind {
             },
             Node::Texture(texture) => {
                 let line = match (texture.kind, surface) {
+                    (TextureKind::Image, None) if texture.optional => return Ok(Self::Smooth),
                     (TextureKind::Image, Some(surface)) => Pyramid::of_picture(surface)?,
                     (TextureKind::Image, None) => {
                         return Err("kind \"image\" needs a body whose surface has a picture; this one has none".into());
@@ -78,6 +96,7 @@ impl Kind {
             Self::Texture { line, speed } => {
                 // Anywhere on the surface: no two strokes are the same.
                 state.place = state.random.unit() * line.points() as f64;
+                (state.left, state.next) = (line.piece(&mut state.random), None);
                 state.value = line.step(speed.at(inputs), sample_rate);
                 state.level[0] = line.level(state.value);
             }

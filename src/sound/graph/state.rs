@@ -26,8 +26,10 @@ pub(in crate::sound) struct State {
     /// Slow noise at audio rate: its time and step. Texture: place on the line, in points.
     pub(super) place: f64,
     pub(super) step: f64,
-    /// Texture: level of the pyramid and its change per sample.
+    /// Texture: level of the pyramid and its change per sample; points left of this piece, and the place on the next.
     pub(super) level: [f64; 2],
+    pub(super) left: f64,
+    pub(super) next: Option<f64>,
     /// Filter: the two integrators, and the coefficients.
     pub(super) integrators: [f64; 2],
     pub(super) g: f64,
@@ -59,6 +61,8 @@ impl State {
             place: 0.0,
             step: 0.0,
             level: [0.0; 2],
+            left: f64::INFINITY,
+            next: None,
             integrators: [0.0; 2],
             g: 0.0,
             damping: 1.0,

@@ -7,13 +7,17 @@
 //! Each level holds nothing above ¼ of its own rate, half of what it could: read at up to two of its points a sample
 //! it stays below fs/2, and the images of what it holds begin at ¾, so that a short kernel removes them.
 //!
+//! **No end**: a procedural line is 0.3 m long, and an ear knows a turn of it again. So it is read in pieces from anywhere on
+//! it, each faded into the next with equal power: no piece of the way comes back, though the line in store is short. The
+//! fades are as far apart as a hand is wide. A picture is read as it is: who draws it means its order.
+//!
 //! **Solid textures** (Perlin, SIGGRAPH 1985): the line is a circle through the solid, so it closes without a seam. Wood:
 //! rings about an axis beside it, pores at the start of each; marble: a sine of the way, disturbed by turbulence; rough:
 //! octaves of noise, amplitude 2^(−iH), hence a spectrum of slope −1 − 2H.
 
 use super::state::State;
 use crate::math::{DVec3, PI, ln, sin, sincos};
-use crate::noise::{hash_words, perlin3};
+use crate::noise::{Random, hash_words, perlin3};
 use crate::sound::SurfaceLine;
 use crate::sound::timbre::{Texture, TextureKind};
 
@@ -23,6 +27,9 @@ const POINTS: usize = 1 << 15;
 const FEWEST: usize = 32;
 /// Most points of a picture's line.
 const MOST: usize = 1 << 18;
+/// Parts of a line that a piece of it is long, least and most, and that fades into the next.
+const PIECE: (f64, f64) = (0.25, 0.5);
+const FADE: f64 = 1.0 / 64.0;
 /// Taps of the reading kernel, and its phases.
 const TAPS: usize = 12;
 const PHASES: usize = 128;
@@ -37,6 +44,8 @@ pub(super) struct Pyramid {
     /// Distance between points of the finest, m.
     spacing: f64,
     kernel: Vec<[f32; TAPS]>,
+    /// Whether it is read in pieces.
+    endless: bool,
 }
 
 impl Pyramid {
@@ -49,7 +58,7 @@ impl Pyramid {
                 solid(texture, DVec3::new(radius * c, radius * s, 0.37))
             })
             .collect();
-        Self::new(&line, texture.resolution)
+        Self { endless: true, ..Self::new(&line, texture.resolution) }
     }
 
     /// The line of a picture.
@@ -84,7 +93,7 @@ impl Pyramid {
         while levels[levels.len() - 1].len() >= 2 * FEWEST {
             levels.push(low_passed(&levels[levels.len() - 1], 0.125, 2));
         }
-        Self { levels, spacing, kernel: reading_kernel() }
+        Self { levels, spacing, kernel: reading_kernel(), endless: false }
     }
 
     /// Points of the finest level.
@@ -102,24 +111,46 @@ impl Pyramid {
         (ln(step.max(1.0)) / ln(2.0)).min(self.levels.len() as f64 - 1.0)
     }
 
+    /// Length of the next piece, in points.
+    pub fn piece(&self, random: &mut Random) -> f64 {
+        if self.endless { self.points() as f64 * random.range(PIECE.0, PIECE.1) } else { f64::INFINITY }
+    }
+
     pub fn render(&self, state: &mut State, out: &mut [f32]) {
         let points = self.points() as f64;
+        let on = |place: f64, way: f64| if place + way >= points { place + way - points } else { place + way };
+        let fade = FADE * points;
         for y in out {
             let level = state.level[0].clamp(0.0, self.levels.len() as f64 - 1.0);
-            let (fine, blend) = (level as usize, (level - (level as usize) as f64) as f32);
-            let below = self.read(fine, state.place);
-            *y = if blend > 0.0 { below + blend * (self.read(fine + 1, state.place) - below) } else { below };
-            state.place += state.value;
-            if state.place >= points {
-                state.place -= points;
+            *y = self.read(level, state.place);
+            state.place = on(state.place, state.value);
+            state.left -= state.value;
+            if state.left < fade {
+                let next = state.next.unwrap_or_else(|| points * state.random.unit());
+                // Equal power, and no corner where it begins and ends: t² (3 − 2t).
+                let t = (1.0 - state.left / fade).min(1.0);
+                let power = t * t * (3.0 - 2.0 * t);
+                *y = *y * (1.0 - power).sqrt() as f32 + self.read(level, next) * power.sqrt() as f32;
+                state.next = Some(on(next, state.value));
+                if state.left <= 0.0 {
+                    state.place = state.next.take().unwrap_or_default();
+                    state.left += self.piece(&mut state.random);
+                }
             }
             state.value = (state.value + state.change).max(0.0);
             state.level[0] += state.level[1];
         }
     }
 
+    /// The value between two levels at a place of the finest.
+    fn read(&self, level: f64, place: f64) -> f32 {
+        let (fine, blend) = (level as usize, (level - (level as usize) as f64) as f32);
+        let below = self.read_level(fine, place);
+        if blend > 0.0 { below + blend * (self.read_level(fine + 1, place) - below) } else { below }
+    }
+
     /// The value of a level at a place of the finest.
-    fn read(&self, level: usize, place: f64) -> f32 {
+    fn read_level(&self, level: usize, place: f64) -> f32 {
         let line = &self.levels[level];
         let x = place / (1u64 << level) as f64;
         let cell = x as usize;

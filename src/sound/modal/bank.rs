@@ -75,8 +75,10 @@ pub struct Bank {
     energies: Vec<f64>,
     /// K and G of the hit in hand, group by group.
     hit: Vec<[Phasors<f64>; 2]>,
-    /// First samples of the response to a force.
-    response: [f32; FRAME],
+    /// First samples of the response to a force: now, and at the end of the next block.
+    response: [[f32; FRAME]; 2],
+    /// Whether those two differ.
+    moves: bool,
     /// Σ |z|² below which a group is over.
     threshold: f64,
     blocks: u32,
@@ -97,7 +99,8 @@ impl Bank {
             lives: vec![Life::Silent; count],
             energies: vec![0.0; count],
             hit: vec![[[[0.0; GROUP]; 2]; 2]; count],
-            response: [0.0; FRAME],
+            response: [[0.0; FRAME]; 2],
+            moves: false,
             threshold: 0.0,
             blocks: 0,
         };
@@ -287,14 +290,29 @@ impl Bank {
 
     /// Where a force acts from now on: partial i answers an impulse of the force by `gain(i)`.
     pub fn push_at(&mut self, gain: impl Fn(usize) -> f64) {
-        self.response = [0.0; FRAME];
+        self.push_towards(gain);
+        self.arrive();
+    }
+
+    /// Where a force acts that moves on: from where it is now, over the next block that is rendered, to there.
+    pub fn push_towards(&mut self, gain: impl Fn(usize) -> f64) {
+        self.moves = true;
+        self.response[1] = [0.0; FRAME];
         for (i, partial) in self.partials.iter().enumerate() {
             let b = if partial.is_playable(self.sample_rate) { gain(i) as f32 } else { 0.0 };
             let group = &mut self.groups[i / GROUP];
-            group.push[i % GROUP] = b;
-            for (h, im) in self.response.iter_mut().zip(&group.rows[i % GROUP][1]) {
+            group.push[1][i % GROUP] = b;
+            for (h, im) in self.response[1].iter_mut().zip(&group.rows[i % GROUP][1]) {
                 *h += b * im;
             }
+        }
+    }
+
+    /// A force that moved is where it was going.
+    fn arrive(&mut self) {
+        if std::mem::take(&mut self.moves) {
+            self.groups.iter_mut().for_each(|group| group.push[0] = group.push[1]);
+            self.response[0] = self.response[1];
         }
     }
 
@@ -315,6 +333,7 @@ impl Bank {
         if let Some(force) = force {
             respond(force, &self.response, out);
         }
+        self.arrive();
     }
 
     /// Whether a group fades in this block.

@@ -57,8 +57,8 @@ pub(super) struct Group {
     /// z at the start of the next block.
     pub state: Phasors<f64>,
     turns: Turns,
-    /// Gain b of a force; real.
-    pub push: [f32; GROUP],
+    /// Gain b of a force; real: now, and at the end of the next block, each frame a step on the way.
+    pub push: [[f32; GROUP]; 2],
     /// Partials in use.
     pub count: usize,
 }
@@ -70,7 +70,7 @@ impl Group {
             rows: [[[0.0; FRAME]; 2]; GROUP],
             state: [[0.0; GROUP]; 2],
             turns: Turns { jump: [[0.0; GROUP]; 2], steps: [[[0.0; GROUP]; 2]; FRAMES - 1] },
-            push: [0.0; GROUP],
+            push: [[0.0; GROUP]; 2],
             count: 0,
         }
     }
@@ -139,10 +139,11 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
     for (m, force) in force.as_chunks::<FRAME>().0.iter().enumerate() {
         if m > 0 {
             for i in 0..GROUP {
-                states.0[m][0][i] += group.push[i] * driven[0][i];
-                states.0[m][1][i] += group.push[i] * driven[1][i];
+                states.0[m][0][i] += driven[0][i];
+                states.0[m][1][i] += driven[1][i];
             }
         }
+        let on_the_way = m as f32 / FRAMES as f32;
         let mut d: Phasors<f32> = [[0.0; GROUP]; 2];
         for f in force {
             for i in 0..GROUP {
@@ -154,13 +155,14 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
         }
         for i in 0..GROUP {
             let (re, im) = (driven[0][i], driven[1][i]);
-            driven[0][i] = re * frame[0][i] - im * frame[1][i] + d[0][i];
-            driven[1][i] = re * frame[1][i] + im * frame[0][i] + d[1][i];
+            let b = group.push[0][i] + on_the_way * (group.push[1][i] - group.push[0][i]);
+            driven[0][i] = re * frame[0][i] - im * frame[1][i] + b * d[0][i];
+            driven[1][i] = re * frame[1][i] + im * frame[0][i] + b * d[1][i];
         }
     }
     for part in 0..2 {
         for i in 0..GROUP {
-            group.state[part][i] += f64::from(group.push[i] * driven[part][i]);
+            group.state[part][i] += f64::from(driven[part][i]);
         }
     }
     read(simd, group, &states, sums);
@@ -173,11 +175,15 @@ pub(super) fn ring_beside<S: Simd>(simd: S, group: &Group, phasors: &mut Phasors
     read(simd, group, &states, sums);
 }
 
-/// Adds what a force gives within its own frames through the first samples `h` of the impulse response.
-pub(super) fn respond(force: &[f32; BLOCK], h: &[f32; FRAME], out: &mut [f32]) {
-    for (force, out) in force.as_chunks::<FRAME>().0.iter().zip(out.as_chunks_mut::<FRAME>().0) {
+/// Adds what a force gives within its own frames through the first samples of the impulse response, which goes from one
+/// to the other over the block.
+pub(super) fn respond(force: &[f32; BLOCK], [from, to]: &[[f32; FRAME]; 2], out: &mut [f32]) {
+    let frames = force.as_chunks::<FRAME>().0.iter().zip(out.as_chunks_mut::<FRAME>().0);
+    for (m, (force, out)) in frames.enumerate() {
+        let on_the_way = m as f32 / FRAMES as f32;
+        let h: [f32; FRAME] = std::array::from_fn(|k| from[k] + on_the_way * (to[k] - from[k]));
         for (k, f) in force.iter().enumerate() {
-            for (y, h) in out[k..].iter_mut().zip(h) {
+            for (y, h) in out[k..].iter_mut().zip(&h) {
                 *y += f * h;
             }
         }

@@ -30,14 +30,8 @@ impl Preset {
         if self.node.len() > MAX_NODES {
             return wrong("node".into(), format!("{} nodes; the limit is {MAX_NODES}", self.node.len()));
         }
-        for (what, kind) in [("modal", is_modal as fn(&Node) -> bool), ("texture", is_texture)] {
-            let mut of_kind = self.node.iter().filter(|(_, node)| kind(node));
-            if let Some((second, _)) = of_kind.nth(1) {
-                return wrong(
-                    format!("node.{second}"),
-                    format!("a timbre has one {what} node at most; this is another"),
-                );
-            }
+        if let Some((second, _)) = self.node.iter().filter(|(_, node)| is_modal(node)).nth(1) {
+            return wrong(format!("node.{second}"), "a timbre has one modal node at most; this is another".into());
         }
         for (key, node) in &self.node {
             for input in node.inputs() {
@@ -61,10 +55,6 @@ impl Preset {
 
 fn is_modal(node: &Node) -> bool {
     matches!(node, Node::Modal(_))
-}
-
-fn is_texture(node: &Node) -> bool {
-    matches!(node, Node::Texture(_))
 }
 
 fn need(fine: bool, field: &'static str, problem: &str) -> Result<(), Problem> {

@@ -93,6 +93,9 @@ pub struct Texture {
     /// Another piece of the same surface.
     #[serde(default)]
     pub seed: u64,
+    /// `image`: a body without a picture is smooth; otherwise it is a mistake.
+    #[serde(default)]
+    pub optional: bool,
     /// Speed at which it is read, m/s.
     #[serde(default = "slip_speed")]
     pub speed: Number,

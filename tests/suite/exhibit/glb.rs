@@ -96,6 +96,16 @@ impl Scene {
         self.meshes.len() - 1
     }
 
+    /// Adds a mesh of the first material with these texture coordinates; its index.
+    pub fn textured(&mut self, shape: &Shape, uvs: &[[f32; 2]]) -> usize {
+        let mesh = self.mesh(shape, 4);
+        let bytes: Vec<u8> = uvs.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+        let flat = self.accessor(&bytes, json!({ "componentType": 5126, "type": "VEC2", "count": uvs.len() }));
+        self.meshes[mesh]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(flat);
+        self.meshes[mesh]["primitives"][0]["material"] = json!(0);
+        mesh
+    }
+
     /// Adds an animation named `name` of one channel: `path` is "translation" or "rotation", `keys` hold a time and its
     /// numbers (three times as many where `interpolation` is "CUBICSPLINE").
     pub fn animate(&mut self, name: &str, node: usize, path: &str, interpolation: &str, keys: &[(f32, Vec<f32>)]) {
