@@ -3,6 +3,8 @@
 //! Used in this order: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
+mod closing;
+
 use std::collections::BTreeMap;
 
 use fearless_simd::Level;
