@@ -36,8 +36,8 @@ use contacts::Verdict;
 pub use contacts::{Contacts, ENDS, Impact, ImpactKind, Met, Strike, Struck, SurfacePair, Touching, strike};
 use course::{Course, Rate};
 pub use drive::{Drive, Instant, Motion};
-pub use moved::Moved;
 use forces::{Damping, Springs};
+pub use moved::Moved;
 use passes::{Begin, Return};
 
 /// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;

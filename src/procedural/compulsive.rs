@@ -19,13 +19,15 @@ use crate::articulation::spatial::matrix;
 use crate::articulation::{Joint, System};
 use crate::bodies::RigidBody;
 use crate::dynamics::{Contacts, Dynamics, Met, Moved};
-use crate::math::{DMat3, DVec3};
+use crate::math::{DMat3, DVec3, tangents};
 
 /// Rounds of relaxation at most.
 pub const MOST_ROUNDS: usize = 200;
 /// Rounds after which the farthest miss must have shrunk to [`LEAST_GAIN`] of what it was, or else it never will be met.
-const PATIENCE: usize = 12;
+const PATIENCE: usize = 16;
 const LEAST_GAIN: f64 = 0.98;
+/// A nudge, rad.
+const NUDGE: f64 = 0.2;
 
 /// The source's way to close joints.
 #[derive(Clone, Debug)]
@@ -63,17 +65,18 @@ impl Compulsive {
         }
     }
 
-    /// Closes the joints of bodies where an update left them.
-    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], control: f64) -> Reach {
+    /// Closes the joints of bodies where an update left them; with a first round by the source's rule where it has a
+    /// control.
+    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], control: Option<f64>) -> Reach {
         let (bodies, system, contacts) = (&mut *moved.bodies, &mut *moved.system, &*moved.contacts);
         self.walks.lay_out(system, |body| bodies[body].properties.mass, grips.iter().map(|grip| grip.body));
         for (frame, body) in self.frames.iter_mut().zip(bodies.iter()) {
             *frame = matrix(body.rotation);
         }
         let mut reach = Reach::default();
-        let mut before = f64::INFINITY;
+        let (mut before, mut nudged) = (f64::INFINITY, false);
         for round in 0..MOST_ROUNDS {
-            let turning = if round == 0 { Turning::Compulsive(control) } else { Turning::Reach };
+            let turning = control.filter(|_| round == 0).map_or(Turning::Reach, Turning::Compulsive);
             self.round(bodies, system, contacts, grips, turning);
             system.evaluate(bodies);
             reach = Reach {
@@ -86,8 +89,13 @@ impl Compulsive {
                 break;
             }
             if round % PATIENCE == PATIENCE - 1 {
-                if open > LEAST_GAIN * before {
+                let stuck = open > LEAST_GAIN * before;
+                if stuck && nudged {
                     break;
+                }
+                if stuck {
+                    self.nudge(bodies);
+                    nudged = true;
                 }
                 before = open;
             }
@@ -120,8 +128,31 @@ impl Compulsive {
         self.strays.iter().fold(0.0, |most: f64, &bound| most.max(-contacts.bound(bound, bodies).0))
     }
 
+    /// Turns the bodies of each walk by little, to and fro: what lies along one line is pulled along its arms, which turns
+    /// nothing, so that a straight chain pushed from both ends would never bend.
+    fn nudge(&mut self, bodies: &mut [RigidBody]) {
+        for walk in &self.walks.walks {
+            let visits = self.walks.visits(walk);
+            let root = bodies[visits[0].body].position;
+            for (k, visit) in visits.iter().enumerate() {
+                let body = &mut bodies[visit.body];
+                let (t, b) = tangents((body.position - root).try_normalize().unwrap_or(DVec3::NEG_Y));
+                let to_and_fro = if k % 2 == 0 { NUDGE } else { -NUDGE };
+                body.displace(DVec3::ZERO, to_and_fro * (t + b));
+                self.frames[visit.body] = matrix(body.rotation);
+            }
+        }
+    }
+
     /// A pass from everything that is fixed, grips first, and what no pass closes.
-    fn round(&mut self, bodies: &mut [RigidBody], system: &mut System, contacts: &Contacts, grips: &[Grip], turning: Turning) {
+    fn round(
+        &mut self,
+        bodies: &mut [RigidBody],
+        system: &mut System,
+        contacts: &Contacts,
+        grips: &[Grip],
+        turning: Turning,
+    ) {
         if system.coupled().next().is_some() {
             system.evaluate(bodies);
         }

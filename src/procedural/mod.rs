@@ -45,10 +45,13 @@ pub use tree::{MOST_LED, MOST_PASSES};
 pub const MOST_GRIPS: usize = 4;
 /// Joints and grips nearer than this are where they belong, m or rad.
 pub const REACHED: f64 = 1e-7;
+/// Passes that bring grips this near have done what tangents could not, m.
+const NEAR: f64 = 0.02;
 /// Rounds of moving out in one step at most.
 const MOST_PUSHES: usize = 6;
-/// What a body may keep of the speed of its way, m/s and rad/s: a hand can throw it across the room in one step.
+/// What a body may keep of the speed of its way, m/s: a hand can throw it across the room in one step.
 pub const SPEED_KEPT: f64 = 50.0;
+/// The same of its turn, rad/s.
 pub const SPIN_KEPT: f64 = 200.0;
 
 /// How joints are closed.
@@ -127,6 +130,7 @@ pub struct Procedural {
     /// Inverse inertia in body axes, 1/(kg m²).
     inverse: Vec<DMat3>,
     before: Vec<RigidBody>,
+    kept: Vec<RigidBody>,
     compulsive: Compulsive,
     tree: TreeSolve,
     touches: Touches,
@@ -144,6 +148,7 @@ impl Procedural {
             damping: (0..bodies.len()).map(|body| dynamics.damping(body)).collect(),
             inverse: bodies.iter().map(|body| body.properties.inertia.inverse()).collect(),
             before: bodies.clone(),
+            kept: bodies.clone(),
             compulsive: Compulsive::new(dynamics),
             tree: TreeSolve::new(dynamics.system(), bodies.len()),
             touches: Touches::new(dynamics),
@@ -204,7 +209,8 @@ impl Procedural {
             first = false;
             self.reach = self.adjust(&mut moved, grips);
         }
-        self.touches.bounce(moved.system, moved.bodies, (dt, moved.gravity.length()), moved.impacts);
+        let motion = (dt, moved.gravity.length());
+        self.touches.bounce(moved.system, moved.bodies, &self.before, motion, moved.impacts);
     }
 
     /// Says what the joints may keep open: what is open at a step's start is drawn together over time, not in one step.
@@ -247,15 +253,25 @@ impl Procedural {
 
     fn adjust(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
         if self.settings.method == Method::Compulsive {
-            return self.compulsive.adjust(moved, grips, self.settings.control);
+            return self.compulsive.adjust(moved, grips, Some(self.settings.control));
         }
         let reach = self.tree.adjust(moved, grips);
-        if reach.residual <= REACHED {
+        if reach.reached() {
             return reach;
         }
-        // It leapt too far for tangents. One pass from the ground closes a tree from anywhere.
-        let closed = self.compulsive.adjust(moved, grips, 0.0);
-        Reach { passes: reach.passes + closed.passes, ..closed }
+        // It leapt too far for tangents, or is asked too much: passes close a tree from anywhere.
+        let passed = self.compulsive.adjust(moved, grips, None);
+        let mut last = passed;
+        if !passed.reached() && passed.missed <= NEAR {
+            self.kept.copy_from_slice(moved.bodies);
+            last = self.tree.adjust(moved, grips);
+            if !last.reached() {
+                moved.bodies.copy_from_slice(&self.kept);
+                last = passed;
+            }
+        }
+        last.passes += reach.passes;
+        last
     }
 
     /// The velocities that the step's way stands for.
@@ -298,7 +314,8 @@ fn turned(from: DQuat, to: DQuat) -> DVec3 {
     let x = v.length_squared();
     // Below a fifth of a radian the terms left out are under 10⁻¹⁴ of it.
     if x < 0.01 {
-        return v * (2.0 + x * (1.0 / 3.0 + x * (3.0 / 20.0 + x * (5.0 / 56.0 + x * (35.0 / 576.0 + x * (63.0 / 1408.0))))));
+        return v
+            * (2.0 + x * (1.0 / 3.0 + x * (3.0 / 20.0 + x * (5.0 / 56.0 + x * (35.0 / 576.0 + x * (63.0 / 1408.0))))));
     }
     let s = x.sqrt();
     v * (2.0 * atan2(s, turn.w) / s)

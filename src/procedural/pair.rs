@@ -15,8 +15,8 @@
 //! A joint of one point is exact after the second. Rows that repeat others count once (`block::pseudo_inverse`).
 
 use super::rule::{self, Turning};
-use crate::articulation::block::{MAX_ROWS, RowBlock, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear, vec6};
 use crate::articulation::block::pseudo_inverse;
+use crate::articulation::block::{MAX_ROWS, RowBlock, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear, vec6};
 use crate::articulation::rows::{Row, Scene, orientation, plane, point};
 use crate::articulation::spatial::matrix;
 use crate::articulation::{Anchor, ConstraintKind, Joint, System};
@@ -243,10 +243,13 @@ impl Stage<'_> {
             let inverse = stage.inertia(body).inverse();
             (linear(block) / stage.bodies[body].properties.mass, inverse * angular(block))
         };
-        let answers: f64 = free.clone().map(|(body, block)| {
-            let (way, turn) = pushed(self, body, &block);
-            way.dot(linear(&block)) + turn.dot(angular(&block))
-        }).sum();
+        let answers: f64 = free
+            .clone()
+            .map(|(body, block)| {
+                let (way, turn) = pushed(self, body, &block);
+                way.dot(linear(&block)) + turn.dot(angular(&block))
+            })
+            .sum();
         if answers <= 0.0 {
             return;
         }

@@ -20,9 +20,13 @@
 //!
 //! Small ways turn nothing by this rule, so passes from several fixed objects would push the rest to and fro for ever.
 //! From the second pass on a body *reaches*: it turns by the angle from r to r + s, so that its centre stays where it
-//! is as far as the joint lets it. That angle never exceeds φ, and vanishes with s.
+//! is as far as the joint lets it. That angle never exceeds φ, and vanishes with s; in one pass a body reaches by
+//! [`LONGEST_REACH`] at most, or it would turn end over end between two hands that push.
 
 use crate::math::{DMat3, DVec3, atan2, exp};
+
+/// Longest turn of a body that reaches, rad.
+pub const LONGEST_REACH: f64 = 0.5;
 
 /// How far a body turns when its joint point is pulled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +41,7 @@ pub enum Turning {
 pub fn turn(turning: Turning, r: DVec3, s: DVec3, inertia: &DMat3, mass: f64) -> DVec3 {
     match turning {
         Turning::Compulsive(control) => compulsive_rotation(r, s, control, inertia, mass),
-        Turning::Reach => angle_vector(r, r + s),
+        Turning::Reach => angle_vector(r, r + s).clamp_length_max(LONGEST_REACH),
     }
 }
 

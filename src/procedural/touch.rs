@@ -71,7 +71,8 @@ impl Touches {
     pub fn look(&mut self, contacts: &mut Contacts, before: &[RigidBody], after: &[RigidBody], first: bool) -> bool {
         let met = if first { &mut self.met } else { &mut self.again };
         contacts.meet_on_the_way(before, after, met);
-        let order = |a: &Met, b: &Met| a.s.total_cmp(&b.s).then(a.source.cmp(&b.source)).then(b.depth.total_cmp(&a.depth));
+        let order =
+            |a: &Met, b: &Met| a.s.total_cmp(&b.s).then(a.source.cmp(&b.source)).then(b.depth.total_cmp(&a.depth));
         met.sort_unstable_by(order);
         met.iter().any(|met| met.depth > LEVEL)
     }
@@ -81,22 +82,16 @@ impl Touches {
         system.evaluate(bodies);
         system.factor();
         let met = if first { &self.met } else { &self.again };
-        // Of the points of one pair those after the first may be free by then: each has what is left of its own.
-        for (index, met) in met.iter().enumerate() {
-            let moved: f64 = if index == 0 { 0.0 } else { ways(met, &self.columns[2]) };
-            if index == 0 {
-                self.columns[2].fill([0.0; 6]);
-            }
-            let depth = met.depth - moved;
-            if depth <= LEVEL {
-                continue;
-            }
-            let answer = answer(system, &met.ends);
-            if answer <= LOCKED {
-                continue;
-            }
-            for (sum, a) in self.columns[2].iter_mut().zip(&system.a) {
-                add_scaled(sum, depth / answer, a);
+        let sum = &mut self.columns[2];
+        sum.fill([0.0; 6]);
+        for met in met {
+            // What was moved for the others has moved this one too.
+            let depth = met.depth - along(&met.ends, sum);
+            let answer = if depth > LEVEL && met.depth > LEVEL { answer(system, &met.ends) } else { 0.0 };
+            if answer > LOCKED {
+                for (sum, a) in sum.iter_mut().zip(&system.a) {
+                    add_scaled(sum, depth / answer, a);
+                }
             }
         }
         for (body, delta) in bodies.iter_mut().zip(&self.columns[2]) {
@@ -105,7 +100,14 @@ impl Touches {
     }
 
     /// Moves what met out by itself, the source's way.
-    pub fn back_up(&self, mover: &mut Compulsive, system: &System, contacts: &Contacts, bodies: &mut [RigidBody], first: bool) {
+    pub fn back_up(
+        &self,
+        mover: &mut Compulsive,
+        system: &System,
+        contacts: &Contacts,
+        bodies: &mut [RigidBody],
+        first: bool,
+    ) {
         let met = if first { &self.met } else { &self.again };
         let mut done = None;
         for met in met.iter().filter(|met| met.depth > LEVEL) {
@@ -118,20 +120,31 @@ impl Touches {
     }
 
     /// Throws back what met and approaches, and tells it.
-    pub fn bounce(&mut self, system: &mut System, bodies: &mut [RigidBody], (dt, gravity): (f64, f64), impacts: &mut Vec<Impact>) {
+    pub fn bounce(
+        &mut self,
+        system: &mut System,
+        bodies: &mut [RigidBody],
+        before: &[RigidBody],
+        (dt, gravity): (f64, f64),
+        impacts: &mut Vec<Impact>,
+    ) {
         system.evaluate(bodies);
         system.factor();
         let slow = REST_SPEED + REST_STEPS * gravity * dt;
         let already = impacts.len();
         for index in 0..self.met.len() {
             let met = self.met[index];
-            let speed = -met.rate(bodies);
             let lies = self.last[met.source] + 1 >= self.step;
+            // A limit has ended the way already: how fast it was reached says the state before.
+            let stops = met.colliders.is_none() && !lies;
+            let speed = (-met.rate(bodies)).max(if stops { -met.rate(before) } else { 0.0 });
             let rests = speed < REST_SPEED || (lies && speed < slow);
             if speed > 0.0 {
                 let restitution = if rests { 0.0 } else { met.restitution };
-                let (push, mass) = self.push(system, &met, restitution, bodies);
-                let told = impacts[already..].iter_mut().find(|told| told.colliders == met.colliders && told.bodies == met.bodies);
+                let (push, mass) = self.push(system, &met, restitution, speed, bodies);
+                let told = impacts[already..]
+                    .iter_mut()
+                    .find(|told| told.colliders == met.colliders && told.bodies == met.bodies);
                 match told {
                     Some(told) => told.impulse += push,
                     None if lies && rests => {}
@@ -160,16 +173,23 @@ impl Touches {
     }
 
     /// The impulse of one point or bound, given to the bodies; its size (N s) and the effective mass (kg).
-    fn push(&mut self, system: &mut System, met: &Met, restitution: f64, bodies: &mut [RigidBody]) -> (f64, f64) {
+    fn push(
+        &mut self,
+        system: &mut System,
+        met: &Met,
+        restitution: f64,
+        speed: f64,
+        bodies: &mut [RigidBody],
+    ) -> (f64, f64) {
         if met.colliders.is_none() {
             let answer = answer(system, &met.ends);
             if answer <= LOCKED {
                 return (0.0, 0.0);
             }
-            let push = -(1.0 + restitution) * met.rate(bodies) / answer;
+            let push = ((restitution * speed - met.rate(bodies)) / answer).max(0.0);
             system.a.iter_mut().flatten().for_each(|a| *a *= push);
             system.apply_velocity(bodies);
-            return (push, 1.0 / answer);
+            return ((1.0 + restitution) * speed / answer, 1.0 / answer);
         }
         let (t, b) = tangents(met.normal);
         let rows = [t, b, met.normal].map(|axis| point_row(met, axis, bodies));
@@ -208,11 +228,6 @@ fn answer(system: &mut System, ends: &[Option<(usize, Vec6)>; ENDS]) -> f64 {
 /// A row times the bodies' coordinates.
 fn along(ends: &[Option<(usize, Vec6)>; ENDS], a: &[Vec6]) -> f64 {
     ends.iter().flatten().map(|(body, block)| dot(block, &a[*body])).sum()
-}
-
-/// How far a displacement moves a point out.
-fn ways(met: &Met, by: &[Vec6]) -> f64 {
-    along(&met.ends, by)
 }
 
 /// The row of a point along an axis.

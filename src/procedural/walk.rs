@@ -92,7 +92,12 @@ impl Walks {
     }
 
     /// Walks anew: for what acts now, and for grips on these bodies. `masses` gives each body's, kg.
-    pub fn lay_out(&mut self, system: &System, mass: impl Fn(usize) -> f64, grips: impl Iterator<Item = usize> + Clone) {
+    pub fn lay_out(
+        &mut self,
+        system: &System,
+        mass: impl Fn(usize) -> f64,
+        grips: impl Iterator<Item = usize> + Clone,
+    ) {
         (self.walks.clear(), self.visits.clear(), self.loops.clear());
         for (acts, joint) in self.acts.iter_mut().zip(system.joints()) {
             *acts = joint.constraints.iter().any(|&c| system.activity.share(c) == 1.0);
@@ -107,14 +112,17 @@ impl Walks {
             let first_walk = self.walks.len();
             // A first walk finds the piece and its anchors.
             let (first, end) = self.walk(system, root, &mass);
-            let heaviest = |best: usize, k: usize| if mass(self.visits[k].body) > mass(self.visits[best].body) { k } else { best };
+            let heaviest =
+                |best: usize, k: usize| if mass(self.visits[k].body) > mass(self.visits[best].body) { k } else { best };
             let heaviest = self.visits[(first..end).fold(first, heaviest)].body;
             for k in first..end {
                 self.piece[self.visits[k].body] = root;
             }
             self.visits.truncate(first);
             for joint in 0..self.acts.len() {
-                let Some(body) = self.anchored(system, joint).filter(|&body| self.piece[body] == root) else { continue };
+                let Some(body) = self.anchored(system, joint).filter(|&body| self.piece[body] == root) else {
+                    continue;
+                };
                 self.used[joint] = true;
                 self.begin(system, Start::Ground { joint }, body, root, &mass);
             }

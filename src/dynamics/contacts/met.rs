@@ -66,7 +66,7 @@ impl Contacts {
         }
         for bound in 0..self.limits.count() {
             let gap = self.limits.gap(bound, after);
-            if gap > 0.0 || out.len() == out.capacity() {
+            if gap > TOUCH || out.len() == out.capacity() {
                 continue;
             }
             let (_, row, point) = self.limits.row(bound, after);
@@ -77,7 +77,7 @@ impl Contacts {
                 colliders: None,
                 point,
                 normal: DVec3::ZERO,
-                depth: -gap,
+                depth: (-gap).max(0.0),
                 friction: 0.0,
                 restitution: self.limits.restitution(bound),
                 ends: row.ends,
@@ -142,7 +142,12 @@ impl Contacts {
         self.limits.bodies(bound)
     }
 
-    /// What is left to a bound (rad or m, negative beyond it) and its row.
+    /// What is left to a bound, rad or m; negative beyond it.
+    pub fn bound_gap(&self, bound: usize, bodies: &[RigidBody]) -> f64 {
+        self.limits.gap(bound, bodies)
+    }
+
+    /// The same and its row.
     pub fn bound(&self, bound: usize, bodies: &[RigidBody]) -> (f64, [Option<(usize, Vec6)>; ENDS]) {
         let (gap, row, _) = self.limits.row(bound, bodies);
         (gap, row.ends)
