@@ -37,7 +37,6 @@ pub(super) struct Compulsive {
     /// Limits between the two bodies of each joint, and the others.
     bounds: Vec<Vec<usize>>,
     strays: Vec<usize>,
-    nothing_left: Vec<f64>,
 }
 
 impl Compulsive {
@@ -61,13 +60,12 @@ impl Compulsive {
             frames: vec![DMat3::IDENTITY; dynamics.bodies.len()],
             bounds,
             strays,
-            nothing_left: vec![0.0; system.states().len()],
         }
     }
 
     /// Closes the joints of bodies where an update left them; with a first round by the source's rule where it has a
     /// control.
-    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], control: Option<f64>) -> Reach {
+    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], left: &[f64], control: Option<f64>) -> Reach {
         let (bodies, system, contacts) = (&mut *moved.bodies, &mut *moved.system, &*moved.contacts);
         self.walks.lay_out(system, |body| bodies[body].properties.mass, grips.iter().map(|grip| grip.body));
         for (frame, body) in self.frames.iter_mut().zip(bodies.iter()) {
@@ -77,13 +75,9 @@ impl Compulsive {
         let (mut before, mut nudged) = (f64::INFINITY, false);
         for round in 0..MOST_ROUNDS {
             let turning = control.filter(|_| round == 0).map_or(Turning::Reach, Turning::Compulsive);
-            self.round(bodies, system, contacts, grips, turning);
+            self.round(bodies, system, contacts, grips, left, turning);
             system.evaluate(bodies);
-            reach = Reach {
-                passes: round as u32 + 1,
-                residual: system.open_by(&self.nothing_left),
-                missed: farthest(grips, bodies),
-            };
+            reach = Reach { passes: round as u32 + 1, residual: system.open_by(left), missed: farthest(grips, bodies) };
             let open = reach.residual.max(reach.missed).max(self.passed(contacts, bodies));
             if open <= REACHED {
                 break;
@@ -108,7 +102,7 @@ impl Compulsive {
     pub fn back_up(&mut self, met: &Met, system: &System, contacts: &Contacts, bodies: &mut [RigidBody]) {
         let masses = met.bodies.map(|body| body.filter(|&b| !system.driven()[b]).map(|b| bodies[b].properties.mass));
         if met.colliders.is_none() {
-            let mut stage = Stage { bodies, frames: &mut self.frames, system, contacts };
+            let mut stage = Stage { bodies, frames: &mut self.frames, system, contacts, left: &[] };
             stage.spread(met.ends.into_iter().flatten(), met.depth);
             return;
         }
@@ -151,13 +145,14 @@ impl Compulsive {
         system: &mut System,
         contacts: &Contacts,
         grips: &[Grip],
+        left: &[f64],
         turning: Turning,
     ) {
         if system.coupled().next().is_some() {
             system.evaluate(bodies);
         }
         let system = &*system;
-        let mut stage = Stage { bodies, frames: &mut self.frames, system, contacts };
+        let mut stage = Stage { bodies, frames: &mut self.frames, system, contacts, left };
         for (value, parts) in system.coupled() {
             stage.spread(parts.iter().copied(), -value);
         }

@@ -253,14 +253,14 @@ impl Procedural {
 
     fn adjust(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
         if self.settings.method == Method::Compulsive {
-            return self.compulsive.adjust(moved, grips, Some(self.settings.control));
+            return self.compulsive.adjust(moved, grips, &self.tree.left, Some(self.settings.control));
         }
         let reach = self.tree.adjust(moved, grips);
         if reach.reached() {
             return reach;
         }
         // It leapt too far for tangents, or is asked too much: passes close a tree from anywhere.
-        let passed = self.compulsive.adjust(moved, grips, None);
+        let passed = self.compulsive.adjust(moved, grips, &self.tree.left, None);
         let mut last = passed;
         if !passed.reached() && passed.missed <= NEAR {
             self.kept.copy_from_slice(moved.bodies);

@@ -38,6 +38,8 @@ pub(super) struct Stage<'a> {
     pub frames: &'a mut [DMat3],
     pub system: &'a System,
     pub contacts: &'a Contacts,
+    /// What each row may keep open, m or rad.
+    pub left: &'a [f64],
 }
 
 /// Rows as one body sees them.
@@ -180,30 +182,45 @@ impl Stage<'_> {
         true
     }
 
+    /// The constraints of a joint that act, with the place of the first row of each; what acts in part is left alone.
+    fn acting<'j>(&self, joint: &'j Joint) -> impl Iterator<Item = (usize, usize)> + use<'j, '_> {
+        let system = self.system;
+        let mut at = joint.at;
+        joint.constraints.iter().filter_map(move |&index| {
+            let share = system.activity.share(index);
+            let first = at;
+            at += if share > 0.0 { system.constraints()[index].row_count() } else { 0 };
+            (share == 1.0).then_some((index, first))
+        })
+    }
+
     /// The acting rows of a joint as one of its bodies sees them, of some kinds.
     fn rows(&self, joint: &Joint, own: usize, wanted: impl Fn(&ConstraintKind) -> bool) -> Rows {
         let (system, scene) = (self.system, self.scene());
-        let acting = |&&index: &&usize| system.activity.share(index) == 1.0;
         let mut rows = Rows::none();
-        for &index in joint.constraints.iter().filter(acting) {
+        for (index, mut at) in self.acting(joint) {
             let constraint = &system.constraints()[index];
             if !wanted(&constraint.kind) {
                 continue;
             }
             let first = constraint.link().is_some_and(|(a, _)| a == Some(own));
-            let mut push = |row: &Row| rows.push(if first { &row.a } else { &row.b }, row.value);
+            let mut push = |row: &Row| {
+                rows.push(if first { &row.a } else { &row.b }, row.value - self.left[at]);
+                at += 1;
+            };
             match &constraint.kind {
                 ConstraintKind::PointToPoint { a, b } => point::rows(&scene, a, b).iter().for_each(push),
                 ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
                     push(&plane::row(&scene, point, plane, *normal, offset));
                 }
                 ConstraintKind::Orientation { a, b, angle } => {
-                    let others = joint.constraints.iter().filter(|&&other| other != index).filter(acting);
                     let held = || {
-                        others.clone().find_map(|&other| match &system.constraints()[other].kind {
+                        let others = self.acting(joint).filter(|&(other, _)| other != index);
+                        let axis = |(other, _): (usize, usize)| match &system.constraints()[other].kind {
                             ConstraintKind::Orientation { a, b, .. } => orientation::axis(&scene, a, b),
                             _ => None,
-                        })
+                        };
+                        others.filter_map(axis).next()
                     };
                     push(&orientation::row(&scene, a, b, angle, held));
                 }
@@ -217,22 +234,25 @@ impl Stage<'_> {
     pub fn first_pull(&self, joint: &Joint, own: usize) -> Option<(DVec3, DVec3)> {
         let (system, scene) = (self.system, self.scene());
         let center = self.bodies[own].position;
-        let pull = |&index: &usize| match &system.constraints()[index].kind {
-            _ if system.activity.share(index) < 1.0 => None,
+        let pull = |(index, at): (usize, usize)| match &system.constraints()[index].kind {
             ConstraintKind::PointToPoint { a, b } => {
-                let (mine, other): (&Anchor, &Anchor) = if a.body == Some(own) { (a, b) } else { (b, a) };
+                // C = a − b.
+                let kept = DVec3::new(self.left[at], self.left[at + 1], self.left[at + 2]);
+                let (mine, other, kept): (&Anchor, &Anchor, DVec3) =
+                    if a.body == Some(own) { (a, b, kept) } else { (b, a, -kept) };
                 let at = scene.point(mine).position;
-                Some((at - center, scene.point(other).position - at))
+                Some((at - center, scene.point(other).position - at + kept))
             }
             ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
                 let row = plane::row(&scene, point, plane, *normal, offset);
                 // The plane's body is pulled where the point is.
                 let sign = if point.body == Some(own) { -1.0 } else { 1.0 };
-                Some((scene.point(point).position - center, sign * row.value * linear(&row.a)))
+                let way = sign * (row.value - self.left[at]);
+                Some((scene.point(point).position - center, way * linear(&row.a)))
             }
             _ => None,
         };
-        joint.constraints.iter().find_map(pull)
+        self.acting(joint).find_map(pull)
     }
 
     /// Moves the bodies of one row by the least that changes its value by `change`.

@@ -19,9 +19,10 @@
 //! of all), so that a body with much behind it turns into the pull instead of being carried along.
 //!
 //! Small ways turn nothing by this rule, so passes from several fixed objects would push the rest to and fro for ever.
-//! From the second pass on a body *reaches*: it turns by the angle from r to r + s, so that its centre stays where it
-//! is as far as the joint lets it. That angle never exceeds φ, and vanishes with s; in one pass a body reaches by
-//! [`LONGEST_REACH`] at most, or it would turn end over end between two hands that push.
+//! From the second pass on a body *reaches*: it turns by the angle from r to r + s, at which its centre would stay on the
+//! line of its arm, times |r|²/(|r|² + I₂/m₂), as a wheel that is held by its centre has no reason to turn. That angle
+//! never exceeds φ, and vanishes with s; in one pass a body reaches by [`LONGEST_REACH`] at most, or it would turn end over
+//! end between two hands that push.
 
 use crate::math::{DMat3, DVec3, atan2, exp};
 
@@ -33,7 +34,7 @@ pub const LONGEST_REACH: f64 = 0.5;
 pub enum Turning {
     /// The source's θ with the control c (no unit; 0 turns by all of φ).
     Compulsive(f64),
-    /// From r to r + s.
+    /// From r towards r + s.
     Reach,
 }
 
@@ -41,7 +42,12 @@ pub enum Turning {
 pub fn turn(turning: Turning, r: DVec3, s: DVec3, inertia: &DMat3, mass: f64) -> DVec3 {
     match turning {
         Turning::Compulsive(control) => compulsive_rotation(r, s, control, inertia, mass),
-        Turning::Reach => angle_vector(r, r + s).clamp_length_max(LONGEST_REACH),
+        Turning::Reach => {
+            let w = angle_vector(r, r + s).clamp_length_max(LONGEST_REACH);
+            let Some(axis) = w.try_normalize() else { return DVec3::ZERO };
+            let (square, gyration) = (r.length_squared(), axis.dot(*inertia * axis) / mass);
+            w * (square / (square + gyration))
+        }
     }
 }
 

@@ -10,9 +10,9 @@ use crate::motion::{World, body, wheel};
 
 const LENGTH: f64 = 0.1;
 const SLOW: f64 = 1.0 / 30.0;
-/// What relaxation may leave, m: a pixel in a picture 2 m wide. To bend a straight chain that is pushed along its own
-/// line it may take this many steps; all joints at once need one.
-const BENT: f64 = 1e-3;
+/// What relaxation may leave in a step of a chain of 0.8 m that is nearly straight, m: it makes it up in the next ones. To
+/// bend a straight chain that is pushed along its own line it may take this many steps; all joints at once need one.
+const BENT: f64 = 0.03;
 const BENDING: usize = 20;
 
 /// Is a hand where it should be, and do the joints hold?

@@ -59,12 +59,16 @@ fn what_lies_along_the_arm_turns_nothing() {
 }
 
 #[test]
-fn reaching_keeps_the_centre_on_the_line_of_its_arm() {
+fn reaching_turns_a_point_mass_onto_its_line_and_a_wheel_not_at_all() {
     let (r, s) = (DVec3::new(0.2, 0.1, 0.0), DVec3::new(-0.01, 0.05, 0.06));
-    let w = turn(Turning::Reach, r, s, &DMat3::IDENTITY, 1.0);
+    let reach = |inertia: f64, r: DVec3| turn(Turning::Reach, r, s, &(DMat3::IDENTITY * inertia), 2.0);
+    let w = reach(0.0, r);
     let turned = DQuat::from_scaled_axis(w) * r;
     assert!(turned.cross(r + s).length() < ROUNDING && turned.dot(r + s) > 0.0);
     assert!(w.length() <= r.angle_between(s));
+    // I/m = |r|² halves it.
+    assert!((reach(2.0 * r.length_squared(), r) - 0.5 * w).length() < ROUNDING);
+    assert!(reach(0.1, DVec3::X * 1e-12).length() < 1e-20);
 }
 
 #[test]
