@@ -98,7 +98,9 @@ impl Walks {
         mass: impl Fn(usize) -> f64,
         grips: impl Iterator<Item = usize> + Clone,
     ) {
-        (self.walks.clear(), self.visits.clear(), self.loops.clear());
+        self.walks.clear();
+        self.visits.clear();
+        self.loops.clear();
         for (acts, joint) in self.acts.iter_mut().zip(system.joints()) {
             *acts = joint.constraints.iter().any(|&c| system.activity.share(c) == 1.0);
         }

