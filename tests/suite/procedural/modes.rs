@@ -36,8 +36,8 @@ fn a_change_of_motion_moves_nothing_by_itself() {
     const TURN: f64 = 0.5;
     const ORDER: [MotionMode; 4] =
         [MotionMode::Dynamic, MotionMode::PositionBased, MotionMode::Dynamic, MotionMode::Procedural];
-    /// Steps from change to change; none falls on the time at which an exhibit itself lets go of an axis.
-    const PERIOD: usize = 70;
+    /// Steps from change to change: none into places while an exhibit draws itself onto another axis.
+    const PERIOD: usize = 100;
     let mut seen = 0;
     for id in exhibit::ids() {
         let mut simulation = Simulation::new(load(&id), Settings::default());
@@ -47,7 +47,7 @@ fn a_change_of_motion_moves_nothing_by_itself() {
         for index in 0..1440 {
             let mode = ORDER[index / PERIOD % 4];
             let before = simulation.bodies().to_vec();
-            step(&mut simulation, mode, true);
+            step(&mut simulation, mode, false);
             let mut leap = (0.0_f64, 0.0_f64);
             for (from, to) in before.iter().zip(simulation.bodies()) {
                 let mut ahead = *from;
@@ -71,7 +71,7 @@ fn a_change_of_motion_moves_nothing_by_itself() {
         println!("{id}: {quiet} changes, {:.1e} m, {:.1e}° at most", worst.0, worst.1);
         seen += quiet;
     }
-    assert!(seen > 40, "only {seen} changes without a hit");
+    assert!(seen > 30, "only {seen} changes without a hit");
 }
 
 #[test]
