@@ -3,7 +3,7 @@
 //! The modules in order of knowledge; each may import only what stands above it (a test scans for this):
 //!
 //! ```text
-//! math, noise → geometry → bodies → collision, articulation → dynamics | wind | sound → exhibit → simulation
+//! math, noise → geometry → bodies → collision, articulation → dynamics | wind | sound → procedural → exhibit → simulation
 //!             → config → audio_io | controllers | render → offline, kiosk → commands
 //! ```
 //!
@@ -22,6 +22,7 @@ pub mod geometry;
 pub mod math;
 pub mod noise;
 pub mod offline;
+pub mod procedural;
 pub mod simulation;
 pub mod sound;
 pub mod wind;

@@ -13,7 +13,7 @@ use crate::offline::feed::WavFeed;
 use crate::offline::play::{self, OnFrame, Play, PlayError};
 use crate::offline::trace::DEFAULT_FPS;
 use crate::offline::wav;
-use crate::simulation::{Profile, STEPS_PER_SECOND, Script, Settings};
+use crate::simulation::{MotionMode, Profile, STEPS_PER_SECOND, Script, Settings};
 
 /// Seconds of a run without a recording, and after the end of one.
 const TAIL: f64 = 5.0;
@@ -86,6 +86,10 @@ enum ProfileArg {
 enum SolverArg {
     /// Constrained dynamics.
     Dynamics,
+    /// Procedural motion, joint by joint.
+    Procedural,
+    /// Places first, all joints at once.
+    PositionBased,
     /// The exhibit's own choice.
     Auto,
 }
@@ -129,10 +133,15 @@ pub fn run(args: Args) -> Outcome {
         wind: !args.no_wind,
         ..super::settings()?
     };
-    // One solver so far: the exhibit's own choice is constrained dynamics.
-    let (SolverArg::Dynamics | SolverArg::Auto) = args.solver;
+    let mode = match args.solver {
+        // The exhibit's own choice is constrained dynamics.
+        SolverArg::Dynamics | SolverArg::Auto => MotionMode::Dynamic,
+        SolverArg::Procedural => MotionMode::Procedural,
+        SolverArg::PositionBased => MotionMode::PositionBased,
+    };
     let play = Play {
         settings,
+        mode,
         breath: recording.as_ref().map(WavFeed::from),
         aim: args.aim,
         script,

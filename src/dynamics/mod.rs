@@ -19,6 +19,7 @@ pub mod forces;
 pub mod impulse;
 mod integrate;
 mod limits;
+mod moved;
 mod pace;
 mod passes;
 
@@ -32,10 +33,11 @@ use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
 use contacts::Verdict;
-pub use contacts::{Contacts, Impact, ImpactKind, Strike, Struck, SurfacePair, Touching, strike};
+pub use contacts::{Contacts, ENDS, Impact, ImpactKind, Met, Strike, Struck, SurfacePair, Touching, strike};
 use course::{Course, Rate};
 pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
+pub use moved::Moved;
 use passes::{Begin, Return};
 
 /// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
@@ -247,13 +249,7 @@ impl Dynamics {
         if self.settings.friction && self.bodies.iter().all(RigidBody::is_finite) {
             self.rub(dt);
         }
-        for impact in &impacts[already..] {
-            for body in impact.bodies.into_iter().flatten() {
-                self.system.activity.hit(body, impact.impulse, self.time + impact.time);
-                self.springs.activity.hit(body, impact.impulse, self.time + impact.time);
-            }
-        }
-        self.time += dt;
+        self.end_step(dt, already, impacts);
         let lost = self.restore_bad_bodies();
         if lost > 0 {
             // What went wrong did not happen.
@@ -462,6 +458,23 @@ impl Dynamics {
     /// Seconds since reset.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// Damping of a body.
+    pub fn damping(&self, body: usize) -> Damping {
+        let slot = self.system.quads().slot(body);
+        let [linear, angular] = self.courses[slot.quad].damping.each_ref().map(|rate| rate.0[slot.lane]);
+        Damping { linear, angular }
+    }
+
+    /// Bodies that follow a given motion.
+    pub fn drives(&self) -> &[Drive] {
+        &self.drives
+    }
+
+    /// What can touch, and the limits.
+    pub fn contacts(&self) -> &Contacts {
+        &self.contacts
     }
 
     /// The joints' system, for reports.

@@ -13,7 +13,7 @@ use super::feed::WavFeed;
 use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
 use crate::exhibit::Exhibit;
-use crate::simulation::{STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
 use crate::sound::RoomSpec;
 
 /// What to run and what to keep of it.
@@ -27,6 +27,8 @@ pub struct Play {
     pub aim: Option<[f64; 2]>,
     /// What a visitor does over time.
     pub script: Option<Script>,
+    /// What moves the figure where the script says nothing.
+    pub mode: MotionMode,
     /// Length, s.
     pub seconds: f64,
     /// Width over height of the picture that the pointer lies in.
@@ -106,7 +108,8 @@ pub fn run(
     mut on_step: impl FnMut(u64),
     mut on_frame: Option<&mut OnFrame>,
 ) -> Result<Summary, PlayError> {
-    let Play { settings, mut breath, aim, mut script, seconds, aspect, audio, room, dry, trace, events, fps } = play;
+    let Play { settings, mut breath, aim, mut script, mode, seconds, aspect, audio, room, dry, trace, events, fps } =
+        play;
     let (wall, cpu) = (Instant::now(), ProcessTime::now());
     let mut simulation = Simulation::new(exhibit.clone(), settings);
     let mut soundtrack =
@@ -117,6 +120,7 @@ pub fn run(
     let mut commands = Vec::new();
     let mut worst: f64 = 0.0;
     let mut frame = 0;
+    let (mut before, mut switches) = (mode, 0);
     for step in 0..=steps {
         if let Some(trace) = &mut trace {
             trace.push_simulation(&simulation)?;
@@ -134,7 +138,11 @@ pub fn run(
         if let Some(script) = &mut script {
             script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
         }
+        let now = script.as_ref().and_then(Script::mode).unwrap_or(mode);
+        switches += u64::from(step > 0 && now != before);
+        before = now;
         simulation.step(&StepInput {
+            mode: now,
             microphone: breath.as_mut().map(WavFeed::microphone),
             pointer: script.as_ref().and_then(Script::aim).or(aim),
             aspect,
@@ -165,7 +173,7 @@ pub fn run(
         max_joint_error_m: worst,
         energy_j: diagnostics.energy,
         impacts: diagnostics.impacts,
-        solver_switches: 0,
+        solver_switches: switches,
         peak_dbfs: finite(levels.peak_dbfs),
         lufs: finite(levels.lufs),
         profile: settings.profile.name(),

@@ -22,6 +22,7 @@ use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
 use crate::exhibit::{Exhibit, View};
 use crate::math::{DVec3, StateHash};
+use crate::procedural::{self, Grip, Method, Procedural, Reach};
 use crate::sound::SoundCommand;
 use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
@@ -164,6 +165,43 @@ pub struct StepInput<'a> {
     pub aspect: f64,
     /// Commands, carried out in order before the step.
     pub commands: &'a [Command],
+    /// What moves the figure in this step.
+    pub mode: MotionMode,
+    /// Hands on bodies, where the figure is moved by places; the laws leave them alone.
+    pub grips: &'a [Grip],
+}
+
+/// What moves the figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MotionMode {
+    /// The laws: constrained dynamics.
+    #[default]
+    Dynamic,
+    /// The source's procedural motion.
+    Procedural,
+    /// Places, all joints at once.
+    PositionBased,
+}
+
+impl MotionMode {
+    /// Its name on the command line and in scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dynamic => "dynamics",
+            Self::Procedural => "procedural",
+            Self::PositionBased => "position-based",
+        }
+    }
+}
+
+impl std::str::FromStr for MotionMode {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let all = [Self::Dynamic, Self::Procedural, Self::PositionBased];
+        let wrong = || format!("solver \"{name}\" is not one of: {}", all.map(Self::name).join(", "));
+        all.into_iter().find(|mode| mode.name() == name).ok_or_else(wrong)
+    }
 }
 
 /// An exhibit in motion.
@@ -179,6 +217,7 @@ pub struct Simulation {
     front: Front,
     wind: WindField,
     dynamics: Dynamics,
+    procedural: Procedural,
     motes: Motes,
     wrenches: Vec<Vec6>,
     impacts: Vec<Impact>,
@@ -198,8 +237,10 @@ impl Simulation {
     /// The exhibit at rest in its start pose.
     pub fn new(exhibit: Arc<Exhibit>, settings: Settings) -> Self {
         let view = exhibit.view(DEFAULT_ASPECT);
+        let dynamics = start_dynamics(&exhibit, &settings);
         Self {
-            dynamics: start_dynamics(&exhibit, &settings),
+            procedural: Procedural::new(&dynamics, procedural::Settings::default()),
+            dynamics,
             wind: WindField::new(
                 &exhibit.wind_surfaces,
                 &exhibit.shelters,
@@ -245,10 +286,29 @@ impl Simulation {
         self.blow();
         self.impacts.clear();
         self.dynamics.breathe(self.speed);
-        self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
+        self.advance(input.mode, input.grips);
         self.tell(mended.or(self.dynamics.fault()));
         self.drift();
         self.step += 1;
+    }
+
+    /// Moves the figure.
+    fn advance(&mut self, mode: MotionMode, grips: &[Grip]) {
+        let method = match mode {
+            MotionMode::Dynamic => {
+                self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
+                return;
+            }
+            MotionMode::Procedural => Method::Compulsive,
+            MotionMode::PositionBased => Method::TreeSolve,
+        };
+        self.procedural.settings_mut().method = method;
+        self.procedural.step(&mut self.dynamics, DT, &self.wrenches, grips, &mut self.impacts);
+    }
+
+    /// How the last step that moved the figure by places ended.
+    pub fn reach(&self) -> Reach {
+        self.procedural.reach()
     }
 
     fn carry_out(&mut self, commands: &[Command]) {
@@ -256,6 +316,7 @@ impl Simulation {
             match *command {
                 Command::Reset => {
                     self.dynamics = start_dynamics(&self.exhibit, &self.settings);
+                    self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
                     self.start_step = self.step;
                     self.front.clear();
                     let sample = self.step * SAMPLES_PER_STEP;

@@ -5,13 +5,14 @@
 //! {"t": 1.0, "blow": 8.0}                                              m/s at the lips, until the next blow
 //! {"t": 4.0, "blow": {"strength": 0.6, "attack": 0.1, "hold": 0.8, "release": 0.3}}
 //! {"t": 9.0, "reset": true}
+//! {"t": 9.5, "solver": "procedural"}              or "dynamics", "position-based", "auto" (the run's own): from then on
 //! ```
 //!
 //! A script knows no file and no clock: it is asked once per step for what is due.
 
 use serde::Deserialize;
 
-use super::Command;
+use super::{Command, MotionMode};
 
 /// Source speed of strength 1, m/s: a hard blow, 180 L/min through lips of 15 mm.
 const FULL_SPEED: f64 = 17.0;
@@ -86,6 +87,7 @@ enum Action {
     Speed(f64),
     Envelope(Envelope),
     Reset,
+    Solver(Option<MotionMode>),
 }
 
 /// A visitor's doings over time.
@@ -95,6 +97,7 @@ pub struct Script {
     next: usize,
     aim: Option<[f64; 2]>,
     envelope: Option<(f64, Envelope)>,
+    mode: Option<MotionMode>,
 }
 
 impl Script {
@@ -110,8 +113,10 @@ impl Script {
             if actions.last().is_some_and(|&(t, _)| t > line.t) {
                 return Err(fail(format!("t = {} comes before the line above; keep the lines in time order", line.t)));
             }
-            if let Some(solver) = line.solver.filter(|s| s != "dynamics" && s != "auto") {
-                return Err(fail(format!("solver \"{solver}\" is not one of: dynamics, auto")));
+            if let Some(solver) = line.solver {
+                let mode = if solver == "auto" { Ok(None) } else { solver.parse().map(Some) };
+                let mode = mode.map_err(|problem: String| fail(format!("{problem}, auto")))?;
+                actions.push((line.t, Action::Solver(mode)));
             }
             if let Some([x, y]) = line.aim.filter(|aim| !aim.iter().all(|v| (0.0..=1.0).contains(v))) {
                 return Err(fail(format!("the aim [{x}, {y}] is outside the picture; give two numbers from 0 to 1")));
@@ -150,6 +155,11 @@ impl Script {
         self.aim
     }
 
+    /// What the script says is to move the figure now; `None` leaves it to the run.
+    pub fn mode(&self) -> Option<MotionMode> {
+        self.mode
+    }
+
     /// Puts the commands due at `t` seconds into `out`.
     pub fn due(&mut self, t: f64, out: &mut Vec<Command>) {
         while let Some(&(at, action)) = self.actions.get(self.next).filter(|(at, _)| *at <= t) {
@@ -157,6 +167,7 @@ impl Script {
             match action {
                 Action::Aim(aim) => self.aim = Some(aim),
                 Action::Reset => out.push(Command::Reset),
+                Action::Solver(mode) => self.mode = mode,
                 Action::Speed(speed) => {
                     self.envelope = None;
                     out.push(Command::Blow(Some(speed).filter(|s| *s > 0.0)));

@@ -11,6 +11,7 @@ const LAYERS: &[&[&str]] = &[
     &["bodies"],
     &["collision", "articulation"],
     &["dynamics", "wind", "sound"],
+    &["procedural"],
     &["exhibit"],
     &["simulation"],
     &["config"],

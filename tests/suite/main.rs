@@ -18,6 +18,7 @@ mod modal;
 mod motion;
 #[cfg(feature = "kiosk")]
 mod pictures;
+mod procedural;
 mod realtime;
 mod repeatable;
 mod robust;

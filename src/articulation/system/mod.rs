@@ -3,6 +3,7 @@
 //! Used in this order: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
+mod closing;
 mod joint;
 mod report;
 mod solve;

@@ -94,7 +94,7 @@ impl System {
     }
 
     /// Driven bodies do not give way.
-    fn still(&mut self) {
+    pub(super) fn still(&mut self) {
         for (a, &driven) in self.a.iter_mut().zip(&self.driven) {
             if driven {
                 *a = [0.0; 6];

@@ -7,6 +7,7 @@
 
 mod hit;
 mod leap;
+mod met;
 mod open;
 mod problem;
 mod rest;
@@ -25,6 +26,7 @@ use problem::{Problem, Source, Touch};
 use row::ROW_ENDS;
 
 pub use hit::{Strike, Struck, strike};
+pub use met::{ENDS, Met};
 pub(super) use rest::Verdict;
 pub(super) use row::Row;
 pub use touching::Touching;

@@ -98,7 +98,7 @@ impl Contacts {
         Some(open)
     }
 
-    fn sweep(&self, collider: usize) -> Sweep {
+    pub(super) fn sweep(&self, collider: usize) -> Sweep {
         self.colliders[collider].body.map_or(Sweep::STILL, |body| self.sweeps[body])
     }
 

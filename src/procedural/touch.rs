@@ -1,0 +1,240 @@
+//! What bodies that were moved by place alone meet: moved out by depth, thrown back by impulse (method 3.5, 2.3).
+//!
+//! **Place.** Pair by pair, the deepest point first, the bodies are moved apart along the normal until they just touch.
+//! By the source's rule it is the body itself that moves (two free ones by their masses) and the joints are adjusted
+//! again; with the tree's solve the whole figure gives way, by the row J of the contact and the joints' factor H,
+//!
+//! ```text
+//! δ = H⁻¹ Jᵀ d/(J H⁻¹ Jᵀ)        d the depth
+//! ```
+//!
+//! Limits are rows of the same kind.
+//!
+//! **Speed.** The velocity that the step's way stands for is taken before anything is moved out, so that being moved out
+//! throws nothing. Each point that met and approaches then gets the impulse of `dynamics::impulse` (Coulomb's cone,
+//! Stronge's restitution), with the effective mass of the joints as they stand at the step's end.
+//!
+//! What met in the step before and comes no faster than gravity brings it within a step or two is at rest: it does not
+//! bounce and tells nothing.
+
+use super::compulsive::Compulsive;
+use crate::articulation::System;
+use crate::articulation::block::{Vec6, add_scaled, angular, dot, linear, vec6};
+use crate::bodies::RigidBody;
+use crate::dynamics::impulse::impulse;
+use crate::dynamics::{Contacts, Dynamics, ENDS, Impact, ImpactKind, Met};
+use crate::math::{DMat3, DVec3, tangents};
+
+/// Points that are looked at in one step at most.
+const MOST_MET: usize = 256;
+/// Slower approaches do not bounce, m/s or rad/s; what gravity gives within [`REST_STEPS`] steps is added.
+const REST_SPEED: f64 = 4e-3;
+const REST_STEPS: f64 = 2.0;
+/// Answers smaller than this are none: joints hold the point, 1/kg.
+const LOCKED: f64 = 1e-9;
+/// Depths that are left as they are, m or rad.
+const LEVEL: f64 = 1e-9;
+
+/// What touches in a procedural step.
+#[derive(Clone, Debug)]
+pub(super) struct Touches {
+    /// At the end of the joints' adjustment, and those of a later look.
+    met: Vec<Met>,
+    again: Vec<Met>,
+    /// Step in which each source met last.
+    last: Vec<u64>,
+    step: u64,
+    /// Answers to the three rows of a point.
+    columns: [Vec<Vec6>; 3],
+}
+
+impl Touches {
+    pub fn new(dynamics: &Dynamics) -> Self {
+        let sources = dynamics.contacts().sources();
+        let room = if sources == 0 { 0 } else { MOST_MET };
+        let bodies = if sources == 0 { 0 } else { dynamics.bodies.len() };
+        Self {
+            met: Vec::with_capacity(room),
+            again: Vec::with_capacity(room),
+            last: vec![0; sources],
+            step: 1,
+            columns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
+        }
+    }
+
+    /// Is there anything that could touch?
+    pub fn is_empty(&self) -> bool {
+        self.last.is_empty()
+    }
+
+    /// Looks what met on the way between two states; true where something has to be moved out.
+    pub fn look(&mut self, contacts: &mut Contacts, before: &[RigidBody], after: &[RigidBody], first: bool) -> bool {
+        let met = if first { &mut self.met } else { &mut self.again };
+        contacts.meet_on_the_way(before, after, met);
+        let order =
+            |a: &Met, b: &Met| a.s.total_cmp(&b.s).then(a.source.cmp(&b.source)).then(b.depth.total_cmp(&a.depth));
+        met.sort_unstable_by(order);
+        met.iter().any(|met| met.depth > LEVEL)
+    }
+
+    /// Moves what met out through the joints, which hold to first order.
+    pub fn move_out(&mut self, system: &mut System, bodies: &mut [RigidBody], first: bool) {
+        system.evaluate(bodies);
+        system.factor();
+        let met = if first { &self.met } else { &self.again };
+        let sum = &mut self.columns[2];
+        sum.fill([0.0; 6]);
+        for met in met {
+            // What was moved for the others has moved this one too.
+            let depth = met.depth - along(&met.ends, sum);
+            let answer = if depth > LEVEL && met.depth > LEVEL { answer(system, &met.ends) } else { 0.0 };
+            if answer > LOCKED {
+                for (sum, a) in sum.iter_mut().zip(&system.a) {
+                    add_scaled(sum, depth / answer, a);
+                }
+            }
+        }
+        for (body, delta) in bodies.iter_mut().zip(&self.columns[2]) {
+            body.displace(linear(delta), angular(delta));
+        }
+    }
+
+    /// Moves what met out by itself, the source's way.
+    pub fn back_up(
+        &self,
+        mover: &mut Compulsive,
+        system: &System,
+        contacts: &Contacts,
+        bodies: &mut [RigidBody],
+        first: bool,
+    ) {
+        let met = if first { &self.met } else { &self.again };
+        let mut done = None;
+        for met in met.iter().filter(|met| met.depth > LEVEL) {
+            // The deepest point of a pair stands for it.
+            if done != Some(met.source) {
+                mover.back_up(met, system, contacts, bodies);
+            }
+            done = Some(met.source);
+        }
+    }
+
+    /// Throws back what met and approaches, and tells it.
+    pub fn bounce(
+        &mut self,
+        system: &mut System,
+        bodies: &mut [RigidBody],
+        before: &[RigidBody],
+        (dt, gravity): (f64, f64),
+        impacts: &mut Vec<Impact>,
+    ) {
+        system.evaluate(bodies);
+        system.factor();
+        let slow = REST_SPEED + REST_STEPS * gravity * dt;
+        let already = impacts.len();
+        for index in 0..self.met.len() {
+            let met = self.met[index];
+            let lies = self.last[met.source] + 1 >= self.step;
+            // A limit has ended the way already: how fast it was reached says the state before.
+            let stops = met.colliders.is_none() && !lies;
+            let speed = (-met.rate(bodies)).max(if stops { -met.rate(before) } else { 0.0 });
+            let rests = speed < REST_SPEED || (lies && speed < slow);
+            if speed > 0.0 {
+                let restitution = if rests { 0.0 } else { met.restitution };
+                let (push, mass) = self.push(system, &met, restitution, speed, bodies);
+                let told = impacts[already..]
+                    .iter_mut()
+                    .find(|told| told.colliders == met.colliders && told.bodies == met.bodies);
+                match told {
+                    Some(told) => told.impulse += push,
+                    None if lies && rests => {}
+                    None => impacts.push(Impact {
+                        time: met.s * dt,
+                        kind: match (rests, met.colliders) {
+                            (true, _) => ImpactKind::Rest,
+                            (false, Some(_)) => ImpactKind::Impact,
+                            (false, None) => ImpactKind::Stop,
+                        },
+                        bodies: met.bodies,
+                        colliders: met.colliders,
+                        point: met.point,
+                        normal: met.normal,
+                        impulse: push,
+                        speed,
+                        mass,
+                    }),
+                }
+            }
+        }
+        for met in &self.met {
+            self.last[met.source] = self.step;
+        }
+        self.step += 1;
+    }
+
+    /// The impulse of one point or bound, given to the bodies; its size (N s) and the effective mass (kg).
+    fn push(
+        &mut self,
+        system: &mut System,
+        met: &Met,
+        restitution: f64,
+        speed: f64,
+        bodies: &mut [RigidBody],
+    ) -> (f64, f64) {
+        if met.colliders.is_none() {
+            let answer = answer(system, &met.ends);
+            if answer <= LOCKED {
+                return (0.0, 0.0);
+            }
+            let push = ((restitution * speed - met.rate(bodies)) / answer).max(0.0);
+            system.a.iter_mut().flatten().for_each(|a| *a *= push);
+            system.apply_velocity(bodies);
+            return ((1.0 + restitution) * speed / answer, 1.0 / answer);
+        }
+        let (t, b) = tangents(met.normal);
+        let rows = [t, b, met.normal].map(|axis| point_row(met, axis, bodies));
+        let mut k = DMat3::ZERO;
+        for (index, row) in rows.iter().enumerate() {
+            answer(system, row);
+            *k.col_mut(index) = DVec3::from_array(rows.map(|row| along(&row, &system.a)));
+            self.columns[index].copy_from_slice(&system.a);
+        }
+        if k.z_axis.z <= LOCKED {
+            return (0.0, 0.0);
+        }
+        let velocity = DVec3::from_array(rows.map(|row| Met { ends: row, ..*met }.rate(bodies)));
+        let p = impulse(&k, velocity, met.friction, restitution);
+        for (index, body) in bodies.iter_mut().enumerate() {
+            let [t, b, n] = self.columns.each_ref().map(|column| &column[index]);
+            for (push, column) in p.to_array().into_iter().zip([t, b, n]) {
+                body.velocity += push * linear(column);
+                body.angular_velocity += push * angular(column);
+            }
+        }
+        (p.length(), 1.0 / k.z_axis.z)
+    }
+}
+
+/// Solves for what the figure answers to a unit impulse along a row; how far that goes along the row itself.
+fn answer(system: &mut System, ends: &[Option<(usize, Vec6)>; ENDS]) -> f64 {
+    system.b.fill([0.0; 6]);
+    for (body, block) in ends.iter().flatten() {
+        system.push_impulse(*body, block, 1.0);
+    }
+    system.solve_impulse();
+    along(ends, &system.a)
+}
+
+/// A row times the bodies' coordinates.
+fn along(ends: &[Option<(usize, Vec6)>; ENDS], a: &[Vec6]) -> f64 {
+    ends.iter().flatten().map(|(body, block)| dot(block, &a[*body])).sum()
+}
+
+/// The row of a point along an axis.
+fn point_row(met: &Met, axis: DVec3, bodies: &[RigidBody]) -> [Option<(usize, Vec6)>; ENDS] {
+    let end = |body: Option<usize>, sign: f64| {
+        let along = sign * axis;
+        body.map(|i| (i, vec6(along, (met.point - bodies[i].position).cross(along))))
+    };
+    [end(met.bodies[0], 1.0), end(met.bodies[1], -1.0), None]
+}

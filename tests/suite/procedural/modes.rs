@@ -1,0 +1,155 @@
+//! The kinds of motion of a whole exhibit, and the change from one to another: the figure goes on from where it is, as
+//! fast as it was, and wind, hits and sounds act in every kind.
+
+use std::sync::Arc;
+
+use assert_no_alloc::assert_no_alloc;
+use soffio::exhibit::{self, Exhibit};
+use soffio::math::DVec3;
+use soffio::simulation::{Command, EventKind, MotionMode, Settings, Simulation, StepInput};
+use soffio::sound::SoundCommand;
+
+const DT: f64 = 1.0 / 240.0;
+const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
+/// A breath that moves everything, m/s at the lips.
+const BREATH: f64 = 12.0;
+
+fn load(id: &str) -> Arc<Exhibit> {
+    let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+}
+
+/// A step with a breath from the first to the third second.
+fn step(simulation: &mut Simulation, mode: MotionMode, blows: bool) {
+    let speed = match simulation.steps() {
+        240 if blows => Some(Command::Blow(Some(BREATH))),
+        720 if blows => Some(Command::Blow(None)),
+        _ => None,
+    };
+    simulation.step(&StepInput { mode, commands: speed.as_slice(), ..StepInput::default() });
+}
+
+#[test]
+fn a_change_of_motion_moves_nothing_by_itself() {
+    /// Beyond where its velocity takes it, m and degrees.
+    const JUMP: f64 = 1e-3;
+    const TURN: f64 = 0.5;
+    const ORDER: [MotionMode; 4] =
+        [MotionMode::Dynamic, MotionMode::PositionBased, MotionMode::Dynamic, MotionMode::Procedural];
+    /// Steps from change to change: none into places while an exhibit draws itself onto another axis.
+    const PERIOD: usize = 100;
+    let mut seen = 0;
+    for id in exhibit::ids() {
+        let mut simulation = Simulation::new(load(&id), Settings::default());
+        let (mut quiet, mut worst) = (0, (0.0_f64, 0.0_f64));
+        // How far the last step went from where the velocity pointed: the source's motion goes by leaps itself.
+        let mut former = (0.0_f64, 0.0_f64);
+        for index in 0..1440 {
+            let mode = ORDER[index / PERIOD % 4];
+            let before = simulation.bodies().to_vec();
+            step(&mut simulation, mode, false);
+            let mut leap = (0.0_f64, 0.0_f64);
+            for (from, to) in before.iter().zip(simulation.bodies()) {
+                let mut ahead = *from;
+                ahead.displace(DT * from.velocity, DT * from.angular_velocity);
+                let turn = 2.0 * (ahead.rotation.conjugate() * to.rotation).xyz().length().min(1.0).asin().to_degrees();
+                leap = (leap.0.max(ahead.position.distance(to.position)), leap.1.max(turn));
+            }
+            // The source's rule turns what moves fast by much in any of its steps: so it does in its first, and the
+            // speed that it leaves behind is no speed that the joints know.
+            let smooth =
+                mode != MotionMode::Procedural && ORDER[index.saturating_sub(1) / PERIOD % 4] != MotionMode::Procedural;
+            if index % PERIOD == 0 && index > 0 && smooth && simulation.events().is_empty() {
+                quiet += 1;
+                let more = (leap.0 - 2.0 * former.0, leap.1 - 2.0 * former.1);
+                worst = (worst.0.max(more.0), worst.1.max(more.1));
+                let what = format!("{id}, step {index}, to {mode:?}");
+                assert!(more.0 < JUMP && more.1 < TURN, "{what}: {leap:?} (m, degrees) after {former:?}");
+            }
+            former = leap;
+        }
+        println!("{id}: {quiet} changes, {:.1e} m, {:.1e}° at most", worst.0, worst.1);
+        seen += quiet;
+    }
+    assert!(seen > 30, "only {seen} changes without a hit");
+}
+
+#[test]
+fn the_mode_is_an_input_so_a_replay_repeats_it() {
+    for id in exhibit::ids() {
+        let exhibit = load(&id);
+        let run = |period: usize| {
+            let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+            (0..720).for_each(|index| step(&mut simulation, MODES[index / period % 3], true));
+            simulation.state_hash()
+        };
+        assert_eq!(run(50), run(50), "{id}");
+        assert_ne!(run(50), run(70), "{id}: the mode tells");
+    }
+}
+
+#[test]
+fn wind_moves_a_figure_in_every_mode() {
+    /// A breath of two seconds moves some plate by this at least, m.
+    const SEEN: f64 = 5e-3;
+    for mode in MODES {
+        let exhibit = load("steel-fish");
+        let after = |blows: bool| -> Vec<DVec3> {
+            let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+            (0..600).for_each(|_| step(&mut simulation, mode, blows));
+            simulation.bodies().iter().map(|body| body.position).collect()
+        };
+        let far = after(true).iter().zip(after(false)).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
+        println!("{mode:?}: {far} m");
+        assert!(far > SEEN, "{mode:?}: {far} m");
+    }
+}
+
+#[test]
+fn hits_are_told_and_heard_in_every_mode() {
+    for mode in MODES {
+        let mut simulation = Simulation::new(load("plates"), Settings::default());
+        let (mut hits, mut strikes) = (0, 0);
+        for _ in 0..2400 {
+            step(&mut simulation, mode, true);
+            hits += simulation.events().iter().filter(|event| event.kind == EventKind::Impact).count();
+            strikes += simulation.sounds().iter().filter(|sound| matches!(sound, SoundCommand::Strike(_))).count();
+            assert!(simulation.bodies().iter().all(soffio::bodies::RigidBody::is_finite));
+        }
+        println!("{mode:?}: {hits} hits, {strikes} strikes");
+        assert!(hits > 0 && strikes > 0, "{mode:?}: {hits} hits, {strikes} strikes");
+    }
+}
+
+#[test]
+fn no_exhibit_faults_when_moved_by_places() {
+    for id in exhibit::ids() {
+        for mode in &MODES[1..] {
+            let mut simulation = Simulation::new(load(&id), Settings::default());
+            let mut farthest: f64 = 0.0;
+            for _ in 0..4800 {
+                step(&mut simulation, *mode, true);
+                farthest = farthest.max(simulation.joint_error());
+            }
+            println!("{id} {mode:?}: joints {farthest:.1e} m, energy {:.3e} J", simulation.energy());
+            assert_eq!(simulation.snapshot().diagnostics.faults, 0, "{id} {mode:?}");
+        }
+    }
+}
+
+/// The allocator that watches is that of `realtime.rs`; it acts in debug builds.
+#[test]
+fn a_step_by_places_asks_for_no_memory_once_it_is_warm() {
+    for id in exhibit::ids() {
+        for mode in &MODES[1..] {
+            let mut simulation = Simulation::new(load(&id), Settings::default());
+            for index in 0..1200 {
+                if index < 240 {
+                    step(&mut simulation, *mode, true);
+                } else {
+                    assert_no_alloc(|| step(&mut simulation, *mode, true));
+                }
+            }
+        }
+    }
+}
