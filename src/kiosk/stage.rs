@@ -91,6 +91,7 @@ impl Stage {
             pointer: if cue.active { cue.aim } else { aim },
             aspect: controls.aspect,
             commands: &cue.commands,
+            ..StepInput::default()
         });
         self.steps += 1;
         self.snapshot = self.simulation.snapshot();
