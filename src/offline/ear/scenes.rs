@@ -11,7 +11,7 @@ use crate::wind::generate::{self, BreathShape};
 
 use super::rooms::{Room, convolved};
 use super::voices::{self, Voice, add};
-use super::{Breath, Kind, RATE, Take, noises, own};
+use super::{Breath, Event, Kind, RATE, Take, noises, own};
 
 const R: f64 = RATE as f64;
 /// Voices of a world, and how long each one's speech is before it repeats, s.
@@ -57,8 +57,28 @@ pub struct World {
     recorded: Vec<Vec<f64>>,
 }
 
-/// Dry sounds by place; place [`PLACES`] is the table itself, which no room colours.
-type Dry = Vec<Vec<f64>>;
+/// Dry sounds by place, and what they are; place [`PLACES`] is the table itself, which no room colours.
+struct Dry {
+    places: Vec<Vec<f64>>,
+    events: Vec<Event>,
+}
+
+impl Dry {
+    fn silent(samples: usize) -> Self {
+        Self { places: vec![vec![0.0; samples]; PLACES + 1], events: Vec::new() }
+    }
+
+    fn samples(&self) -> usize {
+        self.places[0].len()
+    }
+
+    /// Puts a sound at a place, from a time on.
+    fn put(&mut self, what: &'static str, place: usize, at: f64, sound: &[f64], gain: f64) {
+        add(&mut self.places[place], at, sound, gain);
+        let at = at.max(0.0);
+        self.events.push(Event { at, until: at + sound.len() as f64 / R, what, on_table: place == PLACES, gain });
+    }
+}
 
 impl World {
     /// The world of a seed.
@@ -131,7 +151,7 @@ impl World {
 
     /// Lasting and sudden sounds of a museum; `busy` scales how many.
     fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
-        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
         let decibel = |random: &mut Random, low: f64, high: f64| from_decibels(random.range(low, high));
         if random.unit() < 0.6 * busy {
@@ -139,93 +159,96 @@ impl World {
             for _ in 0..random.range(1.0, 14.0) as u32 {
                 let at = place(random);
                 let gain = from_decibels(loud + random.range(-8.0, 3.0));
-                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain);
+                dry.put("talk", at, 0.0, &self.speech(seconds, random), gain);
             }
         }
         if random.unit() < 0.25 * busy {
             // Somebody speaks right before the kiosk.
             let gain = decibel(random, -40.0, -12.0);
-            add(&mut dry[PLACES - 1], random.range(0.0, 0.3 * seconds), &self.speech(0.6 * seconds, random), gain);
+            let from = random.range(0.0, 0.3 * seconds);
+            dry.put("talk at the kiosk", PLACES - 1, from, &self.speech(0.6 * seconds, random), gain);
             if random.unit() < 0.5 {
                 let puffs = voices::plosives(0.6 * seconds, random);
-                add(&mut dry[PLACES], random.range(0.0, 0.3 * seconds), &puffs, decibel(random, -30.0, -6.0));
+                let from = random.range(0.0, 0.3 * seconds);
+                dry.put("puffs", PLACES, from, &puffs, decibel(random, -30.0, -6.0));
             }
         }
         if !self.recorded.is_empty() && random.unit() < 0.35 * busy {
             let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
             let (at, gain) = (place(random), decibel(random, -50.0, -16.0));
-            let (from, length) = (random.unit() * track.len() as f64, dry[0].len() as f64 * random.range(0.3, 1.5));
+            let (from, length) = (random.unit() * track.len() as f64, dry.samples() as f64 * random.range(0.3, 1.5));
             let sound: Vec<f64> = track.iter().cycle().skip(from as usize).take(length as usize).copied().collect();
             let at = if random.unit() < 0.5 { PLACES } else { at };
-            add(&mut dry[at], random.range(-0.2, 0.5) * seconds, &sound, gain);
+            dry.put("a recording", at, random.range(-0.2, 0.5) * seconds, &sound, gain);
         }
         let lasting = (random.unit() * 2.5 * busy * seconds / 60.0 + random.unit()) as u32;
         for _ in 0..lasting {
             let length = random.range(3.0, 25.0).min(seconds);
-            let sound = match (random.unit() * 8.0) as u32 {
-                0 => noises::trolley(length, random),
-                1 => noises::train(length, random),
-                2 => noises::machine(length, random),
-                3 => noises::switched_air(length, random),
-                4 => noises::rain(length, random),
-                5 => noises::footsteps(length, random),
-                6 => noises::applause(length.min(8.0), random),
-                _ => noises::music(length, random),
+            let (what, sound) = match (random.unit() * 8.0) as u32 {
+                0 => ("trolley", noises::trolley(length, random)),
+                1 => ("train", noises::train(length, random)),
+                2 => ("machine", noises::machine(length, random)),
+                3 => ("ventilation", noises::switched_air(length, random)),
+                4 => ("rain", noises::rain(length, random)),
+                5 => ("steps", noises::footsteps(length, random)),
+                6 => ("applause", noises::applause(length.min(8.0), random)),
+                _ => ("music", noises::music(length, random)),
             };
             let (at, when) = (place(random), random.range(-0.2, 1.0) * (seconds - 1.0));
-            add(&mut dry[at], when, &normalised(sound), decibel(random, -58.0, -16.0));
+            dry.put(what, at, when, &normalised(sound), decibel(random, -58.0, -16.0));
         }
         let sudden = (random.range(0.0, 10.0) * busy * seconds / 60.0 + random.unit()) as u32;
         for _ in 0..sudden {
             let voice = self.voice(random);
-            let sound = match (random.unit() * 12.0) as u32 {
-                0 => voices::laughter(&voice, random),
-                1 => voices::cough(&voice, random),
-                2 => voices::speech(&voice.shouting(), random.range(0.3, 2.5), random),
-                3 => noises::door(random),
-                4 => noises::scrape(random),
-                5 => noises::drop(random),
-                6 => noises::thunder(random),
-                7 => noises::footsteps(random.range(0.5, 3.0), random),
-                8 => noises::handling(random),
-                9 => voices::tone(random.range(0.1, 2.0), random),
-                10 => noises::applause(random.range(0.2, 3.0), random),
-                _ => noises::bump(random),
+            let (what, sound) = match (random.unit() * 12.0) as u32 {
+                0 => ("laughter", voices::laughter(&voice, random)),
+                1 => ("cough", voices::cough(&voice, random)),
+                2 => ("shout", voices::speech(&voice.shouting(), random.range(0.3, 2.5), random)),
+                3 => ("door", noises::door(random)),
+                4 => ("scrape", noises::scrape(random)),
+                5 => ("drop", noises::drop(random)),
+                6 => ("thunder", noises::thunder(random)),
+                7 => ("steps", noises::footsteps(random.range(0.5, 3.0), random)),
+                8 => ("handling", noises::handling(random)),
+                9 => ("tone", voices::tone(random.range(0.1, 2.0), random)),
+                10 => ("applause", noises::applause(random.range(0.2, 3.0), random)),
+                _ => ("bump", noises::bump(random)),
             };
             let table = random.unit() < 0.15;
             let at = if table { PLACES } else { place(random) };
             let sound = crate::wind::generate::filter::peaked(sound);
-            add(&mut dry[at], random.range(0.0, seconds), &sound, decibel(random, -42.0, -2.0));
+            let when = random.range(0.0, seconds);
+            dry.put(what, at, when, &sound, decibel(random, -42.0, -2.0));
         }
         dry
     }
 
     /// A noise that goes on evenly: a full hall, a machine, rain, a recording.
     fn throng(&self, seconds: f64, random: &mut Random) -> Dry {
-        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
         if !self.recorded.is_empty() && random.unit() < 0.5 {
             let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
             let from = (random.unit() * track.len() as f64) as usize;
-            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry[0].len()).copied().collect();
+            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry.samples()).copied().collect();
             let at = if random.unit() < 0.7 { PLACES } else { place(random) };
-            add(&mut dry[at], 0.0, &sound, 0.1);
+            dry.put("a recording", at, 0.0, &sound, 0.1);
             return dry;
         }
         if random.unit() < 0.7 {
             for _ in 0..random.range(5.0, 25.0) as u32 {
                 let (at, gain) = (place(random), from_decibels(random.range(-8.0, 3.0)));
-                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain * 0.03);
+                dry.put("throng", at, 0.0, &self.speech(seconds, random), gain * 0.03);
             }
         }
-        let even = match (random.unit() * 4.0) as u32 {
-            0 => noises::rain(seconds, random),
-            1 => noises::music(seconds, random),
-            2 => noises::machine(seconds, random),
-            _ => noises::air(seconds, random),
+        let (what, even) = match (random.unit() * 4.0) as u32 {
+            0 => ("rain", noises::rain(seconds, random)),
+            1 => ("music", noises::music(seconds, random)),
+            2 => ("machine", noises::machine(seconds, random)),
+            _ => ("air", noises::air(seconds, random)),
         };
         let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
-        add(&mut dry[at], 0.0, &even, gain);
+        dry.put(what, at, 0.0, &even, gain);
         dry
     }
 
@@ -233,8 +256,8 @@ impl World {
     fn heard(&self, dry: &Dry, stereo: bool, random: &mut Random) -> Vec<Vec<f64>> {
         let (_, responses) = &self.rooms[(random.unit() * ROOMS as f64) as usize];
         let capsule = |capsule: usize| {
-            let mut out = dry[PLACES].clone();
-            for (sound, response) in dry.iter().zip(responses) {
+            let mut out = dry.places[PLACES].clone();
+            for (sound, response) in dry.places.iter().zip(responses) {
                 if sound.iter().any(|x| *x != 0.0) {
                     let arrived = convolved(sound, &response[capsule]);
                     out.iter_mut().zip(&arrived).for_each(|(y, x)| *y += x);
@@ -259,32 +282,34 @@ impl World {
         let dry = self.museum_sounds(seconds, 1.0, random);
         let mut channels = self.heard(&dry, hearing.stereo, random);
         Self::add_air(&mut channels, random.range(-75.0, -38.0), random);
-        self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random)
+        let take = self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random);
+        Take { events: dry.events, ..take }
     }
 
     fn impulses(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 20.0;
-        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut dry = Dry::silent((seconds * R) as usize);
         let mut at = random.range(0.6, 1.5);
         while at < seconds - 1.0 {
-            let (sound, table) = match (random.unit() * 9.0) as u32 {
-                0 => (noises::door(random), false),
-                1 => (noises::bump(random), true),
-                2 => (noises::drop(random), random.unit() < 0.5),
-                3 => (voices::plosives(random.range(0.3, 1.5), random), true),
-                4 => (noises::footsteps(random.range(0.4, 2.0), random), false),
-                5 => (noises::handling(random), true),
-                6 => (noises::applause(random.range(0.5, 3.0), random), false),
-                7 => (noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
-                _ => (noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
+            let (what, sound, table) = match (random.unit() * 9.0) as u32 {
+                0 => ("door", noises::door(random), false),
+                1 => ("bump", noises::bump(random), true),
+                2 => ("drop", noises::drop(random), random.unit() < 0.5),
+                3 => ("puffs", voices::plosives(random.range(0.3, 1.5), random), true),
+                4 => ("steps", noises::footsteps(random.range(0.4, 2.0), random), false),
+                5 => ("handling", noises::handling(random), true),
+                6 => ("applause", noises::applause(random.range(0.5, 3.0), random), false),
+                7 => ("applause", noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
+                _ => ("clap", noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
             };
             let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
-            add(&mut dry[place], at, &sound, from_decibels(random.range(-30.0, 0.0)));
+            dry.put(what, place, at, &sound, from_decibels(random.range(-30.0, 0.0)));
             at += random.range(0.7, 3.0);
         }
         let mut channels = self.heard(&dry, hearing.stereo, random);
         Self::add_air(&mut channels, random.range(-75.0, -50.0), random);
-        self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random)
+        let take = self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random);
+        Take { events: dry.events, ..take }
     }
 
     /// One breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
@@ -337,7 +362,7 @@ impl World {
                 self.museum_sounds(shape.duration(), random.range(0.5, 2.5), random)
             }
         } else {
-            vec![vec![0.0; streams[0].len()]; PLACES + 1]
+            Dry::silent(streams[0].len())
         };
         let mut channels = self.heard(&dry, hearing.stereo, random);
         channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
@@ -357,7 +382,8 @@ impl World {
             channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
         }
         let breath = Breath { onset, offset, strength, snr_db, faint };
-        self.finish(condition, index, channels, Kind::Blow, vec![breath], hearing, random)
+        let take = self.finish(condition, index, channels, Kind::Blow, vec![breath], hearing, random);
+        Take { events: dry.events, ..take }
     }
 
     fn own_voice(&self, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
@@ -412,6 +438,7 @@ impl World {
             right: heard.next(),
             left,
             played: Vec::new(),
+            events: Vec::new(),
             sample_rate: RATE,
         }
     }

@@ -40,7 +40,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-5.0, 8.0), drift: 3.0, on: 0.1, full: 0.24, longest_s: 6.0 }
+        Self { believed: (-5.0, 9.0), drift: 4.0, on: 0.07, full: 0.4, longest_s: 6.0 }
     }
 }
 
@@ -69,6 +69,8 @@ pub struct Decision {
     progress: f64,
     /// Log-odds of the last frame, bounded.
     log_odds: f64,
+    /// The last frame was weighed at all.
+    possible: bool,
     blowing_s: f64,
     /// For how long breath has been likely, s.
     likely_s: f64,
@@ -78,6 +80,7 @@ impl Decision {
     /// Takes one frame; `None` where a frame cannot be breath at all.
     pub fn push(&mut self, rules: &Rules, log_odds: Option<f64>, levels: &Levels) {
         let possible = log_odds.filter(|_| levels.rise_db.max(levels.middle_rise_db) > LEAST_RISE_DB);
+        self.possible = possible.is_some();
         self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, rules.believed.1));
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
@@ -102,6 +105,16 @@ impl Decision {
     /// May this be a breath that has not been decided yet? Then the room must not learn it; but not for long.
     pub fn is_likely(&self) -> bool {
         self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
+    }
+
+    /// Was the last frame weighed at all?
+    pub fn is_possible(&self) -> bool {
+        self.possible
+    }
+
+    /// 0 … 1: how far the sum is on its way to a breath.
+    pub fn progress(&self) -> f64 {
+        self.progress
     }
 
     /// 0 … 1: how far the sum is on its way to a breath, weighed with the last frame's probability.
