@@ -58,6 +58,7 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
     ];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(60.0))));
     all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(5.0))));
+    all.extend([0, 1, 2].map(|room| (Condition::Answered(room), count(40.0))));
     all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
 }
 
@@ -184,6 +185,7 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
     }
     for room in 0..3 {
         rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));
+        rows.push((format!("breath that it answers, room {}", room + 1), Condition::Answered(room), takes(60.0)));
     }
     rows
 }

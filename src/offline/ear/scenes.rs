@@ -36,6 +36,8 @@ pub enum Condition {
     Noisy(f64),
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
+    /// One breath straight at the microphone, which the kiosk answers in one of three rooms.
+    Answered(u32),
 }
 
 /// How a scene is heard, beside what is in it.
@@ -129,7 +131,7 @@ impl World {
             Condition::Cell(distance, angle, child) => {
                 self.blow(condition, index, (distance, angle, child), hearing, &mut random)
             }
-            Condition::Noisy(_) => {
+            Condition::Noisy(_) | Condition::Answered(_) => {
                 let child = random.unit() < 0.4;
                 let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
@@ -381,24 +383,37 @@ impl World {
         for (channel, stream) in channels.iter_mut().zip(&streams) {
             channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
         }
+        let mut played = Vec::new();
+        if let Condition::Answered(room) = condition {
+            played = own::answer(shape.duration(), (onset, offset), random);
+            self.hear_itself(&played, room, &mut channels, random);
+        }
         let breath = Breath { onset, offset, strength, snr_db, faint };
         let take = self.finish(condition, index, channels, Kind::Blow, vec![breath], hearing, random);
-        Take { events: dry.events, ..take }
+        let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
+        let played = if matches!(condition, Condition::Answered(_)) { played.collect() } else { Vec::new() };
+        Take { events: dry.events, played, ..take }
+    }
+
+    /// Adds what the microphone hears of what the kiosk plays.
+    fn hear_itself(&self, played: &[f64], room: u32, channels: &mut [Vec<f64>], random: &mut Random) {
+        let (_, responses) = &self.rooms[room as usize % ROOMS];
+        // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
+        let late = (0.02 + 0.035 * f64::from(room)) * R;
+        let mut delayed = vec![0.0; late as usize];
+        delayed.extend(own::loudspeaker(played, random));
+        delayed.truncate(played.len());
+        let loud = from_decibels(random.range(-8.0, 4.0));
+        for (channel, response) in channels.iter_mut().zip(&responses[PLACES - 1]) {
+            channel.iter_mut().zip(convolved(&delayed, response)).for_each(|(y, x)| *y += loud * x);
+        }
     }
 
     fn own_voice(&self, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 60.0;
         let played = own::kiosk(seconds, &self.speech(seconds, random), random);
-        let (_, responses) = &self.rooms[room as usize % ROOMS];
-        // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
-        let late = (0.02 + 0.035 * f64::from(room)) * R;
-        let mut delayed = vec![0.0; late as usize];
-        delayed.extend(own::loudspeaker(&played, random));
-        delayed.truncate(played.len());
-        let loud = from_decibels(random.range(-8.0, 4.0));
-        let mut channels: Vec<Vec<f64>> = (0..1 + usize::from(hearing.stereo))
-            .map(|c| convolved(&delayed, &responses[PLACES - 1][c]).into_iter().map(|x| loud * x).collect())
-            .collect();
+        let mut channels = vec![vec![0.0; played.len()]; 1 + usize::from(hearing.stereo)];
+        self.hear_itself(&played, room, &mut channels, random);
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
         let mut take =
             self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
@@ -480,6 +495,7 @@ impl Condition {
             }
             Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
             Self::OwnVoice(room) => 100 + u64::from(room),
+            Self::Answered(room) => 200 + u64::from(room),
         }
     }
 }

@@ -9,8 +9,9 @@
 //!
 //! ℓ is believed within bounds only: the surest breath needs on / (highest − drift) to begin (a pop or a clap does not
 //! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. No one blows for
-//! longer than six seconds: then the sound is latched as a machine's until c is 0 again. Order of phases: quiet → waiting →
-//! blow → (latched →) quiet.
+//! longer than six seconds, pauses that are shorter than half as long included: then the sound is latched as a machine's,
+//! and belongs to the room, until c has been 0 for a third of a second. Order of phases: quiet → waiting → blow →
+//! (latched →) quiet.
 
 use super::features::Levels;
 use super::spectrum::FRAME_S;
@@ -22,6 +23,10 @@ pub const LEAST_RISE_DB: f64 = 5.0;
 /// Log-odds from which a sound may be a breath that the room must not learn, nats; and for how long at most, s.
 const LIKELY: f64 = 1.0;
 const UNDECIDED_S: f64 = 1.0;
+/// Breath that is saved up in each second of a pause, s/s: who blows in puffs may go on, a fan that falters may not.
+const RECOVERY: f64 = 2.0;
+/// A latched sound is over when nothing has been like breath for this long, s.
+const OVER_S: f64 = 0.3;
 
 /// The numbers of the cumulative sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +76,10 @@ pub struct Decision {
     log_odds: f64,
     /// The last frame was weighed at all.
     possible: bool,
+    /// For how long somebody has blown, pauses taken off.
     blowing_s: f64,
+    /// For how long the sum has been 0.
+    still_s: f64,
     /// For how long breath has been likely, s.
     likely_s: f64,
 }
@@ -86,25 +94,25 @@ impl Decision {
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
         self.progress = (self.sum / rules.on).min(1.0);
+        self.still_s = if self.sum == 0.0 { self.still_s + FRAME_S } else { 0.0 };
         self.phase = match self.phase {
+            Phase::Latched if self.still_s < OVER_S => Phase::Latched,
+            Phase::Latched => {
+                self.blowing_s = 0.0;
+                Phase::Quiet
+            }
             _ if self.sum == 0.0 => Phase::Quiet,
             Phase::Quiet | Phase::Waiting if self.sum < rules.on => Phase::Waiting,
-            Phase::Quiet | Phase::Waiting => {
-                self.blowing_s = 0.0;
-                Phase::Blow
-            }
-            Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
-            Phase::Blow => {
-                self.blowing_s += FRAME_S;
-                Phase::Blow
-            }
-            Phase::Latched => Phase::Latched,
+            Phase::Quiet | Phase::Waiting | Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
+            Phase::Quiet | Phase::Waiting | Phase::Blow => Phase::Blow,
         };
+        let change = if self.phase == Phase::Blow { FRAME_S } else { -RECOVERY * FRAME_S };
+        self.blowing_s = (self.blowing_s + change).max(0.0);
     }
 
     /// May this be a breath that has not been decided yet? Then the room must not learn it; but not for long.
     pub fn is_likely(&self) -> bool {
-        self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
+        self.phase != Phase::Latched && self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
     }
 
     /// Was the last frame weighed at all?
