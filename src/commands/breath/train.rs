@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use super::super::{Failure, Outcome};
-use crate::offline::ear::course::{self, Course};
+use crate::offline::ear::course::{self, Begin, Course};
 use crate::offline::ear::scenes::Hearing;
 use crate::offline::ear::{Take, recordings, train};
 use crate::offline::whole_file::WholeFile;
@@ -22,7 +22,10 @@ pub struct Args {
     /// Where the table goes; without it nothing is written.
     #[arg(long, value_name = "FILE.rs")]
     out: Option<PathBuf>,
-    /// Lessons; the first is heard by an ear that knows nothing.
+    /// Go on with the present ear, instead of one that knows nothing.
+    #[arg(long)]
+    go_on: bool,
+    /// Lessons, each in new worlds.
     #[arg(long, default_value_t = 4)]
     lessons: u64,
     /// Worlds of speakers and rooms in each lesson.
@@ -52,7 +55,8 @@ pub fn run(args: &Args) -> Outcome {
         None => Vec::new(),
     };
     let Args { lessons, worlds, size, rounds, seed, .. } = *args;
-    let course = Course { lessons, worlds, size, rounds, seed };
+    let begin = if args.go_on { Begin::Present } else { Begin::Untaught };
+    let course = Course { begin, lessons, worlds, size, rounds, seed };
     let made = course::learn(&course, |lesson, learnt| {
         println!("lesson {}: {} examples, loss {:.4}", lesson + 1, learnt.examples.len(), learnt.loss);
         if lesson + 1 == lessons {

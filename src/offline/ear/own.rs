@@ -1,7 +1,7 @@
 //! What the kiosk plays: its wind, its chimes, its speech; and the loudspeaker that turns it into sound.
 
-use super::RATE;
 use super::voices::{add, decaying};
+use super::{Breath, RATE};
 use crate::math::{PI, pow, sin, tanh};
 use crate::noise::{Random, perlin1};
 use crate::wind::generate::filter::{high_passed, low_passed, normalised, white};
@@ -33,15 +33,17 @@ impl Wind {
     }
 }
 
-/// The kiosk's answer to a breath from `onset` to `offset`: its wind, a little later, and strikes of what it moves.
-pub fn answer(seconds: f64, (onset, offset): (f64, f64), random: &mut Random) -> Vec<f64> {
+/// The kiosk's answers to breaths: its wind, a little later than each, and strikes of what it moves.
+pub fn answers(seconds: f64, breaths: &[Breath], random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; (seconds * R) as usize];
     let wind = Wind::new(out.len(), random);
-    let at = onset + random.range(0.08, 0.25);
-    let length = (offset - at).max(0.1) + random.range(0.1, 0.6);
     let force = (random.range(0.05, 0.45), random.range(0.05, 0.4));
-    wind.blow(&mut out, at, length, force, random);
-    strikes(&mut out, at + random.range(0.0, 0.5), random);
+    for breath in breaths {
+        let at = breath.onset + random.range(0.08, 0.25);
+        let length = (breath.offset - at).max(0.1) + random.range(0.1, 0.6);
+        wind.blow(&mut out, at, length, force, random);
+    }
+    strikes(&mut out, breaths.first().map_or(0.0, |b| b.onset) + random.range(0.1, 0.7), random);
     out.into_iter().map(|x| x.clamp(-1.0, 1.0)).collect()
 }
 

@@ -20,6 +20,8 @@ const SPEECH_S: f64 = 15.0;
 /// Rooms of a world, and places in each.
 const ROOMS: usize = 8;
 const PLACES: usize = 5;
+/// The longest that anybody blows evenly, s: with attack and release, less than what is latched as a machine's.
+const LONGEST_HOLD_S: f64 = 5.0;
 
 /// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +30,15 @@ pub enum Condition {
     Museum,
     /// Pops, thumps, claps, doors, bumps in a quiet room.
     Impulses,
-    /// One breath in a quiet room, of any strength, distance and angle.
+    /// Breath in a quiet room, of any strength, distance and angle.
     Isolated,
-    /// One breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
+    /// Breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
     Cell(f64, f64, bool),
-    /// One breath straight at the microphone in a museum, this far above its noise, dB.
+    /// Breath straight at the microphone in a museum, this far above its noise, dB.
     Noisy(f64),
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
-    /// One breath straight at the microphone, which the kiosk answers in one of three rooms.
+    /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
     Answered(u32),
 }
 
@@ -314,7 +316,7 @@ impl World {
         Take { events: dry.events, ..take }
     }
 
-    /// One breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
+    /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
     fn blow(
         &self,
         condition: Condition,
@@ -324,13 +326,11 @@ impl World {
         random: &mut Random,
     ) -> Take {
         let (distance, angle_deg, child) = mouth;
-        let strength = if child { random.range(5.0, 10.5) } else { random.range(7.0, 17.0) };
-        let shape = BreathShape {
+        // Soft breaths are as frequent as hard ones: they are the harder to hear.
+        let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
+        let first = BreathShape {
             lead_in: random.range(0.7, 2.5),
-            strength,
-            attack: random.range(0.04, 0.22),
-            hold: random.range(0.4, 3.0),
-            release: random.range(0.08, 0.45),
+            strength: soft * crate::math::pow(hard / soft, random.unit()),
             lead_out: random.range(0.8, 1.5),
             distance,
             angle_deg,
@@ -339,6 +339,8 @@ impl World {
             corner_hz: 5.0,
             ..BreathShape::default()
         };
+        let (shapes, breaths) = Self::row_of_breaths(&first, random);
+        let seconds = shapes.iter().map(BreathShape::duration).sum::<f64>();
         let seed = random.word();
         // Straight at a capsule behind a thick grille, there may be hardly any hiss.
         let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
@@ -348,7 +350,8 @@ impl World {
         let streams: Vec<Vec<f64>> = (0..capsules)
             .map(|capsule| {
                 // Rumble and hiss each louder or softer than the formula: capsules, lips.
-                let air = generate::stream(RATE, seed, &shape, capsule);
+                let air = (0..).zip(&shapes).map(|(i, s)| generate::stream(RATE, hash_words(&[seed, i]), s, capsule));
+                let air = air.collect::<Vec<_>>().concat();
                 let low = low_passed(air.clone(), R, 350.0, 2);
                 let upper = high_passed(low.clone(), R, 160.0, 1);
                 let (g, h) = (from_decibels(rumble), from_decibels(hiss));
@@ -359,9 +362,9 @@ impl World {
         let noisy = matches!(condition, Condition::Noisy(_));
         let dry = if noisy {
             if random.unit() < 0.5 {
-                self.throng(shape.duration(), random)
+                self.throng(seconds, random)
             } else {
-                self.museum_sounds(shape.duration(), random.range(0.5, 2.5), random)
+                self.museum_sounds(seconds, random.range(0.5, 2.5), random)
             }
         } else {
             Dry::silent(streams[0].len())
@@ -370,29 +373,54 @@ impl World {
         channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
         let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
         Self::add_air(&mut channels, air_dbfs, random);
-        let (onset, offset) = shape.span();
-        let body = (onset * R) as usize..(offset * R) as usize;
-        let mut snr_db = None;
-        if let Condition::Noisy(snr) = condition {
-            let ratio = power(&streams[0][body.clone()]) / power(&channels[0][body.clone()]).max(1e-12);
-            let gain = (ratio / from_decibels(2.0 * snr)).sqrt();
+        let during = |samples: &[f64], b: &Breath| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec();
+        let snr_db = if let Condition::Noisy(snr) = condition { Some(snr) } else { None };
+        if let Some(snr) = snr_db {
+            // The first one sets the noise.
+            let [air, noise] = [&streams[0], &channels[0]].map(|samples| power(&during(samples, &breaths[0])));
+            let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
             channels.iter_mut().flatten().for_each(|x| *x *= gain);
-            snr_db = Some(snr);
         }
-        let faint = above_noise(&streams[0][body.clone()], &channels[0][body]) < FAINT_DB;
+        let heard = |b: &Breath| above_noise(&during(&streams[0], b), &during(&channels[0], b));
+        let breaths: Vec<Breath> =
+            breaths.iter().map(|b| Breath { snr_db, faint: heard(b) < FAINT_DB, ..*b }).collect();
         for (channel, stream) in channels.iter_mut().zip(&streams) {
             channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
         }
         let mut played = Vec::new();
         if let Condition::Answered(room) = condition {
-            played = own::answer(shape.duration(), (onset, offset), random);
+            played = own::answers(seconds, &breaths, random);
             self.hear_itself(&played, room, &mut channels, random);
         }
-        let breath = Breath { onset, offset, strength, snr_db, faint };
-        let take = self.finish(condition, index, channels, Kind::Blow, vec![breath], hearing, random);
+        let take = self.finish(condition, index, channels, Kind::Blow, breaths, hearing, random);
         let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
         let played = if matches!(condition, Condition::Answered(_)) { played.collect() } else { Vec::new() };
         Take { events: dry.events, played, ..take }
+    }
+
+    /// One breath like `first`, or a few of one mouth: short puffs and long ones, hard and soft; when each of them is.
+    fn row_of_breaths(first: &BreathShape, random: &mut Random) -> (Vec<BreathShape>, Vec<Breath>) {
+        let count = if random.unit() < 0.6 { 1 } else { 2 + (random.unit() * 2.0) as usize };
+        let (mut shapes, mut breaths, mut start) = (Vec::new(), Vec::new(), 0.0);
+        for i in 0..count {
+            let long = random.unit() < 0.2;
+            let shape = BreathShape {
+                // A breath is taken between two.
+                lead_in: if i == 0 { first.lead_in } else { random.range(0.4, 1.2) },
+                strength: (first.strength * if i == 0 { 1.0 } else { random.range(0.7, 1.3) }).clamp(3.6, 17.0),
+                attack: random.range(0.04, 0.22),
+                hold: if long { random.range(3.0, LONGEST_HOLD_S) } else { random.range(0.4, 3.0) },
+                release: random.range(0.08, 0.45),
+                lead_out: if i + 1 == count { first.lead_out } else { 0.1 },
+                ..first.clone()
+            };
+            let (onset, offset) = shape.span();
+            let (onset, offset) = (start + onset, start + offset);
+            breaths.push(Breath { onset, offset, strength: shape.strength, snr_db: None, faint: false });
+            start += shape.duration();
+            shapes.push(shape);
+        }
+        (shapes, breaths)
     }
 
     /// Adds what the microphone hears of what the kiosk plays.

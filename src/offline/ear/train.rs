@@ -23,7 +23,7 @@ use crate::wind::blow::{BlowDetector, BlowSettings};
 
 /// Weight of a frame of noise, and what is added on the way to a ghost.
 const NOISE_WEIGHT: f32 = 1.5;
-const GHOST_WEIGHT: f32 = 4.0;
+const GHOST_WEIGHT: f32 = 5.0;
 /// Weight of a frame of breath that is not heard yet, and of one that should have been heard already.
 const UNHEARD_WEIGHT: f32 = 3.0;
 const EARLY_WEIGHT: f32 = 5.0;
@@ -57,7 +57,6 @@ pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
         return;
     }
     let mut ear = BlowDetector::with_settings(take.sample_rate, settings.clone());
-    let breath = take.breaths.first();
     let mut frames = 0;
     for (i, &sample) in take.left.iter().enumerate() {
         ear.push(&[sample], take.played.get(i..=i).unwrap_or_default());
@@ -67,10 +66,11 @@ pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
         }
         frames = heard.frames;
         let t = i as f64 / f64::from(take.sample_rate);
+        let breath = take.breaths.iter().find(|b| t > b.onset - 0.02 && t < b.offset + 0.4);
         let is_breath = match breath {
             Some(b) if t > b.onset + 0.025 && t < b.offset - 0.1 => true,
-            Some(b) if t > b.onset - 0.02 && t < b.offset + 0.4 => continue,
-            _ => false,
+            Some(_) => continue,
+            None => false,
         };
         // Neighbours are nearly alike: of noise, every other frame will do.
         if !heard.possible || (!is_breath && frames % 2 == 1) {

@@ -8,12 +8,13 @@
 //! ```
 //!
 //! ℓ is believed within bounds only: the surest breath needs on / (highest − drift) to begin (a pop or a clap does not
-//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. No one blows for
-//! longer than six seconds, pauses that are shorter than half as long included: then the sound is latched as a machine's,
-//! and belongs to the room, until c has been 0 for a third of a second. Order of phases: quiet → waiting → blow →
-//! (latched →) quiet.
+//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. Where the kiosk's own
+//! sound covers the low band, what its prediction leaves is scattered: a breath that begins there takes longer. No one blows
+//! for longer than six seconds, pauses that are shorter than half as long included: then the sound is latched as a
+//! machine's, and belongs to the room, until it has been silent for a moment or unlike breath for seconds. Order of
+//! phases: quiet → waiting → blow → (latched →) quiet.
 
-use super::features::Levels;
+use super::features::{Levels, blend};
 use super::spectrum::FRAME_S;
 use crate::math::exp;
 
@@ -25,8 +26,13 @@ const LIKELY: f64 = 1.0;
 const UNDECIDED_S: f64 = 1.0;
 /// Breath that is saved up in each second of a pause, s/s: who blows in puffs may go on, a fan that falters may not.
 const RECOVERY: f64 = 2.0;
-/// A latched sound is over when nothing has been like breath for this long, s.
-const OVER_S: f64 = 0.3;
+/// A latched sound is over when nothing has been like breath for this long, s. Silence, so far below it, counts more: who has
+/// blown for six seconds breathes in, while a fan has lulls.
+const OVER_S: f64 = 2.0;
+const SILENCE_DB: f64 = -12.0;
+const SILENCE: f64 = 6.0;
+/// What somebody blew is remembered over this time, s.
+const BLOWN_S: f64 = 0.5;
 
 /// The numbers of the cumulative sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +43,8 @@ pub struct Rules {
     pub drift: f64,
     /// A breath begins at this sum, nat·s.
     pub on: f64,
+    /// And at this one where the kiosk's own sound covers it.
+    pub on_covered: f64,
     /// The sum never exceeds this, so that a breath ends in time, nat·s.
     pub full: f64,
     /// Longest breath, s.
@@ -45,7 +53,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-5.0, 9.0), drift: 4.0, on: 0.07, full: 0.4, longest_s: 6.0 }
+        Self { believed: (-5.0, 9.0), drift: 4.0, on: 0.1, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
     }
 }
 
@@ -78,8 +86,10 @@ pub struct Decision {
     possible: bool,
     /// For how long somebody has blown, pauses taken off.
     blowing_s: f64,
-    /// For how long the sum has been 0.
+    /// For how long the sum has been 0, silence counted more.
     still_s: f64,
+    /// How loud the last breath was, dB of full scale.
+    blown_dbfs: f64,
     /// For how long breath has been likely, s.
     likely_s: f64,
 }
@@ -93,8 +103,11 @@ impl Decision {
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
-        self.progress = (self.sum / rules.on).min(1.0);
-        self.still_s = if self.sum == 0.0 { self.still_s + FRAME_S } else { 0.0 };
+        let on = if levels.covered { rules.on_covered } else { rules.on };
+        self.progress = (self.sum / on).min(1.0);
+        let silent = levels.loud_dbfs < self.blown_dbfs + SILENCE_DB;
+        let still = if silent { SILENCE * FRAME_S } else { FRAME_S };
+        self.still_s = if self.sum == 0.0 { self.still_s + still } else { 0.0 };
         self.phase = match self.phase {
             Phase::Latched if self.still_s < OVER_S => Phase::Latched,
             Phase::Latched => {
@@ -102,10 +115,14 @@ impl Decision {
                 Phase::Quiet
             }
             _ if self.sum == 0.0 => Phase::Quiet,
-            Phase::Quiet | Phase::Waiting if self.sum < rules.on => Phase::Waiting,
+            Phase::Quiet | Phase::Waiting if self.sum < on => Phase::Waiting,
             Phase::Quiet | Phase::Waiting | Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
             Phase::Quiet | Phase::Waiting | Phase::Blow => Phase::Blow,
         };
+        if self.phase == Phase::Blow {
+            let blend = if self.blowing_s == 0.0 { 1.0 } else { blend(BLOWN_S) };
+            self.blown_dbfs += blend * (levels.loud_dbfs - self.blown_dbfs);
+        }
         let change = if self.phase == Phase::Blow { FRAME_S } else { -RECOVERY * FRAME_S };
         self.blowing_s = (self.blowing_s + change).max(0.0);
     }

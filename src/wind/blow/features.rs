@@ -122,6 +122,15 @@ pub(super) struct Listener {
     cosine: Vec<f64>,
 }
 
+/// What stands still, so that a breath is not learnt as what it is told from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Still {
+    /// The room, while there may be a breath or the kiosk drowns it.
+    pub room: bool,
+    /// What came before, while somebody blows.
+    pub past: bool,
+}
+
 /// Levels that the decision needs beside the features.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Levels {
@@ -129,12 +138,16 @@ pub struct Levels {
     pub rise_db: f64,
     /// Rise of the middle over the room, dB.
     pub middle_rise_db: f64,
+    /// Low and middle together, without the kiosk's own, dB of full scale.
+    pub loud_dbfs: f64,
     /// Excess of low, dB of full scale.
     pub excess_dbfs: f64,
     /// Excess of the middle, dB of full scale.
     pub hiss_dbfs: f64,
     /// Room's low, dB of full scale.
     pub floor_dbfs: f64,
+    /// The kiosk's own sound covers the low band.
+    pub covered: bool,
     /// What is heard of 1625–3400 Hz, dB of full scale: it shows what a gain control does.
     pub treble_dbfs: f64,
 }
@@ -166,8 +179,8 @@ impl Listener {
         self.frames as f64 * FRAME_S
     }
 
-    /// Hears one frame and its `peakedness`, of which `own` is explained by the kiosk itself; the room stands still where `frozen`.
-    pub fn push(&mut self, power: &Power, own: &Power, peakedness: f64, frozen: bool) -> (Features, Levels) {
+    /// Hears one frame and its `peakedness`, of which `own` is explained by the kiosk itself.
+    pub fn push(&mut self, power: &Power, own: &Power, peakedness: f64, still: Still) -> (Features, Levels) {
         for (mean, over) in self.peakedness.iter_mut().zip([0.04, 0.16]) {
             *mean += blend(over) * (peakedness - *mean);
         }
@@ -177,7 +190,7 @@ impl Listener {
             *s += quick * (p - *s);
         }
         // Of a room that is not known yet, whatever it sounds like is learnt.
-        if !frozen || self.is_new() {
+        if !still.room || self.is_new() {
             self.learn_room();
         }
         for (((e, s), f), own) in self.excess.iter_mut().zip(&self.smooth).zip(&self.room).zip(own) {
@@ -186,8 +199,8 @@ impl Listener {
         for (slow, e) in self.slow.iter_mut().zip(&self.excess) {
             *slow += blend(0.08) * (e - *slow);
         }
-        let (features, levels) = self.measure(own);
-        if !frozen {
+        let (features, levels) = self.measure(own, still);
+        if !still.room {
             for (unrest, rise) in self.unrest_db.iter_mut().zip([levels.rise_db, levels.middle_rise_db]) {
                 // A room that has become quieter is another room: its old unrest is forgotten.
                 let now = if rise > SUNK_DB { rise.abs() } else { CALM_DB };
@@ -220,7 +233,7 @@ impl Listener {
         }
     }
 
-    fn measure(&mut self, own: &Power) -> (Features, Levels) {
+    fn measure(&mut self, own: &Power, still: Still) -> (Features, Levels) {
         // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
         let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + QUIETEST;
         let cleaned = |from: usize, to: usize| {
@@ -239,10 +252,12 @@ impl Listener {
         let levels = Levels {
             rise_db: low_rise,
             middle_rise_db: middle_rise,
+            loud_dbfs: decibels(cleaned(LOW.0, LOW.1) + cleaned(MIDDLE.0, MIDDLE.1)),
             excess_dbfs: decibels(band(&self.excess, LOW.0, LOW.1)),
             hiss_dbfs: decibels(band(&self.excess, MIDDLE.0, MIDDLE.1)),
             floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + QUIETEST),
             treble_dbfs: decibels(band(&self.smooth, EDGES[5], EDGES[6])),
+            ..Levels::default()
         };
 
         let periodicity = self.periodicity();
@@ -255,7 +270,7 @@ impl Listener {
         self.risen_for = if low_rise.max(middle_rise) > RISEN_DB { self.risen_for + FRAME_S } else { 0.0 };
         let present =
             Present { level, rises: [low_rise, middle_rise], periodicity: self.periodicity, power: &self.smooth };
-        let past = self.past.push(&present);
+        let past = self.past.push(&present, still.past);
         let [low, middle] = past.trends;
         let features = [
             rises[0],

@@ -1,7 +1,7 @@
 //! From raw samples to features: what the detector and its training share.
 
 use super::coherence::Coherence;
-use super::features::{COUNT, Features, Levels, Listener, decibels};
+use super::features::{COUNT, Features, Levels, Listener, Still, decibels};
 use super::own::OwnVoice;
 use super::resample::Resampler;
 use super::spectrum::{Framer, Sample};
@@ -102,9 +102,12 @@ impl FrontEnd {
                 self.coherence.push(&self.framer.capsules);
             }
             self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
-            let frozen = blowing || likely || self.own_voice.masks(&self.framer.microphone);
+            let covered = self.own_voice.masks(&self.framer.microphone);
+            let room = blowing || likely || covered;
             let Framer { microphone, peakedness, .. } = &self.framer;
-            (features, levels) = self.listener.push(microphone, &self.own_voice.predicted, *peakedness, frozen);
+            (features, levels) =
+                self.listener.push(microphone, &self.own_voice.predicted, *peakedness, Still { room, past: blowing });
+            levels.covered = covered;
         }
         Frame {
             features,

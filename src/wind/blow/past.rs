@@ -2,7 +2,9 @@
 //! comes after.
 //!
 //! Of the levels of low and middle (dB), the last 30 frames are kept: how they climb, fall, waver, and whether they do so
-//! together. Of the seconds before, a share of time, a peak that sinks and a pitch that fades are enough.
+//! together. Of the seconds before, a share of time, a peak that sinks and a pitch that fades are enough. While somebody blows
+//! they stand still, as the room does: a breath is compared with what came before it, however long it lasts, and a second
+//! one is not busier than the first.
 
 use super::features::{LOW, RISEN_DB, blend};
 use super::spectrum::{FRAME_S, Power};
@@ -93,8 +95,8 @@ impl Past {
         }
     }
 
-    /// Takes note of a frame; says what came before it.
-    pub fn push(&mut self, now: &Present) -> Recalled {
+    /// Takes note of a frame; says what came before it, or before the breath of which it is a part.
+    pub fn push(&mut self, now: &Present, blowing: bool) -> Recalled {
         self.frames += 1;
         let at = (self.frames % MEMORY as u64) as usize;
         for (ring, level) in self.levels.iter_mut().zip(now.level) {
@@ -103,14 +105,9 @@ impl Past {
             }
             ring[at] = level;
         }
-        for i in 0..2 {
-            let risen = if now.rises[i] > RISEN_DB { 1.0 } else { 0.0 };
-            self.busy[i] += blend(BUSY_S) * (risen - self.busy[i]);
-            // The oldest of the ring: a sound does not hide behind its own beginning.
-            let oldest = self.levels[i][(at + 1) % MEMORY];
-            self.peaks[i] = oldest.max(self.peaks[i] - SINKING_DB_S * FRAME_S);
+        if !blowing {
+            self.remember(now, at);
         }
-        self.pitched = now.periodicity.max(self.pitched * (1.0 - blend(PITCH_FADES_S)));
         let pattern: [f64; LOW_BINS] = std::array::from_fn(|k| now.power[LOW.0 + k].sqrt());
         let before = std::mem::replace(&mut self.pattern[(self.frames % APART as u64) as usize], pattern);
         Recalled {
@@ -122,6 +119,18 @@ impl Past {
             pitched: self.pitched,
             likeness: correlation(&pattern, &before, NOTHING),
         }
+    }
+
+    /// Lets the seconds before go on.
+    fn remember(&mut self, now: &Present, at: usize) {
+        for i in 0..2 {
+            let risen = if now.rises[i] > RISEN_DB { 1.0 } else { 0.0 };
+            self.busy[i] += blend(BUSY_S) * (risen - self.busy[i]);
+            // The oldest of the ring: a sound does not hide behind its own beginning.
+            let oldest = self.levels[i][(at + 1) % MEMORY];
+            self.peaks[i] = oldest.max(self.peaks[i] - SINKING_DB_S * FRAME_S);
+        }
+        self.pitched = now.periodicity.max(self.pitched * (1.0 - blend(PITCH_FADES_S)));
     }
 }
 
