@@ -55,7 +55,7 @@ pub fn run(args: &Args) -> Outcome {
         println!("{}\n{table}", folder.display());
         let with_level = |prefix: &str| {
             let ladder = takes.iter().zip(&verdicts).filter(|(t, _)| t.group == prefix && !t.breaths.is_empty());
-            ladder.filter_map(|(t, v)| Some((t.level?, v.mean_speed))).collect::<Vec<_>>()
+            ladder.filter_map(|(t, v)| Some((t.level?, v.answers.first()?.mean_speed))).collect::<Vec<_>>()
         };
         let mut ladders: Vec<&str> =
             takes.iter().map(|t| t.group.as_str()).filter(|g| g.starts_with("ladder")).collect();

@@ -4,10 +4,12 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use super::super::{Failure, Outcome};
-use crate::offline::ear::course::{self, Course};
+use crate::offline::ear::course::{self, Begin, Course};
+use crate::offline::ear::scenes::Hearing;
 use crate::offline::ear::{Take, recordings, train};
 use crate::offline::whole_file::WholeFile;
-use crate::wind::blow::Rules;
+use crate::wind::blow::BlowSettings;
+use crate::wind::blow::model::Model;
 
 /// Train the blow detector's model on made scenes and on labelled recordings, and write its table.
 ///
@@ -20,14 +22,20 @@ pub struct Args {
     /// Where the table goes; without it nothing is written.
     #[arg(long, value_name = "FILE.rs")]
     out: Option<PathBuf>,
-    /// Worlds of speakers and rooms.
-    #[arg(long, default_value_t = 6)]
+    /// Go on with the present ear, instead of one that knows nothing.
+    #[arg(long)]
+    go_on: bool,
+    /// Lessons, each in new worlds.
+    #[arg(long, default_value_t = 4)]
+    lessons: u64,
+    /// Worlds of speakers and rooms in each lesson.
+    #[arg(long, default_value_t = 3)]
     worlds: u64,
     /// Hours of museum in each world, and the rest in proportion.
     #[arg(long, default_value_t = 1.0)]
     size: f64,
-    /// Rounds over all examples.
-    #[arg(long, default_value_t = 5)]
+    /// Rounds over all examples after each lesson.
+    #[arg(long, default_value_t = 4)]
     rounds: usize,
     /// Changes everything that is drawn.
     #[arg(long, default_value_t = 1)]
@@ -35,6 +43,9 @@ pub struct Args {
     /// First mark models on recordings whose groups they have not met.
     #[arg(long, requires = "data")]
     cross_validate: bool,
+    /// Mark what was learnt on so many hours of each kind of made scene, before and after the recordings.
+    #[arg(long, default_value_t = 0.0)]
+    exam: f64,
 }
 
 /// Runs the command.
@@ -43,19 +54,36 @@ pub fn run(args: &Args) -> Outcome {
         Some(folder) => recordings::read(folder).map_err(Failure::input)?,
         None => Vec::new(),
     };
-    let course = Course { worlds: args.worlds, size: args.size, rounds: args.rounds, seed: args.seed };
-    let made = course::made_examples(&course);
-    println!("{} examples from {} worlds", made.len(), args.worlds);
+    let Args { lessons, worlds, size, rounds, seed, .. } = *args;
+    let begin = if args.go_on { Begin::Present } else { Begin::Untaught };
+    let course = Course { begin, lessons, worlds, size, rounds, seed };
+    let made = course::learn(&course, |lesson, learnt| {
+        println!("lesson {}: {} examples, loss {:.4}", lesson + 1, learnt.examples.len(), learnt.loss);
+        if lesson + 1 == lessons {
+            examine(args, &learnt.model);
+        }
+    });
     if args.cross_validate {
-        let (table, remarks) = course::cross_validated(&course, &made, &known, &Rules::default());
-        println!("{table}");
+        let (table, remarks) = course::cross_validated(&course, &made, &known);
+        println!("recordings, each by a model that has not met its group\n{table}");
         remarks.iter().for_each(|remark| println!("  {remark}"));
     }
     let Some(path) = &args.out else { return Ok(()) };
-    let (model, loss) = course::taught_model(&course, &made, &known.iter().collect::<Vec<_>>(), course::FOLDS);
-    println!("loss {loss:.4}");
+    let (model, loss) = course::refined(&course, &made, &known.iter().collect::<Vec<_>>(), course::FOLDS);
+    println!("with recordings: loss {loss:.4}");
+    examine(args, &model);
     let fail = |error: std::io::Error| Failure::input(format!("{}: {error}", path.display()));
     let file = WholeFile::create(path).map_err(fail)?;
     file.reopen().and_then(|mut out| out.write_all(train::table(&model).as_bytes())).map_err(fail)?;
     file.finish().map_err(fail)
+}
+
+/// Marks a model on made scenes.
+fn examine(args: &Args, model: &Model) {
+    if args.exam > 0.0 {
+        let settings = BlowSettings { model: model.clone(), ..BlowSettings::default() };
+        let plain = Hearing { gain_db: 0.0, stereo: false };
+        let (table, _) = course::examined(&settings, args.exam, args.seed, plain);
+        println!("{table}");
+    }
 }

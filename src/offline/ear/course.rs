@@ -3,82 +3,129 @@
 //! Worlds below [`EXAM`] teach, the others examine. Recordings are parted by group: whatever a model is marked on, it
 //! has met neither the recording nor one of its group, nor a scene in which one of them was mixed.
 
+use std::fmt::Write as _;
 use std::sync::Mutex;
 
 use super::scenes::{Condition, Hearing, World};
 use super::score::{Table, Verdict, judge};
-use super::train::{Example, examples, train};
+use super::train::{Example, examples, train, untaught};
 use super::{Kind, Take};
 use crate::noise::{Random, hash_words};
+use crate::wind::blow::BlowSettings;
+use crate::wind::blow::features::decibels;
 use crate::wind::blow::model::Model;
-use crate::wind::blow::{BlowSettings, Rules};
 
 /// Seeds of worlds from here on are never learnt from.
 pub const EXAM: u64 = 1_000_000;
 /// Recordings are parted into so many parts by their groups.
 pub const FOLDS: u64 = 5;
-/// Every recording is learnt from at its own gain and at two more, within this, dB.
+/// Every recording is learnt from at its own gain and at some more, within this, dB; so many copies in all.
 const GAIN_DB: f64 = 12.0;
+const COPIES: u64 = 5;
+
+/// Where learning begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begin {
+    /// With an ear that knows nothing; what it hears in its first lesson is forgotten after it.
+    Untaught,
+    /// With the ear that the program has.
+    Present,
+}
 
 /// How much is learnt.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
-    /// Worlds of speakers and rooms; beside them, one with the recordings in it.
+    /// Where it begins: with an ear that knows nothing, or with one that has been taught.
+    pub begin: Begin,
+    /// Lessons: each in new worlds, with the ear as the last one left it.
+    pub lessons: u64,
+    /// Worlds of speakers and rooms in a lesson.
     pub worlds: u64,
     /// 1: an hour of museum a world, and the rest in proportion.
     pub size: f64,
-    /// Rounds over all examples.
+    /// Rounds over all examples after each lesson.
     pub rounds: usize,
     /// Changes everything that is drawn.
     pub seed: u64,
 }
 
+/// Examples, and the model that they have taught.
+#[derive(Clone, Debug)]
+pub struct Learnt {
+    /// All that was heard since the first lesson, which an ear that knew nothing heard.
+    pub examples: Vec<Example>,
+    /// What came of it.
+    pub model: Model,
+    /// Mean loss in the last round.
+    pub loss: f64,
+}
+
 /// Scenes that a world teaches with: half of them at gains far from the usual.
-fn lessons(size: f64) -> Vec<(Condition, u64)> {
+fn scenes(size: f64) -> Vec<(Condition, u64)> {
     let count = |full: f64| (full * size).round() as u64;
-    let mut all =
-        vec![(Condition::Museum, count(60.0)), (Condition::Impulses, count(90.0)), (Condition::Isolated, count(250.0))];
-    all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(60.0))));
-    all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(4.0))));
+    let mut all = vec![
+        (Condition::Museum, count(60.0)),
+        (Condition::Impulses, count(120.0)),
+        (Condition::Isolated, count(180.0)),
+    ];
+    all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(45.0))));
+    all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(5.0))));
+    all.extend([0, 1, 2].map(|room| (Condition::Answered(room), count(30.0))));
     all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
 }
 
 /// Examples of one world.
-fn taught(world: &World, course: &Course) -> Vec<Example> {
-    let made = parallel(lessons(course.size), |(condition, index)| {
+fn taught(world: &World, settings: &BlowSettings, course: &Course) -> Vec<Example> {
+    let made = parallel(scenes(course.size), |(condition, index)| {
         let mut random = Random::new(hash_words(&[course.seed, index, 3]));
         let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB), stereo: false };
         let mut out = Vec::new();
-        examples(&world.take(condition, index, hearing), &mut out);
+        examples(&world.take(condition, index, hearing), settings, &mut out);
         out
     });
     made.concat()
-}
-
-/// Examples of made worlds without recordings: shared by all folds.
-pub fn made_examples(course: &Course) -> Vec<Example> {
-    (0..course.worlds).flat_map(|i| taught(&World::new(world_seed(course, i)), course)).collect()
 }
 
 fn world_seed(course: &Course, i: u64) -> u64 {
     hash_words(&[course.seed, i]) % EXAM
 }
 
-/// Trains on made examples and on recordings, these also mixed into a world of their own.
-pub fn taught_model(course: &Course, made: &[Example], recordings: &[&Take], fold: u64) -> (Model, f64) {
-    let mut all = made.to_vec();
-    if !recordings.is_empty() {
-        let world = World::new(world_seed(course, 1000 + fold)).with_recordings(recordings.iter().copied());
-        all.extend(taught(&world, course));
-        for copy in 0..3 {
-            let mut random = Random::new(hash_words(&[course.seed, copy, 4]));
-            for take in recordings {
-                let gain = random.range(-GAIN_DB, GAIN_DB);
-                examples(&take.with_gain(if copy == 0 { 0.0 } else { gain }), &mut all);
-            }
+fn settings(model: &Model) -> BlowSettings {
+    BlowSettings { model: model.clone(), ..BlowSettings::default() }
+}
+
+/// Learns from made worlds, lesson by lesson; `tell` hears of each.
+pub fn learn(course: &Course, mut tell: impl FnMut(u64, &Learnt)) -> Learnt {
+    let model = if course.begin == Begin::Present { BlowSettings::default().model } else { untaught() };
+    let mut learnt = Learnt { examples: Vec::new(), model, loss: 0.0 };
+    for lesson in 0..course.lessons {
+        if lesson == 1 && course.begin == Begin::Untaught {
+            learnt.examples.clear();
+        }
+        for i in 0..course.worlds {
+            let world = World::new(world_seed(course, course.worlds * lesson + i));
+            learnt.examples.extend(taught(&world, &settings(&learnt.model), course));
+        }
+        (learnt.model, learnt.loss) = train(&learnt.model, &learnt.examples, course.rounds, course.seed + lesson);
+        tell(lesson, &learnt);
+    }
+    learnt
+}
+
+/// Goes on with recordings, which are also mixed into a world of their own.
+pub fn refined(course: &Course, made: &Learnt, recordings: &[&Take], fold: u64) -> (Model, f64) {
+    let mut all = made.examples.clone();
+    let ear = settings(&made.model);
+    let world = World::new(world_seed(course, 1000 + fold)).with_recordings(recordings.iter().copied());
+    all.extend(taught(&world, &ear, course));
+    for copy in 0..COPIES {
+        let mut random = Random::new(hash_words(&[course.seed, copy, 4]));
+        for take in recordings {
+            let gain = random.range(-GAIN_DB, GAIN_DB);
+            examples(&take.with_gain(if copy == 0 { 0.0 } else { gain }), &ear, &mut all);
         }
     }
-    train(&all, course.rounds, course.seed)
+    train(&made.model, &all, course.rounds, course.seed)
 }
 
 /// The part that a group of recordings belongs to.
@@ -88,16 +135,15 @@ pub fn fold(group: &str) -> u64 {
 }
 
 /// Marks of recordings, each by the model of its fold, which has not met its group.
-pub fn cross_validated(course: &Course, made: &[Example], recordings: &[Take], rules: &Rules) -> (Table, Vec<String>) {
+pub fn cross_validated(course: &Course, made: &Learnt, recordings: &[Take]) -> (Table, Vec<String>) {
     let (mut table, mut remarks) = (Table::default(), Vec::new());
     let models = parallel((0..FOLDS).collect(), |k| {
         let known: Vec<&Take> = recordings.iter().filter(|t| fold(&t.group) != k).collect();
-        taught_model(course, made, &known, k).0
+        refined(course, made, &known, k).0
     });
-    for (k, model) in models.into_iter().enumerate() {
-        let held: Vec<Take> = recordings.iter().filter(|t| fold(&t.group) == k as u64).cloned().collect();
-        let settings = BlowSettings { model, rules: *rules, ..BlowSettings::default() };
-        marked(&settings, &held, &mut table, &mut remarks);
+    for (k, model) in (0..FOLDS).zip(models) {
+        let held: Vec<Take> = recordings.iter().filter(|t| fold(&t.group) == k).cloned().collect();
+        marked(&settings(&model), &held, &mut table, &mut remarks);
     }
     (table, remarks)
 }
@@ -115,12 +161,21 @@ pub fn marked(settings: &BlowSettings, takes: &[Take], table: &mut Table, remark
 }
 
 fn remark(take: &Take, verdict: &Verdict) -> Option<String> {
-    let missed = take.kind == Kind::Blow && !verdict.detected;
+    let missed = take.kind == Kind::Blow && !verdict.detected();
     if verdict.ghosts.is_empty() && !missed {
         return None;
     }
-    let what = if missed { "not heard".to_owned() } else { format!("wind without breath at {:.2?} s", verdict.ghosts) };
-    Some(format!("{}: {what}", take.name))
+    let mut remark = format!("{}:{}", take.name, if missed { " not heard" } else { "" });
+    for ghost in &verdict.ghosts {
+        let _ = write!(remark, " wind without breath at {ghost:.2} s");
+        // A sound that is long over, or far below the others, did not do it.
+        for event in take.events.iter().filter(|e| e.gain > 0.005 && e.at < *ghost && *ghost < e.until + 0.5) {
+            let way = if event.on_table { " through the table" } else { "" };
+            let db = 2.0 * decibels(event.gain);
+            let _ = write!(remark, ", {}{way} {db:.0} dB since {:.2} s", event.what, event.at);
+        }
+    }
+    Some(remark)
 }
 
 /// What an exam asks: row by row, so many scenes each.
@@ -145,6 +200,7 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
     }
     for room in 0..3 {
         rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));
+        rows.push((format!("breath that it answers, room {}", room + 1), Condition::Answered(room), takes(60.0)));
     }
     rows
 }

@@ -47,6 +47,21 @@ pub struct Breath {
     pub faint: bool,
 }
 
+/// A sound in a made scene, before any room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// From when, s.
+    pub at: f64,
+    /// Until when, s.
+    pub until: f64,
+    /// What it is.
+    pub what: &'static str,
+    /// It comes through the table, not through the room.
+    pub on_table: bool,
+    /// Full scale of its RMS or peak.
+    pub gain: f64,
+}
+
 /// A labelled sound.
 #[derive(Clone, Debug)]
 pub struct Take {
@@ -68,6 +83,8 @@ pub struct Take {
     pub right: Option<Vec<f32>>,
     /// What the kiosk played meanwhile; empty if nothing.
     pub played: Vec<f32>,
+    /// What is in a made scene beside breath.
+    pub events: Vec<Event>,
     /// Hz.
     pub sample_rate: u32,
 }

@@ -58,6 +58,7 @@ pub fn read(folder: &Path) -> Result<Vec<Take>, String> {
                 left: recording.samples,
                 right: None,
                 played: Vec::new(),
+                events: Vec::new(),
                 sample_rate: recording.sample_rate,
             })
         })

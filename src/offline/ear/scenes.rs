@@ -11,7 +11,7 @@ use crate::wind::generate::{self, BreathShape};
 
 use super::rooms::{Room, convolved};
 use super::voices::{self, Voice, add};
-use super::{Breath, Kind, RATE, Take, noises, own};
+use super::{Breath, Event, Kind, RATE, Take, noises, own};
 
 const R: f64 = RATE as f64;
 /// Voices of a world, and how long each one's speech is before it repeats, s.
@@ -20,6 +20,8 @@ const SPEECH_S: f64 = 15.0;
 /// Rooms of a world, and places in each.
 const ROOMS: usize = 8;
 const PLACES: usize = 5;
+/// The longest that anybody blows evenly, s: with attack and release, less than what is latched as a machine's.
+const LONGEST_HOLD_S: f64 = 5.0;
 
 /// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,14 +30,16 @@ pub enum Condition {
     Museum,
     /// Pops, thumps, claps, doors, bumps in a quiet room.
     Impulses,
-    /// One breath in a quiet room, of any strength, distance and angle.
+    /// Breath in a quiet room, of any strength, distance and angle.
     Isolated,
-    /// One breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
+    /// Breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
     Cell(f64, f64, bool),
-    /// One breath straight at the microphone in a museum, this far above its noise, dB.
+    /// Breath straight at the microphone in a museum, this far above its noise, dB.
     Noisy(f64),
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
+    /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
+    Answered(u32),
 }
 
 /// How a scene is heard, beside what is in it.
@@ -57,8 +61,28 @@ pub struct World {
     recorded: Vec<Vec<f64>>,
 }
 
-/// Dry sounds by place; place [`PLACES`] is the table itself, which no room colours.
-type Dry = Vec<Vec<f64>>;
+/// Dry sounds by place, and what they are; place [`PLACES`] is the table itself, which no room colours.
+struct Dry {
+    places: Vec<Vec<f64>>,
+    events: Vec<Event>,
+}
+
+impl Dry {
+    fn silent(samples: usize) -> Self {
+        Self { places: vec![vec![0.0; samples]; PLACES + 1], events: Vec::new() }
+    }
+
+    fn samples(&self) -> usize {
+        self.places[0].len()
+    }
+
+    /// Puts a sound at a place, from a time on.
+    fn put(&mut self, what: &'static str, place: usize, at: f64, sound: &[f64], gain: f64) {
+        add(&mut self.places[place], at, sound, gain);
+        let at = at.max(0.0);
+        self.events.push(Event { at, until: at + sound.len() as f64 / R, what, on_table: place == PLACES, gain });
+    }
+}
 
 impl World {
     /// The world of a seed.
@@ -109,7 +133,7 @@ impl World {
             Condition::Cell(distance, angle, child) => {
                 self.blow(condition, index, (distance, angle, child), hearing, &mut random)
             }
-            Condition::Noisy(_) => {
+            Condition::Noisy(_) | Condition::Answered(_) => {
                 let child = random.unit() < 0.4;
                 let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
@@ -131,7 +155,7 @@ impl World {
 
     /// Lasting and sudden sounds of a museum; `busy` scales how many.
     fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
-        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
         let decibel = |random: &mut Random, low: f64, high: f64| from_decibels(random.range(low, high));
         if random.unit() < 0.6 * busy {
@@ -139,93 +163,96 @@ impl World {
             for _ in 0..random.range(1.0, 14.0) as u32 {
                 let at = place(random);
                 let gain = from_decibels(loud + random.range(-8.0, 3.0));
-                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain);
+                dry.put("talk", at, 0.0, &self.speech(seconds, random), gain);
             }
         }
         if random.unit() < 0.25 * busy {
             // Somebody speaks right before the kiosk.
             let gain = decibel(random, -40.0, -12.0);
-            add(&mut dry[PLACES - 1], random.range(0.0, 0.3 * seconds), &self.speech(0.6 * seconds, random), gain);
+            let from = random.range(0.0, 0.3 * seconds);
+            dry.put("talk at the kiosk", PLACES - 1, from, &self.speech(0.6 * seconds, random), gain);
             if random.unit() < 0.5 {
                 let puffs = voices::plosives(0.6 * seconds, random);
-                add(&mut dry[PLACES], random.range(0.0, 0.3 * seconds), &puffs, decibel(random, -30.0, -6.0));
+                let from = random.range(0.0, 0.3 * seconds);
+                dry.put("puffs", PLACES, from, &puffs, decibel(random, -30.0, -6.0));
             }
         }
         if !self.recorded.is_empty() && random.unit() < 0.35 * busy {
             let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
             let (at, gain) = (place(random), decibel(random, -50.0, -16.0));
-            let (from, length) = (random.unit() * track.len() as f64, dry[0].len() as f64 * random.range(0.3, 1.5));
+            let (from, length) = (random.unit() * track.len() as f64, dry.samples() as f64 * random.range(0.3, 1.5));
             let sound: Vec<f64> = track.iter().cycle().skip(from as usize).take(length as usize).copied().collect();
             let at = if random.unit() < 0.5 { PLACES } else { at };
-            add(&mut dry[at], random.range(-0.2, 0.5) * seconds, &sound, gain);
+            dry.put("a recording", at, random.range(-0.2, 0.5) * seconds, &sound, gain);
         }
         let lasting = (random.unit() * 2.5 * busy * seconds / 60.0 + random.unit()) as u32;
         for _ in 0..lasting {
             let length = random.range(3.0, 25.0).min(seconds);
-            let sound = match (random.unit() * 8.0) as u32 {
-                0 => noises::trolley(length, random),
-                1 => noises::train(length, random),
-                2 => noises::machine(length, random),
-                3 => noises::switched_air(length, random),
-                4 => noises::rain(length, random),
-                5 => noises::footsteps(length, random),
-                6 => noises::applause(length.min(8.0), random),
-                _ => noises::music(length, random),
+            let (what, sound) = match (random.unit() * 8.0) as u32 {
+                0 => ("trolley", noises::trolley(length, random)),
+                1 => ("train", noises::train(length, random)),
+                2 => ("machine", noises::machine(length, random)),
+                3 => ("ventilation", noises::switched_air(length, random)),
+                4 => ("rain", noises::rain(length, random)),
+                5 => ("steps", noises::footsteps(length, random)),
+                6 => ("applause", noises::applause(length.min(8.0), random)),
+                _ => ("music", noises::music(length, random)),
             };
             let (at, when) = (place(random), random.range(-0.2, 1.0) * (seconds - 1.0));
-            add(&mut dry[at], when, &normalised(sound), decibel(random, -58.0, -16.0));
+            dry.put(what, at, when, &normalised(sound), decibel(random, -58.0, -16.0));
         }
         let sudden = (random.range(0.0, 10.0) * busy * seconds / 60.0 + random.unit()) as u32;
         for _ in 0..sudden {
             let voice = self.voice(random);
-            let sound = match (random.unit() * 12.0) as u32 {
-                0 => voices::laughter(&voice, random),
-                1 => voices::cough(&voice, random),
-                2 => voices::speech(&voice.shouting(), random.range(0.3, 2.5), random),
-                3 => noises::door(random),
-                4 => noises::scrape(random),
-                5 => noises::drop(random),
-                6 => noises::thunder(random),
-                7 => noises::footsteps(random.range(0.5, 3.0), random),
-                8 => noises::handling(random),
-                9 => voices::tone(random.range(0.1, 2.0), random),
-                10 => noises::applause(random.range(0.2, 3.0), random),
-                _ => noises::bump(random),
+            let (what, sound) = match (random.unit() * 12.0) as u32 {
+                0 => ("laughter", voices::laughter(&voice, random)),
+                1 => ("cough", voices::cough(&voice, random)),
+                2 => ("shout", voices::speech(&voice.shouting(), random.range(0.3, 2.5), random)),
+                3 => ("door", noises::door(random)),
+                4 => ("scrape", noises::scrape(random)),
+                5 => ("drop", noises::drop(random)),
+                6 => ("thunder", noises::thunder(random)),
+                7 => ("steps", noises::footsteps(random.range(0.5, 3.0), random)),
+                8 => ("handling", noises::handling(random)),
+                9 => ("tone", voices::tone(random.range(0.1, 2.0), random)),
+                10 => ("applause", noises::applause(random.range(0.2, 3.0), random)),
+                _ => ("bump", noises::bump(random)),
             };
             let table = random.unit() < 0.15;
             let at = if table { PLACES } else { place(random) };
             let sound = crate::wind::generate::filter::peaked(sound);
-            add(&mut dry[at], random.range(0.0, seconds), &sound, decibel(random, -42.0, -2.0));
+            let when = random.range(0.0, seconds);
+            dry.put(what, at, when, &sound, decibel(random, -42.0, -2.0));
         }
         dry
     }
 
     /// A noise that goes on evenly: a full hall, a machine, rain, a recording.
     fn throng(&self, seconds: f64, random: &mut Random) -> Dry {
-        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
         if !self.recorded.is_empty() && random.unit() < 0.5 {
             let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
             let from = (random.unit() * track.len() as f64) as usize;
-            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry[0].len()).copied().collect();
+            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry.samples()).copied().collect();
             let at = if random.unit() < 0.7 { PLACES } else { place(random) };
-            add(&mut dry[at], 0.0, &sound, 0.1);
+            dry.put("a recording", at, 0.0, &sound, 0.1);
             return dry;
         }
         if random.unit() < 0.7 {
             for _ in 0..random.range(5.0, 25.0) as u32 {
                 let (at, gain) = (place(random), from_decibels(random.range(-8.0, 3.0)));
-                add(&mut dry[at], 0.0, &self.speech(seconds, random), gain * 0.03);
+                dry.put("throng", at, 0.0, &self.speech(seconds, random), gain * 0.03);
             }
         }
-        let even = match (random.unit() * 4.0) as u32 {
-            0 => noises::rain(seconds, random),
-            1 => noises::music(seconds, random),
-            2 => noises::machine(seconds, random),
-            _ => noises::air(seconds, random),
+        let (what, even) = match (random.unit() * 4.0) as u32 {
+            0 => ("rain", noises::rain(seconds, random)),
+            1 => ("music", noises::music(seconds, random)),
+            2 => ("machine", noises::machine(seconds, random)),
+            _ => ("air", noises::air(seconds, random)),
         };
         let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
-        add(&mut dry[at], 0.0, &even, gain);
+        dry.put(what, at, 0.0, &even, gain);
         dry
     }
 
@@ -233,8 +260,8 @@ impl World {
     fn heard(&self, dry: &Dry, stereo: bool, random: &mut Random) -> Vec<Vec<f64>> {
         let (_, responses) = &self.rooms[(random.unit() * ROOMS as f64) as usize];
         let capsule = |capsule: usize| {
-            let mut out = dry[PLACES].clone();
-            for (sound, response) in dry.iter().zip(responses) {
+            let mut out = dry.places[PLACES].clone();
+            for (sound, response) in dry.places.iter().zip(responses) {
                 if sound.iter().any(|x| *x != 0.0) {
                     let arrived = convolved(sound, &response[capsule]);
                     out.iter_mut().zip(&arrived).for_each(|(y, x)| *y += x);
@@ -259,35 +286,37 @@ impl World {
         let dry = self.museum_sounds(seconds, 1.0, random);
         let mut channels = self.heard(&dry, hearing.stereo, random);
         Self::add_air(&mut channels, random.range(-75.0, -38.0), random);
-        self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random)
+        let take = self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random);
+        Take { events: dry.events, ..take }
     }
 
     fn impulses(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 20.0;
-        let mut dry = vec![vec![0.0; (seconds * R) as usize]; PLACES + 1];
+        let mut dry = Dry::silent((seconds * R) as usize);
         let mut at = random.range(0.6, 1.5);
         while at < seconds - 1.0 {
-            let (sound, table) = match (random.unit() * 9.0) as u32 {
-                0 => (noises::door(random), false),
-                1 => (noises::bump(random), true),
-                2 => (noises::drop(random), random.unit() < 0.5),
-                3 => (voices::plosives(random.range(0.3, 1.5), random), true),
-                4 => (noises::footsteps(random.range(0.4, 2.0), random), false),
-                5 => (noises::handling(random), true),
-                6 => (noises::applause(random.range(0.5, 3.0), random), false),
-                7 => (noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
-                _ => (noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
+            let (what, sound, table) = match (random.unit() * 9.0) as u32 {
+                0 => ("door", noises::door(random), false),
+                1 => ("bump", noises::bump(random), true),
+                2 => ("drop", noises::drop(random), random.unit() < 0.5),
+                3 => ("puffs", voices::plosives(random.range(0.3, 1.5), random), true),
+                4 => ("steps", noises::footsteps(random.range(0.4, 2.0), random), false),
+                5 => ("handling", noises::handling(random), true),
+                6 => ("applause", noises::applause(random.range(0.5, 3.0), random), false),
+                7 => ("applause", noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
+                _ => ("clap", noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
             };
             let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
-            add(&mut dry[place], at, &sound, from_decibels(random.range(-30.0, 0.0)));
+            dry.put(what, place, at, &sound, from_decibels(random.range(-30.0, 0.0)));
             at += random.range(0.7, 3.0);
         }
         let mut channels = self.heard(&dry, hearing.stereo, random);
         Self::add_air(&mut channels, random.range(-75.0, -50.0), random);
-        self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random)
+        let take = self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random);
+        Take { events: dry.events, ..take }
     }
 
-    /// One breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
+    /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
     fn blow(
         &self,
         condition: Condition,
@@ -297,13 +326,11 @@ impl World {
         random: &mut Random,
     ) -> Take {
         let (distance, angle_deg, child) = mouth;
-        let strength = if child { random.range(5.0, 10.5) } else { random.range(7.0, 17.0) };
-        let shape = BreathShape {
+        // Soft breaths are as frequent as hard ones: they are the harder to hear.
+        let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
+        let first = BreathShape {
             lead_in: random.range(0.7, 2.5),
-            strength,
-            attack: random.range(0.04, 0.22),
-            hold: random.range(0.4, 3.0),
-            release: random.range(0.08, 0.45),
+            strength: soft * crate::math::pow(hard / soft, random.unit()),
             lead_out: random.range(0.8, 1.5),
             distance,
             angle_deg,
@@ -312,6 +339,8 @@ impl World {
             corner_hz: 5.0,
             ..BreathShape::default()
         };
+        let (shapes, breaths) = Self::row_of_breaths(&first, random);
+        let seconds = shapes.iter().map(BreathShape::duration).sum::<f64>();
         let seed = random.word();
         // Straight at a capsule behind a thick grille, there may be hardly any hiss.
         let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
@@ -321,7 +350,8 @@ impl World {
         let streams: Vec<Vec<f64>> = (0..capsules)
             .map(|capsule| {
                 // Rumble and hiss each louder or softer than the formula: capsules, lips.
-                let air = generate::stream(RATE, seed, &shape, capsule);
+                let air = (0..).zip(&shapes).map(|(i, s)| generate::stream(RATE, hash_words(&[seed, i]), s, capsule));
+                let air = air.collect::<Vec<_>>().concat();
                 let low = low_passed(air.clone(), R, 350.0, 2);
                 let upper = high_passed(low.clone(), R, 160.0, 1);
                 let (g, h) = (from_decibels(rumble), from_decibels(hiss));
@@ -332,47 +362,86 @@ impl World {
         let noisy = matches!(condition, Condition::Noisy(_));
         let dry = if noisy {
             if random.unit() < 0.5 {
-                self.throng(shape.duration(), random)
+                self.throng(seconds, random)
             } else {
-                self.museum_sounds(shape.duration(), random.range(0.5, 2.5), random)
+                self.museum_sounds(seconds, random.range(0.5, 2.5), random)
             }
         } else {
-            vec![vec![0.0; streams[0].len()]; PLACES + 1]
+            Dry::silent(streams[0].len())
         };
         let mut channels = self.heard(&dry, hearing.stereo, random);
         channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
         let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
         Self::add_air(&mut channels, air_dbfs, random);
-        let (onset, offset) = shape.span();
-        let body = (onset * R) as usize..(offset * R) as usize;
-        let mut snr_db = None;
-        if let Condition::Noisy(snr) = condition {
-            let ratio = power(&streams[0][body.clone()]) / power(&channels[0][body.clone()]).max(1e-12);
-            let gain = (ratio / from_decibels(2.0 * snr)).sqrt();
+        let during = |samples: &[f64], b: &Breath| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec();
+        let snr_db = if let Condition::Noisy(snr) = condition { Some(snr) } else { None };
+        if let Some(snr) = snr_db {
+            // The first one sets the noise.
+            let [air, noise] = [&streams[0], &channels[0]].map(|samples| power(&during(samples, &breaths[0])));
+            let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
             channels.iter_mut().flatten().for_each(|x| *x *= gain);
-            snr_db = Some(snr);
         }
-        let faint = above_noise(&streams[0][body.clone()], &channels[0][body]) < FAINT_DB;
+        let heard = |b: &Breath| above_noise(&during(&streams[0], b), &during(&channels[0], b));
+        let breaths: Vec<Breath> =
+            breaths.iter().map(|b| Breath { snr_db, faint: heard(b) < FAINT_DB, ..*b }).collect();
         for (channel, stream) in channels.iter_mut().zip(&streams) {
             channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
         }
-        let breath = Breath { onset, offset, strength, snr_db, faint };
-        self.finish(condition, index, channels, Kind::Blow, vec![breath], hearing, random)
+        let mut played = Vec::new();
+        if let Condition::Answered(room) = condition {
+            played = own::answers(seconds, &breaths, random);
+            self.hear_itself(&played, room, &mut channels, random);
+        }
+        let take = self.finish(condition, index, channels, Kind::Blow, breaths, hearing, random);
+        let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
+        let played = if matches!(condition, Condition::Answered(_)) { played.collect() } else { Vec::new() };
+        Take { events: dry.events, played, ..take }
+    }
+
+    /// One breath like `first`, or a few of one mouth: short puffs and long ones, hard and soft; when each of them is.
+    fn row_of_breaths(first: &BreathShape, random: &mut Random) -> (Vec<BreathShape>, Vec<Breath>) {
+        let count = if random.unit() < 0.6 { 1 } else { 2 + (random.unit() * 2.0) as usize };
+        let (mut shapes, mut breaths, mut start) = (Vec::new(), Vec::new(), 0.0);
+        for i in 0..count {
+            let long = random.unit() < 0.2;
+            let shape = BreathShape {
+                // A breath is taken between two.
+                lead_in: if i == 0 { first.lead_in } else { random.range(0.4, 1.2) },
+                strength: (first.strength * if i == 0 { 1.0 } else { random.range(0.7, 1.3) }).clamp(3.6, 17.0),
+                attack: random.range(0.04, 0.22),
+                hold: if long { random.range(3.0, LONGEST_HOLD_S) } else { random.range(0.4, 3.0) },
+                release: random.range(0.08, 0.45),
+                lead_out: if i + 1 == count { first.lead_out } else { 0.1 },
+                ..first.clone()
+            };
+            let (onset, offset) = shape.span();
+            let (onset, offset) = (start + onset, start + offset);
+            breaths.push(Breath { onset, offset, strength: shape.strength, snr_db: None, faint: false });
+            start += shape.duration();
+            shapes.push(shape);
+        }
+        (shapes, breaths)
+    }
+
+    /// Adds what the microphone hears of what the kiosk plays.
+    fn hear_itself(&self, played: &[f64], room: u32, channels: &mut [Vec<f64>], random: &mut Random) {
+        let (_, responses) = &self.rooms[room as usize % ROOMS];
+        // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
+        let late = (0.02 + 0.035 * f64::from(room)) * R;
+        let mut delayed = vec![0.0; late as usize];
+        delayed.extend(own::loudspeaker(played, random));
+        delayed.truncate(played.len());
+        let loud = from_decibels(random.range(-8.0, 4.0));
+        for (channel, response) in channels.iter_mut().zip(&responses[PLACES - 1]) {
+            channel.iter_mut().zip(convolved(&delayed, response)).for_each(|(y, x)| *y += loud * x);
+        }
     }
 
     fn own_voice(&self, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 60.0;
         let played = own::kiosk(seconds, &self.speech(seconds, random), random);
-        let (_, responses) = &self.rooms[room as usize % ROOMS];
-        // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
-        let late = (0.02 + 0.035 * f64::from(room)) * R;
-        let mut delayed = vec![0.0; late as usize];
-        delayed.extend(own::loudspeaker(&played, random));
-        delayed.truncate(played.len());
-        let loud = from_decibels(random.range(-8.0, 4.0));
-        let mut channels: Vec<Vec<f64>> = (0..1 + usize::from(hearing.stereo))
-            .map(|c| convolved(&delayed, &responses[PLACES - 1][c]).into_iter().map(|x| loud * x).collect())
-            .collect();
+        let mut channels = vec![vec![0.0; played.len()]; 1 + usize::from(hearing.stereo)];
+        self.hear_itself(&played, room, &mut channels, random);
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
         let mut take =
             self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
@@ -412,6 +481,7 @@ impl World {
             right: heard.next(),
             left,
             played: Vec::new(),
+            events: Vec::new(),
             sample_rate: RATE,
         }
     }
@@ -453,6 +523,7 @@ impl Condition {
             }
             Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
             Self::OwnVoice(room) => 100 + u64::from(room),
+            Self::Answered(room) => 200 + u64::from(room),
         }
     }
 }

@@ -37,30 +37,46 @@ pub fn poisson(events: usize) -> (f64, f64) {
     (if events == 0 { 0.0 } else { bound(k, -Z) }, bound(k + 1.0, Z))
 }
 
+/// What the detector made of one breath.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Answer {
+    /// Onset to wind, s; `None` where there was none.
+    pub latency: Option<f64>,
+    /// End of the breath to the end of its wind, s.
+    pub release: Option<f64>,
+    /// How often its wind stopped before its end.
+    pub breaks: usize,
+    /// Mean speed over the breath, m/s.
+    pub mean_speed: f64,
+}
+
 /// What the detector made of one take.
 #[derive(Clone, Debug, Default)]
 pub struct Verdict {
-    /// Wind within the (first) breath.
-    pub detected: bool,
-    /// Onset to wind, s.
-    pub latency: Option<f64>,
-    /// End of the breath to the last wind, s.
-    pub release: Option<f64>,
+    /// A breath each.
+    pub answers: Vec<Answer>,
     /// Winds that began where nobody blew, s.
     pub ghosts: Vec<f64>,
-    /// Mean speed over the breath, m/s.
-    pub mean_speed: f64,
     /// The detector says that the microphone changes its gain.
     pub gain_control: bool,
+}
+
+impl Verdict {
+    /// Every breath made wind.
+    pub fn detected(&self) -> bool {
+        self.answers.iter().all(|answer| answer.latency.is_some())
+    }
 }
 
 /// Lets a detector hear a take.
 pub fn judge(settings: &BlowSettings, take: &Take) -> Verdict {
     let mut detector = BlowDetector::with_settings(take.sample_rate, settings.clone());
-    let mut verdict = Verdict::default();
-    let breath = take.breaths.first();
-    let inside = |t: f64| breath.is_some_and(|b| t >= b.onset - EARLY_S && t <= b.offset + LATE_S);
-    let (mut from, mut before, mut sum, mut within) = (0, 0.0, 0.0, 0);
+    let mut verdict = Verdict { answers: vec![Answer::default(); take.breaths.len()], ..Verdict::default() };
+    let mut steps = vec![0; take.breaths.len()];
+    let breath_at = |t: f64| take.breaths.iter().position(|b| t >= b.onset - EARLY_S && t <= b.offset + LATE_S);
+    // The breath that the present wind belongs to.
+    let mut answered = None;
+    let (mut from, mut before) = (0, 0.0);
     for step in 1.. {
         let to = (step * take.sample_rate as usize / STEPS_HZ).min(take.left.len());
         let played = if take.played.is_empty() { &[] } else { &take.played[from..to] };
@@ -70,26 +86,31 @@ pub fn judge(settings: &BlowSettings, take: &Take) -> Verdict {
         }
         from = to;
         let (t, speed) = (to as f64 / f64::from(take.sample_rate), detector.estimate().speed);
+        let breath = breath_at(t);
         if speed > 0.0 {
-            if before == 0.0 && !inside(t) {
+            if before == 0.0 && breath.is_none() {
                 verdict.ghosts.push(t);
             }
-            if let Some(breath) = breath.filter(|_| inside(t)) {
-                verdict.detected = true;
-                verdict.latency.get_or_insert(t - breath.onset);
-                verdict.release = Some(t - breath.offset);
+            // Wind that outlasts its breath is still its wind.
+            answered = breath.or(answered.filter(|_| before > 0.0));
+            if let Some(i) = answered {
+                let answer = &mut verdict.answers[i];
+                if before == 0.0 && answer.latency.is_some() && t < take.breaths[i].offset {
+                    answer.breaks += 1;
+                }
+                answer.latency.get_or_insert(t - take.breaths[i].onset);
+                answer.release = Some(t - take.breaths[i].offset);
             }
         }
-        if breath.is_some_and(|b| t >= b.onset && t <= b.offset) {
-            sum += speed;
-            within += 1;
+        if let Some(i) = take.breaths.iter().position(|b| t >= b.onset && t <= b.offset) {
+            steps[i] += 1;
+            verdict.answers[i].mean_speed += (speed - verdict.answers[i].mean_speed) / f64::from(steps[i]);
         }
         before = speed;
         if to == take.left.len() {
             break;
         }
     }
-    verdict.mean_speed = sum / f64::from(within.max(1));
     verdict.gain_control = detector.estimate().gain_control;
     verdict
 }
@@ -99,6 +120,8 @@ pub fn judge(settings: &BlowSettings, take: &Take) -> Verdict {
 pub struct Marks {
     /// Breaths heard, and all.
     pub heard: (usize, usize),
+    /// Winds that stopped within a breath.
+    pub breaks: usize,
     /// Onset to wind, s.
     pub latency: Vec<f64>,
     /// End to the last wind, s.
@@ -115,11 +138,14 @@ impl Marks {
         let blown: f64 = take.breaths.iter().map(|b| b.offset - b.onset + EARLY_S + LATE_S).sum();
         self.hours += (take.duration() - blown).max(0.0) / 3600.0;
         self.ghosts += verdict.ghosts.len();
-        if take.kind == Kind::Blow && take.breaths.iter().any(|b| !b.faint) {
-            self.heard.0 += usize::from(verdict.detected);
+        for (_, answer) in
+            take.breaths.iter().zip(&verdict.answers).filter(|(b, _)| take.kind == Kind::Blow && !b.faint)
+        {
+            self.heard.0 += usize::from(answer.latency.is_some());
             self.heard.1 += 1;
-            self.latency.extend(verdict.latency);
-            self.release.extend(verdict.release);
+            self.breaks += answer.breaks;
+            self.latency.extend(answer.latency);
+            self.release.extend(answer.release);
         }
     }
 
@@ -157,7 +183,8 @@ impl fmt::Display for Marks {
                 100.0 * high
             )?;
             write!(f, "  latency {:3.0}/{:3.0} ms", ms(&self.latency, 0.5), ms(&self.latency, 0.9))?;
-            write!(f, "  release p90 {:3.0} max {:3.0} ms  ", ms(&self.release, 0.9), ms(&self.release, 1.0))?;
+            write!(f, "  release p90 {:3.0} max {:3.0} ms", ms(&self.release, 0.9), ms(&self.release, 1.0))?;
+            write!(f, "  breaks {:.2}  ", self.breaks as f64 / self.heard.1 as f64)?;
         }
         let (low, high) = poisson(self.ghosts);
         write!(
@@ -187,6 +214,7 @@ impl Table {
         for (row, marks) in other.0 {
             let mine = self.0.entry(row).or_default();
             mine.heard = (mine.heard.0 + marks.heard.0, mine.heard.1 + marks.heard.1);
+            mine.breaks += marks.breaks;
             mine.latency.extend(marks.latency);
             mine.release.extend(marks.release);
             mine.ghosts += marks.ghosts;

