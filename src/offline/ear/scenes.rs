@@ -412,7 +412,7 @@ impl World {
                 hold: if long { random.range(3.0, LONGEST_HOLD_S) } else { random.range(0.4, 3.0) },
                 release: random.range(0.08, 0.45),
                 lead_out: if i + 1 == count { first.lead_out } else { 0.1 },
-                ..first.clone()
+                ..*first
             };
             let (onset, offset) = shape.span();
             let (onset, offset) = (start + onset, start + offset);
