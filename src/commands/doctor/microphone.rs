@@ -64,6 +64,11 @@ const NORMAL_M_S: f64 = 9.0;
 /// Speeds within this factor of it need no other sensitivity: breaths differ by as much.
 const ALIKE: f64 = 1.35;
 
+/// Where nothing was heard, one step in so many at full scale says why.
+const CLIPPED_PART: usize = 10;
+/// What to do about an input at full scale.
+const RAILED: &str = "the input is at its end and cannot tell strong from gentle: turn the input gain down, then again";
+
 /// What normal breaths from where visitors stand say about microphone and settings. `steps` are the detector's words
 /// meanwhile, `sensitivity_db` the setting they were heard with.
 pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
@@ -76,7 +81,12 @@ pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
             "none heard: at most {:.0} dBFS over a room of {:.0}, {:?}",
             loudest.level_dbfs, loudest.floor_dbfs, loudest.reason
         );
-        let remedy = "blow at the capsule itself, nearer, for a second; take off thick foam; or turn the input gain up";
+        let clipped = steps.iter().filter(|step| step.clipping).count();
+        let remedy = if clipped > steps.len() / CLIPPED_PART {
+            RAILED
+        } else {
+            "blow at the capsule itself, nearer, for a second; take off thick foam; or turn the input gain up"
+        };
         return Finding::new(WHAT, Health::Bad, found, remedy);
     }
     let mean = blown().map(|step| step.speed).sum::<f64>() / count as f64;
@@ -96,8 +106,7 @@ pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
     // U goes with 10^(dB/40).
     let wanted = (sensitivity_db + 40.0 * log10(NORMAL_M_S / mean)).clamp(-40.0, 40.0).round();
     if rails > 0.5 && mean > NORMAL_M_S {
-        let remedy = "the input is at its end and cannot tell strong from gentle: turn the input gain down, then again";
-        return Finding::new(WHAT, Health::Warn, found, remedy);
+        return Finding::new(WHAT, Health::Warn, found, RAILED);
     }
     if (NORMAL_M_S / ALIKE..NORMAL_M_S * ALIKE).contains(&mean) {
         return Finding::new(WHAT, Health::Ok, found, "");
