@@ -36,7 +36,7 @@ pub(super) const LINES: usize = 16;
 pub const BANDS: [f64; 7] = [125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0];
 /// Shortest and longest decay that a room may have, s.
 pub const T60_RANGE: std::ops::RangeInclusive<f64> = 0.2..=5.0;
-/// Most that decays of neighbouring octaves may differ, as a ratio: what the shelves of [`absorption`] can follow.
+/// Most that decays of neighbouring octaves may differ, as a ratio: what the shelves of `absorption` can follow.
 pub const STEEPEST: f64 = 1.6;
 
 /// Shortest and longest line, s.
@@ -216,7 +216,7 @@ impl Room {
     }
 }
 
-/// Row of the Hadamard matrix H[r][i] = (−1)^popcount(r & i), times a factor.
+/// Row of the Hadamard matrix H_ri = (−1)^popcount(r & i), times a factor.
 const fn row(r: usize, factor: f32) -> [f32; LINES] {
     let mut out = [factor; LINES];
     let mut i = 0;
