@@ -77,7 +77,9 @@ impl Staff {
             egui::Window::new("Soffio").anchor(Align2::RIGHT_TOP, [-16.0, 16.0]).resizable(false).show(
                 ui.ctx(),
                 |ui| {
-                    meter(ui, &frame.current.breath.estimate);
+                    if frame.hears {
+                        meter(ui, &frame.current.breath.estimate);
+                    }
                     for remedy in frame.load.microphone.remedies() {
                         ui.set_max_width(420.0);
                         ui.colored_label(BAD, format!("microphone: {remedy}"));
@@ -156,7 +158,12 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         row("exhibit", frame.exhibit.id.clone(), false);
         let capsules = if audio.capsules == 2 { ", two capsules" } else { "" };
         row("microphone", format!("{}{capsules}", audio.input), !frame.hears);
-        row("level", format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs), heard.clipping);
+        let level = if frame.hears {
+            format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs)
+        } else {
+            "nothing arrives".into()
+        };
+        row("level", level, heard.clipping);
         let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
         row("at full scale", clips, microphone.clips_lately());
         row("gain control", if heard.gain_control { "seen" } else { "none seen" }.into(), heard.gain_control);
@@ -194,7 +201,8 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         {
             let value = match laeq {
                 Some(laeq) => format!("{laeq:.1} dB(A)"),
-                None => format!("{level:.1} dB(A) of full scale, not calibrated"),
+                None if level.is_finite() => format!("{level:.1} dB(A) of full scale, not calibrated"),
+                None => "silent".into(),
             };
             row(name, value, false);
         }
