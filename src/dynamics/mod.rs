@@ -249,14 +249,7 @@ impl Dynamics {
         if self.settings.friction && self.bodies.iter().all(RigidBody::is_finite) {
             self.rub(dt);
         }
-        self.end_step(dt, already, impacts);
-        let lost = self.restore_bad_bodies();
-        if lost > 0 {
-            // What went wrong did not happen.
-            impacts.truncate(already);
-        }
-        self.system.count_turns(&self.bodies);
-        self.springs.count_turns(&self.bodies);
+        let lost = self.end_step(dt, already, impacts);
         bad + lost
     }
 

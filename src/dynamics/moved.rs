@@ -73,14 +73,7 @@ impl Dynamics {
             impacts,
         });
         self.springs.break_overloaded(&self.bodies, self.time + dt);
-        self.end_step(dt, already, impacts);
-        let lost = self.restore_bad_bodies();
-        if lost > 0 {
-            // What went wrong did not happen.
-            impacts.truncate(already);
-        }
-        self.system.count_turns(&self.bodies);
-        self.springs.count_turns(&self.bodies);
+        let lost = self.end_step(dt, already, impacts);
         // The laws start anew from here.
         self.contacts.forget(&self.bodies);
         self.loads.fill(0.0);
@@ -89,8 +82,8 @@ impl Dynamics {
         bad + lost
     }
 
-    /// Fires what waited for the step's hits, and lets time go on.
-    pub(super) fn end_step(&mut self, dt: f64, already: usize, impacts: &[Impact]) {
+    /// Fires what waited for the step's hits, lets time go on and puts back what broke down: so many bodies.
+    pub(super) fn end_step(&mut self, dt: f64, already: usize, impacts: &mut Vec<Impact>) -> usize {
         for impact in &impacts[already..] {
             for body in impact.bodies.into_iter().flatten() {
                 self.system.activity.hit(body, impact.impulse, self.time + impact.time);
@@ -98,5 +91,13 @@ impl Dynamics {
             }
         }
         self.time += dt;
+        let lost = self.restore_bad_bodies();
+        if lost > 0 {
+            // What went wrong did not happen.
+            impacts.truncate(already);
+        }
+        self.system.count_turns(&self.bodies);
+        self.springs.count_turns(&self.bodies);
+        lost
     }
 }

@@ -33,7 +33,7 @@ use crate::articulation::block::{Vec6, angular, linear};
 use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{Dynamics, Impact, Moved};
-use crate::math::{DMat3, DQuat, DVec3, Pose, atan2};
+use crate::math::{DMat3, DQuat, DVec3, atan2};
 
 use compulsive::Compulsive;
 pub use compulsive::MOST_ROUNDS;
@@ -284,11 +284,6 @@ impl Procedural {
             body.velocity = way.clamp_length_max(SPEED_KEPT);
             body.angular_velocity = turn.clamp_length_max(SPIN_KEPT);
         }
-    }
-
-    /// Poses of a figure's nodes before the last step, for reports.
-    pub fn former_pose(&self, body: usize) -> Pose {
-        self.before[body].pose()
     }
 }
 

@@ -7,7 +7,7 @@
 use super::{Contacts, point_rows};
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
-use crate::collision::{Collider, Pair, TOUCH, time_of_impact};
+use crate::collision::{Collider, Pair, TOUCH};
 use crate::math::DVec3;
 
 /// Cosine between the normals at the meeting and at the end above which the side is the same.
@@ -87,13 +87,7 @@ impl Contacts {
 
     fn look_at_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<Met>) {
         let Pair { a, b } = self.pairs[pair].pair;
-        self.measured += 1;
-        let (sweep_a, sweep_b) = (self.sweep(a), self.sweep(b));
-        let toi = time_of_impact(
-            &mut self.corners,
-            (&self.colliders[a], &sweep_a, self.reach[a]),
-            (&self.colliders[b], &sweep_b, self.reach[b]),
-        );
+        let ((sweep_a, sweep_b), toi) = self.sweep_pair(pair);
         let Some(toi) = toi else { return };
         let (s, normal) = (toi.s, toi.proximity.normal);
         let mut add = |point: DVec3, normal: DVec3, gap: f64| {

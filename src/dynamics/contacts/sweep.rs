@@ -61,13 +61,7 @@ impl Contacts {
             return;
         }
         let Pair { a, b } = self.pairs[pair].pair;
-        self.measured += 1;
-        let (sweep_a, sweep_b) = (self.sweep(a), self.sweep(b));
-        let toi = time_of_impact(
-            &mut self.corners,
-            (&self.colliders[a], &sweep_a, self.reach[a]),
-            (&self.colliders[b], &sweep_b, self.reach[b]),
-        );
+        let ((sweep_a, sweep_b), toi) = self.sweep_pair(pair);
         let Some(TimeOfImpact { mut s, proximity }) = toi else { return };
         let states = if s > 0.0 { after } else { before };
         if self.velocity_at(pair, proximity.point, states).dot(proximity.normal) >= 0.0 {
@@ -79,6 +73,19 @@ impl Contacts {
         } else if first.is_none_or(|f| s < f.s) {
             *first = Some(Hit { s, source: Source::Pair(pair) });
         }
+    }
+
+    /// The ways of a pair's colliders, and when they meet on them.
+    pub(super) fn sweep_pair(&mut self, pair: usize) -> ((Sweep, Sweep), Option<TimeOfImpact>) {
+        let Pair { a, b } = self.pairs[pair].pair;
+        self.measured += 1;
+        let (sweep_a, sweep_b) = (self.sweep(a), self.sweep(b));
+        let toi = time_of_impact(
+            &mut self.corners,
+            (&self.colliders[a], &sweep_a, self.reach[a]),
+            (&self.colliders[b], &sweep_b, self.reach[b]),
+        );
+        ((sweep_a, sweep_b), toi)
     }
 
     /// When a pair that opens at the beginning has closed again, if it has sunk in by the end.
