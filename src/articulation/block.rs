@@ -20,6 +20,14 @@ pub type RowBlock = [Vec6; MAX_ROWS];
 /// Rows by rows, lower triangle.
 pub type RowSquare = [[f64; MAX_ROWS]; MAX_ROWS];
 
+/// Adds a force that acts `arm` beside the centre of mass.
+pub fn add_wrench(sum: &mut Vec6, arm: DVec3, force: DVec3) {
+    let wrench = vec6(force, arm.cross(force));
+    for k in 0..6 {
+        sum[k] += wrench[k];
+    }
+}
+
 /// A six-vector from its linear and angular parts.
 pub fn vec6(linear: DVec3, angular: DVec3) -> Vec6 {
     [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]

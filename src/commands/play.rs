@@ -120,7 +120,7 @@ pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
 pub fn run(args: Args) -> Outcome {
     let exhibit = super::open(&args.exhibit)?;
     let recording = args.breath.as_ref().map(wav::read).transpose().map_err(Failure::input)?;
-    let script = args.script.as_ref().map(read_script).transpose()?;
+    let script = args.script.as_ref().map(|path| read_script(path, &exhibit)).transpose()?;
     let heard = recording.as_ref().map_or(0.0, wav::Recording::duration);
     let told = script.as_ref().map_or(0.0, Script::duration);
     let seconds = args.seconds.unwrap_or(heard.max(told) + TAIL);
@@ -134,10 +134,10 @@ pub fn run(args: Args) -> Outcome {
         ..super::settings()?
     };
     let mode = match args.solver {
-        // The exhibit's own choice is constrained dynamics.
-        SolverArg::Dynamics | SolverArg::Auto => MotionMode::Dynamic,
-        SolverArg::Procedural => MotionMode::Procedural,
-        SolverArg::PositionBased => MotionMode::PositionBased,
+        SolverArg::Auto => None,
+        SolverArg::Dynamics => Some(MotionMode::Dynamic),
+        SolverArg::Procedural => Some(MotionMode::Procedural),
+        SolverArg::PositionBased => Some(MotionMode::PositionBased),
     };
     let play = Play {
         settings,
@@ -178,11 +178,12 @@ fn progress_bar(steps: u64) -> ProgressBar {
     ProgressBar::new(steps).with_style(style)
 }
 
-fn read_script(path: &PathBuf) -> Result<Script, Failure> {
+fn read_script(path: &PathBuf, exhibit: &Exhibit) -> Result<Script, Failure> {
     let name = path.display();
     let text = std::fs::read_to_string(path)
         .map_err(|e| Failure::input(format!("cannot read the script {name}: {e}; check the path")))?;
-    Script::parse(&text).map_err(|e| Failure::input(format!("{name}, {e}")))
+    let script = Script::parse(&text).and_then(|script| script.fits(exhibit).map(|()| script));
+    script.map_err(|e| Failure::input(format!("{name}, {e}")))
 }
 
 type FrameWriter = Box<OnFrame<'static>>;

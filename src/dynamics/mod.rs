@@ -24,7 +24,7 @@ mod pace;
 mod passes;
 
 pub use crate::articulation::Method as Solver;
-use crate::articulation::block::Vec6;
+use crate::articulation::block::{Vec6, angular, linear, vec6};
 use crate::articulation::quads::{Members, State};
 use crate::articulation::{Break, Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
@@ -480,6 +480,28 @@ impl Dynamics {
         self.system.evaluate(&self.bodies);
         self.system.factor();
         self.fresh = false;
+    }
+
+    /// How points of the figure (body, world place, m) answer impulses, joints held: block i n + j is the velocity of point
+    /// i for an impulse at point j, 1/kg.
+    pub fn answers(&mut self, points: &[(usize, DVec3)], out: &mut [DMat3]) {
+        self.prepare_impulses();
+        let n = points.len();
+        let arm = |(body, point): (usize, DVec3), bodies: &[RigidBody]| point - bodies[body].position;
+        for (j, &pushed) in points.iter().enumerate() {
+            let lever = arm(pushed, &self.bodies);
+            for axis in 0..3 {
+                let push = DVec3::AXES[axis];
+                self.system.b.fill([0.0; 6]);
+                self.system.b[pushed.0] = vec6(push, lever.cross(push));
+                self.system.solve_impulse();
+                for (i, &asked) in points.iter().enumerate() {
+                    let answer = &self.system.a[asked.0];
+                    let velocity = linear(answer) + angular(answer).cross(arm(asked, &self.bodies));
+                    *out[i * n + j].col_mut(axis) = velocity;
+                }
+            }
+        }
     }
 
     /// Puts the figure back to where the last step began if a body has bad numbers; says which one was the first. A step

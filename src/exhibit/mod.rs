@@ -10,6 +10,7 @@ use crate::bodies::MassProperties;
 use crate::collision::{Collider, Exclusion};
 use crate::dynamics::{Drive, Integrator, Solver};
 use crate::math::{DVec3, Pose};
+use crate::procedural::Method;
 use crate::sound::InstrumentSpec;
 use crate::wind::breath::Law;
 use crate::wind::weather::Wind;
@@ -67,6 +68,10 @@ pub struct Exhibit {
     pub drives: Vec<Drive>,
     /// Length of one run, s; may be infinite.
     pub duration: f64,
+    /// What moves it.
+    pub motion: Motion,
+    /// What hands may do to it.
+    pub touch: Touch,
     /// How time is advanced.
     pub integrator: Integrator,
     /// Which linear solver finds the multipliers.
@@ -214,6 +219,29 @@ pub struct Wire {
     pub metallic: f32,
     /// Perceptual roughness 0…1.
     pub roughness: f32,
+}
+
+/// What moves an exhibit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// The laws, and places where a step would take longer than this, s.
+    Auto {
+        /// s of processor time.
+        budget: f64,
+    },
+    /// The laws always.
+    Laws,
+    /// Places always.
+    Places(Method),
+}
+
+/// What hands may do to an exhibit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// May visitors take it by the hand?
+    pub permitted: bool,
+    /// How strong a hand is, N.
+    pub force: f64,
 }
 
 /// What a breath is to an exhibit, besides what the site's configuration says.

@@ -50,6 +50,9 @@ pub struct Sidecar {
     /// How motion is computed.
     #[serde(default)]
     pub solver: Solver,
+    /// What hands may do to it.
+    #[serde(default)]
+    pub touch: Touch,
     /// Physical materials by name. A built-in name (steel, aluminium, lead, brass, copper, glass, beech, cherry, oak …)
     /// changes only the keys that stand here.
     #[serde(default)]
@@ -111,6 +114,10 @@ pub struct Scene {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
+    /// What moves the figure.
+    pub motion: MovedBy,
+    /// With motion = "auto": longest step by the laws, processor time; by default 2.8 ms.
+    pub budget: Option<Time>,
     /// How time is advanced.
     pub integrator: Integrator,
     /// Which linear solver finds the constraint forces.
@@ -119,6 +126,37 @@ pub struct Solver {
     pub stabilize: Stabilize,
     /// Lets constraints be open at the start: the figure assembles itself.
     pub assemble: bool,
+}
+
+/// What moves the figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MovedBy {
+    /// The laws, and places where the machine is too slow for them.
+    #[default]
+    Auto,
+    /// The laws always.
+    Dynamics,
+    /// Places first, joint by joint: the classical procedural motion.
+    Procedural,
+    /// Places first, all joints at once.
+    PositionBased,
+}
+
+/// What hands may do to the sculpture.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Touch {
+    /// May visitors take it by the hand?
+    pub permitted: bool,
+    /// How strong a hand is; by default twice the weight of all that moves.
+    pub force: Option<Force>,
+}
+
+impl Default for Touch {
+    fn default() -> Self {
+        Self { permitted: true, force: None }
+    }
 }
 
 /// How time is advanced.

@@ -50,6 +50,11 @@ impl View {
         (self.eye, (forward + right * across + up * along).normalize())
     }
 
+    /// Height of the picture at a distance along the view, m.
+    pub fn height_at(&self, depth: f64) -> f64 {
+        2.0 * depth * half_height(self.fovy)
+    }
+
     /// Picture coordinates of a world point; `None` where it is not in front of the eye.
     pub fn project(&self, point: DVec3, aspect: f64) -> Option<[f64; 2]> {
         let (right, up, forward) = self.axes();

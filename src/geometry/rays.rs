@@ -18,7 +18,7 @@ use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::{build_bvh2, build_bvh2_from_tris};
-use obvhs::ray::Ray;
+use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
 use super::TriangleMesh;
@@ -150,7 +150,38 @@ impl Occluders {
         })
     }
 
+    /// The first triangle along a world ray (unit direction): the body that carries it (`None` stands still) and its
+    /// distance, m.
+    pub fn first(&self, origin: DVec3, direction: DVec3) -> Option<(Option<usize>, f64)> {
+        let mut first: Option<(Option<usize>, f32)> = None;
+        let through = Ray::new(single(origin), single(direction), 0.0, f32::INFINITY);
+        self.top.ray_traverse(through, &mut RayHit::none(), |ray, id| {
+            let part = &self.parts[self.top.primitive_indices[id] as usize];
+            let mut nearest = f32::INFINITY;
+            part.bvh.ray_traverse(part.local(origin, direction, ray.tmax), &mut RayHit::none(), |ray, id| {
+                let t = part.triangles[part.bvh.primitive_indices[id] as usize].intersect(ray);
+                nearest = nearest.min(t);
+                t
+            });
+            if nearest < ray.tmax {
+                first = Some((part.body, nearest));
+            }
+            nearest
+        });
+        first.map(|(body, distance)| (body, f64::from(distance)))
+    }
+
     /// The same by asking every triangle: what the hierarchies are measured against.
+    pub fn first_by_each(&self, origin: DVec3, direction: DVec3) -> Option<(Option<usize>, f64)> {
+        let each = self.parts.iter().flat_map(|part| {
+            let ray = part.local(origin, direction, f32::INFINITY);
+            part.triangles.iter().map(move |triangle| (part.body, triangle.intersect(&ray)))
+        });
+        let nearest = each.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, t)| t.is_finite());
+        nearest.map(|(body, t)| (body, f64::from(t)))
+    }
+
+    /// [`Self::block`] by asking every triangle.
     pub fn block_by_each(&self, origin: DVec3, direction: DVec3, far: f64) -> bool {
         self.parts.iter().any(|part| {
             let ray = part.local(origin, direction, far as f32);

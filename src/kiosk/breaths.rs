@@ -5,7 +5,6 @@
 
 use std::fmt;
 
-use super::stage::Controls;
 use crate::simulation::{BreathView, STEPS_PER_SECOND};
 
 /// Where a breath came from.
@@ -47,12 +46,12 @@ pub struct Breaths {
 }
 
 impl Breaths {
-    /// Takes notice of a step and what blew in it; what began or ended.
+    /// Takes notice of a step and what blew in it (a hold, and how hard a controller); what began or ended.
     pub fn note(
         &mut self,
         step: u64,
         breath: &BreathView,
-        controls: &Controls,
+        (hold, strength): (bool, f64),
         attracts: bool,
     ) -> impl Iterator<Item = Turn> {
         let from_microphone = breath.estimate.speed;
@@ -60,8 +59,8 @@ impl Breaths {
             let lasts = self.running[i].is_some();
             let speed = match SOURCES[i] {
                 Source::Microphone => from_microphone,
-                Source::Hold if controls.hold || lasts && breath.speed > from_microphone => breath.speed,
-                Source::Controller if controls.strength > 0.0 => breath.speed,
+                Source::Hold if hold || lasts && breath.speed > from_microphone => breath.speed,
+                Source::Controller if strength > 0.0 => breath.speed,
                 Source::Script if attracts => breath.speed,
                 Source::Hold | Source::Controller | Source::Script => 0.0,
             };
@@ -120,10 +119,8 @@ mod tests {
     #[test]
     fn each_source_begins_and_ends_by_itself() {
         let mut breaths = Breaths::default();
-        let mut turns = |step, view: BreathView, hold| {
-            let controls = Controls { hold, ..Controls::default() };
-            breaths.note(step, &view, &controls, false).collect::<Vec<_>>()
-        };
+        let mut turns =
+            |step, view: BreathView, hold| breaths.note(step, &view, (hold, 0.0), false).collect::<Vec<_>>();
         assert_eq!(turns(0, view(0.0, 0.0), false), []);
         assert_eq!(turns(1, view(9.0, 0.0), true), [Turn::Begins(Source::Hold, 9.0)]);
         // The microphone answers in the middle of the hold.
@@ -138,10 +135,10 @@ mod tests {
     #[test]
     fn the_script_is_no_visitor() {
         let mut breaths = Breaths::default();
-        let begins: Vec<_> = breaths.note(0, &view(3.0, 0.0), &Controls::default(), true).collect();
+        let begins: Vec<_> = breaths.note(0, &view(3.0, 0.0), (false, 0.0), true).collect();
         assert_eq!(begins, [Turn::Begins(Source::Script, 3.0)]);
         // A visitor's breath ends the show within the step.
-        let both: Vec<_> = breaths.note(1, &view(4.0, 4.0), &Controls::default(), false).collect();
+        let both: Vec<_> = breaths.note(1, &view(4.0, 4.0), (false, 0.0), false).collect();
         assert_eq!(both[0], Turn::Begins(Source::Microphone, 4.0));
         assert!(matches!(both[1], Turn::Ends { source: Source::Script, .. }), "{both:?}");
     }

@@ -1,14 +1,19 @@
 //! What a visitor does with pointer, touch and keys, as what the simulation and the overlay are told.
 //!
-//! One action, many ways to do it: aim with pointer, finger or arrow keys; blow by holding button, finger or a key. The
-//! place where a pointer happens to lie when the window opens is nobody's aim: it counts once it has moved.
+//! One action, many ways to do it: aim with pointer, finger or arrow keys; blow by holding button, finger or a key; take
+//! the sculpture by pulling button or finger (`gesture` tells one from the other). The place where a pointer happens to
+//! lie when the window opens is nobody's aim: it counts once it has moved.
 //!
-//! Invariant: whatever holds a blow lets go of it at the latest when the window loses the focus.
+//! Invariant: whatever is held is let go at the latest when the window loses the focus.
 
+use super::gesture::Press;
 use crate::config::Chord;
 
 /// How far a pointer must move before it aims, in picture heights or widths.
 const FIRST_MOVE: f64 = 0.01;
+
+/// Where a pointer is that was never seen.
+const CENTRE: [f64; 2] = [0.5, 0.5];
 
 /// What the window reports. Positions are picture coordinates, (0,0) top left, (1,1) bottom right.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +92,12 @@ pub struct Visitor {
     lies: Option<[f64; 2]>,
     /// Where it lay when it did not aim yet.
     resting: Option<[f64; 2]>,
-    button: bool,
+    /// The finger that aims.
     finger: Option<u64>,
+    /// What is down: by finger, or by the pointer's button.
+    presses: Vec<(Option<u64>, Press)>,
+    /// Presses so far.
+    pressed: u64,
     key: bool,
     /// Arrow keys held: left, right, up, down.
     arrows: [bool; 4],
@@ -121,7 +130,7 @@ impl Visitor {
         match signal {
             Signal::Pointer(at) => self.pointer(*at),
             Signal::Button(down) => {
-                self.button = *down;
+                self.press(None, self.lies.unwrap_or(CENTRE), *down);
                 self.activity += 1;
             }
             Signal::Touch { finger, at, phase } => self.touch(*finger, *at, *phase),
@@ -130,7 +139,8 @@ impl Visitor {
                 return self.key(key, keys, windowed);
             }
             Signal::Deserted => {
-                (self.button, self.finger, self.key, self.arrows) = (false, None, false, [false; 4]);
+                (self.finger, self.key, self.arrows) = (None, false, [false; 4]);
+                self.presses.clear();
             }
         }
         None
@@ -141,9 +151,14 @@ impl Visitor {
         self.aim
     }
 
-    /// Is a blow held?
-    pub fn holds(&self) -> bool {
-        self.button || self.finger.is_some() || self.key
+    /// Is the key held that blows?
+    pub fn holds_key(&self) -> bool {
+        self.key
+    }
+
+    /// The button and the fingers that are down, in the order in which they came.
+    pub fn presses(&self) -> impl Iterator<Item = Press> {
+        self.presses.iter().map(|(_, press)| *press)
     }
 
     /// Where the arrow keys push the aim, right and down, −1, 0 or 1 each.
@@ -173,11 +188,26 @@ impl Visitor {
 
     /// Nobody is there any more: the next visitor starts from the centre.
     pub fn leave(&mut self) {
-        *self = Self { lies: self.lies, resting: self.lies, activity: self.activity, ..Self::default() };
+        let (lies, activity, pressed) = (self.lies, self.activity, self.pressed);
+        *self = Self { lies, resting: lies, activity, pressed, ..Self::default() };
+    }
+
+    /// A button (`None`) or finger goes down or up.
+    fn press(&mut self, by: Option<u64>, at: [f64; 2], down: bool) {
+        self.presses.retain(|(other, _)| *other != by);
+        if down {
+            self.pressed += 1;
+            self.presses.push((by, Press { id: self.pressed, at: clamp(at) }));
+        }
+    }
+
+    fn slide(&mut self, by: Option<u64>, at: [f64; 2]) {
+        self.presses.iter_mut().filter(|(other, _)| *other == by).for_each(|(_, press)| press.at = clamp(at));
     }
 
     fn pointer(&mut self, at: [f64; 2]) {
         self.lies = Some(at);
+        self.slide(None, at);
         let rest = *self.resting.get_or_insert(at);
         let moved = (at[0] - rest[0]).abs().max((at[1] - rest[1]).abs());
         if self.aim.is_some() || moved > FIRST_MOVE {
@@ -186,9 +216,13 @@ impl Visitor {
         }
     }
 
-    /// The first finger aims and blows; others do nothing.
+    /// The first finger aims; each one presses.
     fn touch(&mut self, finger: u64, at: [f64; 2], phase: Phase) {
         self.activity += 1;
+        match phase {
+            Phase::Move => self.slide(Some(finger), at),
+            Phase::Down | Phase::Up => self.press(Some(finger), at, phase == Phase::Down),
+        }
         match (self.finger, phase) {
             (None, Phase::Down) => (self.finger, self.aim) = (Some(finger), Some(clamp(at))),
             (Some(first), Phase::Move) if first == finger => self.aim = Some(clamp(at)),

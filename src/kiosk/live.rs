@@ -11,16 +11,19 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
+use cpu_time::ThreadTime;
+
 use crate::audio_io::{AudioIo, AudioStatus, DeviceState, Heard};
 use crate::config::{AudioSettings, ControllerSettings, Hours};
 use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
-use crate::simulation::{STEPS_PER_SECOND, Settings, Snapshot};
+use crate::simulation::{MotionMode, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{RoomSpec, SoundCommand, Synth, VolumeSettings};
 
 use super::breaths::{Breaths, Turn};
+use super::governor::Governor;
 use super::loudness::{Loudness, View, Wishes};
 use super::metrics::Metrics;
 use super::microphone::MicrophoneHealth;
@@ -102,6 +105,10 @@ pub struct Load {
     pub audio: AudioStatus,
     /// How loud it is.
     pub loudness: View,
+    /// What moves the exhibit.
+    pub mode: MotionMode,
+    /// Changes between motion by the laws and by places so far.
+    pub mode_changes: u64,
     /// What the controllers say, by kind.
     pub controllers: Vec<(&'static str, State)>,
 }
@@ -245,6 +252,7 @@ struct Thread {
     /// The step that was published last.
     published: u64,
     load: Load,
+    governor: Governor,
 }
 
 impl Thread {
@@ -274,6 +282,7 @@ impl Thread {
             onset: None,
             published: 0,
             load: Load::default(),
+            governor: Governor::new(options.exhibit.motion),
         }
     }
 
@@ -324,13 +333,17 @@ impl Thread {
         for i in 0..due {
             self.previous.clone_from(self.stage.snapshot());
             let microphone = rate.map(|sample_rate| self.heard.share(i, due, sample_rate));
+            controls.mode = self.governor.mode();
+            let worked = ThreadTime::now();
             self.stage.step(&controls, microphone);
+            self.govern(worked.elapsed().as_secs_f64());
             controls.commands.clear();
             self.sounds.extend_from_slice(self.stage.sounds());
             self.write_trace()?;
             self.load.microphone.note(rate.is_some(), &self.stage.snapshot().breath.estimate);
             let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
-            for turn in self.breaths.note(step, breath, &controls, self.stage.attracts()) {
+            for turn in self.breaths.note(step, breath, (self.stage.holds(), controls.strength), self.stage.attracts())
+            {
                 if matches!(turn, Turn::Begins(..)) {
                     self.onset = Some(Onset { step: self.stage.snapshot().step, at: Instant::now() });
                 }
@@ -344,9 +357,20 @@ impl Thread {
         Ok(rate.is_some() && !self.load.microphone.is_silent() || self.recorded)
     }
 
+    /// Looks whether the laws can go on.
+    fn govern(&mut self, cost: f64) {
+        if self.governor.note(cost) {
+            self.load.mode_changes += 1;
+            let mode = self.governor.mode().unwrap_or_default().name();
+            let t = self.stage.steps() as f64 / STEPS_PER_SECOND as f64;
+            tracing::info!("{t:.3} s: moved by {mode} from here (a step took {:.3} ms)", 1e3 * cost);
+        }
+    }
+
     /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
         self.audio.set_instruments(self.voice.synth(&exhibit));
+        self.governor = Governor::new(exhibit.motion);
         self.stage.swap(exhibit);
         self.onset = None;
         if let Some(trace) = self.trace.take() {
@@ -367,6 +391,7 @@ impl Thread {
     fn publish(&mut self, due: Instant, hears: bool) {
         self.load.audio = self.audio.status();
         self.load.loudness = self.loudness.view();
+        self.load.mode = self.stage.snapshot().diagnostics.mode;
         self.metrics.tend(&self.load);
         self.load.controllers.clear();
         self.load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use super::live::Load;
 use crate::audio_io::DeviceState;
 use crate::offline::whole_file::WholeFile;
+use crate::simulation::MotionMode;
 
 /// Between two files.
 const EVERY: Duration = Duration::from_secs(15);
@@ -77,6 +78,9 @@ pub fn text(load: &Load) -> String {
     let (audio, loud) = (&load.audio, &load.loudness);
     number("soffio_up", "gauge", "1 while the kiosk runs", 1.0);
     number("soffio_step_seconds", "gauge", "Mean time of a simulation step lately", load.step_s);
+    let by_places = load.mode != MotionMode::Dynamic;
+    number("soffio_moved_by_places", "gauge", "0 by the laws, 1 by places", f64::from(u8::from(by_places)));
+    number("soffio_motion_changes_total", "counter", "Changes between the two", load.mode_changes as f64);
     number("soffio_steps_dropped_total", "counter", "Steps of time that were dropped", load.dropped as f64);
     number("soffio_audio_xruns_total", "counter", "Gaps of microphone and loudspeaker", audio.xruns as f64);
     number("soffio_loudspeaker_openings_total", "counter", "Times a loudspeaker was opened", audio.openings as f64);

@@ -8,6 +8,8 @@ pub mod attract;
 pub mod breaths;
 pub mod events;
 pub mod fonts;
+pub mod gesture;
+pub mod governor;
 pub mod input;
 pub mod live;
 pub mod loudness;

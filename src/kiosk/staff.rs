@@ -10,6 +10,7 @@ use egui::{Align2, Color32, Grid, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use super::live::Frame;
 use super::loudness::NightBy;
 use crate::controllers::State;
+use crate::simulation::MotionMode;
 use crate::wind::blow::BlowEstimate;
 
 /// Messages that are kept.
@@ -177,6 +178,9 @@ fn numbers(ui: &mut Ui, frame: &Frame, vitals: &Vitals) {
         row("impacts", state.impacts.to_string(), false);
         row("faults", state.faults.to_string(), state.faults > 0);
         row("step", format!("{:.3} ms of 4.167", 1e3 * frame.load.step_s), frame.load.step_s > 1.0 / 240.0);
+        let changes = frame.load.mode_changes;
+        row("moved by", format!("{}, {changes} changes", state.mode.name()), state.mode != MotionMode::Dynamic);
+        row("hands", state.hands.to_string(), false);
         row("steps dropped", frame.load.dropped.to_string(), false);
         row("picture", format!("{:.1} ms, {}x{}", 1e3 * vitals.frame_s, vitals.size[0], vitals.size[1]), false);
         row("wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);

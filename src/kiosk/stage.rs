@@ -8,10 +8,11 @@ use std::sync::Arc;
 
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
-use crate::simulation::{Command, Microphone, SAMPLES_PER_STEP, Settings, Simulation, Snapshot, StepInput};
+use crate::simulation::{Command, Microphone, MotionMode, SAMPLES_PER_STEP, Settings, Simulation, Snapshot, StepInput};
 use crate::sound::SoundCommand;
 
 use super::attract::Attract;
+use super::gesture::{Gestures, Press};
 use super::loudness::Wishes;
 use super::pointing::Pointing;
 
@@ -24,14 +25,18 @@ pub struct Controls {
     pub named: Option<([f64; 2], u64)>,
     /// Where a stick or the arrow keys point, right and down, −1 … 1 each, times their speed, picture heights/s.
     pub stick: [f64; 2],
-    /// Is a blow held?
+    /// Is a blow held by a key, a switch or a controller?
     pub hold: bool,
+    /// The pointer's button and the fingers that are down: each of them blows, or takes the sculpture by the hand.
+    pub presses: Vec<Press>,
     /// How hard a breath controller is blown, 0 … 1.
     pub strength: f64,
     /// Width over height of the picture.
     pub aspect: f64,
     /// Inputs so far.
     pub activity: u64,
+    /// What moves the exhibit; `None` is its own choice.
+    pub mode: Option<MotionMode>,
     /// What is asked of the loudness and not yet done.
     pub loudness: Wishes,
     /// Commands not yet carried out.
@@ -49,6 +54,8 @@ pub struct Stage {
     idle_s: f64,
     activity: u64,
     pointing: Pointing,
+    gestures: Gestures,
+    holds: bool,
     snapshot: Snapshot,
 }
 
@@ -67,6 +74,8 @@ impl Stage {
             idle_s: idle_s.unwrap_or_default(),
             activity: 0,
             pointing: Pointing::default(),
+            gestures: Gestures::default(),
+            holds: false,
             snapshot,
         }
     }
@@ -75,10 +84,15 @@ impl Stage {
     pub fn step(&mut self, controls: &Controls, microphone: Option<Microphone>) {
         // The detector's word of the step before: a breath is an input like any other.
         let breathing = self.snapshot.breath.estimate.speed > 0.0;
-        let visitor = breathing || controls.hold || controls.activity != self.activity;
+        let pressed = controls.hold || !controls.presses.is_empty();
+        let visitor = breathing || pressed || controls.activity != self.activity;
         self.activity = controls.activity;
         let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
         cue.commands.extend_from_slice(&controls.commands);
+        let simulation = &mut self.simulation;
+        let takeable = |at| simulation.can_be_taken(at, controls.aspect);
+        let blows = self.gestures.step(&controls.presses, controls.aspect, takeable);
+        self.holds = controls.hold || blows.is_some();
         let aim = self.pointing.step(controls);
         if cue.active {
             self.pointing.forget();
@@ -86,9 +100,11 @@ impl Stage {
 
         self.simulation.step(&StepInput {
             microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
-            hold: controls.hold,
+            hold: self.holds,
+            hands: self.gestures.hands(),
+            mode: controls.mode,
             strength: controls.strength,
-            pointer: if cue.active { cue.aim } else { aim },
+            pointer: if cue.active { cue.aim } else { blows.or(aim) },
             aspect: controls.aspect,
             commands: &cue.commands,
             ..StepInput::default()
@@ -117,6 +133,11 @@ impl Stage {
     /// The exhibit on show.
     pub fn exhibit(&self) -> &Arc<Exhibit> {
         self.simulation.exhibit()
+    }
+
+    /// Did a press, a key or a switch blow in the last step?
+    pub fn holds(&self) -> bool {
+        self.holds
     }
 
     /// Sounds of the last step.

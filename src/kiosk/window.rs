@@ -430,7 +430,9 @@ impl App<'_> {
         let mut controls = show.live.controls();
         controls.aim = self.visitor.aim();
         controls.stick = self.visitor.stick().map(|tilt| tilt * self.config.controllers.stick_speed);
-        controls.hold = self.visitor.holds();
+        controls.hold = self.visitor.holds_key();
+        controls.presses.clear();
+        controls.presses.extend(self.visitor.presses());
         controls.activity = self.visitor.activity();
     }
 

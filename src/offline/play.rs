@@ -28,7 +28,7 @@ pub struct Play {
     /// What a visitor does over time.
     pub script: Option<Script>,
     /// What moves the figure where the script says nothing.
-    pub mode: MotionMode,
+    pub mode: Option<MotionMode>,
     /// Length, s.
     pub seconds: f64,
     /// Width over height of the picture that the pointer lies in.
@@ -117,7 +117,7 @@ pub fn run(
     let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;
     let mut events = events.map(|path| EventWriter::create(&path, exhibit)).transpose()?;
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
-    let mut commands = Vec::new();
+    let (mut commands, mut hands) = (Vec::new(), Vec::new());
     let mut worst: f64 = 0.0;
     let mut frame = 0;
     let (mut before, mut switches) = (mode, 0);
@@ -137,12 +137,14 @@ pub fn run(
         commands.clear();
         if let Some(script) = &mut script {
             script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
+            script.hands(&simulation, aspect, &mut hands);
         }
-        let now = script.as_ref().and_then(Script::mode).unwrap_or(mode);
+        let now = script.as_ref().and_then(Script::mode).or(mode);
         switches += u64::from(step > 0 && now != before);
         before = now;
         simulation.step(&StepInput {
             mode: now,
+            hands: &hands,
             microphone: breath.as_mut().map(WavFeed::microphone),
             pointer: script.as_ref().and_then(Script::aim).or(aim),
             aspect,

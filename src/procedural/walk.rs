@@ -76,7 +76,7 @@ impl Walks {
         let joints = system.joints().len();
         Self {
             walks: Vec::with_capacity(joints + grips + bodies),
-            visits: Vec::with_capacity(4 * bodies),
+            visits: Vec::with_capacity((4 + grips) * bodies),
             loops: Vec::with_capacity(joints),
             acts: vec![false; joints],
             used: vec![false; joints],

@@ -7,6 +7,7 @@
 mod aim;
 mod contact_sound;
 mod event;
+mod hands;
 mod merge;
 mod motes;
 mod script;
@@ -20,9 +21,9 @@ use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
 use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
-use crate::exhibit::{Exhibit, View};
+use crate::exhibit::{Exhibit, Motion, View};
 use crate::math::{DVec3, StateHash};
-use crate::procedural::{self, Grip, Method, Procedural, Reach};
+use crate::procedural::{self, Method, Procedural, Reach};
 use crate::sound::SoundCommand;
 use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
@@ -33,6 +34,8 @@ use crate::wind::front::Front;
 use aim::{Aim, AimTarget};
 use contact_sound::{ContactSound, Scene};
 pub use event::{Event, EventKind, Part};
+pub use hands::Hand;
+use hands::Hands;
 use motes::Motes;
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
@@ -49,6 +52,9 @@ pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
+
+/// Width of the ring that shows a hand, picture heights.
+const HAND_RING: f64 = 0.04;
 
 /// Source speed that fills the breath meter, m/s: a strong breath.
 const FULL_METER: f64 = 16.0;
@@ -165,10 +171,10 @@ pub struct StepInput<'a> {
     pub aspect: f64,
     /// Commands, carried out in order before the step.
     pub commands: &'a [Command],
-    /// What moves the figure in this step.
-    pub mode: MotionMode,
-    /// Hands on bodies, where the figure is moved by places; the laws leave them alone.
-    pub grips: &'a [Grip],
+    /// What moves the figure in this step; `None` is the exhibit's own choice.
+    pub mode: Option<MotionMode>,
+    /// Pointers and fingers that are down on the sculpture.
+    pub hands: &'a [Hand],
 }
 
 /// What moves the figure.
@@ -184,6 +190,15 @@ pub enum MotionMode {
 }
 
 impl MotionMode {
+    /// What an exhibit is moved by where nothing presses.
+    pub fn of(exhibit: &Exhibit) -> Self {
+        match exhibit.motion {
+            Motion::Laws | Motion::Auto { .. } => Self::Dynamic,
+            Motion::Places(Method::Compulsive) => Self::Procedural,
+            Motion::Places(Method::TreeSolve) => Self::PositionBased,
+        }
+    }
+
     /// Its name on the command line and in scripts.
     pub fn name(self) -> &'static str {
         match self {
@@ -218,6 +233,8 @@ pub struct Simulation {
     wind: WindField,
     dynamics: Dynamics,
     procedural: Procedural,
+    hands: Hands,
+    mode: MotionMode,
     motes: Motes,
     wrenches: Vec<Vec6>,
     impacts: Vec<Impact>,
@@ -248,9 +265,12 @@ impl Simulation {
                 exhibit.bodies.len(),
                 settings.seed,
             ),
+            hands: Hands::new(&exhibit),
+            mode: MotionMode::of(&exhibit),
             motes: Motes::new(view.target, settings.seed),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
+            aim_targets: Vec::with_capacity(exhibit.wind_surfaces.len()),
             contact_sound: ContactSound::new(&exhibit),
             wires: Wires::new(&exhibit),
             exhibit,
@@ -259,7 +279,6 @@ impl Simulation {
             start_step: 0,
             source: BreathSource::new(settings.sensitivity_db),
             aim: Aim::default(),
-            aim_targets: Vec::new(),
             front: Front::default(),
             impacts: Vec::with_capacity(LISTED),
             events: Vec::with_capacity(LISTED),
@@ -286,16 +305,21 @@ impl Simulation {
         self.blow();
         self.impacts.clear();
         self.dynamics.breathe(self.speed);
-        self.advance(input.mode, input.grips);
+        self.advance(input);
         self.tell(mended.or(self.dynamics.fault()));
         self.drift();
         self.step += 1;
     }
 
     /// Moves the figure.
-    fn advance(&mut self, mode: MotionMode, grips: &[Grip]) {
-        let method = match mode {
+    fn advance(&mut self, input: &StepInput) {
+        let view = (&self.view.1, self.view.0);
+        let driven = self.dynamics.system().driven();
+        self.hands.follow(input.hands, view, &mut self.wind, (&self.exhibit, &self.dynamics.bodies, driven));
+        self.mode = input.mode.unwrap_or(MotionMode::of(&self.exhibit));
+        let method = match self.mode {
             MotionMode::Dynamic => {
+                self.hands.pull(&mut self.dynamics, DT, &mut self.wrenches);
                 self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
                 return;
             }
@@ -303,6 +327,7 @@ impl Simulation {
             MotionMode::PositionBased => Method::TreeSolve,
         };
         self.procedural.settings_mut().method = method;
+        let grips = self.hands.grips(&self.dynamics.bodies, DT);
         self.procedural.step(&mut self.dynamics, DT, &self.wrenches, grips, &mut self.impacts);
     }
 
@@ -319,6 +344,7 @@ impl Simulation {
                     self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
                     self.start_step = self.step;
                     self.front.clear();
+                    self.hands.clear();
                     let sample = self.step * SAMPLES_PER_STEP;
                     self.contact_sound.reset(sample, &mut self.sounds);
                     self.sounds.push(SoundCommand::Silence { sample });
@@ -436,6 +462,14 @@ impl Simulation {
         &self.dynamics.bodies
     }
 
+    /// Would a hand at this place of the picture take something?
+    pub fn can_be_taken(&mut self, at: [f64; 2], aspect: f64) -> bool {
+        let aspect = if aspect > 0.0 { aspect } else { DEFAULT_ASPECT };
+        let view = self.exhibit.view(aspect);
+        let driven = self.dynamics.system().driven();
+        self.hands.would_take(at, (&view, aspect), &mut self.wind, (&self.exhibit, &self.dynamics.bodies, driven))
+    }
+
     /// The bodies' state, for tests that push a sculpture by hand.
     pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
         self.dynamics.disturb();
@@ -474,12 +508,20 @@ impl Simulation {
                 faults: self.fault_count,
                 substeps: self.dynamics.substeps(),
                 wind_force: self.report.force,
+                mode: self.mode,
+                hands: self.hands.count(),
             },
         }
     }
 
-    /// The breath's own width where it is aimed.
+    /// The breath's own width where it is aimed, or a fingertip where a hand holds.
     fn aim_ring(&self) -> AimRing {
+        let view = &self.view.1;
+        if let Some(center) = self.hands.first(&self.dynamics.bodies) {
+            let forward = view.axes().2;
+            let radius = 0.5 * HAND_RING * view.height_at((center - view.eye).dot(forward));
+            return AimRing { center, axis: forward, radius };
+        }
         let breath = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
         let radius = breath.half_width(self.aim.target.distance(self.aim.mouth));
         AimRing { center: self.aim.target, axis: self.aim.direction, radius }

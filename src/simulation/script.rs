@@ -6,13 +6,18 @@
 //! {"t": 4.0, "blow": {"strength": 0.6, "attack": 0.1, "hold": 0.8, "release": 0.3}}
 //! {"t": 9.0, "reset": true}
 //! {"t": 9.5, "solver": "procedural"}              or "dynamics", "position-based", "auto" (the run's own): from then on
+//! {"t": 10.0, "grab": {"at": [0.4, 0.6]}}                              or {"body": "Fish"}, by its centre of mass
+//! {"t": 10.5, "drag": [0.7, 0.5]}                                      at once; the body follows as a hand lets it
+//! {"t": 11.0, "release": true}
 //! ```
 //!
-//! A script knows no file and no clock: it is asked once per step for what is due.
+//! Several hands have numbers: `"hand": 1` beside `grab`, `drag` and `release`; without, it is hand 0. A script knows no
+//! file and no clock: it is asked once per step for what is due.
 
 use serde::Deserialize;
 
-use super::{Command, MotionMode};
+use super::{Command, Hand, MotionMode, Simulation};
+use crate::exhibit::Exhibit;
 
 /// Source speed of strength 1, m/s: a hard blow, 180 L/min through lips of 15 mm.
 const FULL_SPEED: f64 = 17.0;
@@ -35,6 +40,11 @@ struct Line {
     blow: Option<Blow>,
     reset: Option<bool>,
     solver: Option<String>,
+    grab: Option<Grab>,
+    drag: Option<[f64; 2]>,
+    release: Option<bool>,
+    #[serde(default)]
+    hand: u64,
     language: Option<String>,
 }
 
@@ -43,6 +53,27 @@ struct Line {
 enum Blow {
     Speed(f64),
     Envelope(Envelope),
+}
+
+/// What a hand takes.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, rename_all = "lowercase")]
+enum Grab {
+    /// What lies under this place of the picture.
+    At([f64; 2]),
+    /// A body by its name.
+    Body(String),
+}
+
+/// A hand that is down.
+#[derive(Clone, Debug)]
+struct Down {
+    hand: u64,
+    /// Whoever takes again is somebody else.
+    id: u64,
+    /// `None` until the body's place is known.
+    at: Option<[f64; 2]>,
+    body: Option<String>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
@@ -81,20 +112,28 @@ impl Envelope {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Action {
     Aim([f64; 2]),
     Speed(f64),
     Envelope(Envelope),
     Reset,
     Solver(Option<MotionMode>),
+    Grab(u64, Grab),
+    Drag(u64, [f64; 2]),
+    Release(u64),
 }
 
 /// A visitor's doings over time.
 #[derive(Clone, Debug, Default)]
 pub struct Script {
     actions: Vec<(f64, Action)>,
+    /// Line of each body that is taken by its name.
+    named: Vec<(usize, String)>,
     next: usize,
+    down: Vec<Down>,
+    /// Grabs so far.
+    taken: u64,
     aim: Option<[f64; 2]>,
     envelope: Option<(f64, Envelope)>,
     mode: Option<MotionMode>,
@@ -104,6 +143,7 @@ impl Script {
     /// Reads a script.
     pub fn parse(text: &str) -> Result<Self, ScriptError> {
         let mut actions: Vec<(f64, Action)> = Vec::new();
+        let mut named = Vec::new();
         for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
             let fail = |problem: String| ScriptError { line: index + 1, problem };
             let line: Line = serde_json::from_str(text).map_err(|error| fail(reason(&error)))?;
@@ -118,9 +158,20 @@ impl Script {
                 let mode = mode.map_err(|problem: String| fail(format!("{problem}, auto")))?;
                 actions.push((line.t, Action::Solver(mode)));
             }
-            if let Some([x, y]) = line.aim.filter(|aim| !aim.iter().all(|v| (0.0..=1.0).contains(v))) {
-                return Err(fail(format!("the aim [{x}, {y}] is outside the picture; give two numbers from 0 to 1")));
+            let grabbed = line.grab.iter().find_map(|grab| if let Grab::At(at) = grab { Some(*at) } else { None });
+            for (what, place) in [("aim", line.aim), ("grab", grabbed), ("drag", line.drag)] {
+                if let Some([x, y]) = place.filter(|at| !at.iter().all(|v| (0.0..=1.0).contains(v))) {
+                    return Err(fail(format!(
+                        "the {what} [{x}, {y}] is outside the picture; give two numbers from 0 to 1"
+                    )));
+                }
             }
+            if let Some(Grab::Body(name)) = &line.grab {
+                named.push((index + 1, name.clone()));
+            }
+            actions.extend(line.grab.map(|grab| (line.t, Action::Grab(line.hand, grab))));
+            actions.extend(line.drag.map(|at| (line.t, Action::Drag(line.hand, at))));
+            actions.extend((line.release == Some(true)).then_some((line.t, Action::Release(line.hand))));
             // The language changes words only, and an offline run shows none.
             let _ = line.language;
             actions.extend(line.aim.map(|at| (line.t, Action::Aim(at))));
@@ -142,7 +193,30 @@ impl Script {
                 actions.push((line.t, Action::Reset));
             }
         }
-        Ok(Self { actions, ..Self::default() })
+        Ok(Self { actions, named, ..Self::default() })
+    }
+
+    /// Says which line takes a body that the exhibit has not.
+    pub fn fits(&self, exhibit: &Exhibit) -> Result<(), ScriptError> {
+        let known = |name: &String| exhibit.bodies.iter().any(|body| body.name == *name);
+        let Some((line, name)) = self.named.iter().find(|(_, name)| !known(name)) else { return Ok(()) };
+        let all: Vec<&str> = exhibit.bodies.iter().map(|body| body.name.as_str()).collect();
+        let problem = format!("{} has no body \"{name}\"; it has: {}", exhibit.id, all.join(", "));
+        Err(ScriptError { line: *line, problem })
+    }
+
+    /// The hands that are down, for the simulation's next step. Bodies that it does not have are not taken.
+    pub fn hands(&mut self, simulation: &Simulation, aspect: f64, out: &mut Vec<Hand>) {
+        out.clear();
+        for down in &mut self.down {
+            let exhibit = simulation.exhibit();
+            let body = down.body.as_ref().map(|name| exhibit.bodies.iter().position(|body| body.name == *name));
+            let Some(body) = body.map_or(Some(None), |body| body.map(Some)) else { continue };
+            let centre =
+                body.and_then(|body| simulation.view(aspect).project(simulation.bodies()[body].position, aspect));
+            let at = *down.at.get_or_insert(centre.unwrap_or([0.5, 0.5]));
+            out.push(Hand { id: down.id, at, body });
+        }
     }
 
     /// When the last action begins, s.
@@ -162,9 +236,22 @@ impl Script {
 
     /// Puts the commands due at `t` seconds into `out`.
     pub fn due(&mut self, t: f64, out: &mut Vec<Command>) {
-        while let Some(&(at, action)) = self.actions.get(self.next).filter(|(at, _)| *at <= t) {
+        while let Some((at, action)) = self.actions.get(self.next).filter(|(at, _)| *at <= t).cloned() {
             self.next += 1;
             match action {
+                Action::Grab(hand, grab) => {
+                    self.down.retain(|down| down.hand != hand);
+                    self.taken += 1;
+                    let (at, body) = match grab {
+                        Grab::At(at) => (Some(at), None),
+                        Grab::Body(name) => (None, Some(name)),
+                    };
+                    self.down.push(Down { hand, id: self.taken, at, body });
+                }
+                Action::Drag(hand, at) => {
+                    self.down.iter_mut().filter(|down| down.hand == hand).for_each(|down| down.at = Some(at));
+                }
+                Action::Release(hand) => self.down.retain(|down| down.hand != hand),
                 Action::Aim(aim) => self.aim = Some(aim),
                 Action::Reset => out.push(Command::Reset),
                 Action::Solver(mode) => self.mode = mode,

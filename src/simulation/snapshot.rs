@@ -1,5 +1,6 @@
 //! What a picture, a trace and a panel need to know of one moment.
 
+use super::MotionMode;
 use crate::math::{DVec3, Pose};
 use crate::wind::blow::BlowEstimate;
 
@@ -33,7 +34,7 @@ pub struct BreathView {
     pub meter: f64,
 }
 
-/// A circle of air, as wide as the breath is where it meets the sculpture.
+/// A circle of air, as wide as the breath is where it meets the sculpture; a small one where a hand holds it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AimRing {
     /// World, m.
@@ -59,6 +60,10 @@ pub struct Diagnostics {
     pub substeps: u32,
     /// Sum of the wind's forces, N.
     pub wind_force: DVec3,
+    /// What moved the figure in the last step.
+    pub mode: MotionMode,
+    /// Hands that hold something.
+    pub hands: usize,
 }
 
 /// One moment of a simulation.

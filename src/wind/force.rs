@@ -34,7 +34,7 @@ use super::front::Front;
 use super::patches::{Face, Patch, split};
 use super::weather::{Upwind, Weather, Wind};
 use super::{Shelter, Surface};
-use crate::articulation::block::{Vec6, vec6};
+use crate::articulation::block::{Vec6, add_wrench};
 use crate::articulation::spatial::matrix;
 use crate::bodies::RigidBody;
 use crate::geometry::rays::{Hint, Occluders};
@@ -340,6 +340,12 @@ impl WindField {
         self.feelers.iter().map(|feeler| feeler.patches.len()).sum()
     }
 
+    /// What shelters them, where the bodies are.
+    pub fn occluders_at(&mut self, bodies: &[RigidBody]) -> &Occluders {
+        self.occluders.refit(|body| bodies[body].pose());
+        &self.occluders
+    }
+
     /// What shelters them, as it stood in the last step.
     pub fn occluders(&self) -> &Occluders {
         &self.occluders
@@ -369,11 +375,4 @@ fn open(occluders: &Occluders, hint: &Cell<Hint>, face: Face, point: DVec3, axis
         _ => (toward, FAR),
     };
     !occluders.block(start, direction, far, hint)
-}
-
-fn add_wrench(sum: &mut Vec6, arm: DVec3, force: DVec3) {
-    let wrench = vec6(force, arm.cross(force));
-    for k in 0..6 {
-        sum[k] += wrench[k];
-    }
 }

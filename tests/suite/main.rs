@@ -11,6 +11,7 @@ mod escapement;
 mod exhibit;
 mod exhibits_in_motion;
 mod forge;
+mod hands;
 mod hits;
 mod kiosk;
 mod loudness;

@@ -125,7 +125,9 @@ fn multiply_adds(level: Level) -> f64 {
     fn turn<S: Simd>(simd: S, rounds: usize) -> f32 {
         let factor = f32x16::splat(simd, black_box(0.999));
         let step = f32x16::splat(simd, black_box(0.001));
-        let mut sums: [f32x16<S>; 12] = std::array::from_fn(|i| f32x16::splat(simd, i as f32));
+        // No two lanes alike, or the halves of a vector that the processor has not would be one.
+        let mut sums: [f32x16<S>; 12] =
+            std::array::from_fn(|i| std::array::from_fn::<f32, 16, _>(|lane| (16 * i + lane) as f32).simd_into(simd));
         for _ in 0..rounds {
             for sum in &mut sums {
                 *sum = sum.mul_add_precise(factor, step);

@@ -22,9 +22,10 @@ use super::diagnostic::{Diagnostic, Report, quoted};
 use super::model::{Imported, Model, Node, import};
 use super::sidecar::{self, Sidecar, Target};
 use super::source::Source;
-use super::{Exhibit, Material, Origin, SIDECAR, codes, paths, shape};
+use super::{Body, Exhibit, Material, Motion, Origin, SIDECAR, Touch, codes, paths, shape};
 use crate::dynamics::{Drive, Integrator, Solver};
 use crate::math::{DMat4, DVec3, Pose};
+use crate::procedural::Method;
 
 /// Most bytes of a sidecar.
 const MAX_SIDECAR_BYTES: u64 = 4 << 20;
@@ -136,6 +137,8 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         springs: Vec::new(),
         drives: Vec::new(),
         duration: f64::INFINITY,
+        motion: Motion::Laws,
+        touch: Touch { permitted: false, force: 0.0 },
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
         stabilization_time: STABILIZATION_TIME,
@@ -177,6 +180,15 @@ fn typed(source: &Source) -> Result<Sidecar, Vec<Diagnostic>> {
 
 /// Time constant 1/ω₀ of the joints' stabiliser unless the sidecar says otherwise, s.
 const STABILIZATION_TIME: f64 = 0.04;
+
+/// Longest step of motion before an exhibit is moved by places, unless the sidecar says otherwise, s of processor time: two
+/// thirds of what a step lasts.
+const BUDGET: f64 = 2.8e-3;
+/// A hand is this much stronger than all that moves is heavy, unless the sidecar says otherwise: it lifts it, and breaks
+/// nothing that bears more than twice its own load.
+const STRENGTH: f64 = 2.0;
+/// m/s²: what weighs on Earth is as strong a pull where there is no gravity.
+const STANDARD_GRAVITY: f64 = 9.81;
 
 /// What all stages share.
 struct Context<'a> {
@@ -245,6 +257,7 @@ impl<'a> Context<'a> {
         let breath = self.breath_tuning();
         let (instruments, sounds) = self.sounds(&bodies, &colliders, &wires);
         let (integrator, solver, stabilization_time) = self.solver();
+        let touch = self.touch(&bodies);
         let labels = self.labels();
         let attract = self.attract(&labels);
         Exhibit {
@@ -259,6 +272,8 @@ impl<'a> Context<'a> {
             springs,
             drives,
             duration: self.duration(),
+            motion: self.motion(),
+            touch,
             integrator,
             solver,
             stabilization_time,
@@ -309,6 +324,36 @@ impl<'a> Context<'a> {
         self.trace("solver", "method", format!("{solver:?}"), "/solver/method", "default");
         self.trace("solver", "time_constant", format!("{time} s"), place, "default");
         (integrator, solver, time)
+    }
+
+    /// What moves the figure.
+    fn motion(&mut self) -> Motion {
+        let given = &self.sidecar.solver;
+        let budget = given.budget.map_or(BUDGET, |time| time.0);
+        let budget = self.positive(budget, "/solver/budget");
+        let motion = match given.motion {
+            sidecar::MovedBy::Auto => Motion::Auto { budget },
+            sidecar::MovedBy::Dynamics => Motion::Laws,
+            sidecar::MovedBy::Procedural => Motion::Places(Method::Compulsive),
+            sidecar::MovedBy::PositionBased => Motion::Places(Method::TreeSolve),
+        };
+        if given.budget.is_some() && given.motion != sidecar::MovedBy::Auto {
+            let problem = Diagnostic::new(codes::UNUSED, "the budget is for motion = \"auto\" and does nothing here");
+            self.report("/solver/budget", problem);
+        }
+        self.trace("solver", "motion", format!("{motion:?}"), "/solver/motion", "default");
+        motion
+    }
+
+    /// What hands may do.
+    fn touch(&mut self, bodies: &[Body]) -> Touch {
+        let given = self.sidecar.touch;
+        let weight: f64 = bodies.iter().map(|body| body.properties.mass * STANDARD_GRAVITY).sum();
+        let force = given.force.map_or(STRENGTH * weight, |force| force.0);
+        let force = if bodies.is_empty() { force } else { self.positive(force, "/touch/force") };
+        self.trace("touch", "permitted", given.permitted.to_string(), "/touch/permitted", "default");
+        self.trace("touch", "force", format!("{force:.3} N"), "/touch/force", "twice the weight of what moves");
+        Touch { permitted: given.permitted, force }
     }
 
     /// May constraints be open at the start?

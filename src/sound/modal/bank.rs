@@ -266,7 +266,7 @@ impl Bank {
     fn hear<S: Simd>(&mut self, simd: S, contact: usize, rest: usize, heard: &mut [f32]) {
         for (block, heard) in heard.chunks_mut(BLOCK).enumerate() {
             let start = block * BLOCK;
-            let (mut touching, mut free): (Sums, Sums) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 2]);
+            let (mut touching, mut free) = (Sums::silent(simd), Sums::silent(simd));
             for (group, [k, g]) in self.groups.iter().zip(&mut self.hit) {
                 if group.count > 0 && g.iter().flatten().any(|x| *x != 0.0) {
                     if start < contact {
@@ -275,14 +275,14 @@ impl Bank {
                     ring_beside(simd, group, g, &mut free);
                 }
             }
+            let (touching, free) = (touching.samples(), free.samples());
             for (j, y) in heard.iter_mut().enumerate() {
                 let at = start + j;
                 if at < contact {
-                    *y += touching[0][j] + touching[1][j];
+                    *y += touching[j];
                 }
                 if (at < contact) != (at < rest) {
-                    let sign = if at < rest { 1.0 } else { -1.0 };
-                    *y += sign * (free[0][j] + free[1][j]);
+                    *y += if at < rest { free[j] } else { -free[j] };
                 }
             }
         }
@@ -320,37 +320,21 @@ impl Bank {
     pub fn render(&mut self, force: Option<&[f32; BLOCK]>, out: &mut [f32; BLOCK]) {
         let look = self.blocks.is_multiple_of(LOOK);
         self.blocks = self.blocks.wrapping_add(1);
-        let (mut sums, mut leaving): (Sums, Sums) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 2]);
-        let fades = dispatch!(self.level, simd => self.render_in(simd, force, look, &mut sums, &mut leaving));
-        for (j, y) in out.iter_mut().enumerate() {
-            *y += sums[0][j] + sums[1][j];
-        }
-        if fades {
-            for (j, y) in out.iter_mut().enumerate() {
-                *y += (leaving[0][j] + leaving[1][j]) * (1.0 - (j + 1) as f32 / BLOCK as f32);
-            }
-        }
+        dispatch!(self.level, simd => self.render_in(simd, force, look, out));
         if let Some(force) = force {
             respond(force, &self.response, out);
         }
         self.arrive();
     }
 
-    /// Whether a group fades in this block.
     #[inline(always)]
-    fn render_in<S: Simd>(
-        &mut self,
-        simd: S,
-        force: Option<&[f32; BLOCK]>,
-        look: bool,
-        sums: &mut Sums,
-        leaving: &mut Sums,
-    ) -> bool {
+    fn render_in<S: Simd>(&mut self, simd: S, force: Option<&[f32; BLOCK]>, look: bool, out: &mut [f32; BLOCK]) {
+        let (mut sums, mut leaving) = (Sums::silent(simd), Sums::silent(simd));
         let mut fades = false;
         for ((group, life), energy) in self.groups.iter_mut().zip(&mut self.lives).zip(&mut self.energies) {
             if let Some(force) = force {
                 *life = Life::Ringing;
-                ring_driven(simd, group, force, sums);
+                ring_driven(simd, group, force, &mut sums);
                 continue;
             }
             if *life == Life::Silent {
@@ -363,14 +347,21 @@ impl Bank {
                 }
             }
             if *life == Life::Ringing {
-                ring(simd, group, sums);
+                ring(simd, group, &mut sums);
                 continue;
             }
-            ring(simd, group, leaving);
+            ring(simd, group, &mut leaving);
             group.state = [[0.0; GROUP]; 2];
             (*life, *energy) = (Life::Silent, 0.0);
             fades = true;
         }
-        fades
+        for (y, sum) in out.iter_mut().zip(sums.samples()) {
+            *y += sum;
+        }
+        if fades {
+            for (j, (y, last)) in out.iter_mut().zip(leaving.samples()).enumerate() {
+                *y += last * (1.0 - (j + 1) as f32 / BLOCK as f32);
+            }
+        }
     }
 }

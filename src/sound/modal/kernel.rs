@@ -36,8 +36,32 @@ pub(super) type Phasors<T> = [[T; GROUP]; 2];
 /// The phasors at the start of each frame; aligned, so that no store crosses the lines that are read again at once.
 #[repr(C, align(64))]
 struct States([Phasors<f32>; FRAMES]);
-/// Sums of a block: what the real parts gave, and the imaginary ones; apart, so that neither waits for the other.
-pub(super) type Sums = [[f32; BLOCK]; 2];
+/// Sums of a block: what the real parts gave, and the imaginary ones; apart, so that neither waits for the other. They
+/// stay in registers from group to group where there are enough.
+#[derive(Clone, Copy)]
+pub(super) struct Sums<S: Simd> {
+    re: [f32x16<S>; FRAMES],
+    im: [f32x16<S>; FRAMES],
+}
+
+impl<S: Simd> Sums<S> {
+    /// Silence.
+    #[inline(always)]
+    pub fn silent(simd: S) -> Self {
+        let nothing = [f32x16::splat(simd, 0.0); FRAMES];
+        Self { re: nothing, im: nothing }
+    }
+
+    /// The samples.
+    #[inline(always)]
+    pub fn samples(&self) -> [f32; BLOCK] {
+        let mut samples = [0.0; BLOCK];
+        for ((out, re), im) in samples.as_chunks_mut::<FRAME>().0.iter_mut().zip(self.re).zip(self.im) {
+            *out = (re + im).into();
+        }
+        samples
+    }
+}
 
 /// What turns a group's phasors from frame to frame and from block to block.
 #[derive(Clone)]
@@ -124,14 +148,14 @@ pub(super) fn times(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 /// Adds a block of the group's own ringing and moves its phasors to the next.
 #[inline(always)]
-pub(super) fn ring<S: Simd>(simd: S, group: &mut Group, sums: &mut Sums) {
+pub(super) fn ring<S: Simd>(simd: S, group: &mut Group, sums: &mut Sums<S>) {
     let states = turn(simd, &mut group.state, &group.turns);
     read(simd, group, &states, sums);
 }
 
 /// As [`ring`] for a group that a force drives; what is heard at once, [`respond`], is not in it.
 #[inline(always)]
-pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLOCK], sums: &mut Sums) {
+pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLOCK], sums: &mut Sums<S>) {
     let mut states = turn(simd, &mut group.state, &group.turns);
     let mut driven: Phasors<f32> = [[0.0; GROUP]; 2];
     let frame = &group.turns.steps[0];
@@ -170,7 +194,7 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
 
 /// Adds a block of other phasors that turn as this group's do, and moves them to the next.
 #[inline(always)]
-pub(super) fn ring_beside<S: Simd>(simd: S, group: &Group, phasors: &mut Phasors<f64>, sums: &mut Sums) {
+pub(super) fn ring_beside<S: Simd>(simd: S, group: &Group, phasors: &mut Phasors<f64>, sums: &mut Sums<S>) {
     let states = turn(simd, phasors, &group.turns);
     read(simd, group, &states, sums);
 }
@@ -210,15 +234,15 @@ fn turn<S: Simd>(simd: S, z: &mut Phasors<f64>, group: &Turns) -> States {
     states.0[0] = [re.into(), im.into()];
     for (state, step) in states.0[1..].iter_mut().zip(&group.steps) {
         let (step_re, step_im): (f32x16<S>, f32x16<S>) = (step[0].simd_into(simd), step[1].simd_into(simd));
-        state[0] = (re * step_re - im * step_im).into();
-        state[1] = (re * step_im + im * step_re).into();
+        state[0] = re.mul_add_precise(step_re, -(im * step_im)).into();
+        state[1] = re.mul_add_precise(step_im, im * step_re).into();
     }
     states
 }
 
 /// As many frames at once as registers allow; the bits do not depend on it.
 #[inline(always)]
-fn read<S: Simd>(simd: S, group: &Group, states: &States, sums: &mut Sums) {
+fn read<S: Simd>(simd: S, group: &Group, states: &States, sums: &mut Sums<S>) {
     match S::f32s::LEN {
         16 => read_at_once::<S, 4>(simd, group, states, sums),
         8 => read_at_once::<S, 2>(simd, group, states, sums),
@@ -227,25 +251,19 @@ fn read<S: Simd>(simd: S, group: &Group, states: &States, sums: &mut Sums) {
 }
 
 #[inline(always)]
-fn read_at_once<S: Simd, const N: usize>(simd: S, group: &Group, states: &States, sums: &mut Sums) {
-    let [from_re, from_im] = sums;
-    let frames = states.0.as_chunks::<N>().0;
-    let from_re = from_re.as_chunks_mut::<FRAME>().0.as_chunks_mut::<N>().0;
-    let from_im = from_im.as_chunks_mut::<FRAME>().0.as_chunks_mut::<N>().0;
-    for ((states, from_re), from_im) in frames.iter().zip(from_re).zip(from_im) {
-        let mut a: [f32x16<S>; N] = std::array::from_fn(|m| from_re[m].simd_into(simd));
-        let mut b: [f32x16<S>; N] = std::array::from_fn(|m| from_im[m].simd_into(simd));
+fn read_at_once<S: Simd, const N: usize>(simd: S, group: &Group, states: &States, sums: &mut Sums<S>) {
+    for first in (0..FRAMES).step_by(N) {
+        let mut a: [f32x16<S>; N] = std::array::from_fn(|m| sums.re[first + m]);
+        let mut b: [f32x16<S>; N] = std::array::from_fn(|m| sums.im[first + m]);
         for (i, [re, im]) in group.rows[..group.count.min(GROUP)].iter().enumerate() {
             let re: f32x16<S> = f32x16::from_slice(simd, re);
             let im: f32x16<S> = f32x16::from_slice(simd, im);
             for m in 0..N {
-                a[m] = f32x16::splat(simd, states[m][0][i]).mul_add_precise(im, a[m]);
-                b[m] = f32x16::splat(simd, states[m][1][i]).mul_add_precise(re, b[m]);
+                a[m] = f32x16::splat(simd, states.0[first + m][0][i]).mul_add_precise(im, a[m]);
+                b[m] = f32x16::splat(simd, states.0[first + m][1][i]).mul_add_precise(re, b[m]);
             }
         }
-        for m in 0..N {
-            from_re[m] = a[m].into();
-            from_im[m] = b[m].into();
-        }
+        sums.re[first..first + N].copy_from_slice(&a);
+        sums.im[first..first + N].copy_from_slice(&b);
     }
 }

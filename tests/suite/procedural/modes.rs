@@ -26,7 +26,7 @@ fn step(simulation: &mut Simulation, mode: MotionMode, blows: bool) {
         720 if blows => Some(Command::Blow(None)),
         _ => None,
     };
-    simulation.step(&StepInput { mode, commands: speed.as_slice(), ..StepInput::default() });
+    simulation.step(&StepInput { mode: Some(mode), commands: speed.as_slice(), ..StepInput::default() });
 }
 
 #[test]
