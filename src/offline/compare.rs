@@ -262,10 +262,10 @@ impl Comparison {
         let about = format!("apart by {:.3} mm and {rms_deg:.3}° rms over {} bodies", 1e3 * rms_m, self.summary.bodies);
         canvas.words(80.0, 82.0, 18.0, Align::Left, PALE, &about);
         let millimetres = |row: &Row| row.place.map(|d| 1e3 * d);
-        self.chart(&mut canvas, 0, ("Places apart", "mm"), ["rms", "farthest"], millimetres);
-        self.chart(&mut canvas, 1, ("Turns apart", "degrees"), ["rms", "largest"], |row| row.turn);
-        self.chart(&mut canvas, 2, ("Energy", "J"), ["laws", solver], |row| row.energy);
-        self.chart(&mut canvas, 3, ("Events so far", ""), ["laws", solver], |row| row.events.map(|n| n as f64));
+        self.chart(&mut canvas, 0, ("Places apart", "mm", LEAST), ["rms", "farthest"], millimetres);
+        self.chart(&mut canvas, 1, ("Turns apart", "degrees", LEAST), ["rms", "largest"], |row| row.turn);
+        self.chart(&mut canvas, 2, ("Energy", "J", LEAST), ["laws", solver], |row| row.energy);
+        self.chart(&mut canvas, 3, ("Events so far", "", 1.0), ["laws", solver], |row| row.events.map(|n| n as f64));
         let mut bytes = Vec::new();
         let packed = canvas.finish().write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png);
         packed.map_err(|error| PlayError::Output(error.to_string()))?;
@@ -274,12 +274,12 @@ impl Comparison {
         Ok(file.finish()?)
     }
 
-    /// Two curves over time in the `index`th chart from the top.
+    /// Two curves over time in the `index`th chart from the top, which is at least so high.
     fn chart(
         &self,
         canvas: &mut Canvas,
         index: usize,
-        (title, unit): (&str, &str),
+        (title, unit, least): (&str, &str, f64),
         names: [&str; 2],
         of: impl Fn(&Row) -> [f64; 2],
     ) {
@@ -294,7 +294,7 @@ impl Comparison {
         let chart = Chart {
             place: [80.0, top, 1080.0, 185.0],
             x: Axis::linear(0.0, last),
-            y: Axis::linear(if low == 0.0 { 0.0 } else { low - room }, high + room),
+            y: Axis::linear(if low == 0.0 { 0.0 } else { low - room }, (high + room).max(low + least)),
         };
         chart.frame(canvas, title, "s", unit);
         let mut x = 260.0;

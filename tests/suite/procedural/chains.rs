@@ -35,6 +35,10 @@ fn index(exhibit: &Exhibit, name: &str) -> usize {
     exhibit.bodies.iter().position(|body| body.name == name).unwrap_or_else(|| panic!("no {name}"))
 }
 
+fn square(x: f64) -> f64 {
+    x * x
+}
+
 fn drag(mode: MotionMode) -> [Figures; 2] {
     const FROM: usize = 960;
     const STEPS: usize = 4800;
@@ -61,10 +65,10 @@ fn drag(mode: MotionMode) -> [Figures; 2] {
             let hook = bodies[links[0]].pose().position;
             let end = bodies[*disc].pose().position;
             ends[k].push(end.x - hook.x + x);
-            figures.beside += (end.x - hook.x).powi(2);
+            figures.beside += square(end.x - hook.x);
             for pair in links.windows(2) {
                 let [a, b] = [pair[0], pair[1]].map(|link| bodies[link].rotation * DVec3::Y);
-                figures.bend += a.angle_between(b).powi(2) / (LINKS - 1) as f64;
+                figures.bend += square(a.angle_between(b)) / (LINKS - 1) as f64;
             }
             figures.spin +=
                 links.iter().map(|&l| bodies[l].angular_velocity.length_squared()).sum::<f64>() / LINKS as f64;
@@ -73,8 +77,7 @@ fn drag(mode: MotionMode) -> [Figures; 2] {
     for (figures, end) in figures.iter_mut().zip(&ends) {
         let mean = |sum: f64| (sum / way.len() as f64).sqrt();
         (figures.beside, figures.spin, figures.bend) = (mean(figures.beside), mean(figures.spin), mean(figures.bend));
-        // Over whole rounds of 4 s, so that both sums are over the same.
-        let apart = |delay: usize| -> f64 { (240..way.len()).map(|i| (end[i] - way[i - delay]).powi(2)).sum() };
+        let apart = |delay: usize| -> f64 { (240..way.len()).map(|i| square(end[i] - way[i - delay])).sum() };
         let best = (0..240).min_by(|&a, &b| apart(a).total_cmp(&apart(b))).expect("delays");
         figures.behind = best as f64 / 240.0;
     }
@@ -135,8 +138,8 @@ fn by_the_sources_rule_the_chain_of_more_inertia_turns_less() {
             let reach = hand.procedural.reach();
             assert!(reach.residual <= REACHED, "step {step}: {reach:?}");
             let links = hand.bodies()[1..].iter();
-            let square = |b: &RigidBody| (b.rotation * DVec3::Y).angle_between(DVec3::Y).powi(2);
-            turn += links.map(square).sum::<f64>() / (LINKS - 1) as f64 / 60.0;
+            let leans = |b: &RigidBody| square((b.rotation * DVec3::Y).angle_between(DVec3::Y));
+            turn += links.map(leans).sum::<f64>() / (LINKS - 1) as f64 / 60.0;
             let end = hand.bodies()[LINKS - 1].position;
             behind = behind.max(place.x - end.x);
         }
