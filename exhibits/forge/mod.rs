@@ -6,9 +6,11 @@
 pub mod axis_wheel;
 pub mod breaking_chain;
 pub mod breaths;
+pub mod chains;
 pub mod gear_train;
 pub mod glb;
 pub mod hung;
+pub mod marionette;
 pub mod mobile;
 pub mod outline;
 pub mod pendulum;
@@ -36,7 +38,9 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
     Ok(vec![
         Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
         Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
+        Artifact { path: "chains/chains.glb", bytes: chains::glb() },
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
+        Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },

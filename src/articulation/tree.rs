@@ -286,7 +286,14 @@ impl Tree {
 
     /// Bodies on the ways from these to their roots, roots first.
     pub fn paths(&self, from: impl Iterator<Item = usize>) -> Vec<usize> {
-        let mut on = vec![false; self.hang.len()];
+        let (mut on, mut ways) = (vec![false; self.hang.len()], Vec::new());
+        self.paths_into(from, &mut on, &mut ways);
+        ways
+    }
+
+    /// The same into `ways`; `on` lends a flag a body.
+    pub fn paths_into(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
+        on.fill(false);
         for mut body in from {
             while !on[body] {
                 on[body] = true;
@@ -296,7 +303,8 @@ impl Tree {
                 }
             }
         }
-        self.order.iter().copied().filter(|&body| on[body]).collect()
+        ways.clear();
+        ways.extend(self.order.iter().copied().filter(|&body| on[body]));
     }
 
     /// All bodies, roots first.

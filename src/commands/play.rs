@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Failure, Outcome};
 use crate::exhibit::Exhibit;
+use crate::offline::compare;
 use crate::offline::feed::WavFeed;
 use crate::offline::play::{self, OnFrame, Play, PlayError};
 use crate::offline::trace::DEFAULT_FPS;
@@ -20,7 +21,8 @@ const TAIL: f64 = 5.0;
 
 /// Runs an exhibit offline, faster than real time, deterministic.
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Example:\n  soffio play steel-fish --breath blow.wav --audio out.wav --trace out.csv")]
+#[command(after_help = "Examples:\n  soffio play steel-fish --breath blow.wav --audio out.wav --trace out.csv\n  \
+                        soffio play chains --seconds 20 --compare --plot apart.png")]
 pub struct Args {
     /// Id under `exhibits/`, or a folder.
     exhibit: String,
@@ -67,10 +69,26 @@ pub struct Args {
     /// Size of the picture.
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
     size: (u32, u32),
-    /// Frames per second of trace and pictures.
+    /// Moves the exhibit by the laws and by places (`--solver procedural` or `position-based`, the default here) from the
+    /// same input, and tells how far the two come apart.
+    #[arg(long, conflicts_with_all = COMPARE_LEAVES)]
+    compare: bool,
+    /// How far apart the two are in each frame: places, turns, energies, events.
+    #[arg(long, value_name = "OUT.csv", requires = "compare")]
+    out: Option<PathBuf>,
+    /// The same drawn over time.
+    #[arg(long, value_name = "OUT.png", requires = "compare")]
+    plot: Option<PathBuf>,
+    /// Frames per second of trace, comparison and pictures.
     #[arg(long, default_value_t = DEFAULT_FPS, value_parser = clap::value_parser!(u32).range(1..=240))]
     fps: u32,
 }
+
+/// What one run leaves and two do not.
+#[cfg(feature = "kiosk")]
+const COMPARE_LEAVES: [&str; 5] = ["audio", "dry", "trace", "events", "frames"];
+#[cfg(not(feature = "kiosk"))]
+const COMPARE_LEAVES: [&str; 4] = ["audio", "dry", "trace", "events"];
 
 /// Breath profile on the command line.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -139,6 +157,14 @@ pub fn run(args: Args) -> Outcome {
         SolverArg::Procedural => Some(MotionMode::Procedural),
         SolverArg::PositionBased => Some(MotionMode::PositionBased),
     };
+    let mode = match (args.compare, args.solver) {
+        (true, SolverArg::Auto) => MotionMode::PositionBased,
+        (true, SolverArg::Dynamics) => {
+            let message = "--compare sets the laws beside --solver procedural or position-based".into();
+            return Err(Failure { code: 2, message });
+        }
+        _ => mode,
+    };
     let play = Play {
         settings,
         mode,
@@ -157,6 +183,11 @@ pub fn run(args: Args) -> Outcome {
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
     let progress = progress_bar((seconds * STEPS_PER_SECOND as f64).round() as u64);
+    if args.compare {
+        let compared = compare::run(&exhibit, play, &stop, |step| progress.set_position(step));
+        progress.finish_and_clear();
+        return tell(compared, &args, &exhibit);
+    }
     let mut frames = frame_writer(&args, &exhibit)?;
     let on_frame = frames.as_mut().map(|f| &mut **f as &mut OnFrame);
     let summary = play::run(&exhibit, play, &stop, |step| progress.set_position(step), on_frame);
@@ -166,8 +197,27 @@ pub fn run(args: Args) -> Outcome {
             println!("{}", serde_json::to_string(&summary).map_err(Failure::input)?);
             Ok(())
         }
-        Err(PlayError::Interrupted) => Err(Failure { code: 130, message: "interrupted; nothing was written".into() }),
-        Err(error) => Err(Failure::input(error)),
+        Err(error) => Err(failed(error)),
+    }
+}
+
+/// Writes a comparison where it was asked for, and its numbers as one line.
+fn tell(compared: Result<compare::Comparison, PlayError>, args: &Args, exhibit: &Exhibit) -> Outcome {
+    let compared = compared.map_err(failed)?;
+    if let Some(path) = &args.out {
+        compared.write_rows(path).map_err(Failure::input)?;
+    }
+    if let Some(path) = &args.plot {
+        compared.write_picture(path, exhibit).map_err(failed)?;
+    }
+    println!("{}", serde_json::to_string(&compared.summary).map_err(Failure::input)?);
+    Ok(())
+}
+
+fn failed(error: PlayError) -> Failure {
+    match error {
+        PlayError::Interrupted => Failure { code: 130, message: "interrupted; nothing was written".into() },
+        error => Failure::input(error),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The same pipeline without a window: WAV in; WAV, pictures, traces and events out.
 
 pub mod audition;
+pub mod compare;
 pub mod demo;
 pub mod ear;
 pub mod events;

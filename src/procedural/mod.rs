@@ -23,20 +23,21 @@
 //! the friction of pivots ask for forces and are not there; windows, triggers, breaths and springs act as always.
 
 mod compulsive;
+mod fours;
 mod pair;
 pub mod rule;
 mod touch;
 mod tree;
 pub mod walk;
 
-use crate::articulation::block::{Vec6, angular, linear};
+use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
-use crate::dynamics::forces::Damping;
 use crate::dynamics::{Dynamics, Impact, Moved};
-use crate::math::{DMat3, DQuat, DVec3, atan2};
+use crate::math::DVec3;
 
 use compulsive::Compulsive;
 pub use compulsive::MOST_ROUNDS;
+use fours::Fours;
 use touch::Touches;
 use tree::TreeSolve;
 pub use tree::{MOST_LED, MOST_PASSES};
@@ -53,6 +54,10 @@ const MOST_PUSHES: usize = 6;
 pub const SPEED_KEPT: f64 = 50.0;
 /// The same of its turn, rad/s.
 pub const SPIN_KEPT: f64 = 200.0;
+
+/// c where nobody says otherwise: what falls for a step under a long chain turns none of its links, a hand that goes a
+/// metre a second does.
+pub const CONTROL: f64 = 10.0;
 
 /// How joints are closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,7 +82,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { method: Method::default(), control: 1.0, retention: 1.0 }
+        Self { method: Method::default(), control: CONTROL, retention: 1.0 }
     }
 }
 
@@ -126,9 +131,7 @@ impl Reach {
 #[derive(Clone, Debug)]
 pub struct Procedural {
     settings: Settings,
-    damping: Vec<Damping>,
-    /// Inverse inertia in body axes, 1/(kg m²).
-    inverse: Vec<DMat3>,
+    fours: Fours,
     before: Vec<RigidBody>,
     kept: Vec<RigidBody>,
     compulsive: Compulsive,
@@ -145,8 +148,7 @@ impl Procedural {
         let bodies = &dynamics.bodies;
         Self {
             settings,
-            damping: (0..bodies.len()).map(|body| dynamics.damping(body)).collect(),
-            inverse: bodies.iter().map(|body| body.properties.inertia.inverse()).collect(),
+            fours: Fours::new(dynamics),
             before: bodies.clone(),
             kept: bodies.clone(),
             compulsive: Compulsive::new(dynamics),
@@ -191,7 +193,7 @@ impl Procedural {
         moved.system.activity.set_time(moved.until);
         self.update(&mut moved, dt);
         self.reach = self.adjust(&mut moved, grips);
-        self.keep_speed(&mut moved, dt);
+        self.fours.keep_speed(moved.system, moved.bodies, &self.before, dt);
         if self.touches.is_empty() {
             return;
         }
@@ -207,6 +209,7 @@ impl Procedural {
                 Method::TreeSolve => self.touches.move_out(moved.system, moved.bodies, first),
             }
             first = false;
+            moved.system.quads_mut().look(moved.bodies);
             self.reach = self.adjust(&mut moved, grips);
         }
         let motion = (dt, moved.gravity.length());
@@ -227,91 +230,86 @@ impl Procedural {
     /// The update: each body alone.
     fn update(&self, moved: &mut Moved, dt: f64) {
         let Settings { method, retention, .. } = self.settings;
-        let driven = moved.system.driven();
-        for (index, body) in moved.bodies.iter_mut().enumerate() {
-            if driven[index] {
-                continue;
-            }
-            let (damping, wrench) = (&self.damping[index], &moved.wrenches[index]);
-            if method == Method::TreeSolve {
-                body.angular_velocity = gyrated(body, dt);
-            }
-            body.velocity *= retention / (1.0 + damping.linear * dt);
-            body.angular_velocity *= retention / (1.0 + damping.angular * dt);
-            body.velocity += dt * (moved.gravity + linear(wrench) / body.properties.mass);
-            let torque = angular(wrench);
-            if torque != DVec3::ZERO {
-                let own = body.rotation.conjugate() * torque;
-                body.angular_velocity += dt * (body.rotation * (self.inverse[index] * own));
-            }
-            body.displace(dt * body.velocity, dt * body.angular_velocity);
-        }
+        self.fours.update(moved, dt, retention, method == Method::TreeSolve);
         for drive in moved.drives {
             drive.motion.at(moved.until).carry(&mut moved.bodies[drive.body]);
+            moved.system.quads_mut().look_at(drive.body, &moved.bodies[drive.body]);
         }
     }
 
+    /// Brings the bodies, where the quads have them, back to where the joints hold.
     fn adjust(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
         if self.settings.method == Method::Compulsive {
-            return self.compulsive.adjust(moved, grips, &self.tree.left, Some(self.settings.control));
+            return self.adjust_by_rule(moved, grips);
         }
-        let reach = self.tree.adjust(moved, grips);
+        let reach = self.tree.adjust(moved, grips, &self.fours);
         if reach.reached() {
             return reach;
         }
         // It leapt too far for tangents, or is asked too much: passes close a tree from anywhere.
-        let passed = self.compulsive.adjust(moved, grips, &self.tree.left, None);
-        let mut last = passed;
-        if !passed.reached() && passed.missed <= NEAR {
-            self.kept.copy_from_slice(moved.bodies);
-            last = self.tree.adjust(moved, grips);
-            if !last.reached() {
-                moved.bodies.copy_from_slice(&self.kept);
-                last = passed;
-            }
+        self.kept.copy_from_slice(moved.bodies);
+        let mut last = self.compulsive.adjust(moved, grips, &self.tree.left, None);
+        if last.residual > REACHED.max(reach.residual) {
+            // Not so a figure that is held in many places.
+            moved.bodies.copy_from_slice(&self.kept);
+            last = reach;
+        } else if !last.reached() && last.missed <= NEAR {
+            last = self.again(moved, grips, last, Reach::reached);
+        }
+        if last.residual > REACHED {
+            // Whatever is asked, the joints hold.
+            let before = last.residual;
+            last = self.again(moved, &[], last, |reach| reach.residual < before);
+            last.missed = compulsive::farthest(grips, moved.bodies);
+        }
+        if last.residual > REACHED {
+            self.stay(moved);
+            last = self.again(moved, &[], last, |_| true);
+            last.missed = compulsive::farthest(grips, moved.bodies);
         }
         last.passes += reach.passes;
         last
     }
 
-    /// The velocities that the step's way stands for.
-    fn keep_speed(&self, moved: &mut Moved, dt: f64) {
-        for ((body, before), driven) in moved.bodies.iter_mut().zip(&self.before).zip(moved.system.driven()) {
-            if *driven {
-                continue;
+    /// By the source's rule. What hands ask in vain is given up, as the joints go before them.
+    fn adjust_by_rule(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
+        let mut reach = self.compulsive.adjust(moved, grips, &self.tree.left, Some(self.settings.control));
+        for stays in [false, true] {
+            if grips.is_empty() || reach.residual <= REACHED {
+                break;
             }
-            let (way, turn) = ((body.position - before.position) / dt, turned(before.rotation, body.rotation) / dt);
-            body.velocity = way.clamp_length_max(SPEED_KEPT);
-            body.angular_velocity = turn.clamp_length_max(SPIN_KEPT);
+            if stays {
+                self.stay(moved);
+            }
+            let alone = self.compulsive.adjust(moved, &[], &self.tree.left, None);
+            reach = Reach {
+                passes: reach.passes + alone.passes,
+                missed: compulsive::farthest(grips, moved.bodies),
+                ..alone
+            };
+        }
+        reach
+    }
+
+    /// What cannot be done is not done: the figure stays where it stood.
+    fn stay(&self, moved: &mut Moved) {
+        let free = moved.system.driven().iter().map(|driven| !driven);
+        for ((body, before), free) in moved.bodies.iter_mut().zip(&self.before).zip(free) {
+            if free {
+                *body = *before;
+            }
         }
     }
-}
 
-/// ω of a body that turns freely for `dt`: one Newton step of the implicit I (ω' − ω) + Δt ω'×I ω' = 0 in body axes, which
-/// never gains energy (E. Catto, Numerical methods, Game Developers Conference 2015).
-fn gyrated(body: &RigidBody, dt: f64) -> DVec3 {
-    let inertia = &body.properties.inertia;
-    let w = body.rotation.conjugate() * body.angular_velocity;
-    let momentum = *inertia * w;
-    let torque = w.cross(momentum);
-    if torque == DVec3::ZERO {
-        return body.angular_velocity;
+    /// All joints at once another time, from where passes left them; back to there unless the outcome is good.
+    fn again(&mut self, moved: &mut Moved, grips: &[Grip], passed: Reach, good: impl Fn(&Reach) -> bool) -> Reach {
+        self.kept.copy_from_slice(moved.bodies);
+        moved.system.quads_mut().look(moved.bodies);
+        let reach = self.tree.adjust(moved, grips, &self.fours);
+        if good(&reach) {
+            return reach;
+        }
+        moved.bodies.copy_from_slice(&self.kept);
+        passed
     }
-    let slope = *inertia + (crate::math::skew(w) * *inertia - crate::math::skew(momentum)) * dt;
-    body.rotation * (w - slope.inverse() * (dt * torque))
-}
-
-/// Rotation vector of the shorter way between two rotations, rad: 2 asin|v| v/|v| by its series where that is short.
-fn turned(from: DQuat, to: DQuat) -> DVec3 {
-    let turn = crate::math::product(to, from.conjugate());
-    let turn = if turn.w < 0.0 { -turn } else { turn };
-    let v = DVec3::new(turn.x, turn.y, turn.z);
-    let x = v.length_squared();
-    // Below a fifth of a radian the terms left out are under 10⁻¹⁴ of it.
-    if x < 0.01 {
-        return v
-            * (2.0 + x * (1.0 / 3.0 + x * (3.0 / 20.0 + x * (5.0 / 56.0 + x * (35.0 / 576.0 + x * (63.0 / 1408.0))))));
-    }
-    let s = x.sqrt();
-    v * (2.0 * atan2(s, turn.w) / s)
 }

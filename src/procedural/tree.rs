@@ -7,21 +7,26 @@
 //! min ½ δ·M δ      J δ = C* − C(x)        x ← x ⊕ δ
 //! ```
 //!
-//! so that two or three passes leave nothing: each squares the turn that is left. Hands are rows of their own beside the
-//! tree. With H the tree's system, G the rows of all grips (grip point = place) and R = H⁻¹ Gᵀ, three solves a grip,
+//! so that two or three passes leave nothing: each squares the turn that is left. A factor serves while no body has turned
+//! by more than [`SERVES`] since: the passes after it shrink what is left by about that turn, for half the price. Hands
+//! are rows of their own beside the tree. With H the tree's system, δ₀ what closes the joints alone and G the rows of all
+//! grips (grip point = place),
 //!
 //! ```text
-//! (G R + γ diag(G R)) μ = w − G δ₀        δ = δ₀ + R μ
+//! (G H⁻¹ Gᵀ + γ diag(G H⁻¹ Gᵀ)) μ = w − G δ₀        H δ = b₀ + Gᵀ μ
 //! ```
 //!
-//! γ is small and not zero: where a chain is stretched towards what it cannot reach, G R has no answer along it. Limits
+//! G H⁻¹ Gᵀ asks only the bodies on the ways from the hands to their roots, three walks a grip.
+//!
+//! γ is small and not zero: where a chain is stretched towards what it cannot reach, there is no answer along it. Limits
 //! that are passed are such rows too, which only push: one whose μ would pull is taken out and the others solved again.
 //! A step turns no body by more than [`LONGEST_TURN`]; the last passes close joints and limits alone, so that they hold
 //! and the grip misses.
 
 use super::compulsive::farthest;
+use super::fours::Fours;
 use super::{Grip, MOST_GRIPS, REACHED, Reach};
-use crate::articulation::block::{Vec6, add_scaled, angular, dot, linear, vec6};
+use crate::articulation::block::{Vec6, dot, vec6};
 use crate::articulation::{Cholesky, System};
 use crate::bodies::RigidBody;
 use crate::dynamics::{Contacts, ENDS, Moved};
@@ -34,6 +39,9 @@ pub const MOST_PASSES: usize = 6;
 /// Passes after which the farthest grip must have come nearer by [`LEAST_GAIN`].
 const PATIENCE: u32 = 3;
 const LEAST_GAIN: f64 = 0.9;
+/// A factor serves up to this turn of a body since it was made, rad, and while what is open shrinks to [`SHRUNK`] a pass.
+const SERVES: f64 = 0.01;
+const SHRUNK: f64 = 0.1;
 /// Largest turn of a body in one pass, rad.
 const LONGEST_TURN: f64 = 0.7;
 /// Limits nearer than this take part, m or rad.
@@ -49,10 +57,14 @@ const MOST_ROWS: usize = ROWS * MOST_GRIPS + 12;
 pub(super) struct TreeSolve {
     /// What each row may keep open.
     pub left: Vec<f64>,
-    /// R, a column a row, and δ₀.
-    columns: Vec<Vec<Vec6>>,
-    least: Vec<Vec6>,
+    /// G H⁻¹ Gᵀ, lower triangle.
+    answers: Box<[[f64; MOST_ROWS]; MOST_ROWS]>,
+    /// w − G δ₀.
+    short: [f64; MOST_ROWS],
     hands: Cholesky,
+    /// Bodies on the ways from hands and limits to their roots, and a flag a body.
+    ways: Vec<usize>,
+    on_way: Vec<bool>,
     /// Rows beside the tree: their blocks, how far they are to go, whether they only push.
     rows: Vec<Beside>,
 }
@@ -76,21 +88,25 @@ impl TreeSolve {
     pub fn new(system: &System, bodies: usize) -> Self {
         Self {
             left: vec![0.0; system.states().len()],
-            columns: vec![vec![[0.0; 6]; bodies]; MOST_ROWS],
-            least: vec![[0.0; 6]; bodies],
+            answers: Box::new([[0.0; MOST_ROWS]; MOST_ROWS]),
+            short: [0.0; MOST_ROWS],
             hands: Cholesky::with_room(MOST_ROWS, 0.0),
+            ways: Vec::with_capacity(bodies),
+            on_way: vec![false; bodies],
             rows: Vec::with_capacity(MOST_ROWS),
         }
     }
 
-    /// Closes the joints of bodies where an update left them. What is still open after that leapt too far for tangents.
-    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
+    /// Closes the joints of bodies where the quads have them. What is still open after that leapt too far for tangents.
+    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], fours: &Fours) -> Reach {
         let (bodies, system, contacts) = (&mut *moved.bodies, &mut *moved.system, &*moved.contacts);
         let mut reach = Reach::default();
         let mut before = f64::INFINITY;
         let mut led = !grips.is_empty();
         let mut alone = 0;
-        system.evaluate(bodies);
+        // Turned since the factor was made, and how far things were open then.
+        let (mut turned, mut open) = (f64::INFINITY, f64::INFINITY);
+        system.evaluate_quads(bodies);
         system.take_up();
         loop {
             reach.residual = system.open_by(&self.left);
@@ -101,23 +117,27 @@ impl TreeSolve {
                 before = reach.missed;
             }
             let passed = (0..contacts.bounds()).fold(0.0, |most: f64, b| most.max(-contacts.bound_gap(b, bodies)));
-            let closed = reach.residual.max(passed) <= REACHED && (!led || reach.missed <= REACHED);
-            if closed || alone == MOST_PASSES {
+            let worst = reach.residual.max(passed).max(if led { reach.missed } else { 0.0 });
+            if worst <= REACHED || alone == MOST_PASSES {
                 return reach;
             }
             alone += usize::from(!led);
             reach.passes += 1;
-            system.factor();
+            if turned > SERVES || worst > SHRUNK * open {
+                system.factor();
+                turned = 0.0;
+            }
+            open = worst;
             system.solve_closing(&self.left);
             self.lay_out(contacts, bodies, if led { grips } else { &[] });
             if !self.rows.is_empty() {
                 self.lead(system);
             }
-            shorten(&mut system.a);
-            for (body, delta) in bodies.iter_mut().zip(&system.a) {
-                body.displace(linear(delta), angular(delta));
-            }
-            system.evaluate(bodies);
+            let turn = longest_turn(&system.a);
+            let share = if turn > LONGEST_TURN { LONGEST_TURN / turn } else { 1.0 };
+            turned += share * turn;
+            fours.displace(system, bodies, share);
+            system.evaluate_quads(bodies);
         }
     }
 
@@ -140,16 +160,18 @@ impl TreeSolve {
         }
     }
 
-    /// Adds what the rows beside the tree ask to the displacement in `system.a`.
+    /// Solves again with what the rows beside the tree ask.
     fn lead(&mut self, system: &mut System) {
-        self.least.copy_from_slice(&system.a);
-        for (row, column) in self.rows.iter().zip(&mut self.columns) {
-            system.b.fill([0.0; 6]);
-            for (body, block) in row.ends.iter().flatten() {
-                system.push_impulse(*body, block, 1.0);
+        let touched = self.rows.iter().flat_map(|row| row.ends.iter().flatten().map(|(body, _)| *body));
+        system.ways(touched, &mut self.on_way, &mut self.ways);
+        for (short, row) in self.short.iter_mut().zip(&self.rows) {
+            *short = row.way - row.along(&system.a);
+        }
+        for (l, row) in self.rows.iter().enumerate() {
+            system.respond(&self.ways, row.ends.iter().flatten().copied());
+            for (k, other) in self.rows.iter().enumerate().skip(l) {
+                self.answers[k][l] = other.along(&system.a);
             }
-            system.solve_impulse();
-            column.copy_from_slice(&system.a);
         }
         let mut mu = [0.0; MOST_ROWS];
         // Each round takes a limit out at least.
@@ -165,14 +187,13 @@ impl TreeSolve {
                 break;
             }
         }
-        system.a.copy_from_slice(&self.least);
-        for ((column, mu), row) in self.columns.iter().zip(&mu).zip(&self.rows) {
-            if row.on {
-                for (a, r) in system.a.iter_mut().zip(column) {
-                    add_scaled(a, *mu, r);
-                }
+        system.b.fill([0.0; 6]);
+        for (row, mu) in self.rows.iter().zip(mu).filter(|(row, _)| row.on) {
+            for (body, block) in row.ends.iter().flatten() {
+                system.push_impulse(*body, block, mu);
             }
         }
+        system.solve_closing_under(&self.left);
     }
 
     /// μ of the rows that are on.
@@ -188,12 +209,12 @@ impl TreeSolve {
         let mut right = [0.0; MOST_ROWS];
         for (k, &row) in on.iter().enumerate() {
             for (l, &column) in on[..=k].iter().enumerate() {
-                *self.hands.entry(k, l) = self.rows[row].along(&self.columns[column]);
+                *self.hands.entry(k, l) = self.answers[row][column];
             }
-            let own = self.rows[row].along(&self.columns[row]);
+            let own = self.answers[row][row];
             *self.hands.entry(k, k) += SOFTNESS * own;
             self.hands.measure(k, own);
-            right[k] = self.rows[row].way - self.rows[row].along(&self.least);
+            right[k] = self.short[row];
         }
         self.hands.factor();
         self.hands.solve(&mut right[..n]);
@@ -204,15 +225,8 @@ impl TreeSolve {
     }
 }
 
-/// Shortens a displacement so that no body turns too far.
-fn shorten(a: &mut [Vec6]) {
+/// The longest turn of a displacement, rad.
+fn longest_turn(a: &[Vec6]) -> f64 {
     let square = |delta: &Vec6| delta[3] * delta[3] + delta[4] * delta[4] + delta[5] * delta[5];
-    let most = a.iter().fold(0.0, |most: f64, delta| most.max(square(delta)));
-    if most <= LONGEST_TURN * LONGEST_TURN {
-        return;
-    }
-    let shorter = LONGEST_TURN / most.sqrt();
-    for delta in a {
-        delta.iter_mut().for_each(|x| *x *= shorter);
-    }
+    a.iter().fold(0.0, |most: f64, delta| most.max(square(delta))).sqrt()
 }

@@ -421,6 +421,46 @@ fn a_run_is_summed_up_in_the_promised_fields_and_leaves_what_was_asked() {
 }
 
 #[test]
+fn the_laws_and_motion_by_places_are_compared_in_numbers_a_table_and_a_picture() {
+    let desk = Desk::new();
+    let breath = fish().join("breaths/strong.wav");
+    let exhibit = fish();
+    let args = ["play", text(&exhibit), "--breath", text(&breath), "--seconds", "3", "--fps", "30", "--compare"];
+    let compare = |more: &[&str]| {
+        let run = desk.soffio(&[&args[..], more].concat());
+        run.done();
+        run.summary()
+    };
+    let summary = compare(&["--out", "apart.csv", "--plot", "apart.png"]);
+    let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}: {summary}"));
+    assert_eq!((&summary["solver"], &summary["steps"]), (&"position-based".into(), &Value::from(720)));
+    assert!(number("rms_m") > 0.0 && number("rms_m") <= number("max_m") && number("max_m") < 0.2, "{summary}");
+    assert!(number("rms_deg") > 0.0 && number("rms_deg") <= number("max_deg"), "{summary}");
+    assert!(number("apart_1mm_s") > 0.0 && number("energy_max_j") >= number("energy_rms_j"), "{summary}");
+    assert_eq!(summary["faults"], serde_json::json!([0, 0]));
+    assert_eq!(desk.files(), ["apart.csv", "apart.png"]);
+    let picture = image::open(desk.path("apart.png")).expect("a picture").into_rgb8();
+    assert!(picture.pixels().any(|pixel| pixel.0 != picture.get_pixel(0, 0).0), "the picture is empty");
+    let table = std::fs::read_to_string(desk.path("apart.csv")).expect("written");
+    let mut lines = table.lines();
+    let head = "t,rms_m,max_m,rms_deg,max_deg,energy_dynamics_j,energy_other_j,events_dynamics,events_other";
+    assert_eq!(lines.next(), Some(head));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len(), 91, "a row a frame");
+    assert_eq!(rows[0][..5], [0.0; 5], "both begin alike");
+    assert!(rows.iter().all(|row| row[1] <= row[2] && row[2] <= number("max_m")), "{table}");
+    assert_eq!(rows[90][7..], [number("events_dynamics"), number("events_other")]);
+    // The source's rule is farther from the laws than all joints at once.
+    let other = compare(&["--solver", "procedural"]);
+    assert_eq!(other["solver"], "procedural");
+    assert!(other["rms_m"].as_f64() > summary["rms_m"].as_f64(), "{other}\n{summary}");
+    desk.soffio(&["play", "x", "--compare", "--trace", "t.csv"]).refused(2, &["--trace"]);
+    desk.soffio(&["play", "x", "--plot", "t.png"]).refused(2, &["--compare"]);
+    desk.soffio(&[&args[..], &["--solver", "dynamics"]].concat()).refused(2, &["position-based"]);
+}
+
+#[test]
 fn a_scene_is_measured_with_every_field() {
     let desk = Desk::new();
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/scenes/pendulum.json");
@@ -465,6 +505,26 @@ fn the_wind_on_ten_thousand_patches_is_twenty_times_faster_than_asking_every_tri
         "{row}"
     );
     assert!(row["seen"].as_f64().expect("a count") > 1_000.0, "{row}");
+}
+
+#[test]
+fn a_mobile_of_127_joints_is_dragged_in_three_passes_a_frame_with_the_joints_closed() {
+    /// µs a frame; a debug build may take six times what the release build is allowed.
+    const BUDGET: f64 = 270.0;
+    let run = Desk::new().soffio(&["bench", "--procedural", "breaking-chain", "--seconds", "1", "--json"]);
+    let rows: Vec<Value> = run.done().lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    println!("{}", run.out);
+    let [drag, rule, beside] = &rows[..] else { panic!("three rows: {}", run.out) };
+    let number = |row: &Value, key: &str| row[key].as_f64().unwrap_or_else(|| panic!("no {key} in {row}"));
+    assert_eq!(
+        (&drag["joints"], &drag["method"], &rule["method"]),
+        (&127.into(), &"position-based".into(), &"procedural".into())
+    );
+    assert!(number(drag, "residual_m") <= 1e-6 && number(drag, "missed_m") <= 1e-6, "{drag}");
+    assert!(number(drag, "most_passes") <= 4.0 && number(drag, "median_us") <= BUDGET, "{drag}");
+    assert!(number(rule, "residual_m") <= 1e-6, "{rule}");
+    // Places are cheaper than laws.
+    assert!(number(beside, "position_based_ratio") < 1.0, "{beside}");
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! Procedural motion: the source's rule against hand calculation, whole figures against an exact solve, drags, limits,
 //! touch, and the change from one kind of motion to the other.
 
+mod chains;
 mod drags;
 mod figures;
+mod marionette;
 mod modes;
 mod rule;
 mod touches;

@@ -25,13 +25,46 @@ impl System {
 
     /// Solves for the displacement after which each row is open by `left` (m or rad) and no more, to first order.
     pub fn solve_closing(&mut self, left: &[f64]) {
-        self.tell_values();
         self.b.fill([0.0; 6]);
+        self.solve_closing_under(left);
+    }
+
+    /// The same where `b` pushes, kg m and kg m² rad.
+    pub fn solve_closing_under(&mut self, left: &[f64]) {
+        self.tell_values();
         self.still();
         for ((g, state), left) in self.g.iter_mut().zip(&self.states).zip(left) {
             *g = if state.gathers { 0.0 } else { left - state.value };
         }
         self.solve();
+    }
+
+    /// Answer to a push, joints held, in `a` of the bodies on these ways to their roots ([`System::ways`]) at least.
+    pub fn respond(&mut self, ways: &[usize], push: impl Iterator<Item = (usize, Vec6)>) {
+        let alone = self.outside_rows().is_empty() && self.dense.is_none();
+        if !alone {
+            self.b.fill([0.0; 6]);
+        }
+        for &body in ways {
+            (self.b[body], self.a[body]) = ([0.0; 6], [0.0; 6]);
+        }
+        for (body, block) in push {
+            self.push_impulse(body, &block, 1.0);
+        }
+        if !alone {
+            return self.solve_impulse();
+        }
+        for &body in ways.iter().rev() {
+            self.tree.up(body, &mut self.b, None, &mut self.lambda);
+        }
+        for &body in ways {
+            self.tree.down(body, &self.b, None, &mut self.lambda, &mut self.a);
+        }
+    }
+
+    /// Bodies on the ways from these to their roots, roots first; `ways` has room for all.
+    pub fn ways(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
+        self.tree.paths_into(from, on, ways);
     }
 
     /// Largest |C − left| of the acting rows at the last evaluation, m or rad. What acts in part does not count.

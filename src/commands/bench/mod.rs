@@ -1,6 +1,7 @@
 //! `soffio bench`.
 
 mod exhibits;
+mod procedural;
 mod scenes;
 mod sound;
 mod wind;
@@ -18,12 +19,13 @@ use crate::offline::scene::Limits;
 const EXHIBIT_SECONDS: f64 = 10.0;
 
 /// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, and its sound), of an
-/// articulated scene beside how well it keeps energy and joints, of a body as figures grow, of wind on many parts, or
-/// of thousands of partials that ring.
+/// articulated scene beside how well it keeps energy and joints, of a body as figures grow, of wind on many parts, of
+/// thousands of partials that ring, or of motion by places.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
-                        soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound"
+                        soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound\n  \
+                        soffio bench --procedural"
 )]
 pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
@@ -41,6 +43,9 @@ pub struct Args {
     /// What partials cost, at each level of instructions, and the heaviest scene: 48 bodies of 6,328 partials.
     #[arg(long, conflicts_with_all = ["scene", "linear", "wind"])]
     sound: bool,
+    /// What motion by places costs: a mobile of 127 joints dragged by hand, and exhibits beside the laws.
+    #[arg(long, conflicts_with_all = ["scene", "linear", "wind", "sound"])]
+    procedural: bool,
     /// Step of a scene, s; default are those that it names.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
     dt: Option<f64>,
@@ -85,6 +90,9 @@ pub fn run(args: Args) -> Outcome {
     }
     if args.sound {
         return sound::run(args.json);
+    }
+    if args.procedural {
+        return procedural::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);
     }
     if args.scene.is_empty() {
         return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);

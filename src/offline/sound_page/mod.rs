@@ -1,8 +1,8 @@
 //! Pictures of sounds, for curators: one sheet a timbre (waveform, spectrogram, spectrum, how long its partials ring),
 //! its sound beside it, and a page that shows them all.
 
-mod canvas;
-mod chart;
+pub(super) mod canvas;
+pub(super) mod chart;
 mod measure;
 
 use std::io::{Cursor, Write};

@@ -1,0 +1,137 @@
+//! A light and a heavy chain of equal length, side by side on a carriage that goes to and fro.
+//!
+//! What turns a link is its lever against its inertia: a rod of length l about its middle has I/m = l²/12, a plate of
+//! width w beside that I/m = (l² + w²)/12. The heavy links are broad, so that their I/m is greater too.
+
+use soffio::math::{DQuat, DVec3, PI};
+
+use super::glb::Scene;
+use super::hung::disc;
+use super::mobile::EYE_STEPS;
+use super::outline::ring;
+use super::piece::{Bend, Piece};
+use super::stock::{Finishes, MM, STEEL, WOOD, finishes, part, rod, slab, write};
+
+/// From eye to eye of a link.
+const PITCH: f64 = 44.0 * MM;
+/// Height of the hooks, and how far they are from the carriage's middle.
+const HOOK: f64 = 500.0 * MM;
+const ASIDE: f64 = 110.0 * MM;
+/// Where the carriage begins.
+const START: f64 = -130.0 * MM;
+/// Width and thickness of a heavy link.
+const BROAD: f64 = 46.0 * MM;
+const THICK: f64 = 4.0 * MM;
+
+/// Names of a chain: links, their eyes, their ends.
+struct Names([[&'static str; 8]; 3]);
+
+const LIGHT: Names = Names([
+    ["Light1", "Light2", "Light3", "Light4", "Light5", "Light6", "Light7", "Light8"],
+    ["LightEye1", "LightEye2", "LightEye3", "LightEye4", "LightEye5", "LightEye6", "LightEye7", "LightEye8"],
+    ["LightEnd1", "LightEnd2", "LightEnd3", "LightEnd4", "LightEnd5", "LightEnd6", "LightEnd7", "LightEnd8"],
+]);
+const HEAVY: Names = Names([
+    ["Heavy1", "Heavy2", "Heavy3", "Heavy4", "Heavy5", "Heavy6", "Heavy7", "Heavy8"],
+    ["HeavyEye1", "HeavyEye2", "HeavyEye3", "HeavyEye4", "HeavyEye5", "HeavyEye6", "HeavyEye7", "HeavyEye8"],
+    ["HeavyEnd1", "HeavyEnd2", "HeavyEnd3", "HeavyEnd4", "HeavyEnd5", "HeavyEnd6", "HeavyEnd7", "HeavyEnd8"],
+]);
+
+/// The wire of a link, of this radius: an eye around its hook, one around its end, each across the other.
+fn eyes(name: &'static str, wire: f64) -> Bend {
+    let eye = 2.6 * MM;
+    let top = ring((wire - eye) * DVec3::Y, eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
+    let bottom = ring((eye - wire - PITCH) * DVec3::Y, eye, DVec3::Y, DVec3::Z, EYE_STEPS);
+    Bend { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
+}
+
+fn light(names: [&'static str; 3], finishes: &Finishes) -> Piece {
+    let [name, eye, end] = names;
+    let stick = rod(2.5 * MM, -PITCH + 5.0 * MM, -5.0 * MM);
+    Piece {
+        name,
+        parts: vec![part(name, stick, DVec3::ZERO, DQuat::IDENTITY, WOOD, finishes.wood)],
+        bends: vec![eyes(eye, 0.4 * MM)],
+        marks: vec![(end, -PITCH * DVec3::Y)],
+    }
+}
+
+fn heavy(names: [&'static str; 3], finishes: &Finishes) -> Piece {
+    let [name, eye, end] = names;
+    let plate = slab(BROAD, PITCH - 10.0 * MM, THICK).moved(-0.5 * PITCH * DVec3::Y);
+    Piece {
+        name,
+        parts: vec![part(name, plate, DVec3::ZERO, DQuat::IDENTITY, STEEL, finishes.steel)],
+        bends: vec![eyes(eye, 0.8 * MM)],
+        marks: vec![(end, -PITCH * DVec3::Y)],
+    }
+}
+
+/// The carriage, its origin between its hooks.
+fn carriage(finishes: &Finishes) -> Piece {
+    let along = DQuat::IDENTITY;
+    let peg =
+        |name, aside: f64| part(name, rod(2.0 * MM, 0.0, 12.0 * MM), aside * DVec3::X, along, STEEL, finishes.steel);
+    let bar = slab(2.0 * ASIDE + 30.0 * MM, 12.0 * MM, 12.0 * MM);
+    Piece {
+        name: "Carriage",
+        parts: vec![
+            part("CarriageBar", bar, 17.0 * MM * DVec3::Y, along, STEEL, finishes.red),
+            peg("LightPeg", -ASIDE),
+            peg("HeavyPeg", ASIDE),
+        ],
+        bends: Vec::new(),
+        marks: vec![("LightHook", -ASIDE * DVec3::X), ("HeavyHook", ASIDE * DVec3::X)],
+    }
+}
+
+/// The frame that the carriage runs on.
+fn frame(finishes: &Finishes) -> Piece {
+    let along = DQuat::IDENTITY;
+    let half = 330.0 * MM;
+    let rail = rod(4.0 * MM, -half, half).lying();
+    let top = HOOK + 17.0 * MM;
+    let post =
+        |name, x: f64| part(name, rod(5.0 * MM, 0.0, top), DVec3::new(x, 0.0, 0.0), along, STEEL, finishes.black);
+    let foot = |name, x: f64| {
+        let solid = rod(45.0 * MM, 0.0, 10.0 * MM);
+        part(name, solid, DVec3::new(x, 0.0, 0.0), along, STEEL, finishes.black)
+    };
+    Piece {
+        name: "Frame",
+        parts: vec![
+            part("Rail", rail, top * DVec3::Y, along, STEEL, finishes.steel),
+            post("LeftPost", -half),
+            post("RightPost", half),
+            foot("LeftFoot", -half),
+            foot("RightFoot", half),
+        ],
+        bends: Vec::new(),
+        marks: Vec::new(),
+    }
+}
+
+/// The model: each link hangs by its origin, its end is marked.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let middle = DVec3::new(START, HOOK, 0.0);
+    let mut pieces = vec![(frame(&finishes), DVec3::ZERO), (carriage(&finishes), middle)];
+    let discs = [
+        disc(["LightDisc", "LightDiscHook", "LightDiscStem"], (64.0 * MM, 1.5 * MM), 12.0 * MM, (WOOD, finishes.white)),
+        disc(["HeavyDisc", "HeavyDiscHook", "HeavyDiscStem"], (64.0 * MM, 3.0 * MM), 12.0 * MM, (STEEL, finishes.blue)),
+    ];
+    type Link = fn([&'static str; 3], &Finishes) -> Piece;
+    let kinds: [(&Names, Link, f64); 2] = [(&LIGHT, light, -ASIDE), (&HEAVY, heavy, ASIDE)];
+    for ((Names(names), link, aside), disc) in kinds.into_iter().zip(discs) {
+        let hook = middle + aside * DVec3::X;
+        for k in 0..names[0].len() {
+            let own = [names[0][k], names[1][k], names[2][k]];
+            pieces.push((link(own, &finishes), hook - PITCH * k as f64 * DVec3::Y));
+        }
+        pieces.push((disc, hook - PITCH * names[0].len() as f64 * DVec3::Y));
+    }
+    let target = DVec3::new(0.0, 0.275, 0.0);
+    let away = DVec3::new(0.12 * PI, 0.16, 1.0).normalize();
+    write(scene, "A light and a heavy chain", &pieces, target + 1.45 * away, target)
+}

@@ -1,0 +1,206 @@
+//! What motion by places costs: a mobile of 127 joints that is dragged by one plate, beside a published figure, and shipped
+//! exhibits moved by places beside the laws, step by step in turns.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use cpu_time::ThreadTime;
+use serde::Serialize;
+
+use crate::commands::{Failure, Outcome, open};
+use crate::dynamics::{Dynamics, Integrator, Solver};
+use crate::exhibit::Exhibit;
+use crate::math::{DVec3, sincos};
+use crate::offline::scene::make;
+use crate::procedural::{Grip, Method, Procedural};
+use crate::simulation::{MotionMode, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+
+/// The mobile: its joints, and the seed of its sizes.
+const JOINTS: usize = 127;
+const SEED: u64 = 1;
+/// The plate goes round an ellipse of this half width and height, m, at this rate, rad/s: 0.3 m/s at most.
+const WIDE: f64 = 0.15;
+const HIGH: f64 = 0.08;
+const RATE: f64 = 2.0;
+/// A frame is a step of the simulation, s.
+const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
+/// Each frame's least time of the rounds counts, as the machine's other work can only add.
+const ROUNDS: usize = 5;
+/// A mobile of 127 constraints by position-based rigid body dynamics, µs a step (C. Deul, P. Charrier, J. Bender,
+/// Computer Animation and Virtual Worlds 2014).
+const PUBLISHED: f64 = 830.0;
+/// Exhibits that are moved both ways, where none is named.
+const EXHIBITS: [&str; 3] = ["steel-fish", "breaking-chain", "gear-train"];
+
+/// The drag.
+#[derive(Serialize)]
+struct Drag {
+    joints: usize,
+    /// Frame, s.
+    dt: f64,
+    method: &'static str,
+    /// µs a frame, thread CPU time: the middle one, and the dearest.
+    median_us: f64,
+    most_us: f64,
+    /// Passes of a frame: mean, and most.
+    passes: f64,
+    most_passes: u32,
+    /// Worst joint and worst miss of any frame, m.
+    residual_m: f64,
+    missed_m: f64,
+    /// The published figure over the middle frame.
+    ratio: f64,
+}
+
+/// An exhibit moved by the laws and by places.
+#[derive(Serialize)]
+struct Beside {
+    exhibit: String,
+    bodies: usize,
+    /// µs a step, middle one.
+    dynamic_us: f64,
+    position_based_us: f64,
+    procedural_us: f64,
+    /// Over the laws.
+    position_based_ratio: f64,
+    procedural_ratio: f64,
+}
+
+/// Measures and prints.
+pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
+    for method in [Method::TreeSolve, Method::Compulsive] {
+        let drag = drag(seconds, method);
+        if json {
+            println!("{}", serde_json::to_string(&drag).map_err(Failure::input)?);
+        } else {
+            println!(
+                "drag of {} joints, {:<14} frame {:.5} s: {:>6.1} us (at most {:.1}), {:.2} passes (at most {}), joints \
+                 {:.1e} m, hand {:.1e} m; published {PUBLISHED} us: x {:.1}",
+                drag.joints,
+                drag.method,
+                drag.dt,
+                drag.median_us,
+                drag.most_us,
+                drag.passes,
+                drag.most_passes,
+                drag.residual_m,
+                drag.missed_m,
+                drag.ratio
+            );
+        }
+    }
+    let names = if names.is_empty() { EXHIBITS.map(str::to_owned).to_vec() } else { names.to_vec() };
+    for name in names {
+        let row = beside(&open(&name)?, seconds);
+        if json {
+            println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
+        } else {
+            println!(
+                "{:<16} {:>3} bodies: laws {:>6.1} us a step, position-based {:>6.1} us (x {:.2}), procedural {:>6.1} us (x {:.2})",
+                row.exhibit,
+                row.bodies,
+                row.dynamic_us,
+                row.position_based_us,
+                row.position_based_ratio,
+                row.procedural_us,
+                row.procedural_ratio
+            );
+        }
+    }
+    Ok(())
+}
+
+fn name(method: Method) -> &'static str {
+    match method {
+        Method::TreeSolve => MotionMode::PositionBased.name(),
+        Method::Compulsive => MotionMode::Procedural.name(),
+    }
+}
+
+/// Drags the last plate of the mobile, which hung at rest.
+fn drag(seconds: f64, method: Method) -> Drag {
+    let mut scene = make::mobile(JOINTS, SEED);
+    for body in &mut scene.bodies {
+        (body.linvel, body.angvel) = ([0.0; 3], [0.0; 3]);
+    }
+    let start = scene.dynamics(Integrator::Auto, Solver::Sparse);
+    let body = JOINTS - 1;
+    let rest = start.bodies[body].position;
+    let point = start.bodies[body].pose().inverse_point(rest);
+    let place = |t: f64| {
+        let (s, c) = sincos(RATE * t);
+        rest + DVec3::new(WIDE * s, HIGH * (1.0 - c), 0.0)
+    };
+    let frames = (seconds / DT).ceil() as usize;
+    let mut times = vec![f64::INFINITY; frames];
+    let mut row = Drag {
+        joints: start.system().joints().len(),
+        dt: DT,
+        method: name(method),
+        median_us: 0.0,
+        most_us: 0.0,
+        passes: 0.0,
+        most_passes: 0,
+        residual_m: 0.0,
+        missed_m: 0.0,
+        ratio: 0.0,
+    };
+    for _ in 0..ROUNDS {
+        let (mut dynamics, mut impacts) = (scene.dynamics(Integrator::Auto, Solver::Sparse), Vec::new());
+        let mut mover = mover(&dynamics, method);
+        let still = vec![[0.0; 6]; dynamics.bodies.len()];
+        row.passes = 0.0;
+        for (frame, best) in times.iter_mut().enumerate() {
+            let grips = [Grip { body, point, place: place(DT * (frame + 1) as f64) }];
+            let began = ThreadTime::now();
+            black_box(mover.step(&mut dynamics, DT, &still, &grips, &mut impacts));
+            *best = best.min(1e6 * began.elapsed().as_secs_f64());
+            let reach = mover.reach();
+            row.passes += f64::from(reach.passes) / frames as f64;
+            row.most_passes = row.most_passes.max(reach.passes);
+            row.residual_m = row.residual_m.max(dynamics.joint_error());
+            row.missed_m = row.missed_m.max(reach.missed);
+        }
+    }
+    row.most_us = times.iter().copied().fold(0.0, f64::max);
+    row.median_us = median(&mut times);
+    row.ratio = PUBLISHED / row.median_us;
+    row
+}
+
+fn mover(dynamics: &Dynamics, method: Method) -> Procedural {
+    Procedural::new(dynamics, crate::procedural::Settings { method, ..Default::default() })
+}
+
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// Runs an exhibit in each kind of motion, one step of each in turn, without wind.
+fn beside(exhibit: &Arc<Exhibit>, seconds: f64) -> Beside {
+    const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::PositionBased, MotionMode::Procedural];
+    let steps = (seconds * STEPS_PER_SECOND as f64).ceil() as usize;
+    let settings = Settings { wind: false, ..Settings::default() };
+    let mut times = MODES.map(|_| vec![f64::INFINITY; steps]);
+    for _ in 0..ROUNDS {
+        let mut runs = MODES.map(|mode| (mode, Simulation::new(exhibit.clone(), settings)));
+        for step in 0..steps {
+            for ((mode, run), times) in runs.iter_mut().zip(&mut times) {
+                let began = ThreadTime::now();
+                run.step(&StepInput { mode: *mode, ..StepInput::default() });
+                times[step] = times[step].min(1e6 * began.elapsed().as_secs_f64());
+            }
+        }
+    }
+    let [dynamic_us, position_based_us, procedural_us] = times.map(|mut times| median(&mut times));
+    Beside {
+        exhibit: exhibit.id.clone(),
+        bodies: exhibit.bodies.len(),
+        dynamic_us,
+        position_based_us,
+        procedural_us,
+        position_based_ratio: position_based_us / dynamic_us,
+        procedural_ratio: procedural_us / dynamic_us,
+    }
+}
