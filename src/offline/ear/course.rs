@@ -22,6 +22,9 @@ pub const FOLDS: u64 = 5;
 /// Every recording is learnt from at its own gain and at some more, within this, dB; so many copies in all.
 const GAIN_DB: f64 = 12.0;
 const COPIES: u64 = 5;
+/// Part of the made scenes that are heard with the gain turned up too far, and by how much at most, dB.
+const RAILED: f64 = 0.08;
+const RAILED_DB: f64 = 28.0;
 
 /// Where learning begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +69,7 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
     let mut all = vec![
         (Condition::Museum, count(60.0)),
         (Condition::Impulses, count(120.0)),
+        (Condition::Alike, count(120.0)),
         (Condition::Isolated, count(180.0)),
     ];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(45.0))));
@@ -78,7 +82,8 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
 fn taught(world: &World, settings: &BlowSettings, course: &Course) -> Vec<Example> {
     let made = parallel(scenes(course.size), |(condition, index)| {
         let mut random = Random::new(hash_words(&[course.seed, index, 3]));
-        let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB), stereo: false };
+        let railed = if random.unit() < RAILED { random.range(0.0, RAILED_DB) } else { 0.0 };
+        let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB) + railed, stereo: false };
         let mut out = Vec::new();
         examples(&world.take(condition, index, hearing), settings, &mut out);
         out

@@ -4,6 +4,8 @@
 //! voice, no room and no event. A scene sums dry sounds at places of a room, takes each place through the room's response to
 //! each capsule, adds breath, the bump that comes through the table, and the microphone: corner, noise, gain, rails.
 
+mod bystanders;
+
 use crate::math::{exp, from_decibels, tanh};
 use crate::noise::{Random, hash_words};
 use crate::wind::generate::filter::{high_passed, low_passed, normalised, power, white};
@@ -30,6 +32,8 @@ pub enum Condition {
     Museum,
     /// Pops, thumps, claps, doors, bumps in a quiet room.
     Impulses,
+    /// What is most like breath, one after another: thunder, doors, hands on the table, coughs, fans. Nobody blows.
+    Alike,
     /// Breath in a quiet room, of any strength, distance and angle.
     Isolated,
     /// Breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
@@ -124,6 +128,7 @@ impl World {
         match condition {
             Condition::Museum => self.museum(index, hearing, &mut random),
             Condition::Impulses => self.impulses(index, hearing, &mut random),
+            Condition::Alike => self.alike(index, hearing, &mut random),
             Condition::Isolated => {
                 let child = random.unit() < 0.4;
                 let angle = if random.unit() < 0.5 { random.range(0.0, 12.0) } else { random.range(12.0, 60.0) };
@@ -153,109 +158,6 @@ impl World {
         self.voices[(random.unit() * VOICES as f64) as usize].0
     }
 
-    /// Lasting and sudden sounds of a museum; `busy` scales how many.
-    fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
-        let mut dry = Dry::silent((seconds * R) as usize);
-        let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
-        let decibel = |random: &mut Random, low: f64, high: f64| from_decibels(random.range(low, high));
-        if random.unit() < 0.6 * busy {
-            let loud = random.range(-62.0, -24.0);
-            for _ in 0..random.range(1.0, 14.0) as u32 {
-                let at = place(random);
-                let gain = from_decibels(loud + random.range(-8.0, 3.0));
-                dry.put("talk", at, 0.0, &self.speech(seconds, random), gain);
-            }
-        }
-        if random.unit() < 0.25 * busy {
-            // Somebody speaks right before the kiosk.
-            let gain = decibel(random, -40.0, -12.0);
-            let from = random.range(0.0, 0.3 * seconds);
-            dry.put("talk at the kiosk", PLACES - 1, from, &self.speech(0.6 * seconds, random), gain);
-            if random.unit() < 0.5 {
-                let puffs = voices::plosives(0.6 * seconds, random);
-                let from = random.range(0.0, 0.3 * seconds);
-                dry.put("puffs", PLACES, from, &puffs, decibel(random, -30.0, -6.0));
-            }
-        }
-        if !self.recorded.is_empty() && random.unit() < 0.35 * busy {
-            let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
-            let (at, gain) = (place(random), decibel(random, -50.0, -16.0));
-            let (from, length) = (random.unit() * track.len() as f64, dry.samples() as f64 * random.range(0.3, 1.5));
-            let sound: Vec<f64> = track.iter().cycle().skip(from as usize).take(length as usize).copied().collect();
-            let at = if random.unit() < 0.5 { PLACES } else { at };
-            dry.put("a recording", at, random.range(-0.2, 0.5) * seconds, &sound, gain);
-        }
-        let lasting = (random.unit() * 2.5 * busy * seconds / 60.0 + random.unit()) as u32;
-        for _ in 0..lasting {
-            let length = random.range(3.0, 25.0).min(seconds);
-            let (what, sound) = match (random.unit() * 8.0) as u32 {
-                0 => ("trolley", noises::trolley(length, random)),
-                1 => ("train", noises::train(length, random)),
-                2 => ("machine", noises::machine(length, random)),
-                3 => ("ventilation", noises::switched_air(length, random)),
-                4 => ("rain", noises::rain(length, random)),
-                5 => ("steps", noises::footsteps(length, random)),
-                6 => ("applause", noises::applause(length.min(8.0), random)),
-                _ => ("music", noises::music(length, random)),
-            };
-            let (at, when) = (place(random), random.range(-0.2, 1.0) * (seconds - 1.0));
-            dry.put(what, at, when, &normalised(sound), decibel(random, -58.0, -16.0));
-        }
-        let sudden = (random.range(0.0, 10.0) * busy * seconds / 60.0 + random.unit()) as u32;
-        for _ in 0..sudden {
-            let voice = self.voice(random);
-            let (what, sound) = match (random.unit() * 12.0) as u32 {
-                0 => ("laughter", voices::laughter(&voice, random)),
-                1 => ("cough", voices::cough(&voice, random)),
-                2 => ("shout", voices::speech(&voice.shouting(), random.range(0.3, 2.5), random)),
-                3 => ("door", noises::door(random)),
-                4 => ("scrape", noises::scrape(random)),
-                5 => ("drop", noises::drop(random)),
-                6 => ("thunder", noises::thunder(random)),
-                7 => ("steps", noises::footsteps(random.range(0.5, 3.0), random)),
-                8 => ("handling", noises::handling(random)),
-                9 => ("tone", voices::tone(random.range(0.1, 2.0), random)),
-                10 => ("applause", noises::applause(random.range(0.2, 3.0), random)),
-                _ => ("bump", noises::bump(random)),
-            };
-            let table = random.unit() < 0.15;
-            let at = if table { PLACES } else { place(random) };
-            let sound = crate::wind::generate::filter::peaked(sound);
-            let when = random.range(0.0, seconds);
-            dry.put(what, at, when, &sound, decibel(random, -42.0, -2.0));
-        }
-        dry
-    }
-
-    /// A noise that goes on evenly: a full hall, a machine, rain, a recording.
-    fn throng(&self, seconds: f64, random: &mut Random) -> Dry {
-        let mut dry = Dry::silent((seconds * R) as usize);
-        let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
-        if !self.recorded.is_empty() && random.unit() < 0.5 {
-            let track = &self.recorded[(random.unit() * self.recorded.len() as f64) as usize];
-            let from = (random.unit() * track.len() as f64) as usize;
-            let sound: Vec<f64> = track.iter().cycle().skip(from).take(dry.samples()).copied().collect();
-            let at = if random.unit() < 0.7 { PLACES } else { place(random) };
-            dry.put("a recording", at, 0.0, &sound, 0.1);
-            return dry;
-        }
-        if random.unit() < 0.7 {
-            for _ in 0..random.range(5.0, 25.0) as u32 {
-                let (at, gain) = (place(random), from_decibels(random.range(-8.0, 3.0)));
-                dry.put("throng", at, 0.0, &self.speech(seconds, random), gain * 0.03);
-            }
-        }
-        let (what, even) = match (random.unit() * 4.0) as u32 {
-            0 => ("rain", noises::rain(seconds, random)),
-            1 => ("music", noises::music(seconds, random)),
-            2 => ("machine", noises::machine(seconds, random)),
-            _ => ("air", noises::air(seconds, random)),
-        };
-        let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
-        dry.put(what, at, 0.0, &even, gain);
-        dry
-    }
-
     /// What both capsules hear of the dry sounds.
     fn heard(&self, dry: &Dry, stereo: bool, random: &mut Random) -> Vec<Vec<f64>> {
         let (_, responses) = &self.rooms[(random.unit() * ROOMS as f64) as usize];
@@ -279,41 +181,6 @@ impl World {
         for channel in channels {
             add(channel, 0.0, &air, from_decibels(dbfs));
         }
-    }
-
-    fn museum(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
-        let seconds = 60.0;
-        let dry = self.museum_sounds(seconds, 1.0, random);
-        let mut channels = self.heard(&dry, hearing.stereo, random);
-        Self::add_air(&mut channels, random.range(-75.0, -38.0), random);
-        let take = self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random);
-        Take { events: dry.events, ..take }
-    }
-
-    fn impulses(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
-        let seconds = 20.0;
-        let mut dry = Dry::silent((seconds * R) as usize);
-        let mut at = random.range(0.6, 1.5);
-        while at < seconds - 1.0 {
-            let (what, sound, table) = match (random.unit() * 9.0) as u32 {
-                0 => ("door", noises::door(random), false),
-                1 => ("bump", noises::bump(random), true),
-                2 => ("drop", noises::drop(random), random.unit() < 0.5),
-                3 => ("puffs", voices::plosives(random.range(0.3, 1.5), random), true),
-                4 => ("steps", noises::footsteps(random.range(0.4, 2.0), random), false),
-                5 => ("handling", noises::handling(random), true),
-                6 => ("applause", noises::applause(random.range(0.5, 3.0), random), false),
-                7 => ("applause", noises::applause(random.range(0.5, 4.0), random), random.unit() < 0.5),
-                _ => ("clap", noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
-            };
-            let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
-            dry.put(what, place, at, &sound, from_decibels(random.range(-30.0, 0.0)));
-            at += random.range(0.7, 3.0);
-        }
-        let mut channels = self.heard(&dry, hearing.stereo, random);
-        Self::add_air(&mut channels, random.range(-75.0, -50.0), random);
-        let take = self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random);
-        Take { events: dry.events, ..take }
     }
 
     /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
@@ -522,6 +389,7 @@ impl Condition {
                 hash_words(&[4, distance.to_bits(), angle.to_bits(), u64::from(child)])
             }
             Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
+            Self::Alike => 6,
             Self::OwnVoice(room) => 100 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),
         }

@@ -16,7 +16,8 @@ const DETECTION: f64 = 0.95;
 /// Of the blows 5 dB and more above a noise: the goal, 22 of 24.
 const DETECTION_5_DB: f64 = 22.0 / 24.0;
 /// Of made breaths in a museum as loud as they are: what is reached, less what two dozen may scatter by (two standard
-/// deviations). The goal is 0.75, on recordings; the set has four of these, of which one is heard, too few to hold anything to.
+/// deviations). The goal is 0.75, on recordings; the set has four of these, of which three are heard, too few to hold anything
+/// to.
 const DETECTION_0_DB: f64 = 0.4;
 /// Of made breaths that the kiosk answers, as loudly as it can.
 const DETECTION_ANSWERED: f64 = 0.85;
