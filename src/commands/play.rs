@@ -158,7 +158,7 @@ pub fn run(args: Args) -> Outcome {
         SolverArg::PositionBased => Some(MotionMode::PositionBased),
     };
     let mode = match (args.compare, args.solver) {
-        (true, SolverArg::Auto) => MotionMode::PositionBased,
+        (true, SolverArg::Auto) => Some(MotionMode::PositionBased),
         (true, SolverArg::Dynamics) => {
             let message = "--compare sets the laws beside --solver procedural or position-based".into();
             return Err(Failure { code: 2, message });

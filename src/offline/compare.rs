@@ -141,7 +141,7 @@ pub fn run(
     let moving: Vec<usize> =
         (0..exhibit.bodies.len()).filter(|body| exhibit.drives.iter().all(|drive| drive.body != *body)).collect();
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
-    let (mut rows, mut commands) = (Vec::new(), Vec::new());
+    let (mut rows, mut commands, mut hands) = (Vec::new(), Vec::new(), Vec::new());
     let mut told = [Vec::new(), Vec::new()];
     let mut joints = [0.0_f64; 2];
     let mut sums = [0.0; 3];
@@ -182,8 +182,12 @@ pub fn run(
         let microphone = breath.as_mut().map(WavFeed::microphone);
         let pointer = script.as_ref().and_then(Script::aim).or(aim);
         let input = StepInput { microphone, pointer, aspect, commands: &commands, ..StepInput::default() };
-        laws.step(&StepInput { mode: MotionMode::Dynamic, ..input });
-        other.step(&StepInput { mode, ..input });
+        for (run, mode) in [(&mut laws, Some(MotionMode::Dynamic)), (&mut other, mode)] {
+            if let Some(script) = &mut script {
+                script.hands(run, aspect, &mut hands);
+            }
+            run.step(&StepInput { mode, hands: &hands, ..input });
+        }
         for ((told, run), joint) in told.iter_mut().zip([&laws, &other]).zip(&mut joints) {
             told.extend(run.events().iter().map(|event| tell(event, exhibit)));
             *joint = joint.max(run.joint_error());
@@ -196,7 +200,7 @@ pub fn run(
     let faults = [&laws, &other].map(|run| run.snapshot().diagnostics.faults);
     let [rms_m, rms_deg, energy_rms_j] = sums.map(f64::sqrt);
     let summary = Summary {
-        solver: mode.name(),
+        solver: mode.unwrap_or_default().name(),
         steps,
         bodies: moving.len(),
         rms_m,

@@ -188,7 +188,7 @@ fn beside(exhibit: &Arc<Exhibit>, seconds: f64) -> Beside {
         for step in 0..steps {
             for ((mode, run), times) in runs.iter_mut().zip(&mut times) {
                 let began = ThreadTime::now();
-                run.step(&StepInput { mode: *mode, ..StepInput::default() });
+                run.step(&StepInput { mode: Some(*mode), ..StepInput::default() });
                 times[step] = times[step].min(1e6 * began.elapsed().as_secs_f64());
             }
         }
