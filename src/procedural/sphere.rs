@@ -30,6 +30,8 @@ use crate::math::{DMat2, DMat3, DVec2, DVec3, exp};
 const PIECES: usize = 4;
 /// Slower slip than this share of the speeds before is none: ten times what `impulse` leaves.
 const ROLLS: f64 = 1e-8;
+/// Answers smaller than this are none: joints hold what would move, 1/kg or 1/(kg m²).
+const LOCKED: f64 = 1e-9;
 
 /// Effective inverse masses of a point and its couple, all in the frame (t, b, n) of the contact: velocities are K P.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +94,8 @@ pub(super) fn resist(met: &Met, patch: &Patch, mut moves: Moves, answer: DVec3, 
         sticks = moves.slip.truncate().length() <= ROLLS * fast;
     }
     let spinning = met.resistance.spinning * answer.z;
-    let spin = (-moves.turn.z / patch.turn.z_axis.z).clamp(-spinning, spinning);
+    let free = patch.turn.z_axis.z > LOCKED;
+    let spin = if free { (-moves.turn.z / patch.turn.z_axis.z).clamp(-spinning, spinning) } else { 0.0 };
     whole.give(patch, &mut moves, DVec3::ZERO, DVec3::Z * spin);
     if rolling > 0.0 {
         let (force, couple) = stop_rolling(patch, &moves, rolling, sticks.then_some((whole.force.truncate(), most)));
@@ -119,7 +122,7 @@ fn fade(patch: &Patch, moves: &Moves, there: &Moves, budget: f64) -> DVec2 {
     let k = patch.point.x_axis.x.max(patch.point.y_axis.y);
     let (slip, speed) = (moves.slip.truncate(), there.center.truncate().length());
     let (slides, slides_there) = (slip.length(), there.slip.truncate().length());
-    if slides == 0.0 {
+    if slides == 0.0 || k <= LOCKED {
         DVec2::ZERO
     } else if slides_there >= speed {
         // All of it, but no more than ends the slip.

@@ -8,7 +8,9 @@ use soffio::exhibit::{self, Exhibit};
 use soffio::math::{DVec3, PI, asin, exp};
 use soffio::offline::feed::WavFeed;
 use soffio::offline::wav;
-use soffio::simulation::{Command, Event, EventKind, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+use soffio::simulation::{
+    Command, Event, EventKind, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
+};
 use soffio::sound::SoundCommand;
 
 /// What the product promises of joints, m.
@@ -441,6 +443,34 @@ fn the_plates_meet_under_a_breath_and_ring() {
     }
 }
 
+/// A ball of *Billiards* lies between the cushions, on the bed or little above it.
+fn assert_on_the_table(ball: &RigidBody) {
+    let (x, y, z) = (ball.position.x.abs(), ball.position.y, ball.position.z.abs());
+    assert!(x < 0.2201 && z < 0.1301 && (0.083..0.13).contains(&y), "off the table at {}", ball.position);
+}
+
+#[test]
+fn the_balls_stay_on_the_table_and_click_when_moved_by_places() {
+    for mode in [MotionMode::Procedural, MotionMode::PositionBased] {
+        let mut simulation = Simulation::new(shipped("billiards"), Settings::default());
+        let (mut strikes, mut fastest) = (0, 0.0_f64);
+        for step in 0..20 * STEPS_PER_SECOND {
+            let blows = (6 * STEPS_PER_SECOND..8 * STEPS_PER_SECOND).contains(&step);
+            let commands = &[Command::Blow(blows.then_some(12.0))];
+            simulation.step(&StepInput { commands, mode, pointer: Some([0.5, 0.55]), ..StepInput::default() });
+            simulation.bodies().iter().for_each(assert_on_the_table);
+            if step > 6 * STEPS_PER_SECOND {
+                strikes += simulation.sounds().iter().filter(|s| matches!(s, SoundCommand::Strike(_))).count();
+                let speeds = simulation.bodies().iter().map(|ball| ball.velocity.length());
+                fastest = speeds.fold(fastest, f64::max);
+            }
+        }
+        let last = simulation.bodies().iter().fold(0.0, |most: f64, ball| most.max(ball.velocity.length()));
+        println!("{mode:?}: {strikes} strikes, up to {fastest:.2} m/s, then {last:.1e} m/s");
+        assert!(strikes > 2 && fastest > 0.05 && last < 0.01, "{mode:?}: {strikes} strikes, {fastest}, {last} m/s");
+    }
+}
+
 #[test]
 fn the_balls_part_under_a_breath_click_and_come_together_on_the_table() {
     for strength in [0.25, 0.6, 1.0] {
@@ -452,10 +482,7 @@ fn the_balls_part_under_a_breath_click_and_come_together_on_the_table() {
             visit.step();
             for (ball, start) in visit.simulation.bodies().iter().zip(&start) {
                 way = way.max(ball.position.distance(start.position));
-                // Between the cushions, and on the bed or little above it.
-                let (x, y, z) = (ball.position.x.abs(), ball.position.y, ball.position.z.abs());
-                assert!(x < 0.2201 && z < 0.1301, "strength {strength}: off the table at {}", ball.position);
-                assert!((0.083..0.13).contains(&y), "strength {strength}: at a height of {y} m");
+                assert_on_the_table(ball);
             }
         }
         let clicks = visit.strikes - before;

@@ -9,8 +9,8 @@
 //! drilling    |C_n| ≤ d N     ω_n = 0 below the bound, C_n = −d N sign ω_n on it
 //! ```
 //!
-//! which are Coulomb's laws of turning (b is how far N stands ahead of the centre; a round patch of radius a under Hertz's
-//! pressure, with the coefficient μ, has d = 3π μ a/16; K. L. Johnson, Contact Mechanics, 1985, 7.1 and 9.4). A ball of radius
+//! which are Coulomb's laws of turning. b is how far N stands ahead of the centre; a round patch of radius a under Hertz's
+//! pressure p = 3N/(2π a²) √(1 − ρ²/a²) that slides with the coefficient μ has d = ∫ μ p ρ dA/N = 3π μ a/16. A ball of radius
 //! r and inertia k m r² that rolls on a level then slows down by b g/(r (1 + k)), 5/7 b g/r where it is solid, and stands
 //! still; a ball that spins in place loses d g/(k r²) of its spin a second.
 //!
