@@ -88,8 +88,7 @@ impl Problem {
         let far = points()
             .filter(|touch| touch.impulse.x > SLIGHT * largest)
             .fold(1.0, |far: f64, touch| far.min(touch.most_leap()));
-        let turns = self.touches.iter().filter_map(|touch| touch.twist.as_ref().map(|twist| (touch, twist)));
-        let far = turns.fold(far, |far, (touch, twist)| far.min(self.most_turn(touch, twist)));
+        // Couples do not hinder it: one that leaps beyond its bounds stays on them.
         for index in 0..self.touches.len() {
             let touch = &self.touches[index];
             let to = touch.impulse + far * touch.leap;

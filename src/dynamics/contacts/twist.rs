@@ -93,19 +93,6 @@ impl Problem {
         [p.x.abs() < most.x, across(p) < most.y]
     }
 
-    /// Share of its leap, up to 1, that keeps a couple within its bounds.
-    pub(super) fn most_turn(&self, touch: &Touch, twist: &Twist) -> f64 {
-        let (p, d, most) = (touch.impulse, touch.leap, self.twist_bounds(twist));
-        let spin = if (p.x + d.x).abs() <= most.x { 1.0 } else { (most.x - p.x * d.x.signum()).max(0.0) / d.x.abs() };
-        if d.with_x(0.0) == DVec3::ZERO || across(p + d) <= most.y {
-            return spin;
-        }
-        // |p_T + x d_T|² = (b N)².
-        let (a, b) = (d.with_x(0.0).length_squared(), d.with_x(0.0).dot(p));
-        let c = (across(p) * across(p) - most.y * most.y).min(0.0);
-        spin.min(-c / (b + (b * b - a * c).sqrt()).max(f64::MIN_POSITIVE)).min(1.0)
-    }
-
     /// A couple brought back within its bounds.
     pub(super) fn bounded_twist(&self, twist: &Twist, impulse: DVec3) -> DVec3 {
         bounded(impulse, self.twist_bounds(twist))
