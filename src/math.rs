@@ -6,7 +6,7 @@
 
 pub mod lanes;
 
-pub use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+pub use glam::{DMat2, DMat3, DMat4, DQuat, DVec2, DVec3};
 pub use libm::{acos, asin, atan2, cos, exp, log as ln, log10, pow, sin, sincos, sqrt, tanh};
 
 /// π, at hand.

@@ -4,6 +4,7 @@
 //! this code, byte for byte. Invariant: no clock, no randomness without a stated seed, software transcendentals.
 
 pub mod axis_wheel;
+pub mod billiards;
 pub mod breaking_chain;
 pub mod breaths;
 pub mod chains;
@@ -37,6 +38,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
     // Speeds at the lips of a gentle, a normal and a strong breath; the seeds only tell them apart.
     Ok(vec![
         Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
+        Artifact { path: "billiards/billiards.glb", bytes: billiards::glb() },
         Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },

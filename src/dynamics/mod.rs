@@ -33,7 +33,9 @@ use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
 use contacts::Verdict;
-pub use contacts::{Contacts, ENDS, Impact, ImpactKind, Met, Strike, Struck, SurfacePair, Touching, strike};
+pub use contacts::{
+    Contacts, ENDS, Impact, ImpactKind, Met, Resistance, Strike, Struck, SurfacePair, Touching, couple_rows, strike,
+};
 use course::{Course, Rate};
 pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};

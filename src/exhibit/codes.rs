@@ -60,6 +60,7 @@ codes! {
     NO_MESH = "E0240", "a node has no mesh to take a shape from";
     NOT_FLAT = "E0241", "a mesh has no outline to fit a plate to";
     NO_COLLIDER = "E0250", "a sound of hits or sliding needs a collider on its body";
+    ENDLESS = "E0252", "a plane without end belongs to what moves";
     TRIGGER = "E0251", "a trigger waits for hits on a body without a collider";
     NO_TEXT = "E0260", "a label text is missing";
     BREATH = "E0261", "a recorded breath cannot be read";

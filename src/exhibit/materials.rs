@@ -4,9 +4,10 @@
 //! Database for timber along the grain). The loss factor is that of a part as it hangs, wire and all, two to ten
 //! times the bare material's: T60 = 2.2/(η f) (Fletcher and Rossing, "The Physics of Musical Instruments"; Cremer,
 //! Heckl and Petersson, "Structure-Borne Sound"). Friction is the dry pair with itself, worn smooth; restitution is
-//! that of small hits (some 0.1 m/s). A curator who has measured better writes better.
+//! that of small hits (some 0.1 m/s). What rolls and spins does so freely. A curator who has measured better writes better.
 
 use super::Material;
+use crate::dynamics::Resistance;
 
 /// One row: name, kg/m³, μ static, μ sliding, restitution, E in GPa, Poisson's ratio, installed loss factor.
 type Row = (&'static str, f64, f64, f64, f64, f64, f64, f64);
@@ -46,5 +47,6 @@ pub fn builtin(name: &str) -> Option<Material> {
         youngs_modulus: gigapascals * 1e9,
         poisson,
         loss_factor,
+        resistance: Resistance::default(),
     })
 }

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use crate::articulation::{Constraint, Limit, Spring};
 use crate::bodies::MassProperties;
-use crate::collision::{Collider, Exclusion};
-use crate::dynamics::{Drive, Integrator, Solver};
+use crate::collision::{Collider, Exclusion, Pair};
+use crate::dynamics::{Drive, Integrator, Resistance, Solver, SurfacePair};
 use crate::math::{DVec3, Pose};
 use crate::procedural::Method;
 use crate::sound::InstrumentSpec;
@@ -133,13 +133,21 @@ pub struct Origin {
 }
 
 impl Exhibit {
-    /// Restitution and sliding friction between two materials: the pair's own, or the geometric mean of both.
-    pub fn surface_pair(&self, a: usize, b: usize) -> (f64, f64) {
+    /// What the surfaces of two colliders do to each other. Restitution and sliding friction are those of the pair of
+    /// materials, or the geometric mean of both; resistances are those of the pair, or the sum of both, as each surface
+    /// loses its own.
+    pub fn surface_pair(&self, pair: Pair) -> SurfacePair {
+        let [a, b] = [pair.a, pair.b].map(|collider| self.colliders[collider].material);
         let (x, y) = (&self.materials[a], &self.materials[b]);
         let own = self.material_pairs.iter().find(|p| p.pair == (a, b) || p.pair == (b, a));
         let restitution = own.and_then(|p| p.restitution).unwrap_or((x.restitution * y.restitution).sqrt());
         let friction = own.and_then(|p| p.dynamic_friction).unwrap_or((x.dynamic_friction * y.dynamic_friction).sqrt());
-        (restitution, friction)
+        let (r, s) = (&x.resistance, &y.resistance);
+        let resistance = Resistance {
+            rolling: own.and_then(|p| p.rolling_resistance).unwrap_or(r.rolling + s.rolling),
+            spinning: own.and_then(|p| p.spin_resistance).unwrap_or(r.spinning + s.spinning),
+        };
+        SurfacePair { pair, restitution, friction, resistance }
     }
 }
 
@@ -162,6 +170,8 @@ pub struct Material {
     pub poisson: f64,
     /// Installed loss factor η.
     pub loss_factor: f64,
+    /// Its part in what resists rolling and spinning on it.
+    pub resistance: Resistance,
 }
 
 /// Override of the combine rule for one pair of materials.
@@ -175,6 +185,10 @@ pub struct MaterialPair {
     pub dynamic_friction: Option<f64>,
     /// Coulomb coefficient while sticking.
     pub static_friction: Option<f64>,
+    /// Couple against rolling over the normal force, m.
+    pub rolling_resistance: Option<f64>,
+    /// Couple against spin about the normal over the normal force, m.
+    pub spin_resistance: Option<f64>,
 }
 
 /// A moving rigid body.

@@ -244,9 +244,14 @@ pub struct Material {
     /// Loss factor η of the hung part: T60 = 2.2/(η f).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub loss_factor: Option<f64>,
+    /// Rolling resistance: the couple against rolling over the normal force. Those of two surfaces add; without it nothing
+    /// that rolls slows down.
+    pub rolling_resistance: Option<Length>,
+    /// Drilling friction: the couple against spin about the normal over the normal force. Those of two surfaces add.
+    pub spin_resistance: Option<Length>,
 }
 
-/// Override of the combine rule (geometric mean) for one pair of materials.
+/// Override of the combine rule (geometric mean; resistances add) for one pair of materials.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialPair {
@@ -261,6 +266,10 @@ pub struct MaterialPair {
     /// Coulomb coefficient while sticking.
     #[schemars(range(min = 0.0))]
     pub static_friction: Option<f64>,
+    /// Rolling resistance of both together: the couple against rolling over the normal force.
+    pub rolling_resistance: Option<Length>,
+    /// Drilling friction of both together: the couple against spin about the normal over the normal force.
+    pub spin_resistance: Option<Length>,
 }
 
 /// A point: the name of a node, or coordinates.

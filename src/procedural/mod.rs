@@ -16,7 +16,8 @@
 //! * [`Method::TreeSolve`]: all joints at once, least in kinetic energy (`tree.rs`): each displacement of the update
 //!   counts with its mass and inertia, as in the laws. Of first order in Δt.
 //!
-//! Then what met is moved out and thrown back (`touch.rs`). Where the way is from is where the velocity comes from:
+//! Then what met is moved out and thrown back (`touch.rs`), and what rests slides, rolls and spins on it (`sphere.rs`): balls
+//! by the source's slip ratio where the method is the source's, else by Coulomb's law. Where the way is from is where the velocity comes from:
 //! v = (x_{k+1} − x_k)/Δt, so that the laws can go on from any step, and this from the laws.
 //!
 //! κ is 1/(1 + c Δt) with the body's damping rate c, times the figure's own [`Settings::retention`]. Breaking by load and
@@ -26,6 +27,7 @@ mod compulsive;
 mod fours;
 mod pair;
 pub mod rule;
+mod sphere;
 mod touch;
 mod tree;
 pub mod walk;
@@ -213,7 +215,11 @@ impl Procedural {
             self.reach = self.adjust(&mut moved, grips);
         }
         let motion = (dt, moved.gravity.length());
-        self.touches.bounce(moved.system, moved.bodies, &self.before, motion, moved.impacts);
+        let by_ratio = self.settings.method == Method::Compulsive;
+        let shifted = self.touches.bounce(moved.system, moved.bodies, &self.before, (motion, by_ratio), moved.impacts);
+        if shifted && !moved.system.joints().is_empty() {
+            self.reach = self.adjust(&mut moved, grips);
+        }
     }
 
     /// Says what the joints may keep open: what is open at a step's start is drawn together over time, not in one step.

@@ -14,15 +14,19 @@
 //! throws nothing. Each point that met and approaches then gets the impulse of `dynamics::impulse` (Coulomb's cone,
 //! Stronge's restitution), with the effective mass of the joints as they stand at the step's end.
 //!
+//! What rests is answered by the laws of `sphere.rs` where its surfaces resist turning, or it is a ball and the method the
+//! source's.
+//!
 //! What met in the step before and comes no faster than gravity brings it within a step or two is at rest: it does not
 //! bounce and tells nothing.
 
 use super::compulsive::Compulsive;
+use super::sphere::{Moves, Patch, Push, resist};
 use crate::articulation::System;
 use crate::articulation::block::{Vec6, add_scaled, angular, dot, linear, vec6};
 use crate::bodies::RigidBody;
 use crate::dynamics::impulse::impulse;
-use crate::dynamics::{Contacts, Dynamics, ENDS, Impact, ImpactKind, Met};
+use crate::dynamics::{Contacts, Dynamics, ENDS, Impact, ImpactKind, Met, couple_rows};
 use crate::math::{DMat3, DVec3, tangents};
 
 /// Points that are looked at in one step at most.
@@ -35,6 +39,24 @@ const LOCKED: f64 = 1e-9;
 /// Depths that are left as they are, m or rad.
 const LEVEL: f64 = 1e-9;
 
+/// How a point answers.
+struct Law {
+    restitution: f64,
+    /// Does it lie rather than hit?
+    rests: bool,
+    /// Do balls slide by the source's slip ratio?
+    by_ratio: bool,
+    /// Length of the step, s.
+    dt: f64,
+}
+
+impl Law {
+    /// Do the laws of `sphere.rs` answer what met?
+    fn resists(&self, met: &Met) -> bool {
+        self.rests && (!met.resistance.is_none() || (self.by_ratio && rolling_ball(met).is_some()))
+    }
+}
+
 /// What touches in a procedural step.
 #[derive(Clone, Debug)]
 pub(super) struct Touches {
@@ -44,8 +66,9 @@ pub(super) struct Touches {
     /// Step in which each source met last.
     last: Vec<u64>,
     step: u64,
-    /// Answers to the three rows of a point.
+    /// Answers to the three rows of a point, and to those of its couple.
     columns: [Vec<Vec6>; 3],
+    turns: [Vec<Vec6>; 3],
 }
 
 impl Touches {
@@ -59,6 +82,7 @@ impl Touches {
             last: vec![0; sources],
             step: 1,
             columns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
+            turns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
         }
     }
 
@@ -119,21 +143,24 @@ impl Touches {
         }
     }
 
-    /// Throws back what met and approaches, and tells it.
+    /// Throws back what met and approaches, and tells it. Answers whether friction has moved bodies by place, so that joints
+    /// are to be closed again.
     pub fn bounce(
         &mut self,
         system: &mut System,
         bodies: &mut [RigidBody],
         before: &[RigidBody],
-        (dt, gravity): (f64, f64),
+        ((dt, gravity), by_ratio): ((f64, f64), bool),
         impacts: &mut Vec<Impact>,
-    ) {
+    ) -> bool {
+        let mut shifted = false;
         system.evaluate(bodies);
         system.factor();
         let slow = REST_SPEED + REST_STEPS * gravity * dt;
         let already = impacts.len();
         for index in 0..self.met.len() {
-            let met = self.met[index];
+            let mut met = self.met[index];
+            met.point = on_the_ball(&met, bodies).unwrap_or(met.point);
             let lies = self.last[met.source] + 1 >= self.step;
             // A limit has ended the way already: how fast it was reached says the state before.
             let stops = met.colliders.is_none() && !lies;
@@ -141,7 +168,9 @@ impl Touches {
             let rests = speed < REST_SPEED || (lies && speed < slow);
             if speed > 0.0 {
                 let restitution = if rests { 0.0 } else { met.restitution };
-                let (push, mass) = self.push(system, &met, restitution, speed, bodies);
+                let law = Law { restitution, rests, by_ratio, dt };
+                let (push, mass) = self.push(system, &met, &law, speed, bodies);
+                shifted |= law.resists(&met);
                 let told = impacts[already..]
                     .iter_mut()
                     .find(|told| told.colliders == met.colliders && told.bodies == met.bodies);
@@ -170,26 +199,20 @@ impl Touches {
             self.last[met.source] = self.step;
         }
         self.step += 1;
+        shifted
     }
 
     /// The impulse of one point or bound, given to the bodies; its size (N s) and the effective mass (kg).
-    fn push(
-        &mut self,
-        system: &mut System,
-        met: &Met,
-        restitution: f64,
-        speed: f64,
-        bodies: &mut [RigidBody],
-    ) -> (f64, f64) {
+    fn push(&mut self, system: &mut System, met: &Met, law: &Law, speed: f64, bodies: &mut [RigidBody]) -> (f64, f64) {
         if met.colliders.is_none() {
             let answer = answer(system, &met.ends);
             if answer <= LOCKED {
                 return (0.0, 0.0);
             }
-            let push = ((restitution * speed - met.rate(bodies)) / answer).max(0.0);
+            let push = ((law.restitution * speed - met.rate(bodies)) / answer).max(0.0);
             system.a.iter_mut().flatten().for_each(|a| *a *= push);
             system.apply_velocity(bodies);
-            return ((1.0 + restitution) * speed / answer, 1.0 / answer);
+            return ((1.0 + law.restitution) * speed / answer, 1.0 / answer);
         }
         let (t, b) = tangents(met.normal);
         let rows = [t, b, met.normal].map(|axis| point_row(met, axis, bodies));
@@ -203,16 +226,101 @@ impl Touches {
             return (0.0, 0.0);
         }
         let velocity = DVec3::from_array(rows.map(|row| Met { ends: row, ..*met }.rate(bodies)));
-        let p = impulse(&k, velocity, met.friction, restitution);
-        for (index, body) in bodies.iter_mut().enumerate() {
-            let [t, b, n] = self.columns.each_ref().map(|column| &column[index]);
-            for (push, column) in p.to_array().into_iter().zip([t, b, n]) {
-                body.velocity += push * linear(column);
-                body.angular_velocity += push * angular(column);
+        let p = impulse(&k, velocity, met.friction, law.restitution);
+        if !law.resists(met) {
+            add(bodies, &self.columns, p);
+            return (p.length(), 1.0 / k.z_axis.z);
+        }
+        let by_ratio = law.by_ratio && rolling_ball(met).is_some();
+        let Push { force, couple } = self.resist(system, met, (k, velocity, p), by_ratio, bodies);
+        add(bodies, &self.columns, force);
+        add(bodies, &self.turns, couple);
+        // The way of a step goes with the velocity at its end, as under all other forces: what lies still stays.
+        for (columns, p) in [(&self.columns, force.with_z(0.0)), (&self.turns, couple)] {
+            for (index, body) in bodies.iter_mut().enumerate() {
+                let (way, turn) = sum(columns, p, index);
+                body.displace(law.dt * way, law.dt * turn);
             }
         }
-        (p.length(), 1.0 / k.z_axis.z)
+        (force.length(), 1.0 / k.z_axis.z)
     }
+}
+
+impl Touches {
+    /// Force and couple of a resting point, of which Coulomb's answer is known.
+    fn resist(
+        &mut self,
+        system: &mut System,
+        met: &Met,
+        (point, slip, p): (DMat3, DVec3, DVec3),
+        by_ratio: bool,
+        bodies: &[RigidBody],
+    ) -> Push {
+        let [n, t, b] = couple_rows(met);
+        let rows = [t, b, n];
+        let (mut mixed, mut turn, mut center) = (DMat3::ZERO, DMat3::ZERO, DMat3::ZERO);
+        let axes = {
+            let (t, b) = tangents(met.normal);
+            [t, b, met.normal]
+        };
+        let points = axes.map(|axis| point_row(met, axis, bodies));
+        // The ball's centre over the surface under it: the contact point's velocity but for the ball's own turn.
+        let ball = rolling_ball(met);
+        let middles = axes.map(|axis| {
+            let mut row = point_row(met, axis, bodies);
+            let own = row.iter_mut().flatten().filter(|(body, _)| Some(*body) == ball);
+            own.for_each(|(_, block)| *block = vec6(linear(block), DVec3::ZERO));
+            row
+        });
+        for (index, row) in rows.iter().enumerate() {
+            answer(system, row);
+            *mixed.col_mut(index) = DVec3::from_array(points.map(|row| along(&row, &system.a)));
+            *turn.col_mut(index) = DVec3::from_array(rows.map(|row| along(&row, &system.a)));
+            self.turns[index].copy_from_slice(&system.a);
+            *center.col_mut(index) = DVec3::from_array(middles.map(|row| along(&row, &self.columns[index])));
+        }
+        let rate = |row| Met { ends: row, ..*met }.rate(bodies);
+        let moves =
+            Moves { slip, center: DVec3::from_array(middles.map(rate)), turn: DVec3::from_array(rows.map(rate)) };
+        resist(met, &Patch { point, mixed, turn, center }, moves, p, by_ratio)
+    }
+}
+
+/// The body that is a ball on something that is none.
+fn rolling_ball(met: &Met) -> Option<usize> {
+    match met.balls {
+        [Some(_), None] => met.bodies[0],
+        [None, Some(_)] => met.bodies[1],
+        _ => None,
+    }
+}
+
+/// Where a ball touches now that it has been moved out.
+fn on_the_ball(met: &Met, bodies: &[RigidBody]) -> Option<DVec3> {
+    let place = |side: usize| {
+        let ((center, radius), body) = (met.balls[side]?, met.bodies[side]?);
+        let inward = if side == 0 { -radius } else { radius };
+        Some(bodies[body].pose().point(center) + inward * met.normal)
+    };
+    place(0).or_else(|| place(1))
+}
+
+/// Gives the bodies impulses (t, b, n) along columns of answers.
+fn add(bodies: &mut [RigidBody], columns: &[Vec<Vec6>; 3], p: DVec3) {
+    for (index, body) in bodies.iter_mut().enumerate() {
+        let [t, b, n] = columns.each_ref().map(|column| &column[index]);
+        for (push, column) in p.to_array().into_iter().zip([t, b, n]) {
+            body.velocity += push * linear(column);
+            body.angular_velocity += push * angular(column);
+        }
+    }
+}
+
+/// What impulses (t, b, n) along columns of answers change of a body's velocities.
+fn sum(columns: &[Vec<Vec6>; 3], p: DVec3, index: usize) -> (DVec3, DVec3) {
+    let [t, b, n] = columns.each_ref().map(|column| &column[index]);
+    let of = |part: fn(&Vec6) -> DVec3| p.x * part(t) + p.y * part(b) + p.z * part(n);
+    (of(linear), of(angular))
 }
 
 /// Solves for what the figure answers to a unit impulse along a row; how far that goes along the row itself.

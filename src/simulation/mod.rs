@@ -20,7 +20,7 @@ use std::sync::Arc;
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
 use crate::dynamics::forces::Damping;
-use crate::dynamics::{self, Dynamics, Figure, Impact, SurfacePair};
+use crate::dynamics::{self, Dynamics, Figure, Impact};
 use crate::exhibit::{Exhibit, Motion, View};
 use crate::math::{DVec3, StateHash};
 use crate::procedural::{self, Method, Procedural, Reach};
@@ -596,16 +596,7 @@ fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
         springs: &exhibit.springs,
         drives: &exhibit.drives,
         colliders: &exhibit.colliders,
-        pairs: exhibit
-            .pairs()
-            .meet
-            .into_iter()
-            .map(|pair| {
-                let (restitution, friction) =
-                    exhibit.surface_pair(exhibit.colliders[pair.a].material, exhibit.colliders[pair.b].material);
-                SurfacePair { pair, restitution, friction }
-            })
-            .collect(),
+        pairs: exhibit.pairs().meet.into_iter().map(|pair| exhibit.surface_pair(pair)).collect(),
     };
     let dynamics = dynamics::Settings {
         gravity: exhibit.gravity,

@@ -7,7 +7,7 @@ use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, Limi
 use soffio::bodies::{MassProperties, RigidBody};
 use soffio::collision::{Collider, Reach, Shape, pairs};
 use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Settings, Solver, SurfacePair};
+use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Resistance, Settings, Solver, SurfacePair};
 use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
 
 const G: f64 = 9.81;
@@ -88,7 +88,12 @@ impl Scene {
         let surfaces = pairs(&self.colliders, &[], &Reach::default())
             .meet
             .into_iter()
-            .map(|pair| SurfacePair { pair, restitution: self.restitution, friction: self.friction })
+            .map(|pair| SurfacePair {
+                pair,
+                restitution: self.restitution,
+                friction: self.friction,
+                resistance: Resistance::default(),
+            })
             .collect();
         let figure = Figure {
             bodies: self.bodies.clone(),

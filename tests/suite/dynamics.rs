@@ -4,7 +4,7 @@ use soffio::articulation::{Anchor, Constraint, ConstraintKind, PivotFriction};
 use soffio::bodies::{MassProperties, RigidBody};
 use soffio::collision::{Collider, Reach, Shape, pairs};
 use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Settings, Solver, SurfacePair};
+use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Resistance, Settings, Solver, SurfacePair};
 use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sqrt};
 
 const G: f64 = 9.81;
@@ -168,7 +168,7 @@ fn surfaces(colliders: &[Collider], restitution: f64, friction: f64) -> Vec<Surf
     pairs(colliders, &[], &Reach::default())
         .meet
         .into_iter()
-        .map(|pair| SurfacePair { pair, restitution, friction })
+        .map(|pair| SurfacePair { pair, restitution, friction, resistance: Resistance::default() })
         .collect()
 }
 

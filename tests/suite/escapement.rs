@@ -26,7 +26,7 @@ use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind};
 use soffio::bodies::{MassProperties, RigidBody};
 use soffio::collision::{Collider, Reach, Shape, pairs};
 use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Impact, Integrator, Settings, Solver, SurfacePair};
+use soffio::dynamics::{Dynamics, Figure, Impact, Integrator, Resistance, Settings, Solver, SurfacePair};
 use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
 
 const G: f64 = 9.81;
@@ -113,6 +113,7 @@ fn clock(swing: f64) -> Dynamics {
         pair,
         restitution: 0.2,
         friction: 0.1,
+        resistance: Resistance::default(),
     });
     let rate = (G / LENGTH).sqrt() / QUALITY;
     let figure = Figure {

@@ -8,7 +8,9 @@ use soffio::exhibit::{self, Exhibit};
 use soffio::math::{DVec3, PI, asin, exp};
 use soffio::offline::feed::WavFeed;
 use soffio::offline::wav;
-use soffio::simulation::{Command, Event, EventKind, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+use soffio::simulation::{
+    Command, Event, EventKind, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
+};
 use soffio::sound::SoundCommand;
 
 /// What the product promises of joints, m.
@@ -144,7 +146,7 @@ fn the_pendulum_swings_at_its_period_and_loses_what_its_quality_says() {
 #[test]
 fn a_childs_gentle_breath_moves_it_within_a_second() {
     // 3.8 m/s at the lips, the pointer left alone; 5 mm or 2° off where it is without a breath.
-    for id in ["axis-wheel", "breaking-chain", "plates", "windmill", "windy-corner"] {
+    for id in ["axis-wheel", "billiards", "breaking-chain", "plates", "windmill", "windy-corner"] {
         let after = |speed: f64| {
             let mut simulation = Simulation::new(shipped(id), Settings::default());
             for step in 0..2 * STEPS_PER_SECOND {
@@ -438,5 +440,60 @@ fn the_plates_meet_under_a_breath_and_ring() {
         assert!(!hits.is_empty(), "no hit under a breath of {strength} at {aim:?}");
         // Both bodies of a hit ring.
         assert!(visit.strikes >= hits.len(), "{} strikes", visit.strikes);
+    }
+}
+
+/// A ball of *Billiards* lies between the cushions, on the bed or little above it.
+fn assert_on_the_table(ball: &RigidBody) {
+    let (x, y, z) = (ball.position.x.abs(), ball.position.y, ball.position.z.abs());
+    assert!(x < 0.2201 && z < 0.1301 && (0.083..0.13).contains(&y), "off the table at {}", ball.position);
+}
+
+#[test]
+fn the_balls_stay_on_the_table_and_click_when_moved_by_places() {
+    for mode in [MotionMode::Procedural, MotionMode::PositionBased] {
+        let mut simulation = Simulation::new(shipped("billiards"), Settings::default());
+        let (mut strikes, mut fastest) = (0, 0.0_f64);
+        for step in 0..20 * STEPS_PER_SECOND {
+            let blows = (6 * STEPS_PER_SECOND..8 * STEPS_PER_SECOND).contains(&step);
+            let commands = &[Command::Blow(blows.then_some(12.0))];
+            simulation.step(&StepInput {
+                commands,
+                mode: Some(mode),
+                pointer: Some([0.5, 0.55]),
+                ..StepInput::default()
+            });
+            simulation.bodies().iter().for_each(assert_on_the_table);
+            if step > 6 * STEPS_PER_SECOND {
+                strikes += simulation.sounds().iter().filter(|s| matches!(s, SoundCommand::Strike(_))).count();
+                let speeds = simulation.bodies().iter().map(|ball| ball.velocity.length());
+                fastest = speeds.fold(fastest, f64::max);
+            }
+        }
+        let last = simulation.bodies().iter().fold(0.0, |most: f64, ball| most.max(ball.velocity.length()));
+        println!("{mode:?}: {strikes} strikes, up to {fastest:.2} m/s, then {last:.1e} m/s");
+        assert!(strikes > 2 && fastest > 0.05 && last < 0.01, "{mode:?}: {strikes} strikes, {fastest}, {last} m/s");
+    }
+}
+
+#[test]
+fn the_balls_part_under_a_breath_click_and_come_together_on_the_table() {
+    for strength in [0.25, 0.6, 1.0] {
+        let mut visit = Visit::breath("billiards", [0.5, 0.55], 4.0, strength, 1.5);
+        visit.until(4.0);
+        let (before, start) = (visit.strikes, visit.simulation.bodies().to_vec());
+        let mut way: f64 = 0.0;
+        while visit.time() < 24.0 {
+            visit.step();
+            for (ball, start) in visit.simulation.bodies().iter().zip(&start) {
+                way = way.max(ball.position.distance(start.position));
+                assert_on_the_table(ball);
+            }
+        }
+        let clicks = visit.strikes - before;
+        let fastest = visit.simulation.bodies().iter().fold(0.0, |most: f64, b| most.max(b.velocity.length()));
+        println!("breath {strength}: up to {:.0} mm, {clicks} strikes, then {fastest:.1e} m/s", 1e3 * way);
+        assert!(way > 0.03 && clicks > 2, "strength {strength}: {way} m, {clicks} strikes");
+        assert!(fastest < 0.01, "strength {strength}: still {fastest} m/s");
     }
 }

@@ -28,5 +28,6 @@ mod scene;
 mod shaders;
 mod sound;
 mod space;
+mod spheres;
 mod steel_fish;
 mod wind;

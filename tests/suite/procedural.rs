@@ -13,7 +13,7 @@ use soffio::articulation::{Constraint, Limit};
 use soffio::bodies::RigidBody;
 use soffio::collision::{Collider, Reach, pairs};
 use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Drive, Dynamics, Figure, Integrator, Settings as Laws, Solver, SurfacePair};
+use soffio::dynamics::{Drive, Dynamics, Figure, Integrator, Resistance, Settings as Laws, Solver, SurfacePair};
 use soffio::math::DVec3;
 use soffio::procedural::{Grip, Method, Procedural, Settings};
 
@@ -35,6 +35,7 @@ pub struct Extras {
     pub colliders: Vec<Collider>,
     pub restitution: f64,
     pub friction: f64,
+    pub resistance: Resistance,
 }
 
 impl Hand {
@@ -62,7 +63,8 @@ impl Hand {
 /// The same figure under the laws.
 pub fn laws(world: &World, extras: &Extras) -> Dynamics {
     let (constraints, drives): (&[Constraint], &[Drive]) = (&world.constraints, &world.drives);
-    let surface = |pair| SurfacePair { pair, restitution: extras.restitution, friction: extras.friction };
+    let Extras { restitution, friction, resistance, .. } = *extras;
+    let surface = |pair| SurfacePair { pair, restitution, friction, resistance };
     let figure = Figure {
         bodies: world.bodies.clone(),
         damping: vec![world.damping; world.bodies.len()],

@@ -26,6 +26,12 @@ impl Problem {
         let n = self.rows.len();
         self.active.clear();
         for (index, touch) in self.touches.iter().enumerate() {
+            if let Some(twist) = &touch.twist {
+                let [spin, roll] = self.holds(touch, twist);
+                let held = [(spin, DVec3::X), (roll, DVec3::Y), (roll, DVec3::Z)].into_iter().filter(|(held, _)| *held);
+                self.active.extend(held.map(|(_, along)| Active { touch: index, along, test: along }));
+                continue;
+            }
             if touch.impulse.x <= 0.0 {
                 continue;
             }
@@ -77,15 +83,19 @@ impl Problem {
             self.touches[touch].leap += along * self.other[i];
         }
         // As far as all that press to speak of keep to the laws: what stops it opens or slides from there on.
-        let largest = self.touches.iter().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));
-        let far = self
-            .touches
-            .iter()
+        let points = || self.touches.iter().filter(|touch| touch.twist.is_none());
+        let largest = points().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));
+        let far = points()
             .filter(|touch| touch.impulse.x > SLIGHT * largest)
             .fold(1.0, |far: f64, touch| far.min(touch.most_leap()));
+        // Couples do not hinder it: one that leaps beyond its bounds stays on them.
         for index in 0..self.touches.len() {
             let touch = &self.touches[index];
             let to = touch.impulse + far * touch.leap;
+            if let Some(twist) = touch.twist {
+                self.set(index, self.bounded_twist(&twist, to));
+                continue;
+            }
             let normal = to.x.max(0.0);
             let rub = DVec2::new(to.y, to.z).clamp_length_max(touch.friction * normal);
             self.set(index, DVec3::new(normal, rub.x, rub.y));

@@ -4,10 +4,12 @@
 //! its own depth. Where one has gone through the other (thin sheet, a long way) the end says nothing: the depth is then
 //! how far the points that met have gone past each other along the normal they met with.
 
-use super::{Contacts, point_rows};
+use super::twist::twist_rows;
+use super::{Contacts, Resistance, SurfacePair, point_rows};
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
-use crate::collision::{Collider, Pair, TOUCH};
+use crate::collision::{Collider, Pair, Shape, TOUCH};
+use crate::geometry::support::Core;
 use crate::math::DVec3;
 
 /// Cosine between the normals at the meeting and at the end above which the side is the same.
@@ -37,6 +39,10 @@ pub struct Met {
     pub friction: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
+    /// Against rolling and spinning.
+    pub resistance: Resistance,
+    /// Which of the two colliders are balls: centre (node frame) and radius, m.
+    pub balls: [Option<(DVec3, f64)>; 2],
     /// The row J whose J v is the rate at which they part.
     pub ends: [Option<(usize, Vec6)>; ENDS],
 }
@@ -46,6 +52,11 @@ impl Met {
     pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
         super::Row { ends: self.ends }.rate(bodies)
     }
+}
+
+/// Rows of the couple between the bodies of what met: about the normal, then about two tangents.
+pub fn couple_rows(met: &Met) -> [[Option<(usize, Vec6)>; ENDS]; 3] {
+    twist_rows(met.normal, met.bodies).map(|row| row.ends)
 }
 
 impl Contacts {
@@ -80,6 +91,8 @@ impl Contacts {
                 depth: (-gap).max(0.0),
                 friction: 0.0,
                 restitution: self.limits.restitution(bound),
+                resistance: Resistance::default(),
+                balls: [None; 2],
                 ends: row.ends,
             });
         }
@@ -97,7 +110,12 @@ impl Contacts {
             }
             let surface = &self.pairs[pair];
             let [row, ..] = point_rows(point, normal, bodies, after);
-            let (friction, restitution) = (surface.friction, surface.restitution);
+            let SurfacePair { friction, restitution, resistance, .. } = *surface;
+            let ball = |collider: usize| {
+                let Shape { core, radius, place } = &self.colliders[collider].shape;
+                (*core == Core::Point).then_some((place.position, *radius))
+            };
+            let balls = [ball(a), ball(b)];
             let colliders = Some([a, b]);
             let depth = (-gap).max(0.0);
             out.push(Met {
@@ -110,6 +128,8 @@ impl Contacts {
                 depth,
                 friction,
                 restitution,
+                resistance,
+                balls,
                 ends: row.ends,
             });
         };

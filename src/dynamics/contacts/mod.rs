@@ -14,6 +14,7 @@ mod rest;
 mod row;
 mod sweep;
 mod touching;
+mod twist;
 
 use crate::articulation::Limit;
 use crate::articulation::block::{Vec6, vec6};
@@ -26,10 +27,11 @@ use problem::{Problem, Source, Touch};
 use row::ROW_ENDS;
 
 pub use hit::{Strike, Struck, strike};
-pub use met::{ENDS, Met};
+pub use met::{ENDS, Met, couple_rows};
 pub(super) use rest::Verdict;
 pub(super) use row::Row;
 pub use touching::Touching;
+pub use twist::Resistance;
 
 /// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
 const REST_SPEED: f64 = 4e-3;
@@ -50,6 +52,8 @@ pub struct SurfacePair {
     pub restitution: f64,
     /// Coulomb coefficient while sliding.
     pub friction: f64,
+    /// Against rolling and spinning on each other.
+    pub resistance: Resistance,
 }
 
 /// What a contact did.
@@ -90,9 +94,11 @@ pub struct Impact {
 #[derive(Clone, Copy, Debug)]
 struct Held {
     source: Source,
+    /// Is it a couple, which has no lever?
+    couple: bool,
     /// World point, m.
     point: DVec3,
-    /// World force on the first body, N; a bound's along its row in x.
+    /// World force on the first body, N, or couple, N m; a bound's along its row in x.
     force: DVec3,
     /// Length of the substep that it was found in, s.
     span: f64,
@@ -177,7 +183,8 @@ impl Contacts {
         let reach: Vec<f64> =
             colliders.iter().map(|c| c.body.map_or(0.0, |b| c.shape.reach(bodies[b].properties.center))).collect();
         let limits = Limits::new(limits, bodies);
-        let touches = crate::collision::MANIFOLD_POINTS * pairs.len() + limits.count();
+        let turning = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
+        let touches = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count();
         let problem = Problem::new(touches, joints);
         let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {

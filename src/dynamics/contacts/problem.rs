@@ -20,6 +20,7 @@
 use super::leap::Active;
 use super::open::Open;
 use super::row::Row;
+use super::twist::Twist;
 use crate::articulation::System;
 use crate::articulation::block::{angular, linear, vec6};
 use crate::bodies::RigidBody;
@@ -74,6 +75,8 @@ pub(super) struct Touch {
     pub impulse: DVec3,
     /// Impulse that the rounds begin from.
     pub begin: DVec3,
+    /// Of a couple: what it resists, and its point.
+    pub twist: Option<Twist>,
     /// Where the force that it began from acted.
     pub follows: Option<DVec3>,
     /// Its rows in the problem: `first` up to `first + rows`.
@@ -81,7 +84,7 @@ pub(super) struct Touch {
     pub rows: usize,
     /// Diagonal block of W, inverse of the proximal block, largest tangential stiffness.
     pub(super) k: DMat3,
-    step: DMat3,
+    pub(super) step: DMat3,
     pub(super) tangential: f64,
     /// Change that a leap asks for.
     pub(super) leap: DVec3,
@@ -100,6 +103,7 @@ impl Touch {
             before: DVec3::ZERO,
             impulse: DVec3::ZERO,
             begin: DVec3::ZERO,
+            twist: None,
             follows: None,
             first: 0,
             rows: 0,
@@ -282,7 +286,9 @@ impl Problem {
         let (mut largest, mut scale): (f64, f64) = (0.0, 0.0);
         for index in 0..self.touches.len() {
             let touch = &self.touches[index];
-            if touch.k.x_axis.x > LOCKED {
+            if let Some(twist) = touch.twist {
+                largest = largest.max(self.turn(index, &twist));
+            } else if touch.k.x_axis.x > LOCKED {
                 let impulse = step(touch, self.velocity(touch));
                 scale = scale.max(touch.k.x_axis.x * impulse.x);
                 largest = largest.max(self.set(index, impulse));
@@ -339,12 +345,15 @@ impl Problem {
     /// Largest velocity that the impulses give any touch beyond what acted before, m/s.
     pub fn largest_change(&self) -> f64 {
         let n = self.rows.len();
-        (0..n).fold(0.0, |most: f64, row| most.max(self.change(n, row).abs()))
+        let points = self.touches.iter().filter(|touch| touch.twist.is_none());
+        let rows = points.flat_map(|touch| touch.first..touch.first + touch.rows);
+        rows.fold(0.0, |most: f64, row| most.max(self.change(n, row).abs()))
     }
 
     /// Slip of the fastest touch, m/s.
     pub fn largest_slip(&self) -> f64 {
-        self.touches.iter().fold(0.0, |most: f64, touch| most.max(self.velocity(touch).with_x(0.0).length()))
+        let points = self.touches.iter().filter(|touch| touch.twist.is_none());
+        points.fold(0.0, |most: f64, touch| most.max(self.velocity(touch).with_x(0.0).length()))
     }
 
     /// Applies P − P₀ to the bodies' velocities.

@@ -12,6 +12,7 @@
 //! taken.
 
 use super::problem::{Source, Touch};
+use super::twist::twist_rows;
 use super::{Contacts, Held, Lever, RELEASE_GAP, point_rows};
 use crate::articulation::System;
 use crate::articulation::block::{Vec6, add_scaled, angular, linear, vec6};
@@ -116,7 +117,9 @@ impl Contacts {
         system.b.fill([0.0; 6]);
         let (mut any, mut work) = (false, 0.0);
         for held in &self.held {
-            let ([Some(a), Some(b), _], Source::Pair(_)) = (&held.ends, held.source) else { continue };
+            let ([Some(a), Some(b), _], Source::Pair(_), false) = (&held.ends, held.source, held.couple) else {
+                continue;
+            };
             let stretch = held.stretch(self.span);
             let place = |lever: &Lever| {
                 let (from, to) = (&start[lever.body], &bodies[lever.body]);
@@ -243,7 +246,15 @@ impl Contacts {
                 }
             }
         }
-        for touch in &mut self.problem.touches {
+        for index in 0..self.problem.touches.len() {
+            if let Source::Pair(pair) = self.problem.touches[index].source
+                && !self.pairs[pair].resistance.is_none()
+            {
+                let bodies = self.bodies_of(pair);
+                self.problem.push_twist(index, bodies, self.pairs[pair].resistance);
+            }
+        }
+        for touch in self.problem.touches.iter_mut().filter(|touch| touch.twist.is_none()) {
             // Gently to the middle of the layer; a wider gap may close within the substep.
             let sunk = (0.5 * LAYER - touch.gap).clamp(-0.5 * LAYER, LAYER);
             touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
@@ -262,7 +273,7 @@ impl Contacts {
             let mut best = (None, f64::INFINITY);
             for touch in &mut self.problem.touches[..present] {
                 let far = touch.point.distance(held.point);
-                if touch.source == held.source && far <= best.1 {
+                if held.belongs_to(touch) && far <= best.1 {
                     best = (Some(touch), far);
                 }
             }
@@ -290,6 +301,7 @@ impl Contacts {
     fn take_back(&mut self, held: &Held, h: f64, bodies: &[RigidBody]) {
         let size = held.force.length();
         let row = match held.source {
+            Source::Pair(pair) if held.couple => twist_rows(held.acting(self.span) / size, self.bodies_of(pair))[0],
             Source::Pair(pair) => {
                 point_rows(held.point, held.acting(self.span) / size, self.bodies_of(pair), bodies)[0]
             }
@@ -325,8 +337,7 @@ impl Contacts {
             if touch.impulse == DVec3::ZERO {
                 continue;
             }
-            let former =
-                self.former.iter().find(|held| held.source == touch.source && touch.follows == Some(held.point));
+            let former = self.former.iter().find(|held| held.belongs_to(touch) && touch.follows == Some(held.point));
             let row = &self.problem.rows[touch.first];
             let gone = |body: usize| bodies[body].position - start[body].position;
             let ends = || row.ends.iter().flatten();
@@ -346,6 +357,7 @@ impl Contacts {
             let back = if stands { DQuat::IDENTITY } else { rotation(-turn) };
             self.held.push(Held {
                 source: touch.source,
+                couple: touch.twist.is_some(),
                 point: if stands { touch.point } else { touch.point - along },
                 force: back * world(touch) / h,
                 span: h,
@@ -355,7 +367,7 @@ impl Contacts {
             });
         }
         // A force f that stands still while its body tips about a point at the arm r drives it on with ω² = |f| |r|/I⊥.
-        for held in self.held.iter().filter(|held| matches!(held.source, Source::Pair(_))) {
+        for held in self.held.iter().filter(|held| matches!(held.source, Source::Pair(_)) && !held.couple) {
             for lever in held.ends.iter().flatten() {
                 let inertia = least_inertia_across(&bodies[lever.body].inertia_world(), lever.arm);
                 let tipping = &mut self.tipping[lever.body];
@@ -367,12 +379,18 @@ impl Contacts {
 }
 
 impl Held {
+    /// Can a touch be what it has held?
+    fn belongs_to(&self, touch: &Touch) -> bool {
+        self.source == touch.source && self.couple == touch.twist.is_some()
+    }
+
     /// The bodies it acts on and its wrenches there in a substep of `h` seconds, N and N m about their centres.
     fn wrenches(&self, h: f64) -> impl Iterator<Item = (usize, Vec6)> {
         let (force, stretch) = (self.acting(h), self.stretch(h));
         self.ends.iter().zip([1.0, -1.0, 0.0]).filter_map(move |(lever, sign)| {
             let lever = lever.as_ref()?;
             let wrench = match self.source {
+                Source::Pair(_) if self.couple => vec6(DVec3::ZERO, sign * force),
                 Source::Pair(_) => vec6(sign * force, (lever.arm + stretch * lever.way).cross(sign * force)),
                 Source::Bound(_) => {
                     std::array::from_fn(|k| (lever.block[k] + stretch * lever.block_change[k]) * self.force.x)
@@ -401,7 +419,7 @@ impl Lever {
     }
 }
 
-/// A touch's impulse in the world; a bound's along its row in x.
+/// A touch's impulse or couple in the world; a bound's along its row in x.
 fn world(touch: &Touch) -> DVec3 {
     match touch.source {
         Source::Pair(_) => {

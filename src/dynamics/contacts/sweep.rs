@@ -125,7 +125,7 @@ mod tests {
     use crate::bodies::MassProperties;
     use crate::collision::{Collider, Reach, Shape, pairs};
     use crate::dynamics::forces::Damping;
-    use crate::dynamics::{Dynamics, Figure, Integrator, Settings, Solver, SurfacePair};
+    use crate::dynamics::{Dynamics, Figure, Integrator, Resistance, Settings, Solver, SurfacePair};
     use crate::math::{DMat3, DQuat, DVec3, Pose, rotation};
     use crate::noise::Random;
 
@@ -148,7 +148,7 @@ mod tests {
         }
         let floor = Shape::plane(DVec3::ZERO, DVec3::Y);
         colliders.push(Collider { body: None, shape: floor, material: 0, node: String::new() });
-        let surface = |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3 };
+        let surface = |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3, resistance: Resistance::default() };
         let figure = Figure {
             damping: vec![Damping::default(); bodies.len()],
             bodies,

@@ -80,6 +80,14 @@ impl Context<'_> {
                 let radius = self.positive(shape.radius.0, &format!("{place}/cylinder/radius"));
                 vec![fit::cylinder(origin, axes[1], height, radius)]
             }
+            sidecar::Shape::Plane(_) => {
+                if self.owner[node].is_some() {
+                    let message = format!("\"{}\" moves, and a plane has no end", self.model.nodes[node].name);
+                    let help = "give the plane to a node of no body, or write a box";
+                    self.report(&place, Diagnostic::new(codes::ENDLESS, message).help(help));
+                }
+                vec![Shape::plane(origin, axes[1])]
+            }
             sidecar::Shape::Fit(fit) => self.fitted(fit, node, &place),
         }
     }

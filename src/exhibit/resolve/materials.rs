@@ -1,9 +1,11 @@
 //! Materials: the built-in table, what the sidecar changes of it, and pairs that break the combine rule.
 
 use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::quantity::Length;
 use super::super::source::join;
 use super::super::{Material, MaterialPair, codes, materials};
 use super::Context;
+use crate::dynamics::Resistance;
 
 impl Context<'_> {
     pub(super) fn materials(&mut self) {
@@ -20,7 +22,10 @@ impl Context<'_> {
                 youngs_modulus: 0.0,
                 poisson: 0.3,
                 loss_factor: 0.01,
+                resistance: Resistance::default(),
             });
+            let [rolling, spinning] =
+                self.resistances([given.rolling_resistance, given.spin_resistance], &at).map(Option::unwrap_or_default);
             let material = Material {
                 name: name.clone(),
                 density: given.density.map_or(default.density, |v| v.0),
@@ -30,6 +35,7 @@ impl Context<'_> {
                 youngs_modulus: given.youngs_modulus.map_or(default.youngs_modulus, |v| v.0),
                 poisson: given.poisson.unwrap_or(default.poisson),
                 loss_factor: given.loss_factor.unwrap_or(default.loss_factor),
+                resistance: Resistance { rolling, spinning },
             };
             for (key, value) in [("density", material.density), ("youngs_modulus", material.youngs_modulus)] {
                 if value <= 0.0 {
@@ -62,6 +68,8 @@ impl Context<'_> {
             ("youngs_modulus", format!("{} GPa", material.youngs_modulus / 1e9)),
             ("poisson", material.poisson.to_string()),
             ("loss_factor", material.loss_factor.to_string()),
+            ("rolling_resistance", format!("{} mm", 1e3 * material.resistance.rolling)),
+            ("spin_resistance", format!("{} mm", 1e3 * material.resistance.spinning)),
         ] {
             self.trace(&of, key, value, &join(at, key), otherwise);
         }
@@ -74,16 +82,28 @@ impl Context<'_> {
             let at = format!("/material_pair/{i}/pair");
             let first = self.material(&given.pair[0], &format!("{at}/0"));
             let second = self.material(&given.pair[1], &format!("{at}/1"));
+            let given_resistances = [given.rolling_resistance, given.spin_resistance];
+            let [rolling_resistance, spin_resistance] =
+                self.resistances(given_resistances, &format!("/material_pair/{i}"));
             if let (Some(a), Some(b)) = (first, second) {
                 pairs.push(MaterialPair {
                     pair: (a, b),
                     restitution: given.restitution,
                     dynamic_friction: given.dynamic_friction,
                     static_friction: given.static_friction,
+                    rolling_resistance,
+                    spin_resistance,
                 });
             }
         }
         pairs
+    }
+
+    /// Rolling and spin resistance of the table at `at`, m.
+    fn resistances(&mut self, given: [Option<Length>; 2], at: &str) -> [Option<f64>; 2] {
+        let [rolling, spinning] = given;
+        [(rolling, "rolling_resistance"), (spinning, "spin_resistance")]
+            .map(|(given, key)| given.map(|length| self.not_negative(length.0, &join(at, key))))
     }
 
     /// Index of a material of the sidecar or of the built-in table.

@@ -20,7 +20,7 @@ pub struct Collider {
     pub shape: Shape,
 }
 
-/// A collision shape: one of the kinds. Axes as in glTF: capsules and cylinders stand along Y.
+/// A collision shape: one of the kinds. Axes as in glTF: capsules and cylinders stand along Y, planes face it.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -32,6 +32,8 @@ pub enum Shape {
     Box(BoxShape),
     /// A cylinder.
     Cylinder(Cylinder),
+    /// All that lies below the plane through the node's origin across its Y: a floor or wall without end, which stands still.
+    Plane(HalfSpace),
     /// Taken from the mesh of the node and of the nodes below it.
     Fit(Fit),
 }
@@ -71,6 +73,11 @@ pub struct Cylinder {
     /// Radius.
     pub radius: Length,
 }
+
+/// A half-space: nothing is to be said of it.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HalfSpace {}
 
 /// What is fitted to a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -14,6 +14,7 @@ const SHIPPED: &[(&str, &str)] = &[
     ("drum", include_str!("../../../audio/timbres/drum.toml")),
     ("metal", include_str!("../../../audio/timbres/metal.toml")),
     ("wood", include_str!("../../../audio/timbres/wood.toml")),
+    ("ivory", include_str!("../../../audio/timbres/ivory.toml")),
     ("string", include_str!("../../../audio/timbres/string.toml")),
     ("scrape-wood", include_str!("../../../audio/timbres/scrape-wood.toml")),
     ("scrape-metal", include_str!("../../../audio/timbres/scrape-metal.toml")),

@@ -1,6 +1,7 @@
 //! The small exhibits: what their labels and sidecars say of them follows from what the loader weighs and measures.
 
 use soffio::articulation::{ConstraintKind, Measure};
+use soffio::collision::Pair;
 use soffio::exhibit::{self, Exhibit, SoundTrigger};
 use soffio::math::{DVec3, PI};
 
@@ -114,4 +115,47 @@ fn the_plates_hang_apart_and_where_they_meet_when_the_branch_turns() {
     let level = |p: DVec3| DVec3::new(p.x - loop_at.x, 0.0, p.z - loop_at.z).length();
     let overlap = level(middle.0) + middle.1 - (level(large.0) - large.1);
     assert!(overlap > 5e-3, "they miss each other by {} m", -overlap);
+}
+
+#[test]
+fn the_balls_lie_apart_on_a_bed_that_is_steeper_than_the_cloth_holds() {
+    const RADIUS: f64 = 20e-3;
+    let exhibit = shipped("billiards");
+    assert_eq!(exhibit.bodies.len(), 7);
+    // A thin shell: I = 2/3 m r², and the weight of 0.4 mm of celluloid.
+    for ball in &exhibit.bodies {
+        let (mass, inertia) = (ball.properties.mass, ball.properties.inertia.x_axis.x);
+        assert!((inertia / (2.0 / 3.0 * mass * RADIUS * RADIUS) - 1.0).abs() < 1e-3, "{inertia} kg m²");
+        let shell = 4.0 * PI * RADIUS * RADIUS * 0.4e-3 * 1400.0;
+        assert!((mass / shell - 1.0).abs() < 0.05, "{mass} kg for a shell of {shell} kg");
+    }
+    let balls: Vec<_> = exhibit.colliders.iter().enumerate().filter(|(_, c)| c.body.is_some()).collect();
+    let planes: Vec<_> = exhibit.colliders.iter().enumerate().filter(|(_, c)| c.shape.is_plane()).collect();
+    assert_eq!((balls.len(), planes.len()), (7, 8));
+    for (i, &(a, ball)) in balls.iter().enumerate() {
+        let at = exhibit.bodies[ball.body.expect("a ball")].pose.position;
+        let mut nearest = f64::INFINITY;
+        for &(b, plane) in &planes {
+            let place = plane.shape.place;
+            let normal = place.rotation * DVec3::Y;
+            let gap = (at - place.position).dot(normal) - RADIUS;
+            nearest = nearest.min(gap);
+            let resistance = exhibit.surface_pair(Pair { a, b }).resistance;
+            if plane.node.starts_with("Bed") {
+                // tan α against b/r: it rolls back by itself.
+                let slope = (1.0 - normal.y * normal.y).sqrt() / normal.y;
+                assert!(slope > 3.0 * resistance.rolling / RADIUS, "{} holds balls: {slope}", plane.node);
+                assert!(resistance.spinning > 0.0);
+            } else {
+                assert!(normal.y.abs() < 1e-6 && gap > 0.02, "{}: {gap} m to {}", ball.node, plane.node);
+                assert!(resistance.is_none());
+            }
+        }
+        // Places are kept to a tenth of a micrometre.
+        assert!(nearest.abs() < 1e-6, "{} is {nearest} m off the bed", ball.node);
+        for &(_, other) in &balls[..i] {
+            let there = exhibit.bodies[other.body.expect("a ball")].pose.position;
+            assert!(at.distance(there) > 2.2 * RADIUS, "{} and {}", ball.node, other.node);
+        }
+    }
 }

@@ -6,7 +6,8 @@
 use std::path::PathBuf;
 
 use soffio::articulation::{ConstraintKind, LimitKind};
-use soffio::collision::{Collider, Excluded};
+use soffio::collision::{Collider, Excluded, Pair};
+use soffio::dynamics::Resistance;
 use soffio::exhibit::{self, AttractAction, Diagnostic, Exhibit, Report, codes};
 use soffio::geometry::support::Core;
 use soffio::math::{DVec3, PI};
@@ -181,6 +182,30 @@ fn the_rest_of_the_file_arrives() {
     assert_eq!(codes, [codes::DUPLICATE_NODE.name]);
     let mass = exhibit.origins.iter().find(|o| o.of == "body Plate" && o.key == "mass").expect("an origin");
     assert!(mass.source.starts_with("derived"), "{mass:?}");
+}
+
+#[test]
+fn resistances_of_surfaces_add_unless_their_pair_says_otherwise() {
+    let text = "[material.felt]\ndensity = 300\nyoungs_modulus = 1e7\nrolling_resistance = \"0.2 mm\"\nspin_resistance = 1e-4\n\
+                [material.rubber]\ndensity = 900\nyoungs_modulus = 1e7\nrolling_resistance = \"0.3 mm\"\n\
+                [[material_pair]]\npair = [\"felt\", \"steel\"]\nspin_resistance = \"0.5 mm\"\n\
+                [[collider]]\nnode = \"Post\"\nmaterial = \"felt\"\nshape = { plane = {} }\n\
+                [[collider]]\nnode = \"Plate\"\nmaterial = \"rubber\"\nshape = { sphere = { radius = 0.01 } }\n\
+                [[collider]]\nnode = \"Boom\"\nmaterial = \"steel\"\nshape = { sphere = { radius = 0.01 } }\n\
+                [[body]]\nnode = \"Plate\"\nmaterial = \"steel\"\n[[body]]\nnode = \"Boom\"\nmass = 1\n\
+                inertia = { diagonal = [1, 1, 1] }\n";
+    let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let of = |a: usize, b: usize| exhibit.surface_pair(Pair { a, b }).resistance;
+    let same = |found: Resistance, rolling: f64, spinning: f64| {
+        assert!((found.rolling - rolling).abs() < 1e-12 && (found.spinning - spinning).abs() < 1e-12, "{found:?}");
+    };
+    same(of(0, 1), 5e-4, 1e-4);
+    same(of(2, 0), 2e-4, 5e-4);
+    same(of(1, 2), 3e-4, 0.0);
+    // The plane faces its node's Y.
+    let plane = &exhibit.colliders[0].shape;
+    assert!(plane.is_plane() && plane.place.position.distance(DVec3::Y * 0.5) < SINGLE);
+    assert!((plane.place.rotation * DVec3::Y).distance(DVec3::Y) < SINGLE);
 }
 
 #[test]

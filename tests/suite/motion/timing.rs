@@ -6,7 +6,7 @@ use soffio::articulation::{
 };
 use soffio::collision::{Collider, Reach, Shape, pairs};
 use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Integrator, SurfacePair};
+use soffio::dynamics::{Dynamics, Figure, Integrator, Resistance, SurfacePair};
 use soffio::math::{DVec3, rotation};
 
 use super::reference::flow;
@@ -313,7 +313,10 @@ fn a_hit_lets_go_what_waits_for_it() {
         springs: &world.springs,
         drives: &[],
         colliders: &colliders,
-        pairs: meet.into_iter().map(|pair| SurfacePair { pair, restitution: 1.0, friction: 0.0 }).collect(),
+        pairs: meet
+            .into_iter()
+            .map(|pair| SurfacePair { pair, restitution: 1.0, friction: 0.0, resistance: Resistance::default() })
+            .collect(),
     };
     let mut dynamics = Dynamics::new(figure, world.settings(Integrator::RungeKutta));
     let (mut hit_at, mut fastest, mut impacts) = (f64::INFINITY, 0.0_f64, Vec::new());

@@ -53,7 +53,7 @@ fn drag(mode: MotionMode) -> [Figures; 2] {
     let mut figures = [Figures::default(); 2];
     let (mut way, mut ends) = (Vec::new(), [Vec::new(), Vec::new()]);
     for step in 0..STEPS {
-        simulation.step(&StepInput { mode, ..StepInput::default() });
+        simulation.step(&StepInput { mode: Some(mode), ..StepInput::default() });
         assert!(simulation.joint_error() < 1e-6, "{mode:?} step {step}: {} m", simulation.joint_error());
         if step < FROM {
             continue;

@@ -1,0 +1,154 @@
+//! A small billiard table whose bed sinks towards its middle, and seven hollow balls that a breath can drive.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
+
+use super::glb::{Finish, Scene};
+use super::outline::Polygon;
+use super::piece::Piece;
+use super::solid::{Solid, sheet, turned};
+use super::stock::{MM, WOOD, finishes, part, rod};
+
+/// Radius of a ball; the sidecar says the same, and what a shell of celluloid of that size weighs.
+const RADIUS: f64 = 20.0 * MM;
+/// Corners of a ball's outline.
+const AROUND: usize = 36;
+/// Half the field between the cushions, along x and z.
+const FIELD: DVec2 = DVec2::new(240.0 * MM, 150.0 * MM);
+/// The middle of the bed above the floor, and how much higher its edge is.
+const BED: f64 = 64.0 * MM;
+const RISE: f64 = 3.0 * MM;
+/// Balls, their stripes, and where they lie at the start (x and z).
+const BALLS: [([&str; 2], [f64; 2]); 7] = [
+    (["Ball1", "Stripe1"], [-155.0, 55.0]),
+    (["Ball2", "Stripe2"], [-70.0, -45.0]),
+    (["Ball3", "Stripe3"], [20.0, 80.0]),
+    (["Ball4", "Stripe4"], [5.0, 0.0]),
+    (["Ball5", "Stripe5"], [115.0, -60.0]),
+    (["Ball6", "Stripe6"], [55.0, -100.0]),
+    (["Ball7", "Stripe7"], [175.0, 45.0]),
+];
+/// What the sidecar lays a plane through: the four slopes of the bed and the four cushions, each with the direction that it
+/// is out of the field.
+const PLANES: [([&str; 2], DVec2); 4] = [
+    (["BedLeft", "CushionLeft"], DVec2::new(-1.0, 0.0)),
+    (["BedRight", "CushionRight"], DVec2::new(1.0, 0.0)),
+    (["BedBack", "CushionBack"], DVec2::new(0.0, -1.0)),
+    (["BedFront", "CushionFront"], DVec2::new(0.0, 1.0)),
+];
+
+/// The model.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let stock = finishes(&mut scene);
+    let mut add = |name, color, roughness| scene.finish(&Finish { name, color, metallic: 0.0, roughness });
+    let ivory = add("Ivory", [0.80, 0.72, 0.56], 0.22);
+    let cloth = add("Green cloth", [0.02, 0.16, 0.07], 0.95);
+    let rubber = add("Dark green cloth", [0.012, 0.10, 0.045], 0.9);
+    let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
+    let flat = rotation(-0.5 * PI * DVec3::X);
+    let frame = |inner: f64, outer: f64, height: f64| sheet(&field(outer), &[field(inner)], height, 1.5 * MM);
+    let leg = |x: f64, z: f64| DVec3::new(x * (FIELD.x + 20.0 * MM), 0.0, z * (FIELD.y + 20.0 * MM));
+    let mut parts = vec![
+        part("Bed", bed(), none, upright, WOOD, cloth),
+        part("Cushions", frame(0.0, 14.0 * MM, 28.0 * MM), (BED + 14.0 * MM) * DVec3::Y, flat, WOOD, rubber),
+        part("Rails", frame(12.0 * MM, 46.0 * MM, 62.0 * MM), (BED + 3.0 * MM) * DVec3::Y, flat, WOOD, stock.wood),
+    ];
+    for (name, x, z) in [("Leg1", -1.0, -1.0), ("Leg2", 1.0, -1.0), ("Leg3", -1.0, 1.0), ("Leg4", 1.0, 1.0)] {
+        parts.push(part(name, rod(11.0 * MM, 0.0, BED - 26.0 * MM), leg(x, z), upright, WOOD, stock.wood));
+    }
+    let table = Piece { name: "Table", parts, bends: Vec::new(), marks: Vec::new() };
+    table.write(&mut scene, Pose::IDENTITY);
+
+    for ([slope, cushion], out) in PLANES {
+        let wall = DVec3::new(out.x * FIELD.x, BED + RISE, out.y * FIELD.y);
+        scene.node(slope, None, BED * DVec3::Y, facing(slope_normal(out)));
+        scene.node(cushion, None, wall, facing(-DVec3::new(out.x, 0.0, out.y)));
+    }
+    let colors = [stock.red, stock.blue, stock.black, stock.red, stock.brass, stock.blue, stock.black];
+    for (k, ((names, at), color)) in BALLS.into_iter().zip(colors).enumerate() {
+        let ball = Piece {
+            name: names[0],
+            parts: vec![
+                part(names[0], sphere(), none, upright, WOOD, ivory),
+                part(names[1], stripe(), none, upright, WOOD, color),
+            ],
+            bends: Vec::new(),
+            marks: Vec::new(),
+        };
+        let turn = rotation(DVec3::new(0.9 + 0.5 * k as f64, 0.7 * k as f64, 0.4));
+        ball.write(&mut scene, Pose { rotation: turn, position: resting(DVec2::from(at) * MM) });
+    }
+    let (eye, target) = (DVec3::new(0.06, 0.62, 0.78), DVec3::new(0.0, BED, 0.01));
+    scene.camera("CamFront", eye, target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    scene.into_glb("Billiards", "Original work of the Soffio project; MIT OR Apache-2.0")
+}
+
+/// The rectangle of the field, its sides moved out.
+fn field(out: f64) -> Polygon {
+    let (x, y) = (FIELD.x + out, FIELD.y + out);
+    [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| DVec2::new(x, y)).into()
+}
+
+/// Normal of the slope of the bed that leads out of the field along `out`.
+fn slope_normal(out: DVec2) -> DVec3 {
+    DVec3::new(-out.x * RISE / FIELD.x, 1.0, -out.y * RISE / FIELD.y).normalize()
+}
+
+/// The least turn that brings Y to face along a unit vector.
+fn facing(normal: DVec3) -> DQuat {
+    DQuat::from_rotation_arc(DVec3::Y, normal)
+}
+
+/// Centre of a ball that lies on the bed there.
+fn resting(at: DVec2) -> DVec3 {
+    let above = |out: DVec2| {
+        let n = slope_normal(out);
+        BED + (RADIUS - n.x * at.x - n.z * at.y) / n.y
+    };
+    let height = PLANES.iter().map(|(_, out)| above(*out)).fold(0.0, f64::max);
+    DVec3::new(at.x, height, at.y)
+}
+
+/// The bed: four slopes that meet in the middle, 20 mm thick at the edge.
+fn bed() -> Solid {
+    let mut solid = Solid::default();
+    let corner = |x: f64, z: f64, y: f64| DVec3::new(x * FIELD.x, y, z * FIELD.y);
+    let ring = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+    let mut face = |corners: &[DVec3]| {
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        let base = solid.positions.len() as u32;
+        solid.positions.extend(corners);
+        solid.normals.extend(corners.iter().map(|_| normal));
+        solid.triangles.extend((2..corners.len() as u32).map(|k| [base, base + k - 1, base + k]));
+    };
+    let (top, bottom) = (BED + RISE, BED + RISE - 20.0 * MM);
+    for k in 0..4 {
+        let ((x, z), (u, w)) = (ring[k], ring[(k + 1) % 4]);
+        face(&[corner(x, z, top), corner(u, w, top), BED * DVec3::Y]);
+        face(&[corner(x, z, bottom), corner(u, w, bottom), corner(u, w, top), corner(x, z, top)]);
+    }
+    face(&[3, 2, 1, 0].map(|k: usize| corner(ring[k].0, ring[k].1, bottom)));
+    solid
+}
+
+/// A point of a circle about the origin, `angle` above the equator.
+fn on_circle(radius: f64, angle: f64) -> DVec2 {
+    radius * DVec2::new(cos(angle), sin(angle))
+}
+
+fn sphere() -> Solid {
+    const ARCS: usize = 20;
+    let arc = |k: usize| on_circle(RADIUS, PI * (k as f64 / ARCS as f64 - 0.5));
+    let profile: Vec<DVec2> = (0..=ARCS)
+        .map(|k| if k == 0 || k == ARCS { DVec2::new(0.0, arc(k).y.signum() * RADIUS) } else { arc(k) })
+        .collect();
+    turned(&profile, false, AROUND)
+}
+
+/// A band about the equator, so that one sees it roll.
+fn stripe() -> Solid {
+    const HALF: f64 = 0.22;
+    let outer = (0..=6).map(|k| on_circle(RADIUS + 0.08 * MM, HALF * (k as f64 / 3.0 - 1.0)));
+    let inner = [HALF, -HALF].map(|angle| on_circle(RADIUS - 0.6 * MM, angle));
+    turned(&outer.chain(inner).collect::<Vec<_>>(), true, AROUND)
+}
