@@ -255,8 +255,9 @@ impl Procedural {
         // It leapt too far for tangents, or is asked too much: passes close a tree from anywhere.
         self.kept.copy_from_slice(moved.bodies);
         let mut last = self.compulsive.adjust(moved, grips, &self.tree.left, None);
-        if last.residual > REACHED.max(reach.residual) {
-            // Not so a figure that is held in many places.
+        let no_nearer = reach.residual <= REACHED && last.missed >= reach.missed;
+        if last.residual > REACHED.max(reach.residual) || no_nearer {
+            // Not so a figure that is held in many places, or a hand that is out of reach.
             moved.bodies.copy_from_slice(&self.kept);
             last = reach;
         } else if !last.reached() && last.missed <= NEAR {

@@ -211,7 +211,7 @@ impl TreeSolve {
             for (l, &column) in on[..=k].iter().enumerate() {
                 *self.hands.entry(k, l) = self.answers[row][column];
             }
-            let own = self.answers[row][row];
+            let own = self.own_answer(row);
             *self.hands.entry(k, k) += SOFTNESS * own;
             self.hands.measure(k, own);
             right[k] = self.short[row];
@@ -222,6 +222,15 @@ impl TreeSolve {
         for (&row, answer) in on.iter().zip(right) {
             mu[row] = answer;
         }
+    }
+
+    /// What softens a row. The three of a grip are softened alike, or the place that comes nearest would depend on the axes.
+    fn own_answer(&self, row: usize) -> f64 {
+        if self.rows[row].limit {
+            return self.answers[row][row];
+        }
+        let first = row - row % ROWS;
+        (first..first + ROWS).map(|row| self.answers[row][row]).sum::<f64>() / ROWS as f64
     }
 }
 

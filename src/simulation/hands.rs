@@ -12,10 +12,10 @@
 //! block of one hand, each hand in turn adds
 //!
 //! ```text
-//! ΔP = W_ii (W_ii² + ε² E)⁻¹ (v* − v),   |P| ≤ F_max Δt,   F = P/Δt
+//! ΔP = W_ii (W_ii² + ε² E)⁻¹ (v* − v),   |P| ≤ min(F_max, m a_max) Δt,   F = P/Δt
 //! ```
 //!
-//! until all have what they ask for. ε (damped least squares: C. W. Wampler, IEEE Trans. Systems, Man, and Cybernetics 16,
+//! until all have what they ask for; m = 3/tr W_ii is what the hand has in it, so that a light limb is not torn off. ε (damped least squares: C. W. Wampler, IEEE Trans. Systems, Man, and Cybernetics 16,
 //! 1986) keeps a hand from straining where a joint gives no way. There is no spring that could be too stiff, so nothing
 //! explodes whatever is taken; what is let go keeps its speed, so it can be thrown.
 
@@ -42,6 +42,8 @@ pub struct Hand {
 const FOLLOWS: f64 = 0.05;
 /// v_max, m/s: a brisk wave of the arm.
 const FASTEST: f64 = 2.5;
+/// a_max, m/s²: what is held gets as fast as the hand in a twentieth of a second.
+const BRISKEST: f64 = 50.0;
 /// ε over the mean of the diagonal of W_ii.
 const DAMPED: f64 = 0.02;
 /// Rounds in which several hands agree.
@@ -192,7 +194,7 @@ impl Hands {
             for i in 0..n {
                 let missing = left[i] - (0..n).fold(DVec3::ZERO, |sum, j| sum + answers[i * n + j] * impulses[j]);
                 let wanted = impulses[i] + damped_inverse(&answers[i * n + i]) * missing;
-                impulses[i] = wanted.clamp_length_max(self.force * dt);
+                impulses[i] = wanted.clamp_length_max(dt * self.force.min(BRISKEST / mean(&answers[i * n + i])));
             }
         }
         for ((body, point), impulse) in self.points.iter().zip(impulses) {
@@ -204,10 +206,14 @@ impl Hands {
     }
 }
 
+/// Mean of the diagonal, 1/kg.
+fn mean(w: &DMat3) -> f64 {
+    (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0
+}
+
 /// W (W² + ε² E)⁻¹ of a symmetric W.
 fn damped_inverse(w: &DMat3) -> DMat3 {
-    let mean = (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0;
-    let epsilon = DAMPED * mean;
+    let epsilon = DAMPED * mean(w);
     if epsilon <= 0.0 || !epsilon.is_finite() {
         return DMat3::ZERO;
     }

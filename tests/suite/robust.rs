@@ -203,7 +203,7 @@ fn a_hundred_times_the_gravity_is_borne() {
         let mut simulation = Simulation::new(Arc::new(exhibit), Settings::default());
         let blow = [Command::Blow(Some(17.0))];
         simulation.step(&StepInput { commands: &blow, ..StepInput::default() });
-        let events = play(&mut simulation, 1200);
+        let events = play(&mut simulation, 300);
         println!("{id}: {} faults, {} events", faults(&events).len(), events.len());
     }
 }

@@ -19,10 +19,11 @@ fn index(exhibit: &Exhibit, name: &str) -> usize {
 
 #[test]
 fn its_hands_are_dragged_while_its_feet_are_held() {
-    /// Feet and hands are where fingers hold them, m: at 2 cm/s what follows with a time constant of 50 ms is 1 mm behind.
-    const MET: f64 = 2e-3;
+    /// Feet and hands are where fingers hold them, m: at 2 cm/s what follows with a time constant of 50 ms is 1 mm behind; by
+    /// the laws its weight and its threads pull besides.
+    const MET: [f64; 2] = [8e-3, 2e-3];
     const ASPECT: f64 = 16.0 / 9.0;
-    for mode in [MotionMode::Dynamic, MotionMode::PositionBased] {
+    for (mode, met) in [MotionMode::Dynamic, MotionMode::PositionBased].into_iter().zip(MET) {
         let mut simulation = Simulation::new(load(), Settings { wind: false, ..Settings::default() });
         let view = simulation.view(ASPECT);
         let (right, up, _) = view.axes();
@@ -50,7 +51,7 @@ fn its_hands_are_dragged_while_its_feet_are_held() {
             assert_eq!(simulation.snapshot().diagnostics.faults, 0, "step {step}");
         }
         println!("{mode:?}: hands and feet missed by {worst} m at most");
-        assert!(worst < MET, "{mode:?}: {worst} m");
+        assert!(worst < met, "{mode:?}: {worst} m");
     }
 }
 
