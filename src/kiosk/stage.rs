@@ -107,7 +107,6 @@ impl Stage {
             pointer: if cue.active { cue.aim } else { blows.or(aim) },
             aspect: controls.aspect,
             commands: &cue.commands,
-            ..StepInput::default()
         });
         self.steps += 1;
         self.snapshot = self.simulation.snapshot();
