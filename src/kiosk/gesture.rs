@@ -1,6 +1,6 @@
 //! What a press means: press and hold blows, press and pull takes the sculpture by the hand.
 //!
-//! A press that lies on something that can be taken waits [`PATIENCE`] for what it becomes; one that lies on nothing blows
+//! A press that lies on something that can be taken waits 0.18 s for what it becomes; one that lies on nothing blows
 //! at once. A press that has become one thing stays it until it ends, so a breath that is steered never turns into a hand.
 //! The first press that blows aims; keys and switches blow without a press.
 

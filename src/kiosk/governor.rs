@@ -1,7 +1,7 @@
 //! The automatic choice: when the laws take longer than an exhibit's budget the figure is moved by places, and by the laws
 //! again when the machine can. Poses and velocities go over as they are, so nobody sees the change.
 //!
-//! What a step costs is what its thread worked for it, lately: the median of the last [`WINDOW`] steps, so that neither a
+//! What a step costs is what its thread worked for it, lately: the median of the last 120 steps, so that neither a
 //! single slow step nor a single fast one says anything. By places the cost of the laws is not known, so they are tried
 //! again after a while; each time that fails the next try waits twice as long, as a machine that is too slow stays so.
 //!
