@@ -1,0 +1,242 @@
+//! What the kiosk does in a step: who blows, who takes by the hand, what moves the exhibit, and what staff are told.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use soffio::audio_io::{Heard, input};
+use soffio::exhibit::{self, Exhibit};
+use soffio::kiosk::gesture::Press;
+use soffio::kiosk::governor::Governor;
+use soffio::kiosk::microphone::MicrophoneHealth;
+use soffio::kiosk::stage::{Controls, Stage};
+use soffio::offline::feed::WavFeed;
+use soffio::offline::play::{self, Play};
+use soffio::offline::wav;
+use soffio::simulation::{Command, Microphone, MotionMode, Script, Settings, Simulation, StepInput};
+use soffio::wind::blow::{BlowEstimate, Reason};
+use soffio::wind::generate::{self, BreathShape};
+
+const RATE: u32 = 48_000;
+
+fn steel_fish() -> Arc<Exhibit> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish");
+    Arc::new(exhibit::load(&folder).expect("the shipped exhibit is valid"))
+}
+
+fn breath() -> WavFeed {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish/breaths/normal.wav");
+    let recording = wav::read(file).expect("the shipped breath is readable");
+    WavFeed::new(recording.samples, recording.sample_rate)
+}
+
+/// One step of a quiet room.
+fn quiet(random: &mut soffio::noise::Random) -> Vec<f32> {
+    (0..RATE / 240).map(|_| (1e-3 * random.signed()) as f32).collect()
+}
+
+#[test]
+fn a_recording_on_the_stage_is_the_run_that_the_simulation_makes_of_it() {
+    let exhibit = steel_fish();
+    let mut stage = Stage::new(exhibit.clone(), Settings::default(), Some(breath()), None);
+    let mut simulation = Simulation::new(exhibit, Settings::default());
+    let (mut feed, mut random) = (breath(), soffio::noise::Random::new(3));
+    let controls = Controls { aspect: 1280.0 / 720.0, ..Controls::default() };
+    for step in 0..3 * 240 {
+        // What a microphone hears meanwhile must not matter.
+        let room = quiet(&mut random);
+        let microphone = Microphone { samples: &room, second: None, sample_rate: RATE, reference: &[] };
+        stage.step(&controls, Some(microphone));
+        simulation.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
+        assert_eq!(stage.state_hash(), simulation.state_hash(), "step {step}");
+    }
+    assert!(simulation.snapshot().diagnostics.wind_force.length() > 0.0 || simulation.energy() != 0.0);
+}
+
+#[test]
+fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
+    let capsules = [7, 8].map(|seed| generate::breath(RATE, seed, &BreathShape::default()));
+    let frames: Vec<f32> = capsules[0].iter().zip(&capsules[1]).flat_map(|(left, right)| [*left, *right]).collect();
+    let file = tempfile::NamedTempFile::new().expect("a temporary file");
+    wav::write_float(file.path(), 2, RATE, &frames).expect("it is written");
+    let recording = wav::read(file.path()).expect("it is read");
+    let exhibit = steel_fish();
+    let mut offline = Simulation::new(exhibit.clone(), Settings::default());
+    let mut mixed = Simulation::new(exhibit.clone(), Settings::default());
+    let mut live = Stage::new(exhibit, Settings::default(), None, None);
+    let (mut feed, mut mix) = (WavFeed::from(&recording), WavFeed::new(recording.samples.clone(), RATE));
+    let (mut recorder, mut ears) = input::open(RATE, 2, [1, 2]);
+    let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+    let (mut heard, mut fastest, mut steps) = (Heard::default(), 0.0_f64, 0);
+    for block in frames.chunks_exact(2 * RATE as usize / 240) {
+        recorder.record(block);
+        heard.clear();
+        assert_eq!(ears.read(&mut heard), block.len() / 2);
+        live.step(&controls, Some(heard.share(0, 1, RATE)));
+        offline.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
+        mixed.step(&StepInput { microphone: Some(mix.microphone()), ..StepInput::default() });
+        assert_eq!(live.state_hash(), offline.state_hash(), "step {steps}");
+        assert_eq!(live.snapshot().breath.estimate, offline.snapshot().breath.estimate, "step {steps}");
+        fastest = fastest.max(live.snapshot().breath.speed);
+        steps += 1;
+    }
+    assert!(steps > 240 && fastest > 1.0, "{fastest} m/s in {steps} steps");
+    assert_ne!(mixed.state_hash(), offline.state_hash(), "the second capsule changes nothing");
+}
+
+#[test]
+fn what_was_heard_is_shared_among_steps_without_a_gap() {
+    let count = |n: u16| (0..n).map(f32::from).collect::<Vec<_>>();
+    let heard = Heard { samples: count(1003), second: count(1003), reference: count(1003) };
+    for n in [1, 2, 5, 7] {
+        let shares: Vec<Microphone> = (0..n).map(|i| heard.share(i, n, RATE)).collect();
+        let joined = |part: fn(&Microphone) -> Vec<f32>| shares.iter().flat_map(part).collect::<Vec<_>>();
+        assert_eq!(joined(|m| m.samples.to_vec()), heard.samples);
+        assert_eq!(joined(|m| m.second.expect("two capsules").to_vec()), heard.second);
+        assert_eq!(joined(|m| m.reference.to_vec()), heard.reference);
+    }
+    let one = Heard { second: Vec::new(), ..heard };
+    assert!(one.share(0, 3, RATE).second.is_none());
+}
+
+#[test]
+fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
+    let mut health = MicrophoneHealth::default();
+    let quiet = BlowEstimate { reason: Reason::Quiet, floor_dbfs: -60.0, ..BlowEstimate::default() };
+    let told = |health: &MicrophoneHealth| health.remedies().collect::<Vec<_>>().join("; ");
+    let after = |health: &mut MicrophoneHealth, estimate: &BlowEstimate, steps: u64| {
+        (0..steps).for_each(|_| health.note(true, estimate));
+        told(health)
+    };
+    assert_eq!(after(&mut health, &quiet, 100), "");
+    // A breath may reach full scale; that is counted and no more.
+    let hard = BlowEstimate { reason: Reason::Blow, clipping: true, ..quiet };
+    assert_eq!(after(&mut health, &hard, 100), "");
+    after(&mut health, &quiet, 1);
+    assert_eq!((health.clips, health.clips_without_breath), (1, 0));
+    let shout = BlowEstimate { reason: Reason::Voiced, clipping: true, ..quiet };
+    assert!(after(&mut health, &shout, 3).contains("gain down"), "{}", told(&health));
+    assert!(after(&mut health, &quiet, 9 * 240).contains("gain down"), "{}", told(&health));
+    assert_eq!(after(&mut health, &quiet, 2 * 240), "");
+    assert_eq!((health.clips, health.clips_without_breath), (2, 1));
+    let adapts = BlowEstimate { gain_control: true, ..quiet };
+    assert!(after(&mut health, &adapts, 1).contains("switch off automatic gain control"));
+    let muted = BlowEstimate { reason: Reason::NoSignal, ..BlowEstimate::default() };
+    after(&mut health, &muted, 2 * 240);
+    assert!(!health.is_silent());
+    assert!(after(&mut health, &muted, 2 * 240).contains("mixer") && health.is_silent());
+    // Without a microphone there is nothing to mend about it.
+    health.note(false, &BlowEstimate::default());
+    assert_eq!(told(&health), "");
+}
+
+#[test]
+fn attract_mode_moves_the_sculpture_and_a_breath_at_the_microphone_ends_it() {
+    let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(2.0));
+    let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+    let mut random = soffio::noise::Random::new(4);
+    let mut fastest: f64 = 0.0;
+    // The shipped script blows from its fourth second on.
+    for _ in 0..(2 + 8) * 240 {
+        let room = quiet(&mut random);
+        stage.step(&controls, Some(Microphone { samples: &room, second: None, sample_rate: RATE, reference: &[] }));
+        fastest = fastest.max(stage.snapshot().breath.speed);
+    }
+    assert!(stage.attracts() && stage.attract_text() == Some("invite"));
+    assert!(fastest > 1.0, "the script's breath reaches the wind: {fastest} m/s");
+
+    let mut visitor = breath();
+    let ended = (0..3 * 240).find(|_| {
+        stage.step(&controls, Some(visitor.microphone()));
+        !stage.attracts()
+    });
+    let step = ended.expect("somebody blows");
+    assert!(stage.snapshot().breath.speed > 0.0, "the breath that ends the show is already wind, step {step}");
+}
+
+#[test]
+fn a_held_button_blows_where_it_points_and_ends_attract_mode_at_once() {
+    let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(0.1));
+    let mut controls = Controls { aspect: 1.0, ..Controls::default() };
+    (0..60).for_each(|_| stage.step(&controls, None));
+    assert!(stage.attracts());
+    controls.hold = true;
+    controls.aim = Some([0.2, 0.5]);
+    stage.step(&controls, None);
+    assert!(!stage.attracts());
+    (0..60).for_each(|_| stage.step(&controls, None));
+    assert!(stage.snapshot().breath.speed > 1.0);
+}
+
+#[test]
+fn press_and_pull_takes_the_sculpture_and_press_and_hold_blows_at_it() {
+    let aspect = 16.0 / 9.0;
+    let mut stage = Stage::new(steel_fish(), Settings::default(), None, None);
+    let mut controls = Controls { aspect, ..Controls::default() };
+    stage.step(&controls, None);
+    let mut simulation = Simulation::new(steel_fish(), Settings::default());
+    let view = simulation.view(aspect);
+    let seen = simulation.bodies().iter().filter_map(|body| view.project(body.position, aspect));
+    let places: Vec<[f64; 2]> = seen.collect();
+    let at = places.into_iter().find(|at| simulation.can_be_taken(*at, aspect)).expect("something can be taken");
+    controls.presses = vec![Press { id: 1, at }];
+    for index in 0..120 {
+        controls.presses[0].at = [at[0] + 0.001 * f64::from(index.min(60)), at[1]];
+        stage.step(&controls, None);
+        let state = stage.snapshot();
+        assert_eq!(state.breath.speed, 0.0, "a pull is no breath, step {index}");
+        assert_eq!(state.diagnostics.hands, usize::from(index > 8), "step {index}");
+    }
+    controls.presses.clear();
+    stage.step(&controls, None);
+    assert_eq!(stage.snapshot().diagnostics.hands, 0);
+    controls.presses = vec![Press { id: 2, at }];
+    (0..120).for_each(|_| stage.step(&controls, None));
+    assert!(stage.snapshot().breath.speed > 5.0 && stage.snapshot().diagnostics.hands == 0);
+}
+
+#[test]
+fn what_the_governor_chose_repeats_to_the_bit() {
+    const STEPS: u64 = 5 * 240;
+    let exhibit = steel_fish();
+    let mut stage = Stage::new(exhibit.clone(), Settings::default(), None, None);
+    let mut governor = Governor::new(exhibit.motion);
+    let mut controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+    let mut script = vec![String::from(r#"{"t": 0, "blow": 9.0}"#)];
+    controls.commands = vec![Command::Blow(Some(9.0))];
+    let mut before = None;
+    for step in 0..STEPS {
+        controls.mode = governor.mode();
+        if controls.mode != before {
+            before = controls.mode;
+            let (t, name) = (step as f64 / 240.0, before.map_or("auto", MotionMode::name));
+            script.push(format!(r#"{{"t": {t}, "solver": "{name}"}}"#));
+        }
+        stage.step(&controls, None);
+        controls.commands.clear();
+        // As on a machine that is too slow for the laws from the second second on.
+        let slow = step > 240 && controls.mode.is_none();
+        governor.note(if slow { 5e-3 } else { 5e-4 });
+    }
+    assert_eq!(script.len(), 2, "{script:?}");
+    let play = Play {
+        script: Some(Script::parse(&script.join("\n")).expect("a good script")),
+        seconds: STEPS as f64 / 240.0,
+        aspect: controls.aspect,
+        fps: 60,
+        ..Play::default()
+    };
+    let summary = play::run(&exhibit, play, &false.into(), |_| {}, None).expect("it runs");
+    assert_eq!(summary.state_hash, format!("{:016x}", stage.state_hash()));
+    assert_eq!(summary.solver_switches, 1);
+}
+
+#[test]
+fn a_reloaded_exhibit_starts_anew_and_the_run_counts_on() {
+    let mut stage = Stage::new(steel_fish(), Settings::default(), Some(breath()), None);
+    let controls = Controls::default();
+    (0..480).for_each(|_| stage.step(&controls, None));
+    stage.swap(steel_fish());
+    assert_eq!((stage.steps(), stage.sample(), stage.snapshot().step), (480, 0, 0));
+    stage.step(&controls, None);
+    assert_eq!((stage.steps(), stage.sample()), (481, 200));
+}
