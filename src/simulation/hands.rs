@@ -1,11 +1,14 @@
 //! Hands on the sculpture: pointers and fingers that take a body, drag it and throw it.
 //!
 //! A hand takes what lies under it when it comes, at the point p where the sight line meets it, and from then on wants p
-//! on the plane through that point which faces the eye. It asks for a speed, not for a place,
+//! on its sight line (from the eye e, unit direction d), no matter how far away. It asks for a speed, not for a place,
 //!
 //! ```text
-//! v* = (goal − p)/τ,   |v*| ≤ v_max
+//! v* = (goal − p)/τ,   |v*| ≤ v_max,   goal = e + d (d · (p − e))
 //! ```
+//!
+//! v* is across d. A point that joints keep on a way with tangent t rests where t · v* = 0 as well, and that is where way
+//! and sight line come nearest to each other: however obliquely the eye looks, what is held ends under the finger.
 //!
 //! Moved by places, p goes on by v* Δt. Moved by the laws, the hand is a force F that would give the point that speed
 //! within the step. With W the answers of the points to impulses there, joints included (`Dynamics::answers`), and W_ii the
@@ -58,8 +61,8 @@ const AROUND: [[f64; 2]; 8] =
 #[derive(Clone, Copy, Debug)]
 struct Held {
     id: u64,
-    /// What it took: the body, the point in its node frame, and its distance from the eye along the view.
-    took: Option<(usize, DVec3, f64)>,
+    /// What it took: the body, and the point in its node frame.
+    took: Option<(usize, DVec3)>,
     /// Where the point is to be, world, m.
     goal: DVec3,
 }
@@ -97,7 +100,7 @@ impl Hands {
 
     /// What is held: the first hand's point, world, m.
     pub fn first(&self, bodies: &[RigidBody]) -> Option<DVec3> {
-        self.held.iter().find_map(|held| held.took.map(|(body, point, _)| bodies[body].pose().point(point)))
+        self.held.iter().find_map(|held| held.took.map(|(body, point)| bodies[body].pose().point(point)))
     }
 
     /// How many bodies are held, counted by hands.
@@ -136,18 +139,14 @@ impl Hands {
                     None => take(hand.at, (view, aspect), wind, exhibit, bodies),
                 };
                 let taken = taken.filter(|(body, _)| !driven[*body]);
-                let forward = view.axes().2;
-                let took = taken.map(|(body, point)| {
-                    let own = bodies[body].pose().inverse_point(point);
-                    (body, own, (point - view.eye).dot(forward))
-                });
+                let took = taken.map(|(body, point)| (body, bodies[body].pose().inverse_point(point)));
                 self.held.push(Held { id: hand.id, took, goal: DVec3::ZERO });
             }
             if let Some(held) = self.held.iter_mut().find(|held| held.id == hand.id)
-                && let Some((_, _, depth)) = held.took
+                && let Some((body, point)) = held.took
             {
                 let (eye, ray) = view.ray(hand.at, aspect);
-                held.goal = eye + ray * (depth / ray.dot(view.axes().2));
+                held.goal = eye + ray * (bodies[body].pose().point(point) - eye).dot(ray);
             }
         }
     }
@@ -161,7 +160,7 @@ impl Hands {
     pub fn grips(&mut self, bodies: &[RigidBody], dt: f64) -> &[Grip] {
         self.grips.clear();
         for held in &self.held {
-            if let Some((body, point, _)) = held.took {
+            if let Some((body, point)) = held.took {
                 let now = bodies[body].pose().point(point);
                 self.grips.push(Grip { body, point, place: now + dt * Self::wish(held, now) });
             }
@@ -174,7 +173,7 @@ impl Hands {
         self.points.clear();
         let mut left = [DVec3::ZERO; MOST_GRIPS];
         for held in &self.held {
-            if let Some((body, point, _)) = held.took {
+            if let Some((body, point)) = held.took {
                 let state = &dynamics.bodies[body];
                 let now = state.pose().point(point);
                 let arm = now - state.position;

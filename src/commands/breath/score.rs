@@ -22,6 +22,9 @@ pub struct Args {
     /// Hours of each kind of made scene.
     #[arg(long, default_value_t = 3.0)]
     hours: f64,
+    /// Only the kinds whose name has one of these words in it, such as "museum,kiosk".
+    #[arg(long, value_delimiter = ',', requires = "generated", value_name = "WORDS")]
+    only: Vec<String>,
     /// Changes the made scenes.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -67,7 +70,15 @@ pub fn run(args: &Args) -> Outcome {
     }
     if args.generated {
         let hearing = Hearing { gain_db: args.gain, stereo: args.stereo };
-        let (table, remarks) = course::examined(&settings, args.hours, args.seed, hearing);
+        let asked = |row: &str| args.only.is_empty() || args.only.iter().any(|word| row.contains(word));
+        let (table, remarks) = course::examined(&settings, args.hours, args.seed, hearing, asked);
+        if table.0.is_empty() {
+            let rows: Vec<String> = course::exam(args.hours).into_iter().map(|(row, ..)| row).collect();
+            return Err(Failure::input(format!(
+                "--only: no kind has that in its name. There are: {}.",
+                rows.join("; ")
+            )));
+        }
         println!("made scenes, {} h each, seed {}\n{table}", args.hours, args.seed);
         tell(args, &remarks);
     }

@@ -83,7 +83,7 @@ fn examine(args: &Args, model: &Model) {
     if args.exam > 0.0 {
         let settings = BlowSettings { model: model.clone(), ..BlowSettings::default() };
         let plain = Hearing { gain_db: 0.0, stereo: false };
-        let (table, _) = course::examined(&settings, args.exam, args.seed, plain);
+        let (table, _) = course::examined(&settings, args.exam, args.seed, plain, |_| true);
         println!("{table}");
     }
 }

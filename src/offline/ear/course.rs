@@ -210,12 +210,18 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
     rows
 }
 
-/// Marks of made scenes, `hours` of each kind, from worlds that nobody has learnt from.
-pub fn examined(settings: &BlowSettings, hours: f64, seed: u64, hearing: Hearing) -> (Table, Vec<String>) {
+/// Marks of made scenes, `hours` of each kind whose name `asked` takes, from worlds that nobody has learnt from.
+pub fn examined(
+    settings: &BlowSettings,
+    hours: f64,
+    seed: u64,
+    hearing: Hearing,
+    asked: impl Fn(&str) -> bool,
+) -> (Table, Vec<String>) {
     const WORLDS: u64 = 6;
     let worlds: Vec<World> = (0..WORLDS).map(|i| World::new(EXAM + hash_words(&[seed, i]) % EXAM)).collect();
-    let scenes =
-        exam(hours).into_iter().flat_map(|(row, condition, n)| (0..n).map(move |i| (row.clone(), condition, i)));
+    let rows = exam(hours).into_iter().filter(|(row, ..)| asked(row));
+    let scenes = rows.flat_map(|(row, condition, n)| (0..n).map(move |i| (row.clone(), condition, i)));
     let results = parallel(scenes.collect(), |(row, condition, index)| {
         let mut random = Random::new(hash_words(&[seed, index, 5]));
         let hearing = Hearing { gain_db: hearing.gain_db + random.range(-3.0, 3.0), ..hearing };
