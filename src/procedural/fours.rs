@@ -66,8 +66,9 @@ impl Fours {
             let wrench = Twist::gather(lanes, |k| &moved.wrenches[members.bodies[k]]);
             let gravity = moved.gravity.to_array().map(|g| mass.all(g));
             let gravity = V3 { x: gravity[0], y: gravity[1], z: gravity[2] };
-            state.velocity = state.velocity * keep(&damping[0]) + (gravity + wrench.linear * (one / mass)) * h;
-            state.spin = state.spin * keep(&damping[1]) + inertia.inverse().mul(wrench.angular) * h;
+            let (push, twist) = (gravity + wrench.linear * (one / mass), inertia.inverse().mul(wrench.angular));
+            state.velocity = bounded(lanes, state.velocity * keep(&damping[0]) + push * h, SPEED_KEPT);
+            state.spin = bounded(lanes, state.spin * keep(&damping[1]) + twist * h, SPIN_KEPT);
             let (way, turn) = (state.velocity * h, state.spin * h);
             move_by(lanes, &mut state, way, turn);
             quad.put(lanes, &state);
@@ -128,6 +129,16 @@ impl Fours {
         }
     }
 
+    /// No body goes on faster than it may, whatever threw it.
+    pub fn bound_speed(&self, bodies: &mut [RigidBody]) {
+        for (body, driven) in bodies.iter_mut().zip(&self.driven) {
+            if !driven {
+                body.velocity = body.velocity.clamp_length_max(SPEED_KEPT);
+                body.angular_velocity = body.angular_velocity.clamp_length_max(SPIN_KEPT);
+            }
+        }
+    }
+
     /// Lets the bodies be where their quad is, but for driven ones.
     #[inline(always)]
     fn show<L: Lanes>(&self, lanes: L, members: &Members, state: &State<L::T>, bodies: &mut [RigidBody]) {
@@ -151,6 +162,18 @@ impl Fours {
 fn move_by<L: Lanes>(lanes: L, state: &mut State<L::T>, way: V3<L::T>, turn: V3<L::T>) {
     state.position += way;
     state.rotation = Quat::of_turn(lanes, turn).times(state.rotation).renormalized();
+}
+
+/// No longer than `most`: a taut spring would otherwise throw a light body, alone for the step, farther than its joints
+/// can bring it back.
+#[inline(always)]
+fn bounded<L: Lanes>(lanes: L, v: V3<L::T>, most: f64) -> V3<L::T> {
+    let square = v.dot(v);
+    let within = |k: usize| lanes.lane(&square, k) <= most * most;
+    if (0..WIDTH).all(within) {
+        return v;
+    }
+    v * lanes.gather(|k| if within(k) { 1.0 } else { most / lanes.lane(&square, k).sqrt() })
 }
 
 /// ω of a body that turns freely for `h`.

@@ -217,6 +217,7 @@ impl Procedural {
         let motion = (dt, moved.gravity.length());
         let by_ratio = self.settings.method == Method::Compulsive;
         let shifted = self.touches.bounce(moved.system, moved.bodies, &self.before, (motion, by_ratio), moved.impacts);
+        self.fours.bound_speed(moved.bodies);
         if shifted && !moved.system.joints().is_empty() {
             self.reach = self.adjust(&mut moved, grips);
         }
@@ -287,6 +288,12 @@ impl Procedural {
             }
             if stays {
                 self.stay(moved);
+                moved.system.evaluate(moved.bodies);
+                reach.residual = moved.system.open_by(&self.tree.left);
+                reach.missed = compulsive::farthest(grips, moved.bodies);
+                if reach.residual <= REACHED {
+                    break;
+                }
             }
             let alone = self.compulsive.adjust(moved, &[], &self.tree.left, None);
             reach = Reach {

@@ -122,18 +122,12 @@ fn what_is_thrown_flies_on_and_what_is_held_still_stays() {
 fn no_handling_breaks_anything() {
     /// Rad and m: what four hands ask at once may not be possible; joints give way by no more.
     const OPEN: f64 = 1e-6;
-    /// Known not to hold: the marionette's elastic threads, torn by four hands while it is moved by places, throw its limbs
-    /// (joints 1 to 5 cm open for a step), as a spring's force is taken over a whole step there.
-    const THROWN: &str = "marionette";
     /// Steps put back in 20 s: limbs that four hands pull straight against their stops leave the laws no answer, about once
     /// a minute; the figure then stands still for a step.
     const FAULTS: u64 = 1;
     const SEED: u64 = 41;
     for id in exhibit::ids() {
         for mode in MODES {
-            if id == THROWN && mode != MotionMode::Dynamic {
-                continue;
-            }
             let mut simulation = begin(&id);
             let mut random = Random::new(SEED);
             let (mut hands, mut worst, mut fastest): (Vec<Hand>, f64, f64) = (Vec::new(), 0.0, 0.0);

@@ -9,11 +9,13 @@ use fearless_simd::{Level, Simd, dispatch, f32x16};
 use serde::Serialize;
 
 use crate::commands::{Failure, Outcome};
-use crate::math::{exp, ln};
+use crate::math::{PI, exp, ln, sin};
 use crate::noise::Random;
 use crate::simulation::SAMPLE_RATE;
 use crate::sound::modal::{BLOCK, Bank, Partial};
-use crate::sound::{InstrumentSpec, Preset, Room, RoomSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth};
+use crate::sound::{
+    InstrumentSpec, Preset, Room, RoomSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
+};
 
 /// Rounds of each measurement; the best is reported, as the machine's other work can only add.
 const ROUNDS: usize = 5;
@@ -33,6 +35,12 @@ const SCENE: [(&str, usize, usize, (f64, f64)); 5] = [
     ("bell", 4, 10, (250.0, 8_000.0)),
 ];
 
+/// What sounds all the time in it: the wind in the room and on wires, surfaces that slide.
+const SCENE_AIR: [&str; 5] = ["wind-room", "wind-wire", "wind-wire", "wind-wire", "wind-wire"];
+const SCENE_SCRAPES: [&str; 3] = ["scrape-wood", "scrape-metal", "scrape-stone"];
+/// Wind and slides are told anew so often a second, as in the simulation.
+const SCENE_TOLD: u64 = 240;
+
 /// One bank at one level.
 #[derive(Serialize)]
 struct Row {
@@ -50,7 +58,7 @@ struct Scene {
     bodies: usize,
     /// Partials that ring at the end: all of them.
     partials: usize,
-    /// % of one core, hits, room and limiter included.
+    /// % of one core, hits, wind, scraping, room and limiter included.
     core_percent: f64,
     /// The longest block's own time, % of what it lasts.
     worst_block_percent: f64,
@@ -92,7 +100,7 @@ pub fn run(json: bool) -> Outcome {
         println!("{}", serde_json::to_string(&scene).map_err(Failure::input)?);
     } else {
         println!(
-            "heaviest scene: {} bodies, {} partials: {:.2} % of a core, worst block {:.1} % of its time",
+            "heaviest scene: {} bodies, {} partials, wind, wires and scraping in a room: {:.2} % of a core, worst block {:.1} % of its time",
             scene.bodies, scene.partials, scene.core_percent, scene.worst_block_percent
         );
     }
@@ -192,6 +200,24 @@ fn room() -> f64 {
     100.0 * start.elapsed().as_secs_f64() * rate / noise.len() as f64
 }
 
+/// A breath that swells and fades, and something that is drawn to and fro over each surface.
+fn going_on(sample: u64, slides: std::ops::Range<usize>) -> impl Iterator<Item = SoundCommand> {
+    let swell = move |seconds: f64| sin(2.0 * PI * sample as f64 / f64::from(SAMPLE_RATE) / seconds) as f32;
+    let wind = WindSound { sample, speed: 3.0 + 2.0 * swell(1.7), gust: 0.3 * swell(0.3), direction: 0.0, pan: 0.1 };
+    let slide = move |instrument: usize| {
+        SoundCommand::Slide(Slide {
+            sample,
+            instrument: instrument as u16,
+            speed: 0.4 + 0.3 * swell(0.9),
+            force: 2.0,
+            position: [0.5 * swell(0.9), 0.2],
+            pan: 0.0,
+            distance: 1.0,
+        })
+    };
+    std::iter::once(SoundCommand::Wind(wind)).chain(slides.map(slide))
+}
+
 fn scene() -> Result<Scene, Failure> {
     let material = SoundMaterial { youngs_modulus: 1e10, poisson: 0.3, density: 600.0, loss_factor: 1e-2 };
     let body = SoundBody { half_extents: [0.1, 0.05], thickness: 0.01, area: 0.02, mass: 0.12 };
@@ -202,8 +228,13 @@ fn scene() -> Result<Scene, Failure> {
             presets.push(preset(&table(count, band, presets.len() as u64))?);
         }
     }
+    let bodies = presets.len();
+    for name in SCENE_AIR.iter().chain(&SCENE_SCRAPES) {
+        presets.push(Preset::shipped(name).map_err(Failure::input)?);
+    }
+    let slides = bodies + SCENE_AIR.len()..presets.len();
     let instruments: Vec<_> = presets.iter().map(|preset| (preset, &spec)).collect();
-    let mut best = Scene { bodies: presets.len(), partials: 0, core_percent: f64::INFINITY, worst_block_percent: 0.0 };
+    let mut best = Scene { bodies, partials: 0, core_percent: f64::INFINITY, worst_block_percent: 0.0 };
     let lasts = SCENE_BLOCK as f64 / f64::from(SAMPLE_RATE);
     for _ in 0..ROUNDS {
         let mut synth = Synth::with_presets(SAMPLE_RATE, &instruments, 1).map_err(Failure::input)?;
@@ -221,17 +252,24 @@ fn scene() -> Result<Scene, Failure> {
                 distance: 1.0,
             })
         };
-        (0..presets.len()).for_each(|i| synth.command(strike(0, i)));
-        for i in 0..SCENE_HITS * SCENE_SECONDS as u64 {
-            synth.command(strike(1000 + i * u64::from(SAMPLE_RATE) / SCENE_HITS, i as usize * 7 % presets.len()));
-        }
+        (0..bodies).for_each(|i| synth.command(strike(0, i)));
         let mut out = vec![0.0; 2 * SCENE_BLOCK];
         // The first blow on everything at once is not what is measured.
         synth.render(&mut out);
         let (mut all, mut worst) = (0.0, 0.0f64);
         let blocks = SCENE_SECONDS * SAMPLE_RATE as usize / SCENE_BLOCK;
-        for _ in 0..blocks {
+        let every = u64::from(SAMPLE_RATE) / SCENE_HITS;
+        for block in 0..blocks as u64 {
             let start = ThreadTime::now();
+            let from = (block + 1) * SCENE_BLOCK as u64;
+            for sample in from..from + SCENE_BLOCK as u64 {
+                if sample % every == 0 {
+                    synth.command(strike(sample, (sample / every) as usize * 7 % bodies));
+                }
+                if sample % (u64::from(SAMPLE_RATE) / SCENE_TOLD) == 0 {
+                    going_on(sample, slides.clone()).for_each(|command| synth.command(command));
+                }
+            }
             synth.render(&mut out);
             let seconds = start.elapsed().as_secs_f64();
             all += seconds;

@@ -10,6 +10,10 @@
 //! ŷ_k(t)  = margin · c(b) · max_{|δ| ≤ 32 ms} x_k(t − d − δ), falling no faster than the room rings
 //! ```
 //!
+//! How the room rings is heard: where a band falls steadily, by its mean over 30 ms beside that over 120 ms, what was
+//! predicted falls as the band does, and rings for 0.6 to 2.5 s.
+//!
+//!
 //! Three rules keep a breath from being mistaken for the kiosk's answer to it, which follows it and looks like it:
 //! nothing is learnt while somebody blows; a loudspeaker is never credited with coupling better below 200 Hz than
 //! above; and sustained output that is *not* heard lowers the gain (c ≤ heard / least played over all lags).
@@ -28,8 +32,12 @@ const SLACK: usize = 4;
 const MARGIN: f64 = 3.0;
 /// Smoothing of the played spectra, s.
 const SMOOTHING_S: f64 = 0.02;
-/// The room keeps at least this part of the power from frame to frame (reverberation time 0.6 s).
-const RING: f64 = 0.83;
+/// The room keeps this part of the power from frame to frame, by reverberation times of 0.6 s at least and 2.5 s at most.
+const RING: (f64, f64) = (0.83, 0.957);
+/// Means of what is heard, s, and the part of the longer one below which the shorter one is when a room rings for up to
+/// 4 s: (1 − a τ₂)/(1 − a τ₁) with a = 6 ln 10/T60.
+const MEANS_S: [f64; 2] = [0.03, 0.12];
+const FALLING: f64 = 0.7;
 /// Memory of the regression, s.
 const MEMORY_S: f64 = 3.0;
 /// Correlation of envelopes from which a lag is believed.
@@ -60,6 +68,8 @@ pub struct OwnVoice {
     moments: [[Moments; BANDS]; LAGS],
     heard: [f64; BANDS],
     heard_square: [f64; BANDS],
+    /// Means of what is heard per band, the shorter one first.
+    means: [[f64; BANDS]; 2],
     /// Learnt power gain per band; 1 until something is learnt.
     coupling: [f64; BANDS],
     lag: Option<usize>,
@@ -80,6 +90,7 @@ impl OwnVoice {
             moments: [[Moments::default(); BANDS]; LAGS],
             heard: [0.0; BANDS],
             heard_square: [0.0; BANDS],
+            means: [[0.0; BANDS]; 2],
             coupling: [1.0; BANDS],
             lag: None,
             predicted: [0.0; BINS],
@@ -101,9 +112,14 @@ impl OwnVoice {
         }
         self.played[self.next] = std::array::from_fn(|k| self.smooth[k] as f32);
         self.played_bands[self.next] = bands(own);
-        if learn {
-            self.learn(&bands(microphone));
+        let heard = bands(microphone);
+        for (means, seconds) in self.means.iter_mut().zip(MEANS_S) {
+            means.iter_mut().zip(&heard).for_each(|(mean, y)| *mean += blend(seconds) * (y - *mean));
         }
+        if learn {
+            self.learn(&heard);
+        }
+        self.ring();
         self.predict();
     }
 
@@ -164,26 +180,39 @@ impl OwnVoice {
         }
     }
 
+    /// Lets the prediction fall as the room does.
+    fn ring(&mut self) {
+        let [now, before] = self.means;
+        for b in 0..BANDS {
+            let predicted = band(&self.predicted, EDGES[b], EDGES[b + 1]).max(f64::MIN_POSITIVE);
+            let falls = now[b] < FALLING * before[b];
+            let keeps = if falls { (MARGIN * now[b] / predicted).clamp(RING.0, RING.1) } else { RING.0 };
+            self.predicted[extent(b)].iter_mut().for_each(|p| *p *= keeps);
+        }
+    }
+
     fn predict(&mut self) {
         let lags = match self.lag {
             Some(lag) => lag.saturating_sub(SLACK)..(lag + SLACK + 1).min(LAGS),
             None => 0..LAGS,
         };
         let above = self.coupling[1..].iter().fold(0.0, |m: f64, c| m.max(*c));
-        self.predicted.iter_mut().for_each(|p| *p *= RING);
         for lag in lags {
             let played = &self.played[self.at(lag)];
             for b in 0..BANDS {
                 let coupling = if b == 0 { self.coupling[0].min(above) } else { self.coupling[b] };
-                // The outermost bands reach to the ends of the spectrum.
-                let low = if b == 0 { 0 } else { EDGES[b] };
-                let high = if b + 1 == BANDS { BINS } else { EDGES[b + 1] };
-                for (p, x) in self.predicted[low..high].iter_mut().zip(&played[low..high]) {
+                for (p, x) in self.predicted[extent(b)].iter_mut().zip(&played[extent(b)]) {
                     *p = p.max(MARGIN * coupling * f64::from(*x));
                 }
             }
         }
     }
+}
+
+/// Bins of a band; the outermost ones reach to the ends of the spectrum.
+fn extent(b: usize) -> std::ops::Range<usize> {
+    let low = if b == 0 { 0 } else { EDGES[b] };
+    low..if b + 1 == BANDS { BINS } else { EDGES[b + 1] }
 }
 
 fn bands(power: &Power) -> [f64; BANDS] {
