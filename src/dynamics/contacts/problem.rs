@@ -32,8 +32,11 @@ pub(super) const MOST_TOUCHES: usize = 64;
 /// fall.
 const ROUNDS: usize = 5;
 const LEAPS: usize = 40;
-/// Where the rounds run out, they were good enough if none changed a velocity by more than this, m/s, or than this share
-/// of the velocities that the impulses make alone: heavy bodies on light ones leave no finer.
+/// After so many leaps that have not halved what rounds change, touches go round in circles, as balls do that roll against
+/// each other: no more is to be had.
+const CIRCLES: usize = 6;
+/// Where the rounds run out or go in circles, they were good enough if none changed a velocity by more than this, m/s, or
+/// than this share of the velocities that the impulses make alone: heavy bodies on light ones leave no finer.
 const NEARLY: f64 = 1e-4;
 const NEARLY_SHARE: f64 = 1e-7;
 /// Share of the largest velocities that an impulse makes which is rounding.
@@ -252,10 +255,17 @@ impl Problem {
 
     /// Solves for all impulses from where they stand. Answers whether they are good enough to begin from next time.
     pub fn solve(&mut self) -> bool {
-        let (mut rest, mut scale) = (0.0, 0.0);
+        let (mut rest, mut scale) = (f64::INFINITY, 0.0);
+        let mut earlier = rest;
         for leap in 0..LEAPS {
             if leap > 0 {
                 self.leap();
+            }
+            if leap % CIRCLES == 0 {
+                if rest > 0.5 * earlier && rest <= NEARLY + NEARLY_SHARE * scale {
+                    return true;
+                }
+                earlier = rest;
             }
             for _ in 0..ROUNDS {
                 (rest, scale) = self.round();

@@ -6,9 +6,13 @@
 //!
 //! ```text
 //! c(b, d) = cov(x_d, y) / var(x_d)       regression: noise that is independent of x does not bias it
-//! ρ(d)    = Σ_b cov(x_d, y) / √(Σ_b var x_d · var y), bands scaled alike     the lag is where ρ is greatest
+//! ρ(d)    = Σ_b cov(x_d, y) / √(Σ_b var x_d · var y), bands scaled alike     the lag is where ρ̄ is greatest
 //! ŷ_k(t)  = margin · c(b) · max_{|δ| ≤ 32 ms} x_k(t − d − δ), falling no faster than the room rings
 //! ```
+//!
+//! ρ̄ is the mean of ρ over a quarter of a minute: a sound that swells slowly says little of when it was played, and must
+//! not outvote the hits before it. The greatest is taken over all lags that are about as likely.
+//!
 //!
 //! How the room rings is heard: where a band falls steadily, by its mean over 30 ms beside that over 120 ms, what was
 //! predicted falls as the band does, and rings for 0.6 to 2.5 s.
@@ -40,8 +44,11 @@ const MEANS_S: [f64; 2] = [0.03, 0.12];
 const FALLING: f64 = 0.7;
 /// Memory of the regression, s.
 const MEMORY_S: f64 = 3.0;
-/// Correlation of envelopes from which a lag is believed.
+/// Correlation of envelopes from which a lag is believed, memory of the correlations, s, and what share of the greatest
+/// another lag must have to be about as likely.
 const BELIEVED: f64 = 0.5;
+const LAG_MEMORY_S: f64 = 15.0;
+const LIKELY: f64 = 0.93;
 /// Output below this power (−70 dBFS) cannot be told from silence.
 const AUDIBLE: f64 = 1e-7;
 /// Highest coupling: the microphone may be this much more sensitive than full scale out suggests (12 dB).
@@ -73,6 +80,9 @@ pub struct OwnVoice {
     /// Learnt power gain per band; 1 until something is learnt.
     coupling: [f64; BANDS],
     lag: Option<usize>,
+    /// ρ̄ of each lag, and over how many frames it has been taken.
+    correlation: [f64; LAGS],
+    correlated: f64,
     /// Power of the kiosk's own sound at the microphone, margin included.
     pub predicted: Power,
     /// Frames until the last output has left the window: 0 means that the kiosk has long been silent.
@@ -93,6 +103,8 @@ impl OwnVoice {
             means: [[0.0; BANDS]; 2],
             coupling: [1.0; BANDS],
             lag: None,
+            correlation: [0.0; LAGS],
+            correlated: 0.0,
             predicted: [0.0; BINS],
             audible: 0,
         }
@@ -139,7 +151,7 @@ impl OwnVoice {
             *mean += blend * (y - *mean);
             *square += blend * (y * y - *square);
         }
-        let (mut best, mut best_correlation) = (0, 0.0);
+        let mut correlation = [0.0; LAGS];
         for lag in 0..LAGS {
             let played = self.played_bands[self.at(lag)];
             let (mut together, mut loudness) = (0.0, 0.0);
@@ -155,12 +167,13 @@ impl OwnVoice {
                 together += m.xy - m.x * self.heard[b];
                 loudness += scale;
             }
-            let correlation = together / loudness.max(AUDIBLE * AUDIBLE);
-            if correlation > best_correlation {
-                (best, best_correlation) = (lag, correlation);
-            }
+            correlation[lag] = together / loudness.max(AUDIBLE * AUDIBLE);
         }
-        if best_correlation > BELIEVED {
+        if correlation.iter().any(|rho| *rho > BELIEVED) {
+            self.correlated += 1.0;
+            let blend = (FRAME_S / LAG_MEMORY_S).max(1.0 / self.correlated);
+            self.correlation.iter_mut().zip(correlation).for_each(|(mean, rho)| *mean += blend * (rho - *mean));
+            let best = (0..LAGS).max_by(|a, b| self.correlation[*a].total_cmp(&self.correlation[*b])).unwrap_or(0);
             self.lag = Some(best);
             for b in 0..BANDS {
                 let m = self.moments[best][b];
@@ -192,12 +205,13 @@ impl OwnVoice {
     }
 
     fn predict(&mut self) {
-        let lags = match self.lag {
-            Some(lag) => lag.saturating_sub(SLACK)..(lag + SLACK + 1).min(LAGS),
-            None => 0..LAGS,
-        };
+        let least = self.lag.map_or(f64::NEG_INFINITY, |lag| LIKELY * self.correlation[lag]);
+        let likely = |lag: usize| self.correlation[lag] >= least;
         let above = self.coupling[1..].iter().fold(0.0, |m: f64, c| m.max(*c));
-        for lag in lags {
+        for lag in 0..LAGS {
+            if !(lag.saturating_sub(SLACK)..(lag + SLACK + 1).min(LAGS)).any(likely) {
+                continue;
+            }
             let played = &self.played[self.at(lag)];
             for b in 0..BANDS {
                 let coupling = if b == 0 { self.coupling[0].min(above) } else { self.coupling[b] };
