@@ -20,6 +20,9 @@ pub mod plates;
 pub mod solid;
 pub mod steel_fish;
 pub mod stock;
+pub mod tree;
+pub mod twelve_moons;
+pub mod wind_chimes;
 pub mod windmill;
 pub mod windy_corner;
 
@@ -40,11 +43,17 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
         Artifact { path: "billiards/billiards.glb", bytes: billiards::glb() },
         Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
+        Artifact { path: "chain-heavy/chain-heavy.glb", bytes: chains::heavy_glb() },
+        Artifact { path: "chain-light/chain-light.glb", bytes: chains::light_glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
+        Artifact { path: "twelve-moons/twelve-moons.glb", bytes: twelve_moons::glb().1 },
+        Artifact { path: "wind-chimes/wind-chimes.glb", bytes: wind_chimes::glb(&wind_chimes::ALUMINIUM) },
+        Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: wind_chimes::glb(&wind_chimes::BAMBOO) },
+        Artifact { path: "wind-chimes-glass/wind-chimes-glass.glb", bytes: wind_chimes::glb(&wind_chimes::GLASS) },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },
