@@ -78,7 +78,7 @@ pub fn cut_plate(
     // Where a plumb line through the centre leaves the sheet.
     let edge = outline.iter().zip(outline.iter().cycle().skip(1)).filter_map(|(p, q)| {
         let t = (middle - p.x) / (q.x - p.x);
-        (0.0..=1.0).contains(&t).then(|| p.y + t * (q.y - p.y))
+        (0.0..=1.0).contains(&t).then_some(p.y + t * (q.y - p.y))
     });
     let top = edge.fold(f64::NEG_INFINITY, f64::max);
     let from = DVec2::new(middle, top - inset);

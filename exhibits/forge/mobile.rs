@@ -12,7 +12,7 @@ use soffio::bodies::MassProperties;
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::outline::ring;
-use super::piece::{Bend, Piece, load, yaw};
+use super::piece::{Bend, Part, Piece, load, yaw};
 
 /// Corners of an eye bent in wire.
 pub const EYE_STEPS: usize = 12;
@@ -46,6 +46,8 @@ pub struct Branch {
     pub steps: usize,
     /// Right and left, kg.
     pub loads: [f64; 2],
+    /// What is fixed to the right and to the left end, placed from there.
+    pub tips: [Option<Part>; 2],
 }
 
 impl Branch {
@@ -55,13 +57,20 @@ impl Branch {
         let loads = [load(self.loads[0], piece.mark(right)), load(self.loads[1], piece.mark(left))];
         loads.iter().fold(piece.mass(), |whole, load| whole.combine(load))
     }
+
+    /// What hangs at the right and at the left end and is fixed there, kg.
+    fn ends(&self) -> [f64; 2] {
+        let tip = |k: usize| self.tips[k].as_ref().map_or(0.0, |tip| tip.solid.mass(tip.density).mass);
+        [self.loads[0] + tip(0), self.loads[1] + tip(1)]
+    }
 }
 
 /// Bends a wire whose right end droops as far as puts the centre of all it carries `depth` m below the loop: what the
 /// period of its tilt follows from. The left end droops, or rises, as drawn.
 pub fn branch_of_depth(mut drawn: Branch, depth: f64) -> Piece {
-    // The right load's share of the whole is what its droop moves the centre by: Newton's step again.
-    let share = drawn.loads[0] / (drawn.loads[0] + drawn.loads[1]);
+    // The right end's share of the whole is what its droop moves the centre by: Newton's step again.
+    let [right, left] = drawn.ends();
+    let share = right / (right + left);
     for _ in 0..20 {
         let missing = depth + drawn.loaded(&branch(&drawn)).center.y;
         drawn.droop[0] += missing / share;
@@ -72,7 +81,6 @@ pub fn branch_of_depth(mut drawn: Branch, depth: f64) -> Piece {
 /// Bends a wire with a loop in it where it balances, and an eye at each end.
 pub fn branch(branch: &Branch) -> Piece {
     let [name, hook, wire, right_mark, left_mark] = branch.names;
-    let [right_load, left_load] = branch.loads;
     let bend = |right: f64| {
         let left = branch.chord - right;
         let bottom = branch.radius - 2.0 * branch.eye;
@@ -101,15 +109,21 @@ pub fn branch(branch: &Branch) -> Piece {
         points.extend(arm(right, 1.0, right_droop).take(branch.steps - 1));
         points.extend(ring(right_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS));
         let rest = (branch.eye - branch.radius) * DVec3::Y;
+        let fixed = branch.tips.iter().zip([right_eye, left_eye]).filter_map(|(tip, end)| {
+            let mut part = tip.clone()?;
+            part.place.position += end;
+            Some(part)
+        });
         Piece {
             name,
-            parts: Vec::new(),
+            parts: fixed.collect(),
             bends: vec![Bend { name: wire, points, radius: branch.radius, density: STEEL }],
             marks: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
         }
     };
     // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
-    let start = left_load / (left_load + right_load) * branch.chord;
+    let [right_end, left_end] = branch.ends();
+    let start = left_end / (left_end + right_end) * branch.chord;
     let right = (0..40).fold(start, |right, _| right - branch.loaded(&bend(right)).center.x);
     bend(right)
 }
@@ -141,6 +155,7 @@ pub fn cascade(hook: DVec3, wires: &Wires, [large, middle, small]: [Piece; 3], s
             droop: [droop[i]; 2],
             steps: 6,
             loads,
+            tips: [None, None],
         })
     };
     let loads = [small.mass().mass, middle.mass().mass];

@@ -11,12 +11,14 @@ pub mod chains;
 pub mod gear_train;
 pub mod glb;
 pub mod hung;
+pub mod lobster_tree;
 pub mod marionette;
 pub mod mobile;
 pub mod outline;
 pub mod pendulum;
 pub mod piece;
 pub mod plates;
+pub mod snow;
 pub mod solid;
 pub mod steel_fish;
 pub mod stock;
@@ -47,9 +49,11 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "chain-light/chain-light.glb", bytes: chains::light_glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
+        Artifact { path: "lobster-tree/lobster-tree.glb", bytes: lobster_tree::glb().1 },
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
+        Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },
         Artifact { path: "twelve-moons/twelve-moons.glb", bytes: twelve_moons::glb().1 },
         Artifact { path: "wind-chimes/wind-chimes.glb", bytes: wind_chimes::glb(&wind_chimes::ALUMINIUM) },
         Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: wind_chimes::glb(&wind_chimes::BAMBOO) },

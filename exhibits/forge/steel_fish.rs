@@ -114,6 +114,7 @@ fn draw(finishes: &Finishes) -> Mobile {
         droop: [6.0 * MM; 2],
         steps: 6,
         loads: [white.mass().mass, orange.mass().mass],
+        tips: [None, None],
     });
     let below_b4 = orange.mass().mass + white.mass().mass;
     let red = red_plate(finishes.red);
@@ -125,6 +126,7 @@ fn draw(finishes: &Finishes) -> Mobile {
         droop: [8.0 * MM; 2],
         steps: 6,
         loads: [red.mass().mass, b4.mass().mass + below_b4],
+        tips: [None, None],
     });
     let tip_load = b2.mass().mass + red.mass().mass + b4.mass().mass + below_b4;
     let boom = boom(finishes, tip_load);

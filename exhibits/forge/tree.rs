@@ -7,7 +7,7 @@
 use soffio::math::{DVec3, Pose};
 
 use super::mobile::{Branch, branch_of_depth};
-use super::piece::{Piece, named, yaw};
+use super::piece::{Part, Piece, named, yaw};
 
 /// What hangs from a point.
 pub enum Hanging {
@@ -15,6 +15,15 @@ pub enum Hanging {
     Plate(Piece, f64),
     /// A bough with what it carries.
     Bough(Box<Bough>),
+    /// A part that is fixed to the wire's end, placed from there.
+    Fixed(Part),
+}
+
+impl Hanging {
+    /// A bough.
+    pub fn bough(bough: Bough) -> Self {
+        Self::Bough(Box::new(bough))
+    }
 }
 
 /// A wire with a loop where it balances, and something at each end.
@@ -47,13 +56,20 @@ struct Bent {
     hung: Vec<(&'static str, Bent)>,
 }
 
-fn bend(hanging: Hanging) -> Bent {
-    let bough = match hanging {
-        Hanging::Plate(piece, turn) => return Bent { mass: piece.mass().mass, piece, turn, hung: Vec::new() },
-        Hanging::Bough(bough) => *bough,
-    };
-    let Bough { name, radius, chord, rise, depth, turn, ends } = bough;
-    let hung = ends.map(bend);
+/// What hangs, bent and weighed, or what is fixed.
+fn bend(hanging: Hanging) -> Result<Bent, Part> {
+    match hanging {
+        Hanging::Plate(piece, turn) => Ok(Bent { mass: piece.mass().mass, piece, turn, hung: Vec::new() }),
+        Hanging::Bough(bough) => Ok(bend_bough(*bough)),
+        Hanging::Fixed(part) => Err(part),
+    }
+}
+
+fn bend_bough(Bough { name, radius, chord, rise, depth, turn, ends }: Bough) -> Bent {
+    let ends = ends.map(bend);
+    let load = |end: &Result<Bent, Part>| end.as_ref().map_or(0.0, |bent| bent.mass);
+    let loads = [load(&ends[0]), load(&ends[1])];
+    let tips = [&ends[0], &ends[1]].map(|end| end.as_ref().err().cloned());
     let name = named(name);
     let [loops, wire, right, left] = ["Loop", "Wire", "Right", "Left"].map(|end| named(format!("{name}{end}")));
     let drawn = Branch {
@@ -63,11 +79,13 @@ fn bend(hanging: Hanging) -> Bent {
         chord,
         droop: [depth, -rise],
         steps: STEPS,
-        loads: [hung[0].mass, hung[1].mass],
+        loads,
+        tips,
     };
     let piece = branch_of_depth(drawn, depth);
-    let mass = piece.mass().mass + hung[0].mass + hung[1].mass;
-    Bent { piece, turn, mass, hung: [right, left].into_iter().zip(hung).collect() }
+    let mass = piece.mass().mass + loads[0] + loads[1];
+    let hung = [right, left].into_iter().zip(ends).filter_map(|(mark, end)| Some((mark, end.ok()?)));
+    Bent { piece, turn, mass, hung: hung.collect() }
 }
 
 fn place(bent: Bent, position: DVec3, pieces: &mut Vec<(Piece, Pose)>) {
@@ -82,6 +100,8 @@ fn place(bent: Bent, position: DVec3, pieces: &mut Vec<(Piece, Pose)>) {
 /// All pieces of a mobile that hangs at `hook`, and where they are at rest; what carries comes before what hangs.
 pub fn hang(hook: DVec3, top: Hanging) -> Vec<(Piece, Pose)> {
     let mut pieces = Vec::new();
-    place(bend(top), hook, &mut pieces);
+    if let Ok(bent) = bend(top) {
+        place(bent, hook, &mut pieces);
+    }
     pieces
 }

@@ -93,7 +93,7 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     for (k, row) in BOUGHS.iter().enumerate().rev() {
         let [diameter, mass, wire, length, rise, bough_turn, turn, stem] = *row;
         let moon = Hanging::Plate(moon(k, [diameter, mass, stem], finish(k)), turn);
-        below = Hanging::Bough(Box::new(Bough {
+        below = Hanging::bough(Bough {
             name: format!("Bough{}", k + 1),
             radius: 0.5 * wire * MM,
             chord: length * MM,
@@ -101,7 +101,7 @@ pub fn glb() -> (Mobile, Vec<u8>) {
             depth: DEPTH,
             turn: bough_turn,
             ends: [below, moon],
-        }));
+        });
     }
     let work = Mobile { pieces: hang(HOOK, below), stand: ceiling(iron) };
     work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });

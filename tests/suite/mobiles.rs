@@ -174,8 +174,16 @@ fn a_breaths_momentum_turns_twelve_moons_by_a_quarter_in_the_time_of_its_design_
 }
 
 /// Hanging works that no breath may tangle.
-const HANGING: [&str; 6] =
-    ["twelve-moons", "wind-chimes", "wind-chimes-bamboo", "wind-chimes-glass", "chain-light", "chain-heavy"];
+const HANGING: [&str; 8] = [
+    "twelve-moons",
+    "wind-chimes",
+    "wind-chimes-bamboo",
+    "wind-chimes-glass",
+    "chain-light",
+    "chain-heavy",
+    "lobster-tree",
+    "snow",
+];
 /// What the product promises of joints under anything, m.
 const JOINT_ERROR: f64 = 1e-6;
 /// Whatever hangs free is upright again after a minute, but for what the draught and hooks' friction leave, degrees.
@@ -207,7 +215,7 @@ fn blown_about(id: &str, seconds: f64, seed: u64) {
         let commands = [Command::Blow(None)];
         simulation.step(&StepInput { commands: &commands, pointer, ..StepInput::default() });
     }
-    let driven = exhibit.drives.len() > 0;
+    let driven = !exhibit.drives.is_empty();
     let up = |body: &RigidBody| (body.rotation * DVec3::Y).y;
     let least = simulation.bodies().iter().map(up).fold(1.0, f64::min);
     let tilt = least.clamp(-1.0, 1.0).acos().to_degrees();

@@ -15,7 +15,7 @@ const PICTURE: [f64; 2] = [1210.0, 680.0];
 const CHILD: f64 = 0.3e-3;
 
 /// What is to be moved by a breath.
-const SCULPTURES: [&str; 7] = [
+const SCULPTURES: [&str; 9] = [
     "steel-fish",
     "twelve-moons",
     "wind-chimes",
@@ -23,6 +23,8 @@ const SCULPTURES: [&str; 7] = [
     "wind-chimes-glass",
     "chain-light",
     "chain-heavy",
+    "lobster-tree",
+    "snow",
 ];
 
 fn steel_fish() -> Arc<Exhibit> {
