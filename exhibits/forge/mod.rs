@@ -14,6 +14,7 @@ pub mod hung;
 pub mod lobster_tree;
 pub mod marionette;
 pub mod mobile;
+pub mod noise_mobile;
 pub mod outline;
 pub mod pendulum;
 pub mod piece;
@@ -51,6 +52,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
         Artifact { path: "lobster-tree/lobster-tree.glb", bytes: lobster_tree::glb().1 },
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
+        Artifact { path: "noise-mobile/noise-mobile.glb", bytes: noise_mobile::glb().1 },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
         Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },

@@ -69,7 +69,7 @@ fn moon(k: usize, [diameter, mass, stem]: [f64; 3], finish: usize) -> Piece {
         [named(format!("Moon{}", k + 1)), named(format!("Moon{}Hook", k + 1)), named(format!("Moon{}Stem", k + 1))];
     let radius = 0.5 * diameter;
     let outline = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.5 * PI, ROUND);
-    let holes = shadow(radius, k as f64 / 12.0).into_iter().collect();
+    let holes = shadow(radius, k as f64 / 11.5).into_iter().collect();
     cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, 1e-3 * mass, finish))
 }
 

@@ -174,7 +174,7 @@ fn a_breaths_momentum_turns_twelve_moons_by_a_quarter_in_the_time_of_its_design_
 }
 
 /// Hanging works that no breath may tangle.
-const HANGING: [&str; 8] = [
+const HANGING: [&str; 9] = [
     "twelve-moons",
     "wind-chimes",
     "wind-chimes-bamboo",
@@ -183,6 +183,7 @@ const HANGING: [&str; 8] = [
     "chain-heavy",
     "lobster-tree",
     "snow",
+    "noise-mobile",
 ];
 /// What the product promises of joints under anything, m.
 const JOINT_ERROR: f64 = 1e-6;
@@ -236,4 +237,30 @@ fn ten_minutes_of_hard_breath_tangle_nothing() {
     for id in HANGING {
         blown_about(id, 600.0, 4);
     }
+}
+
+#[test]
+fn breaths_make_the_hammer_strike_several_gongs() {
+    const GONGS: usize = 3;
+    let exhibit = shipped("noise-mobile");
+    let hammer = body(&exhibit, "Hammer");
+    let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+    let mut struck: Vec<usize> = Vec::new();
+    for step in 0..steps(30.0) {
+        let speed = Some(8.0).filter(|_| step % steps(5.0) < steps(2.0));
+        let commands = [Command::Blow(speed)];
+        simulation.step(&StepInput { commands: &commands, pointer: Some([0.58, 0.68]), ..StepInput::default() });
+        for event in simulation.events().iter().filter(|event| event.kind == EventKind::Impact) {
+            let other = match event.bodies {
+                [Some(a), Some(b)] if a == hammer => b,
+                [Some(a), Some(b)] if b == hammer => a,
+                _ => continue,
+            };
+            if exhibit.bodies[other].name.starts_with("Gong") && !struck.contains(&other) {
+                struck.push(other);
+            }
+        }
+    }
+    println!("the hammer meets {} gongs", struck.len());
+    assert!(struck.len() >= GONGS, "{} gongs", struck.len());
 }

@@ -15,7 +15,7 @@ const PICTURE: [f64; 2] = [1210.0, 680.0];
 const CHILD: f64 = 0.3e-3;
 
 /// What is to be moved by a breath.
-const SCULPTURES: [&str; 9] = [
+const SCULPTURES: [&str; 10] = [
     "steel-fish",
     "twelve-moons",
     "wind-chimes",
@@ -25,6 +25,7 @@ const SCULPTURES: [&str; 9] = [
     "chain-heavy",
     "lobster-tree",
     "snow",
+    "noise-mobile",
 ];
 
 fn steel_fish() -> Arc<Exhibit> {
