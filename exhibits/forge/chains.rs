@@ -1,4 +1,4 @@
-//! A light and a heavy chain of equal length, side by side on a carriage that goes to and fro.
+//! A light and a heavy chain of equal length, on a carriage that goes to and fro: side by side, or each by itself.
 //!
 //! What turns a link is its lever against its inertia: a rod of length l about its middle has I/m = l²/12, a plate of
 //! width w beside that I/m = (l² + w²)/12. The heavy links are broad, so that their I/m is greater too.
@@ -67,22 +67,39 @@ fn heavy(names: [&'static str; 3], finishes: &Finishes) -> Piece {
     }
 }
 
+/// A chain: its names, a link, where it hangs on the carriage, its peg, hook and disc.
+struct Chain {
+    names: &'static Names,
+    link: fn([&'static str; 3], &Finishes) -> Piece,
+    aside: f64,
+    peg: &'static str,
+    hook: &'static str,
+    disc: Piece,
+}
+
+fn light_chain(aside: f64, finishes: &Finishes) -> Chain {
+    let names = ["LightDisc", "LightDiscHook", "LightDiscStem"];
+    let disc = disc(names, (64.0 * MM, 1.5 * MM), 12.0 * MM, (WOOD, finishes.white));
+    Chain { names: &LIGHT, link: light, aside, peg: "LightPeg", hook: "LightHook", disc }
+}
+
+fn heavy_chain(aside: f64, finishes: &Finishes) -> Chain {
+    let names = ["HeavyDisc", "HeavyDiscHook", "HeavyDiscStem"];
+    let disc = disc(names, (64.0 * MM, 3.0 * MM), 12.0 * MM, (STEEL, finishes.blue));
+    Chain { names: &HEAVY, link: heavy, aside, peg: "HeavyPeg", hook: "HeavyHook", disc }
+}
+
 /// The carriage, its origin between its hooks.
-fn carriage(finishes: &Finishes) -> Piece {
+fn carriage(chains: &[Chain], finishes: &Finishes) -> Piece {
     let along = DQuat::IDENTITY;
     let peg =
         |name, aside: f64| part(name, rod(2.0 * MM, 0.0, 12.0 * MM), aside * DVec3::X, along, STEEL, finishes.steel);
-    let bar = slab(2.0 * ASIDE + 30.0 * MM, 12.0 * MM, 12.0 * MM);
-    Piece {
-        name: "Carriage",
-        parts: vec![
-            part("CarriageBar", bar, 17.0 * MM * DVec3::Y, along, STEEL, finishes.red),
-            peg("LightPeg", -ASIDE),
-            peg("HeavyPeg", ASIDE),
-        ],
-        bends: Vec::new(),
-        marks: vec![("LightHook", -ASIDE * DVec3::X), ("HeavyHook", ASIDE * DVec3::X)],
-    }
+    let reach = chains.iter().fold(15.0 * MM, |reach: f64, chain| reach.max(chain.aside.abs()));
+    let bar = slab(2.0 * reach + 30.0 * MM, 12.0 * MM, 12.0 * MM);
+    let mut parts = vec![part("CarriageBar", bar, 17.0 * MM * DVec3::Y, along, STEEL, finishes.red)];
+    parts.extend(chains.iter().map(|chain| peg(chain.peg, chain.aside)));
+    let marks = chains.iter().map(|chain| (chain.hook, chain.aside * DVec3::X)).collect();
+    Piece { name: "Carriage", parts, bends: Vec::new(), marks }
 }
 
 /// The frame that the carriage runs on.
@@ -111,19 +128,29 @@ fn frame(finishes: &Finishes) -> Piece {
     }
 }
 
-/// The model: each link hangs by its origin, its end is marked.
+/// Both chains side by side.
 pub fn glb() -> Vec<u8> {
+    model("A light and a heavy chain", |finishes| vec![light_chain(-ASIDE, finishes), heavy_chain(ASIDE, finishes)])
+}
+
+/// The light one by itself.
+pub fn light_glb() -> Vec<u8> {
+    model("A light chain", |finishes| vec![light_chain(0.0, finishes)])
+}
+
+/// The heavy one by itself.
+pub fn heavy_glb() -> Vec<u8> {
+    model("A heavy chain", |finishes| vec![heavy_chain(0.0, finishes)])
+}
+
+/// A model of some chains: each link hangs by its origin, its end is marked.
+fn model(title: &str, chains: fn(&Finishes) -> Vec<Chain>) -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
     let middle = DVec3::new(START, HOOK, 0.0);
-    let mut pieces = vec![(frame(&finishes), DVec3::ZERO), (carriage(&finishes), middle)];
-    let discs = [
-        disc(["LightDisc", "LightDiscHook", "LightDiscStem"], (64.0 * MM, 1.5 * MM), 12.0 * MM, (WOOD, finishes.white)),
-        disc(["HeavyDisc", "HeavyDiscHook", "HeavyDiscStem"], (64.0 * MM, 3.0 * MM), 12.0 * MM, (STEEL, finishes.blue)),
-    ];
-    type Link = fn([&'static str; 3], &Finishes) -> Piece;
-    let kinds: [(&Names, Link, f64); 2] = [(&LIGHT, light, -ASIDE), (&HEAVY, heavy, ASIDE)];
-    for ((Names(names), link, aside), disc) in kinds.into_iter().zip(discs) {
+    let chains = chains(&finishes);
+    let mut pieces = vec![(frame(&finishes), DVec3::ZERO), (carriage(&chains, &finishes), middle)];
+    for Chain { names: Names(names), link, aside, disc, .. } in chains {
         let hook = middle + aside * DVec3::X;
         for k in 0..names[0].len() {
             let own = [names[0][k], names[1][k], names[2][k]];
@@ -133,5 +160,5 @@ pub fn glb() -> Vec<u8> {
     }
     let target = DVec3::new(0.0, 0.275, 0.0);
     let away = DVec3::new(0.12 * PI, 0.16, 1.0).normalize();
-    write(scene, "A light and a heavy chain", &pieces, target + 1.45 * away, target)
+    write(scene, title, &pieces, target + 1.45 * away, target)
 }

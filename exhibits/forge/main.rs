@@ -36,6 +36,9 @@ fn main() -> ExitCode {
     for (name, work) in [
         ("steel-fish", forge::steel_fish::glb().0),
         ("plates", forge::plates::glb().0),
+        ("lobster-tree", forge::lobster_tree::glb().0),
+        ("snow", forge::snow::glb().0),
+        ("twelve-moons", forge::twelve_moons::glb().0),
         ("windy-corner", forge::windy_corner::glb().0),
     ] {
         println!("\n{name}");

@@ -12,7 +12,7 @@ use soffio::bodies::MassProperties;
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::outline::ring;
-use super::piece::{Bend, Piece, load, yaw};
+use super::piece::{Bend, Part, Piece, load, yaw};
 
 /// Corners of an eye bent in wire.
 pub const EYE_STEPS: usize = 12;
@@ -40,33 +40,65 @@ pub struct Branch {
     pub eye: f64,
     /// Between the two loads, m.
     pub chord: f64,
-    /// How far the ends droop, m.
-    pub droop: f64,
+    /// How far the right and the left end droop, m.
+    pub droop: [f64; 2],
+    /// Straight pieces of each arm.
+    pub steps: usize,
     /// Right and left, kg.
     pub loads: [f64; 2],
+    /// What is fixed to the right and to the left end, placed from there.
+    pub tips: [Option<Part>; 2],
+}
+
+impl Branch {
+    /// A piece bent after this, with its loads.
+    fn loaded(&self, piece: &Piece) -> MassProperties {
+        let [.., right, left] = self.names;
+        let loads = [load(self.loads[0], piece.mark(right)), load(self.loads[1], piece.mark(left))];
+        loads.iter().fold(piece.mass(), |whole, load| whole.combine(load))
+    }
+
+    /// What hangs at the right and at the left end and is fixed there, kg.
+    fn ends(&self) -> [f64; 2] {
+        let tip = |k: usize| self.tips[k].as_ref().map_or(0.0, |tip| tip.solid.mass(tip.density).mass);
+        [self.loads[0] + tip(0), self.loads[1] + tip(1)]
+    }
+}
+
+/// Bends a wire whose right end droops as far as puts the centre of all it carries `depth` m below the loop: what the
+/// period of its tilt follows from. The left end droops, or rises, as drawn.
+pub fn branch_of_depth(mut drawn: Branch, depth: f64) -> Piece {
+    // The right end's share of the whole is what its droop moves the centre by: Newton's step again.
+    let [right, left] = drawn.ends();
+    let share = right / (right + left);
+    for _ in 0..20 {
+        let missing = depth + drawn.loaded(&branch(&drawn)).center.y;
+        drawn.droop[0] += missing / share;
+    }
+    branch(&drawn)
 }
 
 /// Bends a wire with a loop in it where it balances, and an eye at each end.
 pub fn branch(branch: &Branch) -> Piece {
     let [name, hook, wire, right_mark, left_mark] = branch.names;
-    let [right_load, left_load] = branch.loads;
     let bend = |right: f64| {
         let left = branch.chord - right;
         let bottom = branch.radius - 2.0 * branch.eye;
         // The ends leave the loop level and droop as x², the shape a light wire takes.
-        let arm = |length: f64, side: f64| {
-            (1..=6).map(move |i| {
-                let t = f64::from(i) / 6.0;
-                DVec3::new(side * length * t, bottom - branch.droop * t * t, 0.0)
+        let [right_droop, left_droop] = branch.droop;
+        let arm = |length: f64, side: f64, droop: f64| {
+            (1..=branch.steps).map(move |i| {
+                let t = i as f64 / branch.steps as f64;
+                DVec3::new(side * length * t, bottom - droop * t * t, 0.0)
             })
         };
         let eye_at = |end: DVec3| end - branch.eye * DVec3::Y;
-        let right_eye = eye_at(DVec3::new(right, bottom - branch.droop, 0.0));
-        let left_eye = eye_at(DVec3::new(-left, bottom - branch.droop, 0.0));
+        let right_eye = eye_at(DVec3::new(right, bottom - right_droop, 0.0));
+        let left_eye = eye_at(DVec3::new(-left, bottom - left_droop, 0.0));
 
         let mut points = ring(left_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS);
         points.reverse();
-        points.extend(arm(left, -1.0).collect::<Vec<_>>().into_iter().rev().skip(1));
+        points.extend(arm(left, -1.0, left_droop).collect::<Vec<_>>().into_iter().rev().skip(1));
         points.extend(ring(
             DVec3::new(0.0, branch.radius - branch.eye, 0.0),
             branch.eye,
@@ -74,23 +106,25 @@ pub fn branch(branch: &Branch) -> Piece {
             DVec3::X,
             EYE_STEPS,
         ));
-        points.extend(arm(right, 1.0).take(5));
+        points.extend(arm(right, 1.0, right_droop).take(branch.steps - 1));
         points.extend(ring(right_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS));
         let rest = (branch.eye - branch.radius) * DVec3::Y;
+        let fixed = branch.tips.iter().zip([right_eye, left_eye]).filter_map(|(tip, end)| {
+            let mut part = tip.clone()?;
+            part.place.position += end;
+            Some(part)
+        });
         Piece {
             name,
-            parts: Vec::new(),
+            parts: fixed.collect(),
             bends: vec![Bend { name: wire, points, radius: branch.radius, density: STEEL }],
             marks: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
         }
     };
-    let loaded = |piece: &Piece| {
-        let right = load(right_load, piece.mark(right_mark));
-        piece.mass().combine(&right).combine(&load(left_load, piece.mark(left_mark)))
-    };
     // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
-    let start = left_load / (left_load + right_load) * branch.chord;
-    let right = (0..40).fold(start, |right, _| right - loaded(&bend(right)).center.x);
+    let [right_end, left_end] = branch.ends();
+    let start = left_end / (left_end + right_end) * branch.chord;
+    let right = (0..40).fold(start, |right, _| right - branch.loaded(&bend(right)).center.x);
     bend(right)
 }
 
@@ -113,7 +147,16 @@ pub struct Wires {
 pub fn cascade(hook: DVec3, wires: &Wires, [large, middle, small]: [Piece; 3], stand: Piece) -> Mobile {
     let bent = |i: usize, names, loads| {
         let Wires { radius, eye, chord, droop, .. } = wires;
-        branch(&Branch { names, radius: radius[i], eye: eye[i], chord: chord[i], droop: droop[i], loads })
+        branch(&Branch {
+            names,
+            radius: radius[i],
+            eye: eye[i],
+            chord: chord[i],
+            droop: [droop[i]; 2],
+            steps: 6,
+            loads,
+            tips: [None, None],
+        })
     };
     let loads = [small.mass().mass, middle.mass().mass];
     let lower = bent(1, ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"], loads);

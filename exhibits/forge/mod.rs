@@ -11,15 +11,21 @@ pub mod chains;
 pub mod gear_train;
 pub mod glb;
 pub mod hung;
+pub mod lobster_tree;
 pub mod marionette;
 pub mod mobile;
+pub mod noise_mobile;
 pub mod outline;
 pub mod pendulum;
 pub mod piece;
 pub mod plates;
+pub mod snow;
 pub mod solid;
 pub mod steel_fish;
 pub mod stock;
+pub mod tree;
+pub mod twelve_moons;
+pub mod wind_chimes;
 pub mod windmill;
 pub mod windy_corner;
 
@@ -40,11 +46,20 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
         Artifact { path: "billiards/billiards.glb", bytes: billiards::glb() },
         Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
+        Artifact { path: "chain-heavy/chain-heavy.glb", bytes: chains::heavy_glb() },
+        Artifact { path: "chain-light/chain-light.glb", bytes: chains::light_glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
+        Artifact { path: "lobster-tree/lobster-tree.glb", bytes: lobster_tree::glb().1 },
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
+        Artifact { path: "noise-mobile/noise-mobile.glb", bytes: noise_mobile::glb().1 },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
+        Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },
+        Artifact { path: "twelve-moons/twelve-moons.glb", bytes: twelve_moons::glb().1 },
+        Artifact { path: "wind-chimes/wind-chimes.glb", bytes: wind_chimes::glb(&wind_chimes::ALUMINIUM) },
+        Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: wind_chimes::glb(&wind_chimes::BAMBOO) },
+        Artifact { path: "wind-chimes-glass/wind-chimes-glass.glb", bytes: wind_chimes::glb(&wind_chimes::GLASS) },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },

@@ -108,3 +108,8 @@ pub fn load(mass: f64, at: DVec3) -> MassProperties {
 pub fn yaw(angle: f64) -> DQuat {
     rotation(angle * DVec3::Y)
 }
+
+/// A name made from parts: the forge runs once, and what it names lasts as long.
+pub fn named(text: String) -> &'static str {
+    text.leak()
+}

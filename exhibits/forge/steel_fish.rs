@@ -18,11 +18,11 @@
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::glb::{Finish, Scene};
-use super::hung::{self, HOLE_RADIUS, hung_plate};
+use super::hung::{self, HOLE_RADIUS, hung_plate, to_mass};
 use super::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
 use super::outline::{Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring};
 use super::piece::{Bend, Part, Piece, load, yaw};
-use super::solid::{Solid, sheet, turned};
+use super::solid::{Solid, turned};
 
 /// m.
 const MM: f64 = 1e-3;
@@ -36,9 +36,8 @@ const ALUMINIUM: f64 = 2700.0;
 const LEAD: f64 = 11_300.0;
 const BRASS: f64 = 8500.0;
 
-/// Sheet of all plates, and how far its edges are broken.
+/// Sheet of all plates.
 const SHEET: f64 = 0.5 * MM;
-const BEVEL: f64 = 0.12 * MM;
 
 /// Height of the needle's point above the floor.
 const POINT_HEIGHT: f64 = 430.0 * MM;
@@ -112,8 +111,10 @@ fn draw(finishes: &Finishes) -> Mobile {
         radius: 0.5 * MM,
         eye: 1.7 * MM,
         chord: 45.0 * MM,
-        droop: 6.0 * MM,
+        droop: [6.0 * MM; 2],
+        steps: 6,
         loads: [white.mass().mass, orange.mass().mass],
+        tips: [None, None],
     });
     let below_b4 = orange.mass().mass + white.mass().mass;
     let red = red_plate(finishes.red);
@@ -122,8 +123,10 @@ fn draw(finishes: &Finishes) -> Mobile {
         radius: 0.6 * MM,
         eye: 2.0 * MM,
         chord: 89.0 * MM,
-        droop: 8.0 * MM,
+        droop: [8.0 * MM; 2],
+        steps: 6,
         loads: [red.mass().mass, b4.mass().mass + below_b4],
+        tips: [None, None],
     });
     let tip_load = b2.mass().mass + red.mass().mass + b4.mass().mass + below_b4;
     let boom = boom(finishes, tip_load);
@@ -288,18 +291,7 @@ fn fish_plate() -> Solid {
         hole(-12.0, 17.0, 10.0, 3.4, 0.15),
         hole(17.0, 1.2, 9.0, 2.4, -0.03),
     ];
-    to_mass(outline, holes.to_vec(), STEEL, FISH_MASS)
-}
-
-/// Scales outline and holes, drawn in mm, so that the finished sheet has this mass.
-fn to_mass(outline: Vec<DVec2>, holes: Vec<Vec<DVec2>>, density: f64, mass: f64) -> Solid {
-    let cut = |scale: f64| {
-        let size = |polygon: &Vec<DVec2>| polygon.iter().map(|p| *p * scale * MM).collect();
-        sheet(&size(&outline), &holes.iter().map(size).collect::<Vec<_>>(), SHEET, BEVEL)
-    };
-    // Mass goes as the square of the scale but for the bevel, a thousandth: three rounds leave nothing.
-    let scale = (0..3).fold(1.0, |scale: f64, _| scale * (mass / cut(scale).mass(density).mass).sqrt());
-    cut(scale)
+    to_mass(outline, holes.to_vec(), SHEET, (STEEL, FISH_MASS))
 }
 
 /// The red plate: a wing, its long end towards the discs. The hole sits above the centre, so it hangs level.
@@ -315,7 +307,7 @@ fn red_plate(finish: usize) -> Piece {
     // Drawn about the hole: as far above the centre as the sheet allows.
     let from_hole = outline.iter().map(|p| *p - center - DVec2::new(0.0, 9.0)).collect();
     let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS), 0.0, ROUND / 4);
-    let mut solid = to_mass(from_hole, vec![hole], STEEL, RED_MASS);
+    let mut solid = to_mass(from_hole, vec![hole], SHEET, (STEEL, RED_MASS));
     // The hole itself moved the centre by some micrometres; take them out.
     solid = {
         let x = solid.mass(STEEL).center.x;

@@ -128,6 +128,26 @@ pub fn gallows(top: DVec3, post: DVec2, finish: usize) -> Piece {
     }
 }
 
+/// A rod from the ceiling whose hook's foot is at the origin. The sidecar draws the hook through `CeilingHook.*`, 1.5 mm in
+/// radius.
+pub fn ceiling(finish: usize) -> Piece {
+    let rose =
+        [(0.0, 0.8), (30.0, 0.8), (30.0, 0.806), (26.0, 0.812), (0.0, 0.812)].map(|(r, y)| DVec2::new(r * MM, y));
+    let hook = (0..=10).map(|k| {
+        let angle = 1.5 * PI * f64::from(k) / 10.0;
+        DVec3::new(-6.0 * MM * sin(angle), 6.0 * MM * (1.0 - cos(angle)), 0.0)
+    });
+    Piece {
+        name: "Ceiling",
+        parts: vec![
+            part("Rose", turned(&rose, false, ROUND), DVec3::ZERO, DQuat::IDENTITY, STEEL, finish),
+            part("Rod", rod(1.5 * MM, 12.0 * MM, 0.8), DVec3::ZERO, DQuat::IDENTITY, STEEL, finish),
+        ],
+        bends: vec![Bend { name: "CeilingHook", points: hook.collect(), radius: 1.5 * MM, density: STEEL }],
+        marks: vec![("CeilingPoint", DVec3::ZERO)],
+    }
+}
+
 /// Writes pieces and a camera that looks from `eye` at `target`.
 pub fn write(mut scene: Scene, name: &str, pieces: &[(Piece, DVec3)], eye: DVec3, target: DVec3) -> Vec<u8> {
     for (piece, position) in pieces {

@@ -20,6 +20,13 @@ fn work() -> Mobile {
     steel_fish::glb().0
 }
 
+/// All balanced works.
+fn works() -> Vec<Mobile> {
+    use workshop::{lobster_tree, noise_mobile, plates, snow, twelve_moons, windy_corner};
+    let others = [plates::glb, windy_corner::glb, twelve_moons::glb, lobster_tree::glb, snow::glb, noise_mobile::glb];
+    others.into_iter().map(|glb| glb().0).chain([work()]).collect()
+}
+
 fn exhibits() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits")
 }
@@ -70,17 +77,22 @@ fn assert_closed(name: &str, solid: &Solid) {
 
 #[test]
 fn every_solid_is_closed_and_its_normals_point_outwards() {
-    let work = work();
-    let pieces = work.pieces.iter().map(|(piece, _)| piece).chain([&work.stand]);
-    for part in pieces.flat_map(|piece| &piece.parts) {
-        assert_closed(part.name, &part.solid);
-        for t in &part.solid.triangles {
-            let [a, b, c] = t.map(|i| part.solid.positions[i as usize]);
-            let face = (b - a).cross(c - a);
-            for i in t {
-                let normal = part.solid.normals[*i as usize];
-                assert_close("length of a normal", normal.length(), 1.0, ROUNDING);
-                assert!(face.dot(normal) >= 0.0, "{}: a normal points into the solid", part.name);
+    for work in works() {
+        let pieces = work.pieces.iter().map(|(piece, _)| piece).chain([&work.stand]);
+        for part in pieces.flat_map(|piece| &piece.parts) {
+            assert_closed(part.name, &part.solid);
+            for t in &part.solid.triangles {
+                let [a, b, c] = t.map(|i| part.solid.positions[i as usize]);
+                let face = (b - a).cross(c - a);
+                for i in t {
+                    let normal = part.solid.normals[*i as usize];
+                    assert_close("length of a normal", normal.length(), 1.0, ROUNDING);
+                    assert!(
+                        face.dot(normal) >= -ROUNDING * face.length(),
+                        "{}: a normal points into the solid",
+                        part.name
+                    );
+                }
             }
         }
     }
@@ -166,13 +178,14 @@ const PLUMB: f64 = 1e-7;
 
 #[test]
 fn every_piece_hangs_in_balance_below_its_hook() {
-    let work = work();
-    for (i, (piece, _)) in work.pieces.iter().enumerate() {
-        let loaded = work.loaded(i);
-        let torque = 9.81 * loaded.mass * DVec2::new(loaded.center.x, loaded.center.z).length();
-        let tolerance = 9.81 * loaded.mass * PLUMB;
-        assert!(torque <= tolerance, "{}: {torque} N m turn it out of its rest", piece.name);
-        assert!(loaded.center.y < 0.0, "{}: its centre is above its hook", piece.name);
+    for work in works() {
+        for (i, (piece, _)) in work.pieces.iter().enumerate() {
+            let loaded = work.loaded(i);
+            let torque = 9.81 * loaded.mass * DVec2::new(loaded.center.x, loaded.center.z).length();
+            let tolerance = 9.81 * loaded.mass * PLUMB;
+            assert!(torque <= tolerance, "{}: {torque} N m turn it out of its rest", piece.name);
+            assert!(loaded.center.y < 0.0, "{}: its centre is above its hook", piece.name);
+        }
     }
 }
 

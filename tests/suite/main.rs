@@ -3,6 +3,7 @@
 mod architecture;
 mod articulation;
 mod blow;
+mod chimes;
 mod cli;
 mod collision;
 mod contacts;
@@ -10,11 +11,13 @@ mod dynamics;
 mod escapement;
 mod exhibit;
 mod exhibits_in_motion;
+mod expected;
 mod forge;
 mod hands;
 mod hits;
 mod kiosk;
 mod loudness;
+mod mobiles;
 mod modal;
 mod motion;
 #[cfg(feature = "kiosk")]

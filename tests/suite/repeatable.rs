@@ -1,8 +1,6 @@
-//! The same run is the same to the bit: again, in every build, and as it was; and a step asks for no memory.
+//! The same run is the same to the bit, again and after a reset; and a step asks for no memory.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
@@ -10,10 +8,6 @@ use soffio::exhibit::{self, Exhibit};
 use soffio::offline::feed::WavFeed;
 use soffio::offline::wav;
 use soffio::simulation::{self, Script, Settings, Simulation, StepInput};
-
-/// Seconds of the run that is hashed: 10,000 steps.
-const SECONDS: &str = "41.6667";
-const STEPS: usize = 10_000;
 
 fn case(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(name)
@@ -24,47 +18,7 @@ fn load(id: &str) -> Arc<Exhibit> {
     Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
 }
 
-/// The hash that the program ends with after the run of the table.
-fn played(id: &str) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_soffio"))
-        .args(["play", id, "--seconds", SECONDS, "--script"])
-        .arg(case("gusts.jsonl"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("the program starts");
-    let text = String::from_utf8_lossy(&output.stdout);
-    let summary: serde_json::Value = serde_json::from_str(text.trim())
-        .unwrap_or_else(|error| panic!("{id}: {error}: {text}{}", String::from_utf8_lossy(&output.stderr)));
-    assert_eq!((summary["steps"].as_u64(), summary["faults"].as_u64()), (Some(STEPS as u64), Some(0)), "{id}");
-    summary["state_hash"].as_str().expect("a word").to_owned()
-}
-
-#[test]
-fn every_exhibit_ends_in_its_stored_state() {
-    let text = std::fs::read_to_string(case("hashes.toml")).expect("the table");
-    let stored: BTreeMap<String, String> = toml::from_str(&text).expect("a table of words");
-    let found: BTreeMap<String, String> = exhibit::ids().into_iter().map(|id| (id.clone(), played(&id))).collect();
-    assert!(
-        stored == found,
-        "stored {stored:#?}\nfound {found:#?}\nA change of the motion must be meant; then write the table anew: \
-         cargo test --no-default-features --test suite write_the_states -- --ignored"
-    );
-}
-
-#[test]
-#[ignore = "writes tests/cases/hashes.toml"]
-fn write_the_states_of_all_exhibits() {
-    let mut text = String::from(
-        "# The state that each exhibit ends in after 10,000 steps of gusts.jsonl: the same in every build. Where a change\n\
-         # of the motion is meant: cargo test --no-default-features --test suite write_the_states -- --ignored\n",
-    );
-    for id in exhibit::ids() {
-        text += &format!("{id} = \"{}\"\n", played(&id));
-    }
-    std::fs::write(case("hashes.toml"), text).expect("a writable folder");
-}
-
-/// A run with the table's script, or with a recorded breath, `seed` and a pointer that wanders.
+/// A run with a recorded breath, `seed` and a pointer that wanders.
 fn hash_after(exhibit: &Arc<Exhibit>, steps: usize, seed: u64) -> u64 {
     let mut simulation = Simulation::new(exhibit.clone(), Settings { seed, ..Settings::default() });
     let mut breath = strong();

@@ -1,0 +1,116 @@
+//! A mobile that makes sounds, after the idea of Alexander Calder's noise-mobiles: an original drawing. A vane turns a
+//! wire whose other end carries a hammer; about both, on a hoop that stands still, hang six brass gongs in a circle.
+//!
+//! The hammer's way lies inside the gongs' stems and meets the inner part of each gong, all of whose middles hang level.
+//! A disc's pitch goes as 1/d²: the diameters follow a scale of five notes and the octave.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+
+use super::glb::{Finish, Scene};
+use super::hung::{cut_plate, disc};
+use super::mobile::Mobile;
+use super::outline::{Knot::Corner, Knot::Smooth, closed_spline, ring};
+use super::piece::{Bend, Piece, named, yaw};
+use super::solid::turned;
+use super::stock::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
+use super::tree::{Bough, Hanging, hang};
+
+const HOOK: DVec3 = DVec3::new(0.0, 0.66, 0.0);
+/// Of the hoop, and how far it is above the hook.
+const HOOP: f64 = 195.0 * MM;
+const RAISED: f64 = 34.0 * MM;
+/// How far below the hook the middles of gongs and hammer are.
+const LEVEL: f64 = 112.0 * MM;
+/// The largest gong, the sheet of all, and the pitches, over the lowest.
+const LARGEST: f64 = 110.0 * MM;
+const SHEET: f64 = 1.5 * MM;
+const PITCHES: [f64; 6] = [1.0, 9.0 / 8.0, 5.0 / 4.0, 3.0 / 2.0, 5.0 / 3.0, 2.0];
+/// The hammer's head.
+const HEAD: f64 = 8.0 * MM;
+/// Where the arm points at rest, rad.
+const TURN: f64 = -1.15;
+/// From the gong's rim to its hole.
+const HOLE: f64 = 2.4 * MM;
+
+/// A ball on a stem.
+fn hammer(stem: f64, finish: usize) -> Piece {
+    let ball = (0..=16).map(|i| {
+        let angle = PI * (f64::from(i) / 16.0 - 0.5);
+        DVec2::new(if i % 16 == 0 { 0.0 } else { HEAD * cos(angle) }, HEAD * sin(angle))
+    });
+    let ball = turned(&ball.collect::<Vec<_>>(), false, 32);
+    let mut points = ring(DVec3::new(0.0, -1.3 * MM, 0.0), 1.8 * MM, DVec3::NEG_Y, DVec3::X, 12);
+    points.push((HEAD - stem) * DVec3::Y);
+    Piece {
+        name: "Hammer",
+        parts: vec![part("HammerHead", ball, -stem * DVec3::Y, DQuat::IDENTITY, STEEL, finish)],
+        bends: vec![Bend { name: "HammerStem", points, radius: 0.6 * MM, density: STEEL }],
+        marks: vec![("HammerHook", DVec3::ZERO)],
+    }
+}
+
+/// The vane: a red flame, heavier than the hammer and nearer to the middle.
+fn vane(finish: usize) -> Piece {
+    #[rustfmt::skip] // rows of a drawing
+    let knots = [
+        Corner(4.0, 88.0), Smooth(-22.0, 52.0), Smooth(-46.0, 4.0), Smooth(-40.0, -42.0), Smooth(-6.0, -64.0),
+        Smooth(32.0, -48.0), Smooth(47.0, -8.0), Smooth(36.0, 22.0), Smooth(22.0, 46.0),
+    ];
+    let eye = super::outline::ellipse(DVec2::new(2.0, -14.0), DVec2::new(15.0, 19.0), 0.3, 32);
+    let stuff = (1.0 * MM, ALUMINIUM, 27e-3, finish);
+    cut_plate(["Vane", "VaneHook", "VaneStem"], (closed_spline(&knots, 8), vec![eye]), 4.0, 26.0 * MM, stuff)
+}
+
+/// The hoop on three spokes, about the hook.
+fn hoop() -> Vec<Bend> {
+    let wire = |name, points, radius| Bend { name, points, radius, density: STEEL };
+    let mut bends = vec![wire("Hoop", ring(RAISED * DVec3::Y, HOOP, DVec3::X, DVec3::Z, 72), 1.6 * MM)];
+    for (k, name) in ["SpokeA", "SpokeB", "SpokeC"].into_iter().enumerate() {
+        let angle = 2.0 * PI * (k as f64 / 3.0 + 0.04);
+        let out = |r: f64, y: f64| DVec3::new(r * cos(angle), y * MM, r * sin(angle));
+        let knots = [out(0.0, 96.0), out(0.3 * HOOP, 78.0), out(0.7 * HOOP, 50.0), out(HOOP, RAISED / MM)];
+        bends.push(wire(name, super::outline::open_spline(&knots, 6), 1.2 * MM));
+    }
+    bends
+}
+
+/// Draws, balances and writes the model.
+pub fn glb() -> (Mobile, Vec<u8>) {
+    let mut scene = Scene::default();
+    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
+    let brass = add("Brass", [0.80, 0.57, 0.25], 1.0, 0.26);
+    let red = add("Vermilion", [0.62, 0.045, 0.012], 0.0, 0.40);
+    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
+    let mut stand = ceiling(iron);
+    stand.bends.extend(hoop());
+    let arm = Hanging::bough(Bough {
+        name: "Arm".to_owned(),
+        radius: 1.0 * MM,
+        chord: 250.0 * MM,
+        rise: 6.0 * MM,
+        depth: 12.0 * MM,
+        turn: TURN,
+        ends: [Hanging::Plate(vane(red), -0.15), Hanging::Plate(hammer(104.0 * MM, iron), 0.0)],
+    });
+    let mut pieces = hang(HOOK, arm);
+    for (k, pitch) in PITCHES.into_iter().enumerate() {
+        // Evenly about the circle; the hammer rests between the first and the last.
+        let angle = PI + TURN + 2.0 * PI * (k as f64 + 0.5) / PITCHES.len() as f64;
+        let at = DVec3::new(HOOP * cos(angle), RAISED, -HOOP * sin(angle));
+        let diameter = LARGEST / pitch.sqrt();
+        let [name, hook, stem] = ["", "Hook", "Stem"].map(|end| named(format!("Gong{}{end}", k + 1)));
+        let length = LEVEL + RAISED - 0.5 * diameter + HOLE;
+        let gong = disc([name, hook, stem], (diameter, SHEET), length, (BRASS, brass));
+        stand.marks.push((named(format!("Hoop{}", k + 1)), at));
+        pieces.push((gong, Pose { rotation: yaw(angle), position: HOOK + at }));
+    }
+    let work = Mobile { pieces, stand };
+    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
+    for (piece, pose) in &work.pieces {
+        piece.write(&mut scene, *pose);
+    }
+    let target = DVec3::new(0.0, 0.585, 0.0);
+    let away = DVec3::new(-0.10, 0.30, 1.0).normalize();
+    scene.camera("CamFront", target + 1.02 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    (work, scene.into_glb("Mobile with gongs", "Original composition of the Soffio project; MIT OR Apache-2.0"))
+}

@@ -1,0 +1,115 @@
+//! Twelve moons on eleven boughs: a chain in which each bough carries one moon and all that follows.
+//!
+//! The moons go from full, the large one on the left, to new, the least on the right: what the shadow has taken is cut
+//! out. Masses and wires are those of the design sheet; each bough's loads hang 12 mm below its loop. The sheet's boughs are
+//! straight: these are up to 3 % shorter from end to end, so that with curves and eyes their inertias are the sheet's.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+
+use super::glb::{Finish, Scene};
+use super::hung::cut_plate;
+use super::mobile::Mobile;
+use super::outline::{Polygon, ellipse};
+use super::piece::{Piece, named};
+use super::stock::{ALUMINIUM, MM, ceiling};
+use super::tree::{Bough, Hanging, hang};
+
+/// Sheet of all moons.
+const SHEET: f64 = 1.0 * MM;
+/// Where all hangs.
+const HOOK: DVec3 = DVec3::new(-0.21, 0.66, 0.0);
+/// Of the centre of what a bough carries below its loop.
+const DEPTH: f64 = 12.0 * MM;
+/// Corners of a moon.
+const ROUND: usize = 72;
+
+/// A bough, the uppermost first: its moon's diameter (mm, of the full disc) and mass (g), diameter (mm) of the wire and its length from end to
+/// end (mm), how far the moon's end rises (mm), where the bough and the moon point (rad), length of the moon's stem (mm).
+#[rustfmt::skip] // rows of a drawing
+const BOUGHS: [[f64; 8]; 11] = [
+    [220.0, 102.6,   2.4, 692.1,  46.0,  0.10,  0.16,  34.0],
+    [180.0,  68.7,   2.4, 542.2,  40.0, -0.16, -0.20,  30.0],
+    [115.0,  28.0,   2.0, 440.4,  52.0,  0.10,  0.25,  26.0],
+    [110.0,  25.7,   2.0, 390.2,  50.0, -0.14, -0.15,  30.0],
+    [105.0,  23.4,   1.6, 351.3,  46.0,  0.12,  0.20,  24.0],
+    [100.0,  21.2,   1.6, 321.1,  44.0, -0.12, -0.25,  28.0],
+    [ 95.0,  19.1,   1.6, 291.1,  40.0,  0.14,  0.15,  22.0],
+    [ 90.0,  17.2,   1.6, 261.4,  36.0, -0.10, -0.20,  26.0],
+    [ 85.0,  15.3,   1.2, 233.8,  24.0,  0.16,  0.25,  22.0],
+    [ 80.0,  13.6,   1.2, 215.9,  10.0, -0.08, -0.15,  24.0],
+    [ 75.0,  11.9,   1.2, 197.5,  -9.0,  0.30,  0.20,  24.0],
+];
+/// The last moon, at the lowest bough's right end: diameter, mass, where it points, stem.
+const LAST: [f64; 4] = [70.0, 10.4, -0.10, 30.0];
+/// Which moon is the red one of an eclipse.
+const ECLIPSED: usize = 5;
+/// The shadow's radius over the moon's; what is left is the rim that holds it together.
+const SHADOW: f64 = 0.66;
+/// How the line between the horns leans, rad.
+const LEAN: f64 = 0.42;
+
+/// What the shadow has taken of the moon of radius `radius`, `share` 0 … 1: between the limb and half an ellipse.
+fn shadow(radius: f64, share: f64) -> Option<Polygon> {
+    if share <= 0.0 {
+        return None;
+    }
+    let (outer, inner) = (SHADOW * radius, SHADOW * radius * (1.0 - 2.0 * share));
+    let half = ROUND / 2;
+    let angle = |k: usize| PI * k as f64 / half as f64 + 0.5 * PI;
+    // Down the limb on the left, up the terminator.
+    let limb = (0..=half).map(|k| DVec2::new(outer * cos(angle(k)), outer * sin(angle(k))));
+    let terminator = (1..half).rev().map(|k| DVec2::new(inner * cos(angle(k)), outer * sin(angle(k))));
+    let (s, c) = (sin(LEAN), cos(LEAN));
+    Some(limb.chain(terminator).map(|p| DVec2::new(c * p.x - s * p.y, s * p.x + c * p.y)).collect())
+}
+
+/// Moon `k` of twelve, 0 the full one.
+fn moon(k: usize, [diameter, mass, stem]: [f64; 3], finish: usize) -> Piece {
+    let names =
+        [named(format!("Moon{}", k + 1)), named(format!("Moon{}Hook", k + 1)), named(format!("Moon{}Stem", k + 1))];
+    let radius = 0.5 * diameter;
+    let outline = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.5 * PI, ROUND);
+    let holes = shadow(radius, k as f64 / 11.5).into_iter().collect();
+    cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, 1e-3 * mass, finish))
+}
+
+/// Draws, balances and writes the model.
+pub fn glb() -> (Mobile, Vec<u8>) {
+    let mut scene = Scene::default();
+    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
+    let night = add("Night blue", [0.012, 0.030, 0.085], 0.0, 0.40);
+    let ivory = add("Ivory", [0.78, 0.72, 0.58], 0.0, 0.45);
+    let gold = add("Leaf gold", [0.85, 0.52, 0.16], 0.9, 0.34);
+    let copper = add("Eclipse red", [0.48, 0.06, 0.022], 0.2, 0.38);
+    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
+    let finish = |k: usize| match k {
+        0 => ivory,
+        1 => night,
+        ECLIPSED => copper,
+        _ => gold,
+    };
+    let [diameter, mass, turn, stem] = LAST;
+    let mut below = Hanging::Plate(moon(11, [diameter, mass, stem], night), turn);
+    for (k, row) in BOUGHS.iter().enumerate().rev() {
+        let [diameter, mass, wire, length, rise, bough_turn, turn, stem] = *row;
+        let moon = Hanging::Plate(moon(k, [diameter, mass, stem], finish(k)), turn);
+        below = Hanging::bough(Bough {
+            name: format!("Bough{}", k + 1),
+            radius: 0.5 * wire * MM,
+            chord: length * MM,
+            rise: rise * MM,
+            depth: DEPTH,
+            turn: bough_turn,
+            ends: [below, moon],
+        });
+    }
+    let work = Mobile { pieces: hang(HOOK, below), stand: ceiling(iron) };
+    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
+    for (piece, pose) in &work.pieces {
+        piece.write(&mut scene, *pose);
+    }
+    let target = DVec3::new(-0.02, 0.50, 0.0);
+    let away = DVec3::new(-0.30, 0.07, 1.0).normalize();
+    scene.camera("CamFront", target + 2.25 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    (work, scene.into_glb("Twelve moons", "Original composition of the Soffio project; MIT OR Apache-2.0"))
+}
