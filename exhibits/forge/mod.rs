@@ -20,6 +20,7 @@ pub mod plates;
 pub mod solid;
 pub mod steel_fish;
 pub mod stock;
+pub mod terry_clock;
 pub mod windmill;
 pub mod windy_corner;
 
@@ -45,6 +46,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
+        Artifact { path: "terry-clock/terry-clock.glb", bytes: terry_clock::glb() },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },
