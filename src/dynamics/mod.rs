@@ -479,7 +479,7 @@ impl Dynamics {
 
     /// Factors the joints at the present poses, for impulses.
     fn prepare_impulses(&mut self) {
-        self.system.evaluate(&self.bodies);
+        self.system.evaluate_lean(&self.bodies);
         self.system.factor();
         self.fresh = false;
     }
