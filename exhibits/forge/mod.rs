@@ -21,6 +21,7 @@ pub mod solid;
 pub mod steel_fish;
 pub mod stock;
 pub mod terry_clock;
+pub mod terry_strike;
 pub mod windmill;
 pub mod windy_corner;
 

@@ -34,6 +34,7 @@ use super::solid::{Solid, sheet, turned};
 use super::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
 };
+use super::terry_strike;
 
 /// Pitch diameter over number of teeth.
 pub const MODULE: f64 = 1.0 * MM;
@@ -65,21 +66,25 @@ const WIDTH: f64 = 3.0 * MM;
 
 /// Length of the simple pendulum that beats as this one does by itself, m: 6720 beats an hour at its measured swing, with
 /// the circular error and what the escapement adds.
-const LENGTH: f64 = 290.35 * MM;
+const LENGTH: f64 = 290.3137 * MM;
 const BOB_RADIUS: f64 = 20.0 * MM;
 
 /// Layers: middles of wheels along z.
-const BACK: f64 = -36.0 * MM;
+pub const BACK: f64 = -36.0 * MM;
 const MIDDLE: f64 = -26.0 * MM;
 const FRONT: f64 = -16.0 * MM;
 const MOTION: f64 = 4.0 * MM;
 const ESCAPING: f64 = 8.0 * MM;
 /// The pendulum swings in front of the dial and the hands.
 const SWING: f64 = 30.0 * MM;
-const WHEEL: f64 = 4.0 * MM;
+pub const WHEEL: f64 = 4.0 * MM;
+
+/// The time that the hands show at the start.
+const HOURS: usize = 10;
+const MINUTES: f64 = 49.5;
 
 /// Middle of the dial.
-const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
+pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
 
 /// Where the arbors are, m, in the plane of the plates.
 fn places() -> [DVec3; 5] {
@@ -98,13 +103,34 @@ fn half_span() -> f64 {
     PI * SPAN / ESCAPE as f64
 }
 
+/// Unit vector at an angle from x, rad.
+fn direction(angle: f64) -> DVec3 {
+    DVec3::new(cos(angle), sin(angle), 0.0)
+}
+
+/// Where the minute hand points at the start, rad from x.
+fn minute_hand() -> f64 {
+    0.5 * PI - 2.0 * PI * MINUTES / 60.0
+}
+
+/// Where the hour hand points at the start.
+fn hour_hand() -> f64 {
+    0.5 * PI - 2.0 * PI * (HOURS as f64 + MINUTES / 60.0) / 12.0
+}
+
+/// A hand that points at `angle`.
+fn hand(name: &'static str, [length, width]: [f64; 2], out: f64, z: f64, angle: f64, finish: usize) -> Part {
+    let place = out * direction(angle) + DVec3::Z * z;
+    part(name, slab(length, width, 0.8 * MM), place, rotation(DVec3::Z * angle), LEAD, finish)
+}
+
 /// Direction from one place to another, rad.
-fn toward(from: DVec3, to: DVec3) -> f64 {
+pub fn toward(from: DVec3, to: DVec3) -> f64 {
     atan2(to.y - from.y, to.x - from.x)
 }
 
 /// A wheel of wood, crossed out.
-fn wheel(teeth: usize, phase: f64) -> Solid {
+pub fn wheel(teeth: usize, phase: f64) -> Solid {
     let radius = 0.5 * MODULE * teeth as f64;
     let holes: Vec<Polygon> = (0..if teeth > 30 { 5 } else { 0 })
         .map(|k| {
@@ -161,16 +187,16 @@ fn bar(radius: f64, low: f64, high: f64) -> Solid {
     rod(radius, low, high)
 }
 
-fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
+pub fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
     part(name, bar(radius, low, high), DVec3::ZERO, facing(), density, finish)
 }
 
 /// A piece with its own node's mesh first.
-fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
+pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
     Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
 }
 
-fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
+pub fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
     part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
 }
 
@@ -272,13 +298,12 @@ pub fn glb() -> Vec<u8> {
         flat("MinutePinion", spur(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
         flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
-        part(
-            "MinuteHand",
-            slab(88.0 * MM, 3.0 * MM, 0.8 * MM),
-            DVec3::new(0.0, 34.0 * MM, 16.0 * MM),
-            rotation(DVec3::Z * (0.5 * PI)),
-            LEAD,
-            finishes.black,
+        hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
+        terry_strike::peg(
+            "LiftingPin",
+            terry_strike::LIFTING_PIN * direction(minute_hand() - 0.5 * PI + terry_strike::lifting_pin_at_the_hour()),
+            (-14.0 * MM, -6.0 * MM),
+            finishes.steel,
         ),
     ];
     pieces.push((piece("MinuteArbor", arbor_parts), at(minute)));
@@ -343,20 +368,13 @@ pub fn glb() -> Vec<u8> {
                 WOOD,
                 wood,
             ),
-            part(
-                "HourHand",
-                slab(54.0 * MM, 4.0 * MM, 0.8 * MM),
-                DVec3::new(0.0, 31.0 * MM, MOTION + 8.0 * MM),
-                rotation(DVec3::Z * (0.5 * PI)),
-                LEAD,
-                finishes.black,
-            ),
+            hand("HourHand", [54.0 * MM, 4.0 * MM], 31.0 * MM, MOTION + 8.0 * MM, hour_hand(), finishes.black),
         ],
     );
     pieces.push((hour_wheel, at(CENTER)));
 
     let weight = piece("TimeWeight", vec![part("TimeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead)]);
-    let hangs = DVec3::new(-0.125, 0.36, -20.0 * MM);
+    let hangs = DVec3::new(-0.125, 0.36, -10.0 * MM);
     pieces.push((weight, at(hangs)));
 
     let plate = |name, z: f64| {
@@ -371,6 +389,11 @@ pub fn glb() -> Vec<u8> {
         ],
     );
     pieces.insert(0, (stand, at(DVec3::ZERO)));
+    let bell = terry_strike::bell(&finishes);
+    let hung = at(bell.place.position);
+    let at_home = Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
+    pieces.push((piece("Bell", vec![at_home]), hung));
+    pieces.extend(terry_strike::pieces(&finishes, HOURS));
     for (piece, pose) in &pieces {
         piece.write(&mut scene, *pose);
     }

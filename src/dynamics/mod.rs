@@ -119,6 +119,8 @@ pub struct Dynamics {
     pub bodies: Vec<RigidBody>,
     settings: Settings,
     precise: bool,
+    /// Is there friction in any pivot?
+    rubs: bool,
     springs: Springs,
     drives: Vec<Drive>,
     /// Body and acceleration of each drive at the time last asked for.
@@ -187,6 +189,7 @@ impl Dynamics {
             levers: levers(&system, &bodies),
             contacts,
             precise,
+            rubs: settings.friction && figure.constraints.iter().any(|constraint| constraint.friction.is_some()),
             before_step: vec![State::default(); n],
             before: bodies.clone(),
             springs: Springs::new(figure.springs, &bodies),
@@ -248,7 +251,7 @@ impl Dynamics {
                 break;
             }
         }
-        if self.settings.friction && self.bodies.iter().all(RigidBody::is_finite) {
+        if self.rubs && self.bodies.iter().all(RigidBody::is_finite) {
             self.rub(dt);
         }
         let lost = self.end_step(dt, already, impacts);

@@ -4,6 +4,7 @@ mod architecture;
 mod articulation;
 mod blow;
 mod cli;
+mod clock;
 mod collision;
 mod contacts;
 mod dynamics;
