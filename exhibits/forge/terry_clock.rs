@@ -81,7 +81,7 @@ pub const WHEEL: f64 = 4.0 * MM;
 
 /// The time that the hands show at the start.
 const HOURS: usize = 10;
-const MINUTES: f64 = 49.5;
+const MINUTES: f64 = 50.0;
 
 /// Middle of the dial.
 pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
