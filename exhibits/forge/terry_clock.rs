@@ -251,14 +251,7 @@ fn anchor(finishes: &Finishes) -> Piece {
     }
     let crutch = slab(46.0 * MM, 1.6 * MM, 1.6 * MM);
     let down = rotation(DVec3::Z * (0.5 * PI));
-    parts.push(part(
-        "Crutch",
-        crutch,
-        DVec3::new(0.0, -22.5 * MM, -6.0 * MM),
-        down,
-        STEEL,
-        finishes.steel,
-    ));
+    parts.push(part("Crutch", crutch, DVec3::new(0.0, -22.5 * MM, -6.0 * MM), down, STEEL, finishes.steel));
     parts.push(part(
         "CrutchLoop",
         ring(1.4 * MM, 2.6 * MM, 1.2 * MM),
@@ -373,25 +366,50 @@ pub fn glb() -> Vec<u8> {
     );
     pieces.push((hour_wheel, at(CENTER)));
 
-    let weight = piece("TimeWeight", vec![part("TimeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead)]);
+    let weight = piece(
+        "TimeWeight",
+        vec![part(
+            "TimeWeight",
+            rod(22.0 * MM, -60.0 * MM, 60.0 * MM),
+            DVec3::ZERO,
+            DQuat::IDENTITY,
+            LEAD,
+            finishes.lead,
+        )],
+    );
     let hangs = DVec3::new(-0.125, 0.36, -10.0 * MM);
     pieces.push((weight, at(hangs)));
 
     let plate = |name, z: f64| {
-        part(name, slab(190.0 * MM, 159.0 * MM, 5.0 * MM), CENTER + DVec3::Z * z, rotation(DVec3::Z * (0.5 * PI)), WOOD, wood)
+        part(
+            name,
+            slab(190.0 * MM, 159.0 * MM, 5.0 * MM),
+            CENTER + DVec3::Z * z,
+            rotation(DVec3::Z * (0.5 * PI)),
+            WOOD,
+            wood,
+        )
     };
     let stand = piece(
         "Frame",
         vec![
             plate("BackPlate", -48.0 * MM),
-            part("Floor", slab(0.34, 0.12, 12.0 * MM), DVec3::new(0.0, 0.006, -10.0 * MM), rotation(0.5 * PI * DVec3::X), WOOD, finishes.black),
+            part(
+                "Floor",
+                slab(0.34, 0.12, 12.0 * MM),
+                DVec3::new(0.0, 0.006, -10.0 * MM),
+                rotation(0.5 * PI * DVec3::X),
+                WOOD,
+                finishes.black,
+            ),
             part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass),
         ],
     );
     pieces.insert(0, (stand, at(DVec3::ZERO)));
     let bell = terry_strike::bell(&finishes);
     let hung = at(bell.place.position);
-    let at_home = Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
+    let at_home =
+        Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
     pieces.push((piece("Bell", vec![at_home]), hung));
     pieces.extend(terry_strike::pieces(&finishes, HOURS));
     for (piece, pose) in &pieces {

@@ -156,9 +156,8 @@ fn rise(hour: usize, now: f64) -> Solid {
     sheet(&outline, &[], WHEEL - 0.4 * MM, 0.1 * MM)
 }
 
-const RISES: [&str; 11] = [
-    "Hour02", "Hour03", "Hour04", "Hour05", "Hour06", "Hour07", "Hour08", "Hour09", "Hour10", "Hour11", "Hour12",
-];
+const RISES: [&str; 11] =
+    ["Hour02", "Hour03", "Hour04", "Hour05", "Hour06", "Hour07", "Hour08", "Hour09", "Hour10", "Hour11", "Hour12"];
 
 /// The moving pieces; the train last struck `hour`.
 pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
@@ -221,7 +220,14 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
         vec![
             flat("FlyPinion", spur(LOCK.1, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
             along_z("FlyArbor", 1.5 * MM, (-48.0 * MM, 8.0 * MM), STEEL, steel),
-            part("FlyHub", rod(1.2 * MM, -10.0 * MM, 10.0 * MM), DVec3::Z * -3.0 * MM, rotation(0.5 * PI * DVec3::Z), STEEL, steel),
+            part(
+                "FlyHub",
+                rod(1.2 * MM, -10.0 * MM, 10.0 * MM),
+                DVec3::Z * -3.0 * MM,
+                rotation(0.5 * PI * DVec3::Z),
+                STEEL,
+                steel,
+            ),
             vane("Vane1", 1.0),
             vane("Vane2", -1.0),
         ],
@@ -251,7 +257,14 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             along_z("HammerArbor", 1.5 * MM, (-64.0 * MM, -20.0 * MM), STEEL, steel),
             arm("HammerTail", polar(4.0 * MM, tail), polar(TAIL, tail), -26.5 * MM, steel),
             arm("HammerRod", DVec3::ZERO, DVec3::Y * -75.0 * MM, BELL_LAYER, steel),
-            part("HammerHead", rod(5.0 * MM, -7.0 * MM, 7.0 * MM), DVec3::new(0.0, -80.0 * MM, BELL_LAYER), rotation(0.5 * PI * DVec3::Z), BRASS, finishes.brass),
+            part(
+                "HammerHead",
+                rod(5.0 * MM, -7.0 * MM, 7.0 * MM),
+                DVec3::new(0.0, -80.0 * MM, BELL_LAYER),
+                rotation(0.5 * PI * DVec3::Z),
+                BRASS,
+                finishes.brass,
+            ),
         ],
     );
     pieces.push((hammer, at(p.hammer)));
@@ -290,7 +303,8 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
     );
     pieces.push((flirt, at(p.flirt)));
 
-    let weight = part("StrikeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead);
+    let weight =
+        part("StrikeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead);
     pieces.push((piece("StrikeWeight", vec![weight]), at(DVec3::new(0.125, 0.36, -10.0 * MM))));
     pieces
 }

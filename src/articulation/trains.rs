@@ -60,7 +60,8 @@ struct Wheel {
     freedom: Freedom,
     /// From the pivot to the centre of mass, body axes, m.
     arm: DVec3,
-    /// Where it is at q = 0: centre of mass and rotation.
+    /// Where it was at first, and where it is at q = 0: centre of mass and rotation.
+    origin: Pose,
     start: Pose,
     /// s and p now.
     twist: Vec6,
@@ -179,8 +180,17 @@ impl Trains {
                     Freedom::Slide(_) => DVec3::ZERO,
                 };
                 let (twist, given) = ([0.0; 6], [0.0; 6]);
-                let mut wheel =
-                    Wheel { body, train, ratio: of(body) / of(fastest), freedom, arm, start, twist, given };
+                let mut wheel = Wheel {
+                    body,
+                    train,
+                    ratio: of(body) / of(fastest),
+                    freedom,
+                    arm,
+                    origin: start,
+                    start,
+                    twist,
+                    given,
+                };
                 wheel.twist = wheel.along(start.rotation * arm);
                 let (v, w) = (linear(&wheel.twist), angular(&wheel.twist));
                 let own = properties.mass * v.length_squared() + w.dot(state.inertia_world() * w);
@@ -217,6 +227,42 @@ impl Trains {
     /// Is a constraint a train's own?
     pub fn owns(&self, constraint: usize) -> bool {
         self.own.get(constraint).copied().unwrap_or(false)
+    }
+
+    /// Lets q be 0 where the bodies were put; [`Trains::turned`] tells better where it is known.
+    pub fn begin(&mut self, quads: &Quads) {
+        for wheel in &mut self.wheels {
+            match wheel.freedom {
+                Freedom::Turn { about, .. } => {
+                    let d = quads.rotation(wheel.body) * wheel.origin.rotation.conjugate();
+                    let angle = 2.0 * atan2(DVec3::new(d.x, d.y, d.z).dot(about), d.w);
+                    wheel.start.rotation = (rotation(about * angle) * wheel.origin.rotation).normalize();
+                }
+                Freedom::Slide(way) => {
+                    let gone = (quads.position(wheel.body) - wheel.origin.position).dot(way);
+                    wheel.start.position = wheel.origin.position + way * gone;
+                }
+            }
+        }
+        for train in &mut self.trains {
+            (train.angle, train.turns) = (0.0, 0);
+        }
+    }
+
+    /// Tells how far a body has turned about an axis since the start, whole turns and all, rad: if it leads its train, the train
+    /// goes on from there, in the phases of the start.
+    pub fn turned(&mut self, body: usize, axis: DVec3, angle: f64) {
+        let Some(index) = self.of_body.get(body).copied().flatten() else { return };
+        let Wheel { train, freedom: Freedom::Turn { about, .. }, .. } = self.wheels[index] else { return };
+        if self.trains[train].leader != index {
+            return;
+        }
+        let angle = angle * axis.dot(about).signum();
+        let turns = (angle / (2.0 * PI)).round();
+        (self.trains[train].turns, self.trains[train].angle) = (turns as i64, angle - 2.0 * PI * turns);
+        for wheel in self.wheels.iter_mut().filter(|wheel| wheel.train == train) {
+            wheel.start = wheel.origin;
+        }
     }
 
     /// Lays out the twists where the bodies are.
@@ -300,7 +346,14 @@ impl Trains {
                 Freedom::Turn { about, .. } => {
                     let d = quads.rotation(wheel.body) * wheel.start.rotation.conjugate();
                     let raw = 2.0 * atan2(DVec3::new(d.x, d.y, d.z).dot(about), d.w);
-                    let wrapped = raw - if raw > PI { 2.0 * PI } else if raw <= -PI { -2.0 * PI } else { 0.0 };
+                    let wrapped = raw
+                        - if raw > PI {
+                            2.0 * PI
+                        } else if raw <= -PI {
+                            -2.0 * PI
+                        } else {
+                            0.0
+                        };
                     let step = wrapped - train.angle;
                     train.turns += i64::from(step < -PI) - i64::from(step > PI);
                     train.angle = wrapped;

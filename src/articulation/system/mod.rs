@@ -21,7 +21,7 @@ use super::rows::coupling::{self, Gauge};
 use super::spatial::response;
 use super::trains::{Asked, Trains};
 use super::tree::{Form, JointRows, Link, Tree};
-use super::{Constraint, ConstraintKind};
+use super::{Axis, Constraint, ConstraintKind, Measure};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 pub use joint::{Joint, RowState};
@@ -98,6 +98,11 @@ impl System {
         Self::at_level(Level::new(), bodies, driven, constraints, method)
     }
 
+    /// The same without trains, for motion that turns wheels by places: row by row.
+    pub fn without_trains(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
+        Self::with(Level::new(), bodies, driven, constraints, (method, Trains::default()))
+    }
+
     /// The same for a processor of this level; what it finds does not depend on it.
     pub fn at_level(
         level: Level,
@@ -105,6 +110,20 @@ impl System {
         driven: &[bool],
         constraints: &[Constraint],
         method: Method,
+    ) -> Self {
+        let trains = match method {
+            Method::Sparse => Trains::new(bodies, driven, constraints),
+            Method::Dense => Trains::default(),
+        };
+        Self::with(level, bodies, driven, constraints, (method, trains))
+    }
+
+    fn with(
+        level: Level,
+        bodies: &[RigidBody],
+        driven: &[bool],
+        constraints: &[Constraint],
+        (method, trains): (Method, Trains),
     ) -> Self {
         let (mut joints, mut count) = joints(constraints);
         let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
@@ -115,10 +134,6 @@ impl System {
             .zip(&joints)
             .map(|(all, joint)| all && joint.constraints.len() == 1)
             .collect();
-        let trains = match method {
-            Method::Sparse => Trains::new(bodies, driven, constraints),
-            Method::Dense => Trains::default(),
-        };
         let in_train = |joint: &Joint| joint.constraints.iter().all(|&constraint| trains.owns(constraint));
         // To the tree a train is ground that moves.
         let given: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || trains.has(body)).collect();
@@ -370,6 +385,33 @@ impl System {
     /// Adds `s` times a row's transposed blocks to the right-hand side.
     pub fn push_impulse(&mut self, body: usize, block: &Vec6, s: f64) {
         add_scaled(&mut self.b[body], s, block);
+    }
+
+    /// Are there trains?
+    pub fn has_trains(&self) -> bool {
+        !self.trains.is_empty()
+    }
+
+    /// Lets trains go on from where these bodies were put.
+    pub fn begin_trains(&mut self, bodies: &[RigidBody]) {
+        if !self.has_trains() {
+            return;
+        }
+        self.quads.look(bodies);
+        self.trains.begin(&self.quads);
+        for (gauge, _) in self.couplings.iter().flat_map(|coupling| &coupling.terms) {
+            if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure {
+                self.trains.turned(body, bodies[body].rotation * direction, gauge.total(bodies));
+            }
+        }
+    }
+
+    /// Takes over what another system of the same constraints knows of its run: windows and breaks, and counted turns.
+    pub fn exchange_run(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.activity, &mut other.activity);
+        for (own, others) in self.couplings.iter_mut().zip(&mut other.couplings) {
+            std::mem::swap(&mut own.terms, &mut others.terms);
+        }
     }
 
     /// Counts the turns of couplings up to this state; once a step.

@@ -186,10 +186,7 @@ fn ringed(shapes: &[Shape], axis: DVec3, count: usize) -> Vec<Shape> {
     let turned = |k: usize| {
         let turn = rotation(axis * (2.0 * PI * k as f64 / count as f64));
         shapes.iter().map(move |shape| Shape {
-            place: Pose {
-                rotation: (turn * shape.place.rotation).normalize(),
-                position: turn * shape.place.position,
-            },
+            place: Pose { rotation: (turn * shape.place.rotation).normalize(), position: turn * shape.place.position },
             ..shape.clone()
         })
     };
