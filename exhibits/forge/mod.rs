@@ -23,6 +23,8 @@ pub mod snow;
 pub mod solid;
 pub mod steel_fish;
 pub mod stock;
+pub mod terry_clock;
+pub mod terry_strike;
 pub mod tree;
 pub mod twelve_moons;
 pub mod wind_chimes;
@@ -55,6 +57,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "noise-mobile/noise-mobile.glb", bytes: noise_mobile::glb().1 },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
+        Artifact { path: "terry-clock/terry-clock.glb", bytes: terry_clock::glb() },
         Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },
         Artifact { path: "twelve-moons/twelve-moons.glb", bytes: twelve_moons::glb().1 },
         Artifact { path: "wind-chimes/wind-chimes.glb", bytes: wind_chimes::glb(&wind_chimes::ALUMINIUM) },

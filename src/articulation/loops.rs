@@ -16,6 +16,7 @@ use super::block::{RowVec, Vec6, add_scaled, dot};
 use super::cholesky::Cholesky;
 use super::quads::Quads;
 use super::spatial::response;
+use super::trains::Trains;
 use super::tree::Tree;
 
 /// A pivot below this share of its row's answer alone says that the row repeats others. Loop rows pass
@@ -39,6 +40,8 @@ pub struct LoopRow {
     pub place: usize,
     /// Γ with the rows of its joint, from the first to itself.
     pub compliance: RowVec,
+    /// Is it a coupling of a train, which the train itself holds?
+    pub held: bool,
 }
 
 impl LoopRow {
@@ -62,6 +65,12 @@ pub struct Loops {
     pub rows: Vec<LoopRow>,
     driven: Vec<bool>,
     skeleton: Vec<usize>,
+    /// Bodies of trains that rows touch, how many trains there are, and f of the active rows, row by row.
+    carried: Vec<usize>,
+    trains: usize,
+    shares: Vec<f64>,
+    /// What the rows push along each train.
+    pushes: Vec<f64>,
     /// Indices of the active rows.
     active: Vec<usize>,
     factor: Cholesky,
@@ -73,11 +82,19 @@ pub struct Loops {
 
 impl Loops {
     /// Room for these rows; `count` numbers are in `lambda`.
-    pub fn new(rows: Vec<LoopRow>, tree: &Tree, driven: &[bool], count: usize) -> Self {
+    pub fn new(rows: Vec<LoopRow>, (tree, trains): (&Tree, &Trains), driven: &[bool], count: usize) -> Self {
         let n = rows.len();
         let room = if n > 0 { driven.len() } else { 0 };
+        let own = rows.iter().filter(|row| !row.held);
+        let touched = own.flat_map(|row| row.parts.iter().map(|(body, _)| *body));
+        let ways = tree.paths(touched);
+        let (carried, skeleton) = ways.into_iter().partition(|&body| trains.has(body));
         Self {
-            skeleton: tree.paths(rows.iter().flat_map(|row| row.parts.iter().map(|(body, _)| *body))),
+            skeleton,
+            carried,
+            trains: trains.count(),
+            shares: vec![0.0; n * trains.count()],
+            pushes: vec![0.0; trains.count()],
             driven: driven.to_vec(),
             active: Vec::with_capacity(n),
             factor: Cholesky::with_room(n, REDUNDANT),
@@ -95,10 +112,22 @@ impl Loops {
     }
 
     /// Factors S for the active rows; the tree must have been factored for these bodies. Does the figure gather?
-    pub fn factor(&mut self, tree: &Tree, quads: &Quads, gathering: bool) {
+    pub fn factor(&mut self, (tree, trains): (&Tree, &Trains), quads: &Quads, gathering: bool) {
+        for &body in &self.carried {
+            (self.a[body], self.b[body]) = ([0.0; 6], [0.0; 6]);
+        }
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
         let n = self.active.len();
+        if self.trains > 0 {
+            for (k, &row) in self.active.iter().enumerate() {
+                let shares = &mut self.shares[k * self.trains..][..self.trains];
+                shares.fill(0.0);
+                for (train, f) in self.rows[row].parts.iter().filter_map(|part| trains.share(part)) {
+                    shares[train] += f;
+                }
+            }
+        }
         self.factor.begin(n);
         for l in 0..n {
             for &body in &self.skeleton {
@@ -115,7 +144,12 @@ impl Loops {
                 tree.down(body, &self.b, None, &mut self.h, &mut self.a);
             }
             for k in l..n {
-                *self.factor.entry(k, l) = self.rows[self.active[k]].times(&self.a);
+                let both = (0..self.trains).map(|train| {
+                    let (f, g) = (self.shares[k * self.trains + train], self.shares[l * self.trains + train]);
+                    trains.response(train, f, g)
+                });
+                let both = both.fold(0.0, |sum, more| sum + more);
+                *self.factor.entry(k, l) = self.rows[self.active[k]].times(&self.a) + both;
             }
         }
         for k in 0..n {
@@ -131,6 +165,7 @@ impl Loops {
     /// Between the tree's way up (`b`, `lambda`) and its way down: finds μ and lays Gᵀ μ on `b` and `lambda`, so that
     /// the way down gives the whole answer. `a` lends the given accelerations of driven bodies.
     pub fn correct(&mut self, tree: &Tree, b: &mut [Vec6], g: &[f64], a: &[Vec6], lambda: &mut [f64]) {
+        self.pushes.fill(0.0);
         let n = self.active.len();
         if n == 0 {
             return;
@@ -138,6 +173,9 @@ impl Loops {
         self.h.copy_from_slice(lambda);
         for &body in &self.skeleton {
             self.a[body] = if self.driven[body] { a[body] } else { [0.0; 6] };
+        }
+        for &body in &self.carried {
+            self.a[body] = a[body];
         }
         for &body in &self.skeleton {
             tree.down(body, b, Some(g), &mut self.h, &mut self.a);
@@ -167,6 +205,14 @@ impl Loops {
         }
         for k in 0..n {
             lambda[self.rows[self.active[k]].at] = self.mu[k];
+            for (push, share) in self.pushes.iter_mut().zip(&self.shares[k * self.trains..]) {
+                *push += self.mu[k] * share;
+            }
         }
+    }
+
+    /// What the rows push along each train's coordinate, after [`Loops::correct`].
+    pub fn pushes(&self) -> &[f64] {
+        &self.pushes
     }
 }

@@ -17,6 +17,7 @@ mod share;
 pub mod spatial;
 mod sweeps;
 mod system;
+mod trains;
 pub mod tree;
 
 pub use activity::{Activity, Break};

@@ -180,6 +180,26 @@ impl Quads {
         self.quads[slot.quad].inertia.get(One(slot.lane))
     }
 
+    /// Centre of mass of a body, m.
+    pub fn position(&self, body: usize) -> DVec3 {
+        let slot = self.slots[body];
+        self.quads[slot.quad].state.position.get(One(slot.lane)).into()
+    }
+
+    /// Rotation of a body.
+    pub fn rotation(&self, body: usize) -> DQuat {
+        let slot = self.slots[body];
+        let q = self.quads[slot.quad].state.rotation.get(One(slot.lane));
+        DQuat::from_xyzw(q.v.x, q.v.y, q.v.z, q.w)
+    }
+
+    /// Velocity of a body's centre of mass, m/s, and its angular velocity, rad/s.
+    pub fn velocity(&self, body: usize) -> (DVec3, DVec3) {
+        let slot = self.slots[body];
+        let state = &self.quads[slot.quad].state;
+        (state.velocity.get(One(slot.lane)).into(), state.spin.get(One(slot.lane)).into())
+    }
+
     /// Rotation matrix of a body.
     pub fn frame(&self, body: usize) -> DMat3 {
         let slot = self.slots[body];

@@ -8,7 +8,7 @@
 use super::advance::{Sweep, TOUCH};
 use super::pairs::Pair;
 use super::shape::{Collider, Shape};
-use crate::math::{DVec3, Pose};
+use crate::math::{DMat3, DVec3, Pose};
 
 /// A box along the world's axes, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +59,8 @@ pub struct BroadPhase {
     /// Swept boxes of the units (the bodies, then each collider that stands still), and units in order.
     units: Vec<Bounds>,
     order: Vec<usize>,
+    /// Where each body is at the two ends of its way.
+    ends: Vec<[(Pose, DMat3); 2]>,
     /// Swept boxes of the colliders whose turn it was to be looked at.
     swept: Vec<Option<Bounds>>,
 }
@@ -123,6 +125,7 @@ impl BroadPhase {
         Self {
             shapes: colliders.iter().map(|c| (c.body, c.body.map_or_else(|| Plane::of(&c.shape), |_| None))).collect(),
             swept: vec![None; colliders.len()],
+            ends: vec![[(Pose::IDENTITY, DMat3::IDENTITY); 2]; count],
             colliders: boxes,
             bodies,
             pairs: pairs.to_vec(),
@@ -141,7 +144,8 @@ impl BroadPhase {
         }
         for &unit in &self.order {
             if let Some(&(middle, half)) = self.bodies.get(unit) {
-                self.units[unit] = swept(&sweeps[unit], middle, half);
+                self.ends[unit] = sweeps[unit].ends();
+                self.units[unit] = swept(&sweeps[unit], &self.ends[unit], middle, half);
             }
         }
         for (swept, (body, _)) in self.swept.iter_mut().zip(&self.shapes) {
@@ -210,7 +214,7 @@ impl BroadPhase {
     fn bounds(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {
         let ((middle, half), (body, _)) = (self.colliders[collider], self.shapes[collider]);
         *self.swept[collider].get_or_insert_with(|| match body {
-            Some(body) => swept(&sweeps[body], middle, half),
+            Some(body) => swept(&sweeps[body], &self.ends[body], middle, half),
             None => Bounds::about(middle, half),
         })
     }
@@ -220,11 +224,10 @@ impl BroadPhase {
 ///
 /// At either end it is the turned box. Between, a point with the arm ρ leaves its chord by ρ θ²/8 at most, and is as
 /// much before or behind its uniform pace; `TOUCH` is added once, for each pair's touching layer.
-fn swept(sweep: &Sweep, middle: DVec3, half: DVec3) -> Bounds {
-    let [from, to] = sweep.ends();
-    let at = |(pose, axes): (Pose, crate::math::DMat3)| {
+fn swept(sweep: &Sweep, [from, to]: &[(Pose, DMat3); 2], middle: DVec3, half: DVec3) -> Bounds {
+    let at = |(pose, axes): &(Pose, DMat3)| {
         let half = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
-        Bounds::about(pose.position + axes * middle, half)
+        Bounds::about(pose.position + *axes * middle, half)
     };
     let both = at(from).join(&at(to));
     let margin = DVec3::splat(sweep.sag(middle, half) + TOUCH);

@@ -129,7 +129,7 @@ impl Dynamics {
             return;
         }
         self.carry_driven(t);
-        self.system.evaluate(&self.bodies);
+        self.system.evaluate_lean(&self.bodies);
         self.system.look_for_gaps();
         self.system.factor();
         self.solve_forces(t);

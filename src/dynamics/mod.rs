@@ -119,11 +119,15 @@ pub struct Dynamics {
     pub bodies: Vec<RigidBody>,
     settings: Settings,
     precise: bool,
+    /// Is there friction in any pivot?
+    rubs: bool,
     springs: Springs,
     drives: Vec<Drive>,
     /// Body and acceleration of each drive at the time last asked for.
     driven_accelerations: Vec<(usize, Vec6)>,
     system: System,
+    /// The same joints without trains, for movers by places.
+    plain: Option<Box<System>>,
     contacts: Contacts,
     /// Wrenches from outside, and with those of resting contacts.
     given: Vec<Vec6>,
@@ -170,6 +174,9 @@ impl Dynamics {
             drive.motion.at(0.0).carry(&mut bodies[drive.body]);
         }
         let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
+        let plain = system
+            .has_trains()
+            .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
         let joints = (system.states().len(), settings.stabilization_time);
         let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies, joints);
@@ -187,6 +194,7 @@ impl Dynamics {
             levers: levers(&system, &bodies),
             contacts,
             precise,
+            rubs: settings.friction && figure.constraints.iter().any(|constraint| constraint.friction.is_some()),
             before_step: vec![State::default(); n],
             before: bodies.clone(),
             springs: Springs::new(figure.springs, &bodies),
@@ -201,6 +209,7 @@ impl Dynamics {
             stages: [stages(), stages(), stages()],
             norms: vec![[0.0; 2]; n],
             system,
+            plain,
             time: 0.0,
             dt: 0.0,
             stride: f64::INFINITY,
@@ -248,7 +257,7 @@ impl Dynamics {
                 break;
             }
         }
-        if self.settings.friction && self.bodies.iter().all(RigidBody::is_finite) {
+        if self.rubs && self.bodies.iter().all(RigidBody::is_finite) {
             self.rub(dt);
         }
         let lost = self.end_step(dt, already, impacts);
@@ -477,9 +486,14 @@ impl Dynamics {
         &self.system
     }
 
+    /// The same row by row: what a mover by places is given.
+    pub fn plain_system(&self) -> &System {
+        self.plain.as_deref().unwrap_or(&self.system)
+    }
+
     /// Factors the joints at the present poses, for impulses.
     fn prepare_impulses(&mut self) {
-        self.system.evaluate(&self.bodies);
+        self.system.evaluate_lean(&self.bodies);
         self.system.factor();
         self.fresh = false;
     }
@@ -531,6 +545,7 @@ impl Dynamics {
                 (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             }
             self.loads.fill(0.0);
+            self.system.begin_trains(&self.bodies);
             self.contacts.forget(&self.bodies);
             (self.fourth_step, self.stride) = (None, f64::INFINITY);
             self.fresh = false;

@@ -60,9 +60,12 @@ impl Dynamics {
         self.external.copy_from_slice(external);
         self.springs.push(&self.bodies, self.time, &mut self.external);
         let already = impacts.len();
+        if let Some(plain) = &mut self.plain {
+            plain.exchange_run(&mut self.system);
+        }
         mover(Moved {
             bodies: &mut self.bodies,
-            system: &mut self.system,
+            system: self.plain.as_deref_mut().unwrap_or(&mut self.system),
             contacts: &mut self.contacts,
             drives: &self.drives,
             wrenches: &self.external,
@@ -72,9 +75,13 @@ impl Dynamics {
             changed,
             impacts,
         });
+        if let Some(plain) = &mut self.plain {
+            plain.exchange_run(&mut self.system);
+        }
         self.springs.break_overloaded(&self.bodies, self.time + dt);
         let lost = self.end_step(dt, already, impacts);
         // The laws start anew from here.
+        self.system.begin_trains(&self.bodies);
         self.contacts.forget(&self.bodies);
         self.loads.fill(0.0);
         (self.fourth_step, self.stride) = (None, f64::INFINITY);

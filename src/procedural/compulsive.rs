@@ -41,7 +41,7 @@ pub(super) struct Compulsive {
 
 impl Compulsive {
     pub fn new(dynamics: &Dynamics) -> Self {
-        let (system, contacts) = (dynamics.system(), dynamics.contacts());
+        let (system, contacts) = (dynamics.plain_system(), dynamics.contacts());
         let mut bounds = vec![Vec::new(); system.joints().len()];
         let mut strays = Vec::new();
         for bound in 0..contacts.bounds() {

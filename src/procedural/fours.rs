@@ -39,7 +39,7 @@ impl Fours {
             let damping = members.bodies.map(|body| dynamics.damping(body));
             [Four(damping.map(|d| d.linear)), Four(damping.map(|d| d.angular))]
         };
-        let system = dynamics.system();
+        let system = dynamics.plain_system();
         Self { damping: system.quads().members().iter().map(rates).collect(), driven: system.driven().to_vec() }
     }
 

@@ -154,7 +154,7 @@ impl Procedural {
             before: bodies.clone(),
             kept: bodies.clone(),
             compulsive: Compulsive::new(dynamics),
-            tree: TreeSolve::new(dynamics.system(), bodies.len()),
+            tree: TreeSolve::new(dynamics.plain_system(), bodies.len()),
             touches: Touches::new(dynamics),
             reach: Reach::default(),
             ended: f64::NAN,

@@ -573,8 +573,8 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
-/// The exhibit's figure at its start.
-fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
+/// The exhibit's figure at its start, to be moved by itself: without air, hands and sound.
+pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
     let bodies = exhibit
         .bodies
         .iter()

@@ -5,6 +5,7 @@ mod articulation;
 mod blow;
 mod chimes;
 mod cli;
+mod clock;
 mod collision;
 mod contacts;
 mod dynamics;

@@ -11,6 +11,7 @@
 
 use super::{PROJECTION_REACH, System};
 use crate::articulation::block::Vec6;
+use crate::articulation::trains::Asked;
 use crate::math::exp;
 
 impl System {
@@ -31,6 +32,7 @@ impl System {
 
     /// The same where `b` pushes, kg m and kg m² rad.
     pub fn solve_closing_under(&mut self, left: &[f64]) {
+        self.asked = Asked::Place;
         self.tell_values();
         self.still();
         for ((g, state), left) in self.g.iter_mut().zip(&self.states).zip(left) {
@@ -41,7 +43,7 @@ impl System {
 
     /// Answer to a push, joints held, in `a` of the bodies on these ways to their roots ([`System::ways`]) at least.
     pub fn respond(&mut self, ways: &[usize], push: impl Iterator<Item = (usize, Vec6)>) {
-        let alone = self.outside_rows().is_empty() && self.dense.is_none();
+        let alone = self.outside_rows().is_empty() && self.trains.is_empty() && self.dense.is_none();
         if !alone {
             self.b.fill([0.0; 6]);
         }

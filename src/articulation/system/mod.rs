@@ -19,8 +19,9 @@ use super::quads::Quads;
 use super::rows::Scene;
 use super::rows::coupling::{self, Gauge};
 use super::spatial::response;
+use super::trains::{Asked, Trains};
 use super::tree::{Form, JointRows, Link, Tree};
-use super::{Constraint, ConstraintKind};
+use super::{Axis, Constraint, ConstraintKind, Measure};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 pub use joint::{Joint, RowState};
@@ -61,8 +62,13 @@ pub struct System {
     /// What acts now.
     pub activity: Activity,
     joints: Vec<Joint>,
-    /// Joints that are not always one point by which a body hangs.
+    /// Joints that are not always one point by which a body hangs; first those that are no train's.
     various: Vec<usize>,
+    /// How many of them, and of the couplings, are no train's.
+    outside_trains: usize,
+    trains: Trains,
+    /// What is being solved for.
+    asked: Asked,
     couplings: Vec<Coupling>,
     blocks: Vec<JointRows>,
     states: Vec<RowState>,
@@ -92,6 +98,11 @@ impl System {
         Self::at_level(Level::new(), bodies, driven, constraints, method)
     }
 
+    /// The same without trains, for motion that turns wheels by places: row by row.
+    pub fn without_trains(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
+        Self::with(Level::new(), bodies, driven, constraints, (method, Trains::default()))
+    }
+
     /// The same for a processor of this level; what it finds does not depend on it.
     pub fn at_level(
         level: Level,
@@ -99,6 +110,20 @@ impl System {
         driven: &[bool],
         constraints: &[Constraint],
         method: Method,
+    ) -> Self {
+        let trains = match method {
+            Method::Sparse => Trains::new(bodies, driven, constraints),
+            Method::Dense => Trains::default(),
+        };
+        Self::with(level, bodies, driven, constraints, (method, trains))
+    }
+
+    fn with(
+        level: Level,
+        bodies: &[RigidBody],
+        driven: &[bool],
+        constraints: &[Constraint],
+        (method, trains): (Method, Trains),
     ) -> Self {
         let (mut joints, mut count) = joints(constraints);
         let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
@@ -109,17 +134,20 @@ impl System {
             .zip(&joints)
             .map(|(all, joint)| all && joint.constraints.len() == 1)
             .collect();
-        let tree = Tree::new(level, driven, &links, &at, &points);
+        let in_train = |joint: &Joint| joint.constraints.iter().all(|&constraint| trains.owns(constraint));
+        // To the tree a train is ground that moves.
+        let given: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || trains.has(body)).collect();
+        let tree = Tree::new(level, &given, &links, &at, &points);
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
             joint.point = lone_point(joint, constraints, bodies);
-            let closes = tree.loops().contains(&index);
+            let closes = tree.loops().contains(&index) && !in_train(joint);
             if closes || method == Method::Dense {
                 joint.outside = Some(outside.len());
                 let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
                 for k in 0..joint.capacity {
-                    outside.push(blank_row(joint.at + k, k, &parts));
+                    outside.push(blank_row(joint.at + k, k, &parts, false));
                 }
             }
             if !points[index] || closes {
@@ -138,7 +166,7 @@ impl System {
                 }
             }
             couplings.push(Coupling { constraint: index, at: count, terms, outside: outside.len() });
-            outside.push(blank_row(count, 0, &parts));
+            outside.push(blank_row(count, 0, &parts, trains.owns(index)));
             count += 1;
         }
         let (loop_rows, dense) = match method {
@@ -147,7 +175,7 @@ impl System {
         };
         let n = bodies.len();
         for &body in tree.order() {
-            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !driven[body]) {
+            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !given[body]) {
                 joints[joint].hangs = Some(body);
             }
         }
@@ -156,7 +184,10 @@ impl System {
             joint.point.map(|(a, b)| if joint.link.a == body { (a, b) } else { (b, a) })
         };
         let hung = Hung::new(&tree, ends);
-        let various: Vec<usize> = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none()).collect();
+        let various = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none());
+        let (mut various, of_trains): (Vec<usize>, Vec<usize>) = various.partition(|&joint| !in_train(&joints[joint]));
+        let outside_trains = various.len();
+        various.extend(of_trains);
         let asked = !(various.is_empty() && couplings.is_empty());
         let mut states = vec![RowState::default(); count];
         for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
@@ -168,7 +199,10 @@ impl System {
         Self {
             gathering: false,
             activity: Activity::new(constraints),
-            loops: Loops::new(loop_rows, &tree, driven, count),
+            loops: Loops::new(loop_rows, (&tree, &trains), driven, count),
+            outside_trains,
+            trains,
+            asked: Asked::Impulse,
             constraints: constraints.to_vec(),
             joints,
             couplings,
@@ -237,12 +271,25 @@ impl System {
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
-        self.evaluate_quads(bodies);
+        self.evaluate_rows(bodies, true);
+        self.tell_values();
+    }
+
+    /// The same for the laws of motion, which do not ask for what trains hold of themselves.
+    pub fn evaluate_lean(&mut self, bodies: &[RigidBody]) {
+        self.quads.look(bodies);
+        self.evaluate_rows(bodies, false);
         self.tell_values();
     }
 
     /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
     pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
+        self.evaluate_rows(bodies, false);
+    }
+
+    /// Evaluates rows where the quads are, with those of trains or without.
+    fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool) {
+        self.trains.evaluate(&self.quads);
         self.hung.evaluate(self.quads.all(), &mut self.tree);
         self.told = false;
         for (body, frame) in self.frames.iter_mut().enumerate() {
@@ -250,7 +297,8 @@ impl System {
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
-        for &index in &self.various {
+        let asked = if all { self.various.len() } else { self.outside_trains };
+        for &index in &self.various[..asked] {
             let joint = &mut self.joints[index];
             joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
@@ -258,7 +306,10 @@ impl System {
         for coupling in &mut self.couplings {
             let share = self.activity.share(coupling.constraint);
             let slot = &mut outside[coupling.outside];
-            slot.active = share > 0.0;
+            if slot.held && !all {
+                continue;
+            }
+            slot.active = share > 0.0 && !slot.held;
             slot.compliance[0] = 0.0;
             let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
             self.states[coupling.at].set(&row, coupling.constraint, share);
@@ -302,7 +353,7 @@ impl System {
                 (None, None) => unreachable!("a joint is a point or has a block"),
             }
         });
-        self.loops.factor(&self.tree, &self.quads, self.gathering);
+        self.loops.factor((&self.tree, &self.trains), &self.quads, self.gathering);
     }
 
     /// Writes Γ = D K D among these rows of one joint or of a coupling, D diagonal.
@@ -336,6 +387,33 @@ impl System {
         add_scaled(&mut self.b[body], s, block);
     }
 
+    /// Are there trains?
+    pub fn has_trains(&self) -> bool {
+        !self.trains.is_empty()
+    }
+
+    /// Lets trains go on from where these bodies were put.
+    pub fn begin_trains(&mut self, bodies: &[RigidBody]) {
+        if !self.has_trains() {
+            return;
+        }
+        self.quads.look(bodies);
+        self.trains.begin(&self.quads);
+        for (gauge, _) in self.couplings.iter().flat_map(|coupling| &coupling.terms) {
+            if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure {
+                self.trains.turned(body, bodies[body].rotation * direction, gauge.total(bodies));
+            }
+        }
+    }
+
+    /// Takes over what another system of the same constraints knows of its run: windows and breaks, and counted turns.
+    pub fn exchange_run(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.activity, &mut other.activity);
+        for (own, others) in self.couplings.iter_mut().zip(&mut other.couplings) {
+            std::mem::swap(&mut own.terms, &mut others.terms);
+        }
+    }
+
     /// Counts the turns of couplings up to this state; once a step.
     pub fn count_turns(&mut self, bodies: &[RigidBody]) {
         for coupling in &mut self.couplings {
@@ -346,7 +424,7 @@ impl System {
     }
 }
 
-fn blank_row(at: usize, place: usize, bodies: &[usize]) -> LoopRow {
+fn blank_row(at: usize, place: usize, bodies: &[usize], held: bool) -> LoopRow {
     let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
-    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS] }
+    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held }
 }

@@ -2,6 +2,7 @@
 
 use super::{PROJECTION_REACH, System};
 use crate::articulation::block::{angular, dot, linear, vec6};
+use crate::articulation::trains::Asked;
 use crate::bodies::RigidBody;
 
 impl System {
@@ -11,9 +12,12 @@ impl System {
             dense.solve(&mut self.b, &self.g, &mut self.a, &mut self.lambda);
             return;
         }
+        self.trains.solve(self.asked, &self.quads, &self.b, &mut self.a);
         self.tree.sweep_up(&mut self.b, &self.g, &mut self.lambda);
         self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
         self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
+        self.trains.push(self.loops.pushes(), &mut self.a);
+        self.asked = Asked::Impulse;
     }
 
     /// C of the point joints into their rows' numbers, if it is not there yet.
@@ -38,6 +42,7 @@ impl System {
     /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ, and − ω₀² C − 2 ω₀ Ċ where rows gather. The
     /// accelerations of driven bodies stand in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
+        self.asked = Asked::Acceleration;
         if self.gathering {
             self.hung.tell_biases(&self.tree, &mut self.states);
             self.rates(bodies);
@@ -48,7 +53,7 @@ impl System {
             }
         } else {
             self.hung.want_still(&self.tree, &mut self.g);
-            let various = self.various.iter().map(|&joint| &self.joints[joint]);
+            let various = self.various[..self.outside_trains].iter().map(|&joint| &self.joints[joint]);
             let rows = various.flat_map(|joint| joint.at..joint.at + joint.rows);
             for row in rows.chain(self.couplings.iter().map(|coupling| coupling.at)) {
                 self.g[row] = -self.states[row].bias;
@@ -59,6 +64,7 @@ impl System {
 
     /// Solves for the displacement that closes the joints' position error: J δ = −C, least in kinetic energy.
     pub fn solve_displacement(&mut self) {
+        self.asked = Asked::Place;
         self.tell_values();
         self.b.fill([0.0; 6]);
         self.still();
@@ -77,6 +83,7 @@ impl System {
 
     /// The same for bodies whose velocities the quads have, see [`System::evaluate_quads`].
     pub fn solve_velocity_quads(&mut self, bodies: &[RigidBody]) {
+        self.asked = Asked::Velocity;
         self.b.fill([0.0; 6]);
         self.still();
         self.rates(bodies);
@@ -106,7 +113,7 @@ impl System {
     fn rates(&mut self, bodies: &[RigidBody]) {
         let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
         self.hung.rates(self.quads.all(), &self.tree, &mut self.g);
-        for joint in self.various.iter().map(|&joint| &self.joints[joint]) {
+        for joint in self.various[..self.outside_trains].iter().map(|&joint| &self.joints[joint]) {
             let at = joint.at;
             match (joint.arms, joint.block) {
                 (Some((r, s)), _) => {
@@ -129,7 +136,7 @@ impl System {
                 (None, None) => {}
             }
         }
-        for coupling in &self.couplings {
+        for coupling in self.couplings.iter().filter(|coupling| !self.trains.owns(coupling.constraint)) {
             let rows = self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows);
             let parts = &rows[coupling.outside].parts;
             let rate: f64 = parts.iter().map(|(body, block)| dot(block, &coordinates(*body))).sum();

@@ -8,7 +8,7 @@ use super::super::{Wire, codes};
 use super::{Context, joints};
 use crate::articulation::{Constraint, Limit, LimitKind};
 use crate::collision::{Collider, Excluded, Exclusion, Shape};
-use crate::math::{DMat3, DVec3};
+use crate::math::{DMat3, DVec3, PI, Pose, rotation};
 
 /// Two bodies; `None` is the world.
 pub(super) type Pair = (Option<usize>, Option<usize>);
@@ -28,7 +28,11 @@ impl Context<'_> {
             });
             let name = given.material.clone().or(of_body).unwrap_or_else(|| "steel".to_owned());
             let material = self.material(&name, &format!("{at}/material"));
-            let shapes = self.shapes(given, node, &at);
+            let mut shapes = self.shapes(given, node, &at);
+            if let Some(ring) = given.ring {
+                let Some(axis) = self.unit(ring.axis.into(), &format!("{at}/ring/axis")) else { continue };
+                shapes = ringed(&shapes, axis, ring.count);
+            }
             let of = format!("collider {}", given.node);
             let moves_with = self.body_name(body).to_owned();
             self.trace(&of, "body", moves_with, "/-", "glTF node tree");
@@ -175,4 +179,16 @@ impl Context<'_> {
         let nodes: Vec<usize> = nodes.collect();
         nodes.into_iter().map(|n| self.owner[n]).collect()
     }
+}
+
+/// Shapes of the body's frame, evenly round an axis through its origin.
+fn ringed(shapes: &[Shape], axis: DVec3, count: usize) -> Vec<Shape> {
+    let turned = |k: usize| {
+        let turn = rotation(axis * (2.0 * PI * k as f64 / count as f64));
+        shapes.iter().map(move |shape| Shape {
+            place: Pose { rotation: (turn * shape.place.rotation).normalize(), position: turn * shape.place.position },
+            ..shape.clone()
+        })
+    };
+    (0..count).flat_map(turned).collect()
 }

@@ -18,6 +18,19 @@ pub struct Collider {
     pub material: Option<String>,
     /// The shape.
     pub shape: Shape,
+    /// As many of them, evenly round an axis: the teeth of a wheel.
+    pub ring: Option<Ring>,
+}
+
+/// How a collision shape is repeated: evenly round an axis through the origin of the body's node.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ring {
+    /// How many there are in all.
+    #[schemars(range(min = 2, max = 512))]
+    pub count: usize,
+    /// The axis, in the node space of the body.
+    pub axis: [f64; 3],
 }
 
 /// A collision shape: one of the kinds. Axes as in glTF: capsules and cylinders stand along Y, planes face it.

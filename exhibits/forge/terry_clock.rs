@@ -1,0 +1,420 @@
+//! A 30-hour clock with wooden works, after Eli Terry: going train, recoil escapement, motion work.
+//!
+//! # Train
+//!
+//! No tooth counts of Terry's are published; these give 6720 beats an hour on a pendulum of the usual 11¼ inches:
+//!
+//! ```text
+//! great wheel 64 → 8 minute arbor 64 → 8 third arbor 60 → 6 escape wheel 42        80 turns an hour, two beats a tooth
+//! cannon 12 → 36 minute wheel 10 → 40 hour wheel                                   12 : 1
+//! ```
+//!
+//! # Escapement
+//!
+//! All in one plane, the wheel turning clockwise about the origin. N teeth end on the circle of radius R. The anchor
+//! spans `SPAN` teeth; its pallets work at E and X, the angle β = π SPAN/N to the left and right of the top, and its
+//! arbor lies where the tangents there meet, R/cos β above the wheel's, at the distance a = R tan β from both. With n
+//! the outward radius and t the way of the teeth at either place:
+//!
+//! ```text
+//! face of a pallet   from its tip along f = −sin γ t + cos γ n, towards the teeth m = −cos γ t − sin γ n
+//! lift               the tip lies at E (X) when the pendulum has carried it out by ψ
+//! drop δ             a tooth that leaves a tip falls by δ on the other side; while one face works the teeth
+//!                    go on by s = π R/N − δ and the pallet out by p = 2 ψ a, and s = p tan γ
+//! ```
+//!
+//! Beyond ±ψ the face goes on pushing: the wheel recoils.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
+
+use super::glb::Scene;
+use super::outline::{Polygon, ellipse};
+use super::piece::{Part, Piece};
+use super::solid::{Solid, sheet, turned};
+use super::stock::{
+    BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
+};
+use super::terry_strike;
+
+/// Pitch diameter over number of teeth.
+pub const MODULE: f64 = 1.0 * MM;
+/// Teeth of the wheels and of the pinions that they drive.
+pub const GREAT: (usize, usize) = (64, 8);
+pub const MINUTE: (usize, usize) = (64, 8);
+pub const THIRD: (usize, usize) = (60, 6);
+pub const ESCAPE: usize = 42;
+/// Motion work: cannon and minute wheel, its pinion and the hour wheel.
+pub const CANNON: (usize, usize) = (12, 36);
+pub const HOUR: (usize, usize) = (10, 40);
+/// Of the drum, to the middle of the cord.
+pub const DRUM: f64 = 20.0 * MM;
+
+/// R: where the teeth of the escape wheel end.
+pub const TIP: f64 = 22.5 * MM;
+/// Teeth that the anchor spans.
+pub const SPAN: f64 = 7.5;
+/// Radius of the ends of teeth.
+const TOOTH: f64 = 0.1 * MM;
+/// δ.
+pub const DROP: f64 = 0.47 * MM;
+/// ψ: half the angle through which a pallet is pushed.
+pub const LIFT: f64 = 2.25 * PI / 180.0;
+/// Of a pallet.
+const FACE: f64 = 5.0 * MM;
+const THICKNESS: f64 = 0.6 * MM;
+const WIDTH: f64 = 3.0 * MM;
+
+/// Length of the simple pendulum that beats as this one does by itself, m: 6720 beats an hour at its measured swing, with
+/// the circular error and what the escapement adds.
+const LENGTH: f64 = 290.3137 * MM;
+const BOB_RADIUS: f64 = 20.0 * MM;
+
+/// Layers: middles of wheels along z.
+pub const BACK: f64 = -36.0 * MM;
+const MIDDLE: f64 = -26.0 * MM;
+const FRONT: f64 = -16.0 * MM;
+const MOTION: f64 = 4.0 * MM;
+const ESCAPING: f64 = 8.0 * MM;
+/// The pendulum swings in front of the dial and the hands.
+const SWING: f64 = 30.0 * MM;
+pub const WHEEL: f64 = 4.0 * MM;
+
+/// The time that the hands show at the start.
+const HOURS: usize = 10;
+const MINUTES: f64 = 50.0;
+
+/// Middle of the dial.
+pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
+
+/// Where the arbors are, m, in the plane of the plates.
+fn places() -> [DVec3; 5] {
+    let apart = |(wheel, pinion): (usize, usize)| 0.5 * MODULE * (wheel + pinion) as f64;
+    let great = CENTER + apart(GREAT) * DVec3::new(-0.6, -0.8, 0.0);
+    let third = CENTER + apart(MINUTE) * DVec3::new(0.6, 0.8, 0.0);
+    let over = third.x - CENTER.x;
+    let up = (apart(THIRD) * apart(THIRD) - over * over).sqrt();
+    let escape = third + DVec3::new(-over, up, 0.0);
+    let anchor = escape + DVec3::Y * TIP / cos(half_span());
+    [great, CENTER, third, escape, anchor]
+}
+
+/// β.
+fn half_span() -> f64 {
+    PI * SPAN / ESCAPE as f64
+}
+
+/// Unit vector at an angle from x, rad.
+fn direction(angle: f64) -> DVec3 {
+    DVec3::new(cos(angle), sin(angle), 0.0)
+}
+
+/// Where the minute hand points at the start, rad from x.
+fn minute_hand() -> f64 {
+    0.5 * PI - 2.0 * PI * MINUTES / 60.0
+}
+
+/// Where the hour hand points at the start.
+fn hour_hand() -> f64 {
+    0.5 * PI - 2.0 * PI * (HOURS as f64 + MINUTES / 60.0) / 12.0
+}
+
+/// A hand that points at `angle`.
+fn hand(name: &'static str, [length, width]: [f64; 2], out: f64, z: f64, angle: f64, finish: usize) -> Part {
+    let place = out * direction(angle) + DVec3::Z * z;
+    part(name, slab(length, width, 0.8 * MM), place, rotation(DVec3::Z * angle), LEAD, finish)
+}
+
+/// Direction from one place to another, rad.
+pub fn toward(from: DVec3, to: DVec3) -> f64 {
+    atan2(to.y - from.y, to.x - from.x)
+}
+
+/// A wheel of wood, crossed out.
+pub fn wheel(teeth: usize, phase: f64) -> Solid {
+    let radius = 0.5 * MODULE * teeth as f64;
+    let holes: Vec<Polygon> = (0..if teeth > 30 { 5 } else { 0 })
+        .map(|k| {
+            let angle = phase + 0.4 * PI * f64::from(k);
+            ellipse(0.58 * radius * DVec2::new(cos(angle), sin(angle)), DVec2::splat(0.22 * radius), 0.0, 24)
+        })
+        .collect();
+    spur(teeth, MODULE, WHEEL, phase, &holes)
+}
+
+/// The escape wheel: tooth 0 points along +y, its leading side (clockwise) is radial.
+fn escape_wheel() -> Solid {
+    let step = 2.0 * PI / ESCAPE as f64;
+    let root = TIP - 3.4 * MM;
+    // (radius, way along the circle of the tips, against the turning), counterclockwise.
+    let corners = [(root, -TOOTH), (TIP + TOOTH, -TOOTH), (TIP + TOOTH, TOOTH), (root, 1.5 * MM)];
+    let outline: Polygon = (0..ESCAPE)
+        .flat_map(|k| corners.map(|(r, way)| (r, 0.5 * PI + step * k as f64 + way / r)))
+        .map(|(r, angle)| DVec2::new(r * cos(angle), r * sin(angle)))
+        .collect();
+    let holes: Vec<Polygon> = (0..5)
+        .map(|k| {
+            let angle = 0.4 * PI * f64::from(k);
+            ellipse(11.0 * MM * DVec2::new(cos(angle), sin(angle)), DVec2::splat(4.6 * MM), 0.0, 24)
+        })
+        .collect();
+    sheet(&outline, &holes, 1.2 * MM, 0.03 * MM)
+}
+
+/// Where the pallet on one side (−1 at E, +1 at X) has its middle in the frame of the anchor at rest, and how it is
+/// turned: its x along the face, its y away from the teeth.
+fn pallet(side: f64) -> Pose {
+    let beta = half_span();
+    let n = DVec3::new(side * sin(beta), cos(beta), 0.0);
+    let t = DVec3::new(n.y, -n.x, 0.0);
+    let way = PI * TIP / ESCAPE as f64 - DROP;
+    let gamma = atan2(way, 2.0 * LIFT * TIP * sin(beta) / cos(beta));
+    let m = -cos(gamma) * t - sin(gamma) * n;
+    let f = -sin(gamma) * t + cos(gamma) * n;
+    let tip = n * TIP - DVec3::Y * TIP / cos(beta) - m * TOOTH;
+    let middle = tip + 0.5 * FACE * f - 0.5 * THICKNESS * m;
+    // Carried out by ψ: clockwise at E, counterclockwise at X. Undo it.
+    let back = rotation(DVec3::Z * (-side * LIFT));
+    Pose { rotation: back * rotation(DVec3::Z * atan2(f.y, f.x)), position: back * middle }
+}
+
+/// How far the escape wheel is turned at the start: its teeth stand free of the anchor, swung by 4° to the left.
+fn escape_phase() -> f64 {
+    half_span() + 1.8 * MM / TIP
+}
+
+/// A round bar along z.
+fn bar(radius: f64, low: f64, high: f64) -> Solid {
+    rod(radius, low, high)
+}
+
+pub fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
+    part(name, bar(radius, low, high), DVec3::ZERO, facing(), density, finish)
+}
+
+/// A piece with its own node's mesh first.
+pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
+    Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
+}
+
+pub fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
+    part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
+}
+
+/// The pendulum in its own frame, the pivot at the origin.
+fn pendulum(finishes: &Finishes) -> Piece {
+    let b = BOB_RADIUS;
+    let lens = [(0.0, -5.5), (9.0, -5.2), (15.0, -3.8), (1e3 * b, 0.0), (15.0, 3.8), (9.0, 5.2), (0.0, 5.5)];
+    let lens = turned(&lens.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let with_bob = |depth: f64| {
+        let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
+        piece(
+            "Pendulum",
+            vec![
+                part("Rod", rod(0.9 * MM, -depth + b, 3.0 * MM), none, along, STEEL, finishes.steel),
+                part("Bob", lens.clone(), -depth * DVec3::Y, facing(), BRASS, finishes.brass),
+                part("Nut", rod(2.5 * MM, -depth - b - 4.0 * MM, -depth - b), none, along, BRASS, finishes.brass),
+            ],
+        )
+    };
+    let length = |piece: &Piece| {
+        let mass = piece.mass();
+        mass.inertia_about(DVec3::ZERO).z_axis.z / (mass.mass * -mass.center.y)
+    };
+    // A longer rod makes the same difference longer a pendulum, nearly.
+    let depth = (0..40).fold(LENGTH, |depth, _| depth + LENGTH - length(&with_bob(depth)));
+    let mut piece = with_bob(depth);
+    piece.marks.push(("RodSlot", DVec3::new(0.0, -45.0 * MM, 0.0)));
+    piece
+}
+
+/// The anchor with its strip pallets and the crutch, in the frame of its arbor; z = 0 is the pendulum's plane.
+fn anchor(finishes: &Finishes) -> Piece {
+    let plane = ESCAPING - SWING;
+    let mut parts = vec![along_z("AnchorArbor", 1.2 * MM, (-62.0 * MM, -4.0 * MM), STEEL, finishes.steel)];
+    for (name, strap, side) in [("PalletEntry", "StrapEntry", -1.0), ("PalletExit", "StrapExit", 1.0)] {
+        let mut place = pallet(side);
+        place.position.z = plane;
+        let strip = sheet(
+            &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+                .map(|(x, y)| DVec2::new(0.5 * FACE * x, 0.5 * THICKNESS * y))
+                .into(),
+            &[],
+            WIDTH,
+            0.03 * MM,
+        );
+        parts.push(Part { name, solid: strip, place, density: STEEL, finish: finishes.steel });
+        // A strap from the arbor to the far end of the strip.
+        let end = place.point(DVec3::new(0.4 * FACE, 0.0, 0.0)).with_z(0.0);
+        let turn = rotation(DVec3::Z * atan2(end.y, end.x));
+        let middle = (0.5 * end).with_z(plane);
+        parts.push(part(strap, slab(end.length(), 2.0 * MM, 1.6 * MM), middle, turn, STEEL, finishes.steel));
+    }
+    let crutch = slab(46.0 * MM, 1.6 * MM, 1.6 * MM);
+    let down = rotation(DVec3::Z * (0.5 * PI));
+    parts.push(part("Crutch", crutch, DVec3::new(0.0, -22.5 * MM, -6.0 * MM), down, STEEL, finishes.steel));
+    parts.push(part(
+        "CrutchLoop",
+        ring(1.4 * MM, 2.6 * MM, 1.2 * MM),
+        DVec3::new(0.0, -45.0 * MM, 0.0),
+        DQuat::IDENTITY,
+        STEEL,
+        finishes.steel,
+    ));
+    let mut piece = piece("Anchor", parts);
+    piece.marks.push(("CrutchEye", DVec3::new(0.0, -45.0 * MM, 0.0)));
+    piece
+}
+
+/// The model: all arbors are z axes.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let [great, minute, third, escape, arbor] = places();
+    let wood = finishes.wood;
+    let mut pieces: Vec<(Piece, Pose)> = Vec::new();
+    let at = |position: DVec3| Pose { rotation: DQuat::IDENTITY, position };
+
+    let mut phase = 0.0;
+    let great_wheel = piece(
+        "GreatWheel",
+        vec![
+            flat("GreatWheel", wheel(GREAT.0, phase), BACK, WOOD, wood),
+            along_z("Drum", DRUM - 0.5 * MM, (BACK + 4.0 * MM, BACK + 30.0 * MM), WOOD, wood),
+            along_z("GreatArbor", 3.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
+        ],
+    );
+    pieces.push((great_wheel, at(great)));
+
+    phase = meshing_phase(GREAT.1, GREAT.0, phase, toward(great, minute));
+    let arbor_parts = vec![
+        flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
+        flat("MinutePinion", spur(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
+        flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
+        hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
+        terry_strike::peg(
+            "LiftingPin",
+            terry_strike::LIFTING_PIN * direction(minute_hand() - 0.5 * PI + terry_strike::lifting_pin_at_the_hour()),
+            (-14.0 * MM, -6.0 * MM),
+            finishes.steel,
+        ),
+    ];
+    pieces.push((piece("MinuteArbor", arbor_parts), at(minute)));
+
+    phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
+    let pinion = spur(MINUTE.1, MODULE, 6.0 * MM, phase, &[]);
+    let third_wheel = piece(
+        "ThirdWheel",
+        vec![
+            flat("ThirdWheel", wheel(THIRD.0, 0.0), FRONT, WOOD, wood),
+            flat("ThirdPinion", pinion, MIDDLE, WOOD, wood),
+            along_z("ThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
+        ],
+    );
+    pieces.push((third_wheel, at(third)));
+
+    let turned_by = escape_phase();
+    phase = meshing_phase(THIRD.1, THIRD.0, 0.0, toward(third, escape)) - turned_by;
+    let escape_wheel = Piece {
+        marks: Vec::new(),
+        ..piece(
+            "EscapeWheel",
+            vec![
+                flat("EscapeWheel", escape_wheel(), ESCAPING, BRASS, finishes.brass),
+                flat("EscapePinion", spur(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
+                along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
+                part(
+                    "EscapeTooth",
+                    rod(TOOTH, -1.0 * MM, 1.0 * MM),
+                    DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING),
+                    DQuat::IDENTITY,
+                    BRASS,
+                    finishes.brass,
+                ),
+            ],
+        )
+    };
+    pieces.push((escape_wheel, Pose { rotation: rotation(DVec3::Z * turned_by), position: escape }));
+
+    let pivot = arbor + DVec3::Z * SWING;
+    pieces.push((anchor(&finishes), at(pivot)));
+    pieces.push((pendulum(&finishes), at(pivot)));
+
+    let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-sin(0.9), -cos(0.9), 0.0);
+    phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
+    let minute_wheel = piece(
+        "MinuteWheel",
+        vec![
+            flat("MinuteWheel", spur(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
+            flat("HourPinion", spur(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
+        ],
+    );
+    pieces.push((minute_wheel, at(minute_wheel_at)));
+    phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
+    let hour_wheel = piece(
+        "HourWheel",
+        vec![
+            flat(
+                "HourWheel",
+                spur(HOUR.1, 0.96 * MM, WHEEL, phase, &[ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32)]),
+                MOTION + 5.0 * MM,
+                WOOD,
+                wood,
+            ),
+            hand("HourHand", [54.0 * MM, 4.0 * MM], 31.0 * MM, MOTION + 8.0 * MM, hour_hand(), finishes.black),
+        ],
+    );
+    pieces.push((hour_wheel, at(CENTER)));
+
+    let weight = piece(
+        "TimeWeight",
+        vec![part(
+            "TimeWeight",
+            rod(22.0 * MM, -60.0 * MM, 60.0 * MM),
+            DVec3::ZERO,
+            DQuat::IDENTITY,
+            LEAD,
+            finishes.lead,
+        )],
+    );
+    let hangs = DVec3::new(-0.125, 0.36, -10.0 * MM);
+    pieces.push((weight, at(hangs)));
+
+    let plate = |name, z: f64| {
+        part(
+            name,
+            slab(190.0 * MM, 159.0 * MM, 5.0 * MM),
+            CENTER + DVec3::Z * z,
+            rotation(DVec3::Z * (0.5 * PI)),
+            WOOD,
+            wood,
+        )
+    };
+    let stand = piece(
+        "Frame",
+        vec![
+            plate("BackPlate", -48.0 * MM),
+            part(
+                "Floor",
+                slab(0.34, 0.12, 12.0 * MM),
+                DVec3::new(0.0, 0.006, -10.0 * MM),
+                rotation(0.5 * PI * DVec3::X),
+                WOOD,
+                finishes.black,
+            ),
+            part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass),
+        ],
+    );
+    pieces.insert(0, (stand, at(DVec3::ZERO)));
+    let bell = terry_strike::bell(&finishes);
+    let hung = at(bell.place.position);
+    let at_home =
+        Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
+    pieces.push((piece("Bell", vec![at_home]), hung));
+    pieces.extend(terry_strike::pieces(&finishes, HOURS));
+    for (piece, pose) in &pieces {
+        piece.write(&mut scene, *pose);
+    }
+    scene.camera("CamFront", DVec3::new(0.12, 0.36, 1.35), DVec3::new(0.0, 0.27, 0.0), 27.0 * PI / 180.0, 16.0 / 9.0);
+    scene.into_glb("Eli Terry's clock", "Original work of the Soffio project; MIT OR Apache-2.0")
+}

@@ -1,0 +1,480 @@
+//! Trains: wheels and weights that turn and slide on what stands still, geared to each other, have one coordinate.
+//!
+//! A body on a hinge or slider of the world moves along one twist s alone. Where couplings tie such bodies in a tree, the
+//! turns and ways q_i of all of them are in fixed proportion to one, q_i = ρ_i q, so that a whole train costs one division
+//! instead of six rows a body and one a coupling. With p any motion that its joints ask for,
+//!
+//! ```text
+//! a_i = p_i + ρ_i s_i q̈       m q̈ = Σ ρ_i s_i·(b_i − M_i p_i)       m = Σ ρ_i² s_i·M_i s_i
+//! accelerations   p = ω×(ω×r)                    r from the axle to the centre of mass
+//! velocities      p = −v                         what remains is the least in kinetic energy
+//! places          p = from where it is to where q has it
+//! ```
+//!
+//! and m does not change. Places come from the angle of the train's fastest wheel and its whole turns, so that phases stay in
+//! the ratio of the teeth for ever. A row outside the tree that touches a train (`loops.rs`) answers it by
+//! f = Σ ρ_i s_i·J_i, to which it adds f²/m.
+//!
+//! A train's joints always act, never break and do not rub; what they carry is not asked.
+
+use super::block::{Vec6, add_scaled, angular, dot, linear, vec6};
+use super::quads::Quads;
+use super::{Anchor, Axis, Constraint, ConstraintKind, Function, Measure, Term};
+use crate::bodies::RigidBody;
+use crate::math::{DMat3, DVec3, PI, Pose, atan2, rotation};
+
+/// Directions that differ by less than this are one, rad.
+const SAME: f64 = 1e-9;
+/// Points that differ by less than this are one, m.
+const CLOSED: f64 = 1e-6;
+
+/// What the bodies of a train are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// The accelerations under forces.
+    Acceleration,
+    /// Velocity changes that let the joints hold.
+    Velocity,
+    /// Displacements that close the joints.
+    Place,
+    /// The answer to impulses.
+    Impulse,
+}
+
+/// One twist along which a body is free.
+#[derive(Clone, Copy, Debug)]
+enum Freedom {
+    /// Turns about the direction through the point, world axes, m.
+    Turn { about: DVec3, pivot: DVec3 },
+    /// Slides along the direction.
+    Slide(DVec3),
+}
+
+/// A body of a train.
+#[derive(Clone, Copy, Debug)]
+struct Wheel {
+    body: usize,
+    train: usize,
+    /// ρ.
+    ratio: f64,
+    freedom: Freedom,
+    /// From the pivot to the centre of mass, body axes, m.
+    arm: DVec3,
+    /// Where it was at first, and where it is at q = 0: centre of mass and rotation.
+    origin: Pose,
+    start: Pose,
+    /// s and p now.
+    twist: Vec6,
+    given: Vec6,
+}
+
+/// A train.
+#[derive(Clone, Copy, Debug)]
+struct Train {
+    /// m.
+    mass: f64,
+    /// Index of the wheel with ρ = 1, which no other outruns.
+    leader: usize,
+    /// q at the last count: angle (wrapped, with whole turns) or way.
+    angle: f64,
+    turns: i64,
+    /// q̈ of the last solve.
+    rate: f64,
+}
+
+/// All trains of a figure.
+#[derive(Clone, Debug, Default)]
+pub struct Trains {
+    wheels: Vec<Wheel>,
+    trains: Vec<Train>,
+    /// Which wheel a body is.
+    of_body: Vec<Option<usize>>,
+    /// Whether each constraint is one of a train's.
+    own: Vec<bool>,
+}
+
+impl Trains {
+    /// The trains among bodies that stand like this, where there is any coupling.
+    pub fn new(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint]) -> Self {
+        let none = Self { own: vec![false; constraints.len()], ..Self::default() };
+        if !constraints.iter().any(|c| matches!(c.kind, ConstraintKind::Coupling { .. })) {
+            return none;
+        }
+        let holds = |body: usize| -> Vec<usize> {
+            let of = |c: &Constraint| match c.link() {
+                Some((Some(a), None)) => a == body,
+                Some((None, Some(b))) => b == body,
+                _ => false,
+            };
+            (0..constraints.len()).filter(|&c| of(&constraints[c])).collect()
+        };
+        let grounded: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || !holds(body).is_empty()).collect();
+        // Whatever else is joined to it must not hang on it.
+        let carries = |body: usize| {
+            constraints.iter().filter_map(Constraint::link).any(|link| match link {
+                (Some(a), Some(b)) if a == body => !grounded[b],
+                (Some(a), Some(b)) if b == body => !grounded[a],
+                _ => false,
+            })
+        };
+        let mut free: Vec<Option<Freedom>> = (0..bodies.len())
+            .map(|body| {
+                let held = holds(body);
+                let plain = held.iter().all(|&c| always(&constraints[c]));
+                if driven[body] || !plain || carries(body) { None } else { freedom(body, &held, bodies, constraints) }
+            })
+            .collect();
+        // Ratios, train by train: a coupling either ties a free body to a train or closes a ring and stays a row.
+        let ties: Vec<(usize, [(usize, f64); 2])> = (0..constraints.len())
+            .filter(|&c| always(&constraints[c]))
+            .filter_map(|c| Some((c, tie(&constraints[c], &free, bodies)?)))
+            .collect();
+        let mut ratio: Vec<Option<(usize, f64)>> = vec![None; bodies.len()];
+        let mut own = vec![false; constraints.len()];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for &(_, [(first, _), _]) in &ties {
+            if ratio[first].is_some() {
+                continue;
+            }
+            ratio[first] = Some((groups.len(), 1.0));
+            let mut members = vec![first];
+            let mut head = 0;
+            while head < members.len() {
+                let body = members[head];
+                head += 1;
+                let Some((train, turns)) = ratio[body] else { continue };
+                for &(index, [a, b]) in &ties {
+                    let (here, there) = if a.0 == body { (a, b) } else { (b, a) };
+                    if here.0 == body && ratio[there.0].is_none() {
+                        ratio[there.0] = Some((train, -turns * here.1 / there.1));
+                        own[index] = true;
+                        members.push(there.0);
+                    }
+                }
+            }
+            groups.push(members);
+        }
+        // What turns alone is one too: it costs a division as well.
+        for body in 0..bodies.len() {
+            if free[body].is_some() && ratio[body].is_none() && !groups.is_empty() {
+                ratio[body] = Some((groups.len(), 1.0));
+                groups.push(vec![body]);
+            }
+        }
+        let mut all = Self { of_body: vec![None; bodies.len()], own, ..Self::default() };
+        for (train, members) in groups.iter().enumerate() {
+            let of = |body: usize| ratio[body].map_or(0.0, |(_, ratio)| ratio);
+            let turns = |body: &usize| matches!(free[*body], Some(Freedom::Turn { .. }));
+            let fastest = members.iter().copied().filter(turns).fold(members[0], |best, body| {
+                let better = !turns(&best) || of(body).abs() > of(best).abs();
+                if better { body } else { best }
+            });
+            let mut mass = 0.0;
+            let mut leader = 0;
+            for &body in members {
+                let Some(freedom) = free[body].take() else { continue };
+                let (state, properties) = (&bodies[body], &bodies[body].properties);
+                let start = Pose { rotation: state.rotation, position: state.position };
+                let arm = match freedom {
+                    Freedom::Turn { pivot, .. } => start.rotation.conjugate() * (start.position - pivot),
+                    Freedom::Slide(_) => DVec3::ZERO,
+                };
+                let (twist, given) = ([0.0; 6], [0.0; 6]);
+                let mut wheel = Wheel {
+                    body,
+                    train,
+                    ratio: of(body) / of(fastest),
+                    freedom,
+                    arm,
+                    origin: start,
+                    start,
+                    twist,
+                    given,
+                };
+                wheel.twist = wheel.along(start.rotation * arm);
+                let (v, w) = (linear(&wheel.twist), angular(&wheel.twist));
+                let own = properties.mass * v.length_squared() + w.dot(state.inertia_world() * w);
+                mass += wheel.ratio * wheel.ratio * own;
+                if body == fastest {
+                    leader = all.wheels.len();
+                }
+                all.of_body[body] = Some(all.wheels.len());
+                all.wheels.push(wheel);
+                for c in holds(body) {
+                    all.own[c] = true;
+                }
+            }
+            all.trains.push(Train { mass, leader, angle: 0.0, turns: 0, rate: 0.0 });
+        }
+        all
+    }
+
+    /// Are there none?
+    pub fn is_empty(&self) -> bool {
+        self.trains.is_empty()
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.trains.len()
+    }
+
+    /// Is a body in one?
+    pub fn has(&self, body: usize) -> bool {
+        self.of_body.get(body).is_some_and(Option::is_some)
+    }
+
+    /// Is a constraint a train's own?
+    pub fn owns(&self, constraint: usize) -> bool {
+        self.own.get(constraint).copied().unwrap_or(false)
+    }
+
+    /// Lets q be 0 where the bodies were put; [`Trains::turned`] tells better where it is known.
+    pub fn begin(&mut self, quads: &Quads) {
+        for wheel in &mut self.wheels {
+            match wheel.freedom {
+                Freedom::Turn { about, .. } => {
+                    let d = quads.rotation(wheel.body) * wheel.origin.rotation.conjugate();
+                    let angle = 2.0 * atan2(DVec3::new(d.x, d.y, d.z).dot(about), d.w);
+                    wheel.start.rotation = (rotation(about * angle) * wheel.origin.rotation).normalize();
+                }
+                Freedom::Slide(way) => {
+                    let gone = (quads.position(wheel.body) - wheel.origin.position).dot(way);
+                    wheel.start.position = wheel.origin.position + way * gone;
+                }
+            }
+        }
+        for train in &mut self.trains {
+            (train.angle, train.turns) = (0.0, 0);
+        }
+    }
+
+    /// Tells how far a body has turned about an axis since the start, whole turns and all, rad: if it leads its train, the train
+    /// goes on from there, in the phases of the start.
+    pub fn turned(&mut self, body: usize, axis: DVec3, angle: f64) {
+        let Some(index) = self.of_body.get(body).copied().flatten() else { return };
+        let Wheel { train, freedom: Freedom::Turn { about, .. }, .. } = self.wheels[index] else { return };
+        if self.trains[train].leader != index {
+            return;
+        }
+        let angle = angle * axis.dot(about).signum();
+        let turns = (angle / (2.0 * PI)).round();
+        (self.trains[train].turns, self.trains[train].angle) = (turns as i64, angle - 2.0 * PI * turns);
+        for wheel in self.wheels.iter_mut().filter(|wheel| wheel.train == train) {
+            wheel.start = wheel.origin;
+        }
+    }
+
+    /// Lays out the twists where the bodies are.
+    pub fn evaluate(&mut self, quads: &Quads) {
+        for wheel in &mut self.wheels {
+            if let Freedom::Turn { .. } = wheel.freedom {
+                wheel.twist = wheel.along(quads.frame(wheel.body) * wheel.arm);
+            }
+        }
+    }
+
+    /// The bodies' answer to `b` into `a`, as if there were nothing outside the trains.
+    pub fn solve(&mut self, asked: Asked, quads: &Quads, b: &[Vec6], a: &mut [Vec6]) {
+        if self.is_empty() {
+            return;
+        }
+        if asked == Asked::Place {
+            self.count_turns(quads);
+        }
+        for train in &mut self.trains {
+            train.rate = 0.0;
+        }
+        for wheel in &mut self.wheels {
+            let train = &mut self.trains[wheel.train];
+            wheel.given = match asked {
+                Asked::Impulse => [0.0; 6],
+                Asked::Acceleration => wheel.centripetal(quads),
+                Asked::Velocity => {
+                    let (v, w) = quads.velocity(wheel.body);
+                    vec6(-v, -w)
+                }
+                Asked::Place => {
+                    let q = wheel.ratio * (train.angle + 2.0 * PI * train.turns as f64);
+                    wheel.to_place(q, quads)
+                }
+            };
+            let mut left = b[wheel.body];
+            if asked != Asked::Impulse {
+                let (mass, p) = (quads.mass(wheel.body), linear(&wheel.given));
+                let turned: DVec3 = quads.inertia(wheel.body).mul(angular(&wheel.given).into()).into();
+                add_scaled(&mut left, -1.0, &vec6(mass * p, turned));
+            }
+            train.rate += wheel.ratio * dot(&wheel.twist, &left);
+        }
+        for train in &mut self.trains {
+            train.rate /= train.mass;
+        }
+        for wheel in &self.wheels {
+            a[wheel.body] = wheel.given;
+            add_scaled(&mut a[wheel.body], wheel.ratio * self.trains[wheel.train].rate, &wheel.twist);
+        }
+    }
+
+    /// f of a row's part, and its train.
+    pub fn share(&self, (body, block): &(usize, Vec6)) -> Option<(usize, f64)> {
+        let wheel = &self.wheels[self.of_body.get(*body).copied().flatten()?];
+        Some((wheel.train, wheel.ratio * dot(&wheel.twist, block)))
+    }
+
+    /// f²/m for two rows' f on one train.
+    pub fn response(&self, train: usize, f: f64, g: f64) -> f64 {
+        f * g / self.trains[train].mass
+    }
+
+    /// Adds the answer to impulses (or forces) `f` along each train's coordinate.
+    pub fn push(&self, f: &[f64], a: &mut [Vec6]) {
+        for wheel in &self.wheels {
+            let more = f[wheel.train];
+            if more != 0.0 {
+                let rate = wheel.ratio * more / self.trains[wheel.train].mass;
+                add_scaled(&mut a[wheel.body], rate, &wheel.twist);
+            }
+        }
+    }
+
+    /// Counts q of every train up to where the bodies are.
+    fn count_turns(&mut self, quads: &Quads) {
+        for train in &mut self.trains {
+            let wheel = &self.wheels[train.leader];
+            match wheel.freedom {
+                Freedom::Turn { about, .. } => {
+                    let d = quads.rotation(wheel.body) * wheel.start.rotation.conjugate();
+                    let raw = 2.0 * atan2(DVec3::new(d.x, d.y, d.z).dot(about), d.w);
+                    let wrapped = raw
+                        - if raw > PI {
+                            2.0 * PI
+                        } else if raw <= -PI {
+                            -2.0 * PI
+                        } else {
+                            0.0
+                        };
+                    let step = wrapped - train.angle;
+                    train.turns += i64::from(step < -PI) - i64::from(step > PI);
+                    train.angle = wrapped;
+                }
+                Freedom::Slide(way) => train.angle = (quads.position(wheel.body) - wheel.start.position).dot(way),
+            }
+        }
+    }
+}
+
+impl Wheel {
+    /// s for an arm in world axes.
+    fn along(&self, arm: DVec3) -> Vec6 {
+        match self.freedom {
+            Freedom::Turn { about, .. } => vec6(about.cross(arm), about),
+            Freedom::Slide(way) => vec6(way, DVec3::ZERO),
+        }
+    }
+
+    /// ω×(ω×r).
+    fn centripetal(&self, quads: &Quads) -> Vec6 {
+        let Freedom::Turn { about, .. } = self.freedom else { return [0.0; 6] };
+        let spin = quads.velocity(self.body).1.dot(about);
+        // n×(n×r), and n×r stands in s.
+        vec6(spin * spin * about.cross(linear(&self.twist)), DVec3::ZERO)
+    }
+
+    /// From where it is to where q has it.
+    fn to_place(&self, q: f64, quads: &Quads) -> Vec6 {
+        let (now, turned) = (quads.position(self.body), quads.rotation(self.body));
+        match self.freedom {
+            Freedom::Turn { about, pivot } => {
+                let goal = (rotation(about * q) * self.start.rotation).normalize();
+                let d = goal * turned.conjugate();
+                let turn = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
+                vec6(pivot + goal * self.arm - now, turn)
+            }
+            Freedom::Slide(way) => {
+                let d = self.start.rotation * turned.conjugate();
+                let turn = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
+                vec6(self.start.position + way * q - now, turn)
+            }
+        }
+    }
+}
+
+/// Does it always act, whatever it carries, without friction?
+fn always(constraint: &Constraint) -> bool {
+    constraint.schedule.is_always() && constraint.breaking.is_none() && constraint.friction.is_none()
+}
+
+/// The one twist that these constraints leave a body on the world: those of a hinge, or of a slider.
+fn freedom(body: usize, held: &[usize], bodies: &[RigidBody], constraints: &[Constraint]) -> Option<Freedom> {
+    let state = &bodies[body];
+    let frame = DMat3::from_quat(state.rotation);
+    let point = |anchor: &Anchor| anchor.body.map_or(anchor.point, |_| state.pose().point(anchor.point));
+    let direction = |axis: &Axis| axis.body.map_or(axis.direction, |_| frame * axis.direction);
+    let still = |function: &Function| matches!(function, Function::Constant(value) if *value == 0.0);
+    let (mut points, mut planes, mut own, mut across) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for &index in held {
+        match &constraints[index].kind {
+            ConstraintKind::PointToPoint { a, b } => {
+                let (p, q) = (point(a), point(b));
+                if p.distance(q) > CLOSED {
+                    return None;
+                }
+                points.push(if a.body.is_some() { q } else { p });
+            }
+            ConstraintKind::PointOnPlane { point: p, plane, normal, offset } => {
+                let (height, fixed) = ((point(p) - point(plane)).dot(*normal), plane.body.is_none());
+                if !fixed || !matches!(offset, Function::Constant(o) if (height - o).abs() < CLOSED) {
+                    return None;
+                }
+                planes.push(*normal);
+            }
+            ConstraintKind::Orientation { a, b, angle } => {
+                let (t, n) = (direction(a), direction(b));
+                if !still(angle) || b.body.is_some() || t.dot(n).abs() > SAME {
+                    return None;
+                }
+                own.push(t);
+                across.push(n);
+            }
+            ConstraintKind::Coupling { .. } => return None,
+        }
+    }
+    let along = across.first()?.cross(*across.get(1)?).try_normalize()?;
+    let one = |v: &DVec3| v.cross(along).length() < SAME;
+    // The axle's own direction is held across two of the world: it points along what is across both.
+    if !one(&own[0]) || !one(&own[1]) {
+        return None;
+    }
+    match (&points[..], planes.len(), own.len()) {
+        ([pivot], 0, 2) => Some(Freedom::Turn { about: along, pivot: *pivot }),
+        ([], 2, 3) => {
+            let square = planes.iter().all(|normal| normal.dot(along).abs() < SAME);
+            let apart = planes[0].dot(planes[1]).abs() < SAME && own[2].dot(along).abs() < SAME;
+            (square && apart).then_some(Freedom::Slide(along))
+        }
+        _ => None,
+    }
+}
+
+/// The two bodies that a coupling ties, each with what its coordinate counts.
+fn tie(constraint: &Constraint, free: &[Option<Freedom>], bodies: &[RigidBody]) -> Option<[(usize, f64); 2]> {
+    let ConstraintKind::Coupling { terms } = &constraint.kind else { return None };
+    let of = |term: &Term| match term.measure {
+        Measure::Angle { axis, frame: None } => {
+            let body = axis.body?;
+            let Some(Freedom::Turn { about, .. }) = free[body] else { return None };
+            let cosine = (bodies[body].rotation * axis.direction).dot(about);
+            (cosine.abs() > 1.0 - SAME).then_some((body, term.coefficient * cosine.signum()))
+        }
+        Measure::Way { point, direction } if direction.body.is_none() => {
+            let body = point.body?;
+            let Some(Freedom::Slide(way)) = free[body] else { return None };
+            Some((body, term.coefficient * direction.direction.dot(way)))
+        }
+        _ => None,
+    };
+    let [a, b] = &terms[..] else { return None };
+    let (a, b) = (of(a)?, of(b)?);
+    (a.0 != b.0 && a.1 != 0.0 && b.1 != 0.0).then_some([a, b])
+}
