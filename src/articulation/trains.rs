@@ -80,6 +80,8 @@ struct Train {
     turns: i64,
     /// q̈ of the last solve.
     rate: f64,
+    /// |ρ| of the wheel that told where the train goes on.
+    told: f64,
 }
 
 /// All trains of a figure.
@@ -204,7 +206,7 @@ impl Trains {
                     all.own[c] = true;
                 }
             }
-            all.trains.push(Train { mass, leader, angle: 0.0, turns: 0, rate: 0.0 });
+            all.trains.push(Train { mass, leader, angle: 0.0, turns: 0, rate: 0.0, told: f64::INFINITY });
         }
         all
     }
@@ -245,24 +247,45 @@ impl Trains {
             }
         }
         for train in &mut self.trains {
-            (train.angle, train.turns) = (0.0, 0);
+            (train.angle, train.turns, train.told) = (0.0, 0, f64::INFINITY);
         }
     }
 
-    /// Tells how far a body has turned about an axis since the start, whole turns and all, rad: if it leads its train, the train
-    /// goes on from there, in the phases of the start.
+    /// Tells how far a body has turned about an axis since the start, whole turns and all, rad: the train goes on from there,
+    /// in the phases of the start, with as many turns of its leader as its slowest wheel says.
     pub fn turned(&mut self, body: usize, axis: DVec3, angle: f64) {
         let Some(index) = self.of_body.get(body).copied().flatten() else { return };
-        let Wheel { train, freedom: Freedom::Turn { about, .. }, .. } = self.wheels[index] else { return };
-        if self.trains[train].leader != index {
-            return;
+        let Wheel { train: of, freedom: Freedom::Turn { about, .. }, ratio, .. } = self.wheels[index] else { return };
+        let train = &mut self.trains[of];
+        if ratio.abs() < train.told {
+            (train.told, train.rate) = (ratio.abs(), angle * axis.dot(about).signum() / ratio);
         }
-        let angle = angle * axis.dot(about).signum();
-        let turns = (angle / (2.0 * PI)).round();
-        (self.trains[train].turns, self.trains[train].angle) = (turns as i64, angle - 2.0 * PI * turns);
-        for wheel in self.wheels.iter_mut().filter(|wheel| wheel.train == train) {
+        for wheel in self.wheels.iter_mut().filter(|wheel| wheel.train == of) {
             wheel.start = wheel.origin;
         }
+    }
+
+    /// Counts on from what [`Trains::turned`] told.
+    pub fn go_on(&mut self, quads: &Quads) {
+        for train in &mut self.trains {
+            if train.told.is_finite() {
+                (train.angle, train.turns) = (0.0, 0);
+            }
+        }
+        self.count_turns(quads);
+        for train in &mut self.trains {
+            if train.told.is_finite() {
+                train.turns = ((train.rate - train.angle) / (2.0 * PI)).round() as i64;
+            }
+        }
+    }
+
+    /// How far a body has turned about an axis by its train's count, rad.
+    pub fn turn_of(&self, body: usize, axis: DVec3) -> Option<f64> {
+        let wheel = &self.wheels[self.of_body.get(body).copied().flatten()?];
+        let Freedom::Turn { about, .. } = wheel.freedom else { return None };
+        let train = &self.trains[wheel.train];
+        Some(wheel.ratio * (train.angle + 2.0 * PI * train.turns as f64) * axis.dot(about).signum())
     }
 
     /// Lays out the twists where the bodies are.

@@ -172,6 +172,12 @@ impl Gauge {
         }
     }
 
+    /// Sets the count of turns so that it reads nearest to `total`, rad.
+    pub fn expect(&mut self, bodies: &[RigidBody], total: f64) {
+        self.count(bodies);
+        self.turns = ((total - self.last) / (2.0 * PI)).round() as i64;
+    }
+
     /// Wrapped angle, and turns by the branch nearest to the last count: between two counts it grows by less than π.
     fn angle(&self, axis: &Axis, frame: Option<usize>, poses: &(impl Poses + ?Sized)) -> (f64, i64) {
         let d = self.start.conjugate() * relative(axis.body, frame, poses);

@@ -404,6 +404,15 @@ impl System {
                 self.trains.turned(body, bodies[body].rotation * direction, gauge.total(bodies));
             }
         }
+        self.trains.go_on(&self.quads);
+        // What was turned by more than half a turn in a step has been miscounted.
+        for (gauge, _) in self.couplings.iter_mut().flat_map(|coupling| &mut coupling.terms) {
+            if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure
+                && let Some(turn) = self.trains.turn_of(body, bodies[body].rotation * direction)
+            {
+                gauge.expect(bodies, turn);
+            }
+        }
     }
 
     /// Takes over what another system of the same constraints knows of its run: windows and breaks, and counted turns.
