@@ -283,7 +283,8 @@ impl Procedural {
     fn adjust_by_rule(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
         let mut reach = self.compulsive.adjust(moved, grips, &self.tree.left, Some(self.settings.control));
         for stays in [false, true] {
-            if grips.is_empty() || reach.residual <= REACHED {
+            // What is open by little without hands is drawn together in the next steps.
+            if reach.residual <= REACHED || (grips.is_empty() && reach.residual <= NEAR) {
                 break;
             }
             if stays {

@@ -32,8 +32,8 @@ pub(super) const MOST_TOUCHES: usize = 64;
 /// fall.
 const ROUNDS: usize = 5;
 const LEAPS: usize = 40;
-/// After so many leaps that have not halved what rounds change, touches go round in circles, as balls do that roll against
-/// each other: no more is to be had.
+/// Leaps do not heed the bounds of couples, so that balls which roll against each other may go round in circles: after so
+/// many leaps that have not halved what rounds change, no more is to be had.
 const CIRCLES: usize = 6;
 /// Where the rounds run out or go in circles, they were good enough if none changed a velocity by more than this, m/s, or
 /// than this share of the velocities that the impulses make alone: heavy bodies on light ones leave no finer.
@@ -257,11 +257,12 @@ impl Problem {
     pub fn solve(&mut self) -> bool {
         let (mut rest, mut scale) = (f64::INFINITY, 0.0);
         let mut earlier = rest;
+        let couples = self.touches.iter().any(|touch| touch.twist.is_some());
         for leap in 0..LEAPS {
             if leap > 0 {
                 self.leap();
             }
-            if leap % CIRCLES == 0 {
+            if couples && leap % CIRCLES == 0 {
                 if rest > 0.5 * earlier && rest <= NEARLY + NEARLY_SHARE * scale {
                     return true;
                 }
