@@ -319,7 +319,7 @@ impl Trains {
                 }
                 Asked::Place => {
                     let q = wheel.ratio * (train.angle + 2.0 * PI * train.turns as f64);
-                    wheel.to_place(q, quads)
+                    wheel.placing(q, quads)
                 }
             };
             let mut left = b[wheel.body];
@@ -405,7 +405,7 @@ impl Wheel {
     }
 
     /// From where it is to where q has it.
-    fn to_place(&self, q: f64, quads: &Quads) -> Vec6 {
+    fn placing(&self, q: f64, quads: &Quads) -> Vec6 {
         let (now, turned) = (quads.position(self.body), quads.rotation(self.body));
         match self.freedom {
             Freedom::Turn { about, pivot } => {
