@@ -13,10 +13,8 @@
 //! ρ̄ is the mean of ρ over a quarter of a minute: a sound that swells slowly says little of when it was played, and must
 //! not outvote the hits before it. The greatest is taken over all lags that are about as likely.
 //!
-//!
 //! How the room rings is heard: where a band falls steadily, by its mean over 30 ms beside that over 120 ms, what was
 //! predicted falls as the band does, and rings for 0.6 to 2.5 s.
-//!
 //!
 //! Three rules keep a breath from being mistaken for the kiosk's answer to it, which follows it and looks like it:
 //! nothing is learnt while somebody blows; a loudspeaker is never credited with coupling better below 200 Hz than
