@@ -5,9 +5,11 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio::exhibit::{self, Exhibit};
-use soffio::math::DVec3;
-use soffio::simulation::{Command, EventKind, MotionMode, Settings, Simulation, StepInput};
-use soffio::sound::SoundCommand;
+use soffio::math::{DVec3, decibels};
+use soffio::simulation::{
+    Command, EventKind, MotionMode, SAMPLE_RATE, SAMPLES_PER_STEP, Settings, Simulation, StepInput,
+};
+use soffio::sound::{SoundCommand, Synth};
 
 const DT: f64 = 1.0 / 240.0;
 const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
@@ -72,6 +74,59 @@ fn a_change_of_motion_moves_nothing_by_itself() {
         seen += quiet;
     }
     assert!(seen > 30, "only {seen} changes without a hit");
+}
+
+/// The roughest place of a piece of sound: the largest second difference of the left channel.
+fn roughest(piece: &[f32]) -> f64 {
+    piece.chunks(2).map(|frame| f64::from(frame[0])).collect::<Vec<_>>().windows(3).fold(0.0, |most, w| {
+        let bend: f64 = w[2] - 2.0 * w[1] + w[0];
+        most.max(bend.abs())
+    })
+}
+
+#[test]
+fn a_change_of_motion_is_not_heard_as_a_click() {
+    /// What no ear finds beside a hit, as for a storm of hits, dB of full scale.
+    const CLICK_DB: f64 = -80.0;
+    /// Noise of wind and scraping has its own peaks: those of 20 ms beside those of half a second before.
+    const ROUGHER: f64 = 2.0;
+    /// Steps from change to change, heard after one, and before one.
+    const PERIOD: usize = 151;
+    const AFTER: usize = 5;
+    const BEFORE: usize = 120;
+    let mut seen = 0;
+    for id in exhibit::ids() {
+        let exhibit = load(&id);
+        let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+        let mut synth = Synth::new(SAMPLE_RATE, &exhibit.instruments, 1).expect("the exhibit's timbres");
+        synth.set_dry(true);
+        let mut sound: Vec<Vec<f32>> = Vec::new();
+        let mut hit: Vec<bool> = Vec::new();
+        for index in 0..1440 {
+            step(&mut simulation, MODES[index / PERIOD % 3], true);
+            hit.push(simulation.sounds().iter().any(|sound| matches!(sound, SoundCommand::Strike(_))));
+            simulation.sounds().iter().for_each(|sound| synth.command(*sound));
+            let mut block = vec![0.0; 2 * SAMPLES_PER_STEP as usize];
+            synth.render(&mut block);
+            sound.push(block);
+        }
+        let (mut changes, mut worst) = (0, 0.0_f64);
+        for at in (PERIOD..1440 - AFTER).step_by(PERIOD) {
+            if hit[at - 1..at + AFTER].contains(&true) {
+                continue;
+            }
+            let after = roughest(&sound[at - 1..at + AFTER].concat());
+            let before = roughest(&sound[at - BEFORE..at - 1].concat());
+            let what = format!("{id}, step {at}, to {:?}", MODES[at / PERIOD % 3]);
+            let loud = format!("{:.1} dB after {:.1} dB", decibels(after), decibels(before));
+            assert!(after < ROUGHER * before || decibels(after) < CLICK_DB, "{what}: {loud}");
+            worst = worst.max(after / before.max(1e-9));
+            changes += usize::from(decibels(before) > CLICK_DB);
+        }
+        println!("{id}: {changes} changes while it sounds, {worst:.2} as rough at most");
+        seen += changes;
+    }
+    assert!(seen > 50, "only {seen} changes were heard");
 }
 
 #[test]
