@@ -24,6 +24,7 @@ pub mod solid;
 pub mod steel_fish;
 pub mod stock;
 pub mod terry_clock;
+pub mod terry_strike;
 pub mod tree;
 pub mod twelve_moons;
 pub mod wind_chimes;

@@ -34,6 +34,7 @@ use super::solid::{Solid, sheet, turned};
 use super::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
 };
+use super::terry_strike;
 
 /// Pitch diameter over number of teeth.
 pub const MODULE: f64 = 1.0 * MM;
@@ -291,6 +292,12 @@ pub fn glb() -> Vec<u8> {
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
         flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
         hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
+        terry_strike::peg(
+            "LiftingPin",
+            terry_strike::LIFTING_PIN * direction(minute_hand() - 0.5 * PI + terry_strike::lifting_pin_at_the_hour()),
+            (-14.0 * MM, -6.0 * MM),
+            finishes.steel,
+        ),
     ];
     pieces.push((piece("MinuteArbor", arbor_parts), at(minute)));
 
@@ -318,7 +325,7 @@ pub fn glb() -> Vec<u8> {
                 along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
                 part(
                     "EscapeTooth",
-                    rod(TOOTH, -MM, 1.0 * MM),
+                    rod(TOOTH, -1.0 * MM, 1.0 * MM),
                     DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING),
                     DQuat::IDENTITY,
                     BRASS,
@@ -399,6 +406,12 @@ pub fn glb() -> Vec<u8> {
         ],
     );
     pieces.insert(0, (stand, at(DVec3::ZERO)));
+    let bell = terry_strike::bell(&finishes);
+    let hung = at(bell.place.position);
+    let at_home =
+        Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
+    pieces.push((piece("Bell", vec![at_home]), hung));
+    pieces.extend(terry_strike::pieces(&finishes, HOURS));
     for (piece, pose) in &pieces {
         piece.write(&mut scene, *pose);
     }

@@ -1,0 +1,326 @@
+//! The striking part of Eli Terry's clock: what counts the hours.
+//!
+//! # Train
+//!
+//! ```text
+//! great wheel 52 → 8 pin wheel 64 (eight pins, one a blow) → 8 lock wheel 72 (a turn a blow) → 6 fly
+//! great wheel's pinion 20 → 30 count wheel: a turn for 78 blows, 1 + 2 + … + 12
+//! ```
+//!
+//! # Counting
+//!
+//! The feeler of the count lever lies on the count wheel, whose rim is raised but for a notch after each hour's blows. In a
+//! notch the lever's arm stands in the way of the pin on the lock wheel; on the rim it is clear. A pin on the minute arbor
+//! lifts the flirt, drops it on the hour, and the flirt kicks the lever: the lock pin is past when the arm comes back, and a
+//! turn later, with the first blow struck, the arm holds it again, unless the rim has lifted the feeler by then.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
+
+use super::outline::{Polygon, ellipse};
+use super::piece::{Part, Piece};
+use super::solid::{Solid, sheet, turned};
+use super::stock::{BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, meshing_phase, part, rod, slab, spur};
+use super::terry_clock::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
+
+/// Teeth of the wheels and of the pinions that they drive.
+pub const GREAT: (usize, usize) = (52, 8);
+pub const PIN: (usize, usize) = (64, 8);
+pub const LOCK: (usize, usize) = (72, 6);
+pub const COUNT: (usize, usize) = (20, 30);
+/// Pins that lift the hammer.
+pub const PINS: usize = 8;
+/// Blows of a turn of the count wheel.
+pub const BLOWS: usize = 78;
+/// Module of lock wheel and fly.
+const FINE: f64 = 0.7 * MM;
+
+/// Raised rim of the count wheel, and how much higher it is than the notches.
+const RIM: f64 = 45.0 * MM;
+const RISE: f64 = 3.0 * MM;
+/// From a lock to where the rim begins to rise, and to where it has risen, blows.
+const FOOT: f64 = 0.15;
+const TOP: f64 = 0.55;
+/// Radius of feeler, pins and arms.
+const PEG: f64 = 0.8 * MM;
+const FEELER: f64 = 1.0 * MM;
+
+const PIN_LAYER: f64 = -31.0 * MM;
+const LOCK_LAYER: f64 = -21.0 * MM;
+const LEVER_LAYER: f64 = -16.0 * MM;
+const FLIRT_LAYER: f64 = -9.0 * MM;
+const COUNT_LAYER: f64 = 4.0 * MM;
+const BELL_LAYER: f64 = -60.0 * MM;
+
+/// Radii of the circles of pins: hammer's, lock's, and the minute arbor's.
+const HAMMER_PINS: f64 = 12.0 * MM;
+const LOCK_PIN: f64 = 18.0 * MM;
+pub const LIFTING_PIN: f64 = 10.0 * MM;
+/// Where the lock pin lies on the lever's arm, rad, and how far the arm draws it.
+const LOCKED: f64 = 12.0 * PI / 180.0;
+const DRAW: f64 = 0.05;
+/// Lengths of the hammer's tail and of the flirt's left arm.
+const TAIL: f64 = 27.4 * MM;
+const REACH: f64 = 50.4 * MM;
+/// Arms are met beside their ends, so much further on the pins' way, rad: pins do not run against them.
+const INSIDE: f64 = 0.16;
+/// Before the hammer's tail is met the next pin has this far to go when the train is locked, rad.
+const RUN_UP: f64 = 5.0 * PI / 180.0;
+
+fn mm(x: f64, y: f64) -> DVec3 {
+    CENTER + DVec3::new(x, y, 0.0) * MM
+}
+
+/// Arbors: great wheel, pin wheel, lock wheel, fly, count wheel; hammer, lever, flirt.
+struct Places {
+    great: DVec3,
+    pin: DVec3,
+    lock: DVec3,
+    fly: DVec3,
+    count: DVec3,
+    hammer: DVec3,
+    lever: DVec3,
+    flirt: DVec3,
+}
+
+fn places() -> Places {
+    let apart = |(wheel, pinion): (usize, usize), module: f64| 0.5 * module * (wheel + pinion) as f64;
+    let away = |x: f64, y: f64| DVec3::new(x, y, 0.0).normalize();
+    let great = mm(40.0, -32.0);
+    let pin = great + apart(GREAT, MM) * away(0.55, 0.835);
+    let lock = pin + apart(PIN, MM) * away(0.3, 0.954);
+    let fly = lock + apart(LOCK, FINE) * away(0.1, 0.995);
+    let count = great + apart(COUNT, MM) * away(0.6, -0.8);
+    Places {
+        great,
+        pin,
+        lock,
+        fly,
+        count,
+        hammer: pin + DVec3::new(38.5, -13.0, 0.0) * MM,
+        lever: count + DVec3::new(31.0 * MM, RIM + FEELER + 2.0 * MM, 0.0),
+        flirt: mm(60.0, 8.0),
+    }
+}
+
+/// Direction of the pivot of an arm of this length from the centre of a circle of pins, and half the angle that a pin goes
+/// with the arm, from where their round ends meet to where they part: rad.
+fn meeting(center: DVec3, circle: f64, pivot: DVec3, arm: f64) -> (f64, f64) {
+    let apart = center.distance(pivot);
+    let arm = arm + 2.0 * PEG;
+    let cosine = (circle * circle + apart * apart - arm * arm) / (2.0 * circle * apart);
+    (toward(center, pivot), soffio::math::acos(cosine))
+}
+
+/// Where the lifting pin is when the flirt drops, rad.
+pub fn lifting_pin_at_the_hour() -> f64 {
+    let (toward, half) = meeting(CENTER, LIFTING_PIN, places().flirt, REACH);
+    toward - half
+}
+
+/// A pin along z.
+pub fn peg(name: &'static str, at: DVec3, (low, high): (f64, f64), finish: usize) -> Part {
+    let middle = 0.5 * (low + high);
+    part(name, rod(PEG, low - middle, high - middle), at.with_z(middle), facing(), STEEL, finish)
+}
+
+/// A round arm from one point to another of the piece's plane.
+fn arm(name: &'static str, from: DVec3, to: DVec3, z: f64, finish: usize) -> Part {
+    let way = to - from;
+    let turn = rotation(DVec3::Z * (atan2(way.y, way.x) - 0.5 * PI));
+    let half = 0.5 * way.length();
+    part(name, rod(PEG, -half, half), (0.5 * (from + to)).with_z(z), turn, STEEL, finish)
+}
+
+fn polar(radius: f64, angle: f64) -> DVec3 {
+    radius * DVec3::new(cos(angle), sin(angle), 0.0)
+}
+
+/// The raised rim of one hour, after so many blows of those before; the count wheel stands at `now` blows.
+fn rise(hour: usize, now: f64) -> Solid {
+    let before = (hour * (hour - 1) / 2) as f64;
+    let bottom = RIM - RISE - 1.0 * MM;
+    // Later blows come from the right.
+    let at = |blow: f64, radius: f64| {
+        let angle = 0.5 * PI - 2.0 * PI * (blow - now) / BLOWS as f64;
+        DVec2::new(radius * cos(angle), radius * sin(angle))
+    };
+    let (first, last) = (before, before + hour as f64);
+    let spans = 4 * hour;
+    let mut outline: Polygon = vec![at(last - FOOT, RIM - RISE), at(last - FOOT, bottom), at(first + FOOT, bottom)];
+    outline.push(at(first + FOOT, RIM - RISE));
+    outline.extend((0..=spans).map(|k| {
+        let share = k as f64 / spans as f64;
+        at(first + TOP + share * (hour as f64 - 2.0 * TOP), RIM)
+    }));
+    outline.reverse();
+    sheet(&outline, &[], WHEEL - 0.4 * MM, 0.1 * MM)
+}
+
+const RISES: [&str; 11] =
+    ["Hour02", "Hour03", "Hour04", "Hour05", "Hour06", "Hour07", "Hour08", "Hour09", "Hour10", "Hour11", "Hour12"];
+
+/// The moving pieces; the train last struck `hour`.
+pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
+    let p = places();
+    let (wood, steel) = (finishes.wood, finishes.steel);
+    let at = |position: DVec3| Pose { rotation: DQuat::IDENTITY, position };
+    let mut pieces = Vec::new();
+
+    let great = piece(
+        "StrikeWheel",
+        vec![
+            flat("StrikeWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
+            along_z("StrikeDrum", DRUM - 0.5 * MM, (BACK + 4.0 * MM, BACK + 30.0 * MM), WOOD, wood),
+            along_z("StrikeArbor", 3.0 * MM, (-48.0 * MM, 7.0 * MM), WOOD, wood),
+            flat("CountPinion", spur(COUNT.0, MM, WHEEL, 0.0, &[]), COUNT_LAYER, WOOD, wood),
+        ],
+    );
+    pieces.push((great, at(p.great)));
+
+    let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(p.great, p.pin));
+    let mut parts = vec![
+        flat("PinWheel", wheel(PIN.0, 0.0), PIN_LAYER, WOOD, wood),
+        flat("PinPinion", spur(GREAT.1, MM, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        along_z("PinArbor", 2.2 * MM, (-48.0 * MM, 0.0), WOOD, wood),
+    ];
+    let (toward_hammer, half) = meeting(p.pin, HAMMER_PINS, p.hammer, TAIL);
+    let met = toward_hammer - half + INSIDE;
+    const LIFTS: [&str; PINS] = ["Lift1", "Lift2", "Lift3", "Lift4", "Lift5", "Lift6", "Lift7", "Lift8"];
+    for (k, name) in LIFTS.into_iter().enumerate() {
+        let angle = met - RUN_UP + 2.0 * PI * k as f64 / PINS as f64;
+        parts.push(peg(name, polar(HAMMER_PINS, angle), (-29.0 * MM, -23.5 * MM), steel));
+    }
+    pieces.push((piece("PinWheel", parts), at(p.pin)));
+
+    let phase = meshing_phase(PIN.1, PIN.0, 0.0, toward(p.pin, p.lock));
+    let holes: Vec<Polygon> = (0..5)
+        .map(|k| {
+            let angle = 0.4 * PI * f64::from(k) + 0.8;
+            ellipse(12.0 * MM * DVec2::new(cos(angle), sin(angle)), DVec2::splat(4.2 * MM), 0.0, 24)
+        })
+        .collect();
+    let lock = piece(
+        "LockWheel",
+        vec![
+            flat("LockWheel", spur(LOCK.0, FINE, WHEEL, 0.0, &holes), LOCK_LAYER, WOOD, wood),
+            flat("LockPinion", spur(PIN.1, MM, 6.0 * MM, phase, &[]), PIN_LAYER, WOOD, wood),
+            along_z("LockArbor", 2.0 * MM, (-48.0 * MM, -12.0 * MM), WOOD, wood),
+            peg("LockPin", polar(LOCK_PIN, LOCKED), (-20.0 * MM, -13.0 * MM), steel),
+        ],
+    );
+    pieces.push((lock, at(p.lock)));
+
+    let phase = meshing_phase(LOCK.1, LOCK.0, 0.0, toward(p.lock, p.fly));
+    let vane = |name, side: f64| {
+        let turn = rotation(0.5 * PI * DVec3::X);
+        part(name, slab(36.0 * MM, 18.0 * MM, 0.8 * MM), DVec3::new(26.0 * side, 0.0, -3.0) * MM, turn, WOOD, wood)
+    };
+    let fly = piece(
+        "Fly",
+        vec![
+            flat("FlyPinion", spur(LOCK.1, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
+            along_z("FlyArbor", 1.5 * MM, (-48.0 * MM, 8.0 * MM), STEEL, steel),
+            part(
+                "FlyHub",
+                rod(1.2 * MM, -10.0 * MM, 10.0 * MM),
+                DVec3::Z * -3.0 * MM,
+                rotation(0.5 * PI * DVec3::Z),
+                STEEL,
+                steel,
+            ),
+            vane("Vane1", 1.0),
+            vane("Vane2", -1.0),
+        ],
+    );
+    pieces.push((fly, at(p.fly)));
+
+    let phase = meshing_phase(COUNT.1, COUNT.0, 0.0, toward(p.great, p.count));
+    let disc = turned(
+        &[(0.0, -2.0), (42.0, -2.0), (42.0, 2.0), (0.0, 2.0)].map(|(r, y)| DVec2::new(r, y) * MM),
+        false,
+        2 * ROUND,
+    );
+    let mut parts = vec![
+        part("CountDisc", disc, DVec3::Z * COUNT_LAYER, facing(), WOOD, wood),
+        flat("CountGear", spur(COUNT.1, MM, WHEEL, phase, &[]), COUNT_LAYER - 4.2 * MM, WOOD, wood),
+    ];
+    let now = (hour * (hour + 1) / 2) as f64;
+    for (k, name) in RISES.into_iter().enumerate() {
+        parts.push(flat(name, rise(k + 2, now), COUNT_LAYER, WOOD, wood));
+    }
+    pieces.push((piece("CountWheel", parts), at(p.count)));
+
+    let tail = met_arm(p.pin, met, HAMMER_PINS, p.hammer, -1.0);
+    let hammer = piece(
+        "Hammer",
+        vec![
+            along_z("HammerArbor", 1.5 * MM, (-64.0 * MM, -20.0 * MM), STEEL, steel),
+            arm("HammerTail", polar(4.0 * MM, tail), polar(TAIL, tail), -26.5 * MM, steel),
+            arm("HammerRod", DVec3::ZERO, DVec3::Y * -75.0 * MM, BELL_LAYER, steel),
+            part(
+                "HammerHead",
+                rod(5.0 * MM, -7.0 * MM, 7.0 * MM),
+                DVec3::new(0.0, -80.0 * MM, BELL_LAYER),
+                rotation(0.5 * PI * DVec3::Z),
+                BRASS,
+                finishes.brass,
+            ),
+        ],
+    );
+    pieces.push((hammer, at(p.hammer)));
+
+    // In the notch; the arm under the lock pin.
+    let feeler = p.count + DVec3::Y * (RIM + FEELER - RISE) - p.lever;
+    let lock_pin = p.lock + polar(LOCK_PIN, LOCKED) - p.lever;
+    let stop = lock_pin + 2.0 * PEG * DVec3::new(-DRAW, -1.0, 0.0).normalize();
+    let lever = piece(
+        "CountLever",
+        vec![
+            along_z("LeverArbor", 1.5 * MM, (-24.0 * MM, 8.0 * MM), STEEL, steel),
+            arm("FeelerArm", DVec3::ZERO, feeler, COUNT_LAYER, steel),
+            part("Feeler", rod(FEELER, -1.5 * MM, 1.5 * MM), feeler.with_z(COUNT_LAYER), facing(), STEEL, steel),
+            arm("StopArm", DVec3::ZERO, stop, LEVER_LAYER - 4.0 * MM, steel),
+            peg("Stop", stop, (-22.0 * MM, -13.0 * MM), steel),
+            arm("KickArm", DVec3::ZERO, DVec3::X * 14.0 * MM, FLIRT_LAYER + 4.0 * MM, steel),
+            peg("Kick", DVec3::X * 14.0 * MM, (-11.0 * MM, -5.0 * MM), steel),
+        ],
+    );
+    pieces.push((lever, at(p.lever)));
+
+    let (toward_flirt, half) = meeting(CENTER, LIFTING_PIN, p.flirt, REACH);
+    let left = met_arm(CENTER, toward_flirt + half - INSIDE, LIFTING_PIN, p.flirt, 1.0);
+    // Just above the lever's arm.
+    let tip = p.lever + DVec3::new(14.0 * MM, 2.0 * PEG + 0.3 * MM, 0.0) - p.flirt;
+    let flirt = piece(
+        "Flirt",
+        vec![
+            along_z("FlirtArbor", 1.5 * MM, (-13.0 * MM, -4.0 * MM), STEEL, steel),
+            arm("FlirtArm", polar(20.0 * MM, left), polar(REACH, left), FLIRT_LAYER, steel),
+            arm("FlirtBack", DVec3::ZERO, polar(20.0 * MM, left), FLIRT_LAYER, steel),
+            arm("FlirtFront", DVec3::ZERO, tip, FLIRT_LAYER - 2.5 * MM, steel),
+            peg("FlirtTip", tip, (-13.0 * MM, -5.0 * MM), steel),
+        ],
+    );
+    pieces.push((flirt, at(p.flirt)));
+
+    let weight =
+        part("StrikeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead);
+    pieces.push((piece("StrikeWeight", vec![weight]), at(DVec3::new(0.125, 0.36, -10.0 * MM))));
+    pieces
+}
+
+/// Direction of an arm that a pin at `angle` of its circle just touches, on the side that the sign says.
+fn met_arm(center: DVec3, angle: f64, circle: f64, pivot: DVec3, side: f64) -> f64 {
+    let pin = center + polar(circle, angle);
+    toward(pivot, pin) + side * soffio::math::asin(2.0 * PEG / pivot.distance(pin))
+}
+
+/// The bell, which stands still.
+pub fn bell(finishes: &Finishes) -> Part {
+    let outside = [(40.0, 0.0), (39.5, 8.0), (36.0, 16.0), (28.0, 23.0), (16.0, 27.5), (0.0, 29.0)];
+    let inside = [(0.0, 27.0), (15.0, 25.5), (26.5, 21.3), (34.0, 15.0), (37.5, 7.5), (38.0, 0.0)];
+    let profile: Vec<DVec2> = inside.iter().chain(&outside).map(|&(r, y)| DVec2::new(r, y) * MM).collect();
+    let place = places().hammer + DVec3::new(0.0, -80.0 * MM, 0.0);
+    let middle = place + DVec3::new(5.0 * MM + 1.0 * MM + 40.0 * MM, 0.0, BELL_LAYER + 4.0 * MM);
+    part("Bell", turned(&profile, false, 2 * ROUND), middle, rotation(-0.5 * PI * DVec3::X), BRASS, finishes.brass)
+}
