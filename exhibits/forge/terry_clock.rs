@@ -325,7 +325,7 @@ pub fn glb() -> Vec<u8> {
                 along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
                 part(
                     "EscapeTooth",
-                    rod(TOOTH, -1.0 * MM, 1.0 * MM),
+                    rod(TOOTH, -MM, 1.0 * MM),
                     DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING),
                     DQuat::IDENTITY,
                     BRASS,

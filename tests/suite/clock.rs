@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use soffio::dynamics::Dynamics;
+use soffio::dynamics::{Dynamics, Impact, ImpactKind};
 use soffio::exhibit::{self, Exhibit};
 use soffio::math::{DVec3, PI, atan2};
 use soffio::simulation::{Settings, start_dynamics};
@@ -33,6 +33,8 @@ struct Clock {
     turns: [f64; 3],
     /// What damping took, J.
     damped: f64,
+    /// When the hammer met the bell, s.
+    blows: Vec<f64>,
 }
 
 const WHEELS: [&str; 3] = ["EscapeWheel", "MinuteArbor", "HourWheel"];
@@ -42,8 +44,18 @@ impl Clock {
         let exhibit = shipped();
         let dynamics = start_dynamics(&exhibit, &Settings::default());
         let still = vec![[0.0; 6]; dynamics.bodies.len()];
-        let (beats, swings) = (Vec::new(), Vec::new());
-        Self { dynamics, exhibit, still, time: 0.0, beats, swings, largest: 0.0, turns: [0.0; 3], damped: 0.0 }
+        Self {
+            dynamics,
+            exhibit,
+            still,
+            time: 0.0,
+            beats: Vec::new(),
+            swings: Vec::new(),
+            largest: 0.0,
+            turns: [0.0; 3],
+            damped: 0.0,
+            blows: Vec::new(),
+        }
     }
 
     fn body(&self, name: &str) -> usize {
@@ -69,6 +81,7 @@ impl Clock {
     fn run(&mut self, seconds: f64, dt: f64) {
         let pendulum = self.body("Pendulum");
         let wheels = WHEELS.map(|name| self.body(name));
+        let hammer = self.body("Hammer");
         let mut hits = Vec::new();
         for _ in 0..(seconds / dt).round() as usize {
             let (from, rate) = self.angle(pendulum);
@@ -76,6 +89,8 @@ impl Clock {
             let loss = self.loss(pendulum);
             hits.clear();
             assert_eq!(self.dynamics.step(dt, &self.still, &mut hits), 0, "bad numbers");
+            let bell = |hit: &&Impact| hit.kind == ImpactKind::Impact && hit.bodies == [Some(hammer), None];
+            self.blows.extend(hits.iter().filter(bell).map(|hit| self.time + hit.time));
             self.damped += 0.5 * dt * (loss + self.loss(pendulum));
             let after = wheels.map(|wheel| self.angle(wheel).0);
             for ((turn, before), after) in self.turns.iter_mut().zip(before).zip(after) {
@@ -200,6 +215,63 @@ fn a_stopped_pendulum_stops_the_train_and_a_push_starts_it() {
         clock.beats.len() - before,
         clock.angle(pendulum)
     );
+}
+
+/// Blows of the bell by the hours that they belong to, each with its first blow's time after the hour, s. The hands of the
+/// model stand at ten to eleven.
+fn struck(clock: &Clock) -> Vec<(usize, usize, f64)> {
+    let mut hours: Vec<(usize, usize, f64)> = Vec::new();
+    for time in clock.blows.iter().map(|time| time + 3000.0) {
+        let hour = (time / 3600.0).round();
+        let name = (10 + hour as usize - 1) % 12 + 1;
+        match hours.last_mut() {
+            Some((last, blows, _)) if *last == name => *blows += 1,
+            _ => hours.push((name, 1, time - 3600.0 * hour)),
+        }
+    }
+    hours
+}
+
+/// From the flirt's fall to the first blow, s: the lever drops, the train runs up, the hammer is lifted and falls.
+const TO_THE_BLOW: f64 = 0.7;
+/// How far from the hour the flirt falls, s: a twentieth of a degree of the minute hand.
+const PUNCTUAL: f64 = 0.5;
+
+#[test]
+fn it_strikes_eleven_at_eleven() {
+    /// Whatever hits what, m.
+    const CLOSED: f64 = 1e-9;
+    let mut clock = Clock::new();
+    clock.run(615.0, DT);
+    assert_eq!(clock.blows.len(), 11, "{:?}", clock.blows);
+    let first = clock.blows[0] - 600.0;
+    assert!((first - TO_THE_BLOW).abs() < PUNCTUAL, "the first blow falls {first} s after the hour");
+    // The fly keeps the blows apart as evenly as the train runs.
+    let gaps: Vec<f64> = clock.blows.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let (least, most) = gaps.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), gap| (a.min(*gap), b.max(*gap)));
+    assert!(least > 0.8 && most < 1.3 && most - least < 0.05, "blows {gaps:?} s apart");
+    assert!(clock.dynamics.joint_error() < CLOSED, "joints open by {} m", clock.dynamics.joint_error());
+}
+
+/// `cargo test --no-default-features --release --test suite half_a_day -- --ignored --nocapture`
+#[test]
+#[ignore = "twelve hours: a quarter of an hour of the machine"]
+fn in_half_a_day_it_strikes_seventy_eight_blows() {
+    /// s a day.
+    const DAILY: f64 = 1.0;
+    let mut clock = Clock::new();
+    clock.run(12.0 * 3600.0, DT);
+    let hours = struck(&clock);
+    println!("{hours:?}");
+    assert_eq!(clock.blows.len(), 78, "{hours:?}");
+    for (hour, blows, late) in &hours {
+        assert_eq!(hour, blows, "{hours:?}");
+        assert!((late - TO_THE_BLOW).abs() < PUNCTUAL, "{hour} o'clock begins {late} s after the hour");
+    }
+    // After the first hour it swings as it will for ever.
+    let rate = clock.rate(6720);
+    let gains = (rate / RATE - 1.0) * 86_400.0;
+    assert!(gains.abs() < DAILY, "{rate} beats an hour: {gains:+.2} s a day");
 }
 
 /// Beats of both runs against each other, s.
