@@ -25,6 +25,9 @@ pub use hours::{Hours, TimeOfDay};
 /// Where the file lies, below the working directory or one of its parents.
 pub const FILE: &str = "kiosk-config/kiosk.toml";
 
+/// Stands in `exhibits.show` for all exhibits that are not named.
+pub const OTHERS: &str = "*";
+
 /// The site's configuration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -32,7 +35,7 @@ pub struct Config {
     /// The picture.
     pub screen: Screen,
     /// What is shown.
-    pub exhibit: ExhibitChoice,
+    pub exhibits: Exhibits,
     /// From breath to wind.
     pub breath: Breath,
     /// Microphone and loudspeaker.
@@ -74,18 +77,19 @@ impl Default for Screen {
 /// What is shown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct ExhibitChoice {
-    /// Id of the exhibit.
-    pub id: String,
+pub struct Exhibits {
+    /// Ids in the order in which visitors find them, the first on show; `*` stands for all others in the folder.
+    pub show: Vec<String>,
     /// Folder that holds the exhibits' folders.
     pub folder: PathBuf,
-    /// Load an exhibit anew when a file in its folder changes.
+    /// Load an exhibit anew when a file in its folder changes, and notice folders that come and go.
     pub hot_reload: bool,
 }
 
-impl Default for ExhibitChoice {
+impl Default for Exhibits {
     fn default() -> Self {
-        Self { id: "steel-fish".into(), folder: "exhibits".into(), hot_reload: true }
+        let first = ["steel-fish", "wind-chimes", "twelve-moons", "noise-mobile", "terry-clock", "*"];
+        Self { show: first.map(str::to_owned).into(), folder: "exhibits".into(), hot_reload: true }
     }
 }
 

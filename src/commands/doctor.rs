@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Failure, Outcome};
-use crate::config::Config;
+use crate::config::{Config, OTHERS};
 use crate::exhibit;
 
 #[cfg(feature = "kiosk")]
@@ -108,9 +108,9 @@ fn print(finding: &Finding) {
     }
 }
 
-/// Every exhibit of the configured folder, and whether the one to be shown is among them.
+/// Every exhibit of the configured folder, and whether those to be shown are among them.
 fn exhibits(config: &Config) -> Vec<Finding> {
-    let folder = &config.exhibit.folder;
+    let folder = &config.exhibits.folder;
     let mut folders: Vec<PathBuf> = std::fs::read_dir(folder)
         .map(|entries| entries.flatten().map(|entry| entry.path()).filter(|path| is_exhibit(path)).collect())
         .unwrap_or_default();
@@ -128,14 +128,14 @@ fn exhibits(config: &Config) -> Vec<Finding> {
             }
         })
         .collect();
-    if !is_exhibit(&folder.join(&config.exhibit.id)) {
-        let found = format!("{} is not in {}", config.exhibit.id, folder.display());
-        let remedy = "set exhibit.id and exhibit.folder in kiosk-config/kiosk.toml, or start where the folder is";
+    for id in config.exhibits.show.iter().filter(|id| *id != OTHERS && !is_exhibit(&folder.join(id))) {
+        let found = format!("{id} is not in {}", folder.display());
+        let remedy = "set exhibits.show and exhibits.folder in kiosk-config/kiosk.toml, or start where the folder is";
         findings.push(Finding::new("exhibit to be shown", Health::Bad, found, remedy));
     }
     findings
 }
 
 fn is_exhibit(folder: &Path) -> bool {
-    folder.join("exhibit.toml").is_file() || folder.join("exhibit.json").is_file()
+    folder.join(exhibit::SIDECAR).is_file()
 }

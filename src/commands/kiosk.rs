@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::{Failure, Outcome};
-use crate::config::Config;
+use crate::config::{Config, FILE};
 use crate::exhibit::Exhibit;
 use crate::kiosk::live::{Options, Report};
+use crate::kiosk::shelf::{self, Places};
 use crate::kiosk::window::{self, Ended, Missing};
 use crate::offline::feed::WavFeed;
 use crate::offline::{demo, wav};
@@ -30,7 +31,7 @@ pub struct Args {
     /// A window on a desk instead of the whole screen; Esc closes it
     #[arg(long)]
     windowed: bool,
-    /// Id of an exhibit, or its folder [default: as configured]
+    /// Only this exhibit: its id, or its folder [default: those that are configured]
     #[arg(long, value_name = "EXHIBIT")]
     exhibit: Option<String>,
     /// A recording instead of the microphone
@@ -68,8 +69,7 @@ pub fn run(args: Args) -> Outcome {
     config.screen.fullscreen &= !args.windowed;
     config.attract.enabled &= !args.no_attract;
 
-    let configured = || config.exhibit.folder.join(&config.exhibit.id).to_string_lossy().into_owned();
-    let exhibit = super::open(&args.exhibit.unwrap_or_else(configured))?;
+    let (exhibit, places) = choose(&config, args.exhibit.as_deref())?;
     let recording = args.breath.map(wav::read).transpose().map_err(Failure::input)?;
     let settings = config.simulation_settings(args.seed.unwrap_or(DEFAULT_SEED));
     let options = Options {
@@ -90,12 +90,40 @@ pub fn run(args: Args) -> Outcome {
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
 
-    match window::run(config, options, &stop) {
+    match window::run(config, &places, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
         Ok(Ended::Failed(message)) => Err(Failure::device(message)),
         Err(missing) => headless(&missing, &exhibit, settings, &stop),
     }
+}
+
+/// What is shown first, and where the others are: one exhibit alone, or the first of those configured that loads. What
+/// does not load is said, and the next one tried.
+fn choose(config: &Config, only: Option<&str>) -> Result<(Arc<Exhibit>, Places), Failure> {
+    if let Some(only) = only {
+        let exhibit = super::open(only)?;
+        let places = Places::One(exhibit.folder.clone());
+        return Ok((exhibit, places));
+    }
+    let places = Places::All { folder: config.exhibits.folder.clone(), show: config.exhibits.show.clone() };
+    let mut failure = None;
+    for folder in shelf::folders(&places) {
+        match super::open(&folder.to_string_lossy()) {
+            Ok(exhibit) => return Ok((exhibit, places)),
+            Err(error) => {
+                tracing::error!("{}", error.message.trim_end());
+                failure = failure.or(Some(error));
+            }
+        }
+    }
+    Err(failure.unwrap_or_else(|| {
+        let folder = config.exhibits.folder.display();
+        Failure::input(format!(
+            "no exhibit to show: {folder} has none of exhibits.show\n  help: set exhibits.folder and exhibits.show in \
+             {FILE}, or start where the folder is"
+        ))
+    }))
 }
 
 /// What a run with a planned end has to say on stdout, for whoever planned it.

@@ -13,6 +13,9 @@ use crate::offline::feed::WavFeed;
 use crate::simulation::{Command, STEPS_PER_SECOND};
 use crate::wind::blow::BlowDetector;
 
+/// Before attract mode begins it is shown for so long that it will, s.
+pub const COUNTDOWN_S: f64 = 10.0;
+
 /// What attract mode wants at one step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cue {
@@ -30,7 +33,11 @@ pub struct Attract {
     script: exhibit::Attract,
     idle_limit: u64,
     idle: u64,
+    /// Has anybody been here since the last round?
+    met: bool,
     round: Option<Round>,
+    /// Rounds that have ended.
+    rounds: u32,
 }
 
 /// One round of the script.
@@ -46,13 +53,19 @@ struct Round {
 impl Attract {
     /// Attract mode with the exhibit's `script` after `idle_s` seconds without a visitor.
     pub fn new(script: exhibit::Attract, idle_s: f64) -> Self {
-        Self { script, idle_limit: steps(idle_s).max(1), idle: 0, round: None }
+        Self { script, idle_limit: steps(idle_s).max(1), idle: 0, met: false, round: None, rounds: 0 }
+    }
+
+    /// Plays from the next step on, for nobody has come.
+    pub fn go_on(mut self) -> Self {
+        self.idle = self.idle_limit;
+        self
     }
 
     /// Advances by one simulation step; `visitor` says that somebody did something since the last.
     pub fn step(&mut self, visitor: bool) -> Cue {
         if visitor {
-            self.idle = 0;
+            (self.idle, self.met) = (0, true);
             let commands = if self.round.take().is_some() { vec![Command::Blow(None)] } else { Vec::new() };
             return Cue { commands, ..Cue::default() };
         }
@@ -60,7 +73,19 @@ impl Attract {
         if self.idle < self.idle_limit {
             return Cue::default();
         }
+        self.met = false;
         self.play()
+    }
+
+    /// Rounds of the script that have ended.
+    pub fn rounds(&self) -> u32 {
+        self.rounds
+    }
+
+    /// What is left of the idle time, s, in its last seconds, where somebody was here.
+    pub fn begins_in(&self) -> Option<f64> {
+        let left = self.idle_limit.saturating_sub(self.idle) as f64 / STEPS_PER_SECOND as f64;
+        (self.met && self.round.is_none() && left <= COUNTDOWN_S).then_some(left)
     }
 
     /// Is the script playing?
@@ -79,6 +104,7 @@ impl Attract {
         // A last breath may be longer than the round: the next round waits for it.
         let over = |round: &Round| round.step >= steps(self.script.duration) && round.breath.is_none();
         if self.round.as_ref().is_none_or(over) {
+            self.rounds += u32::from(self.round.is_some());
             self.round = Some(Round::default());
         }
         let round = self.round.get_or_insert_default();

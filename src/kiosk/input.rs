@@ -74,6 +74,24 @@ pub enum Request {
     Language(usize),
     /// So many steps louder.
     Louder(i32),
+    /// Open or close the page with all the rest.
+    Menu,
+    /// Show the work at this place among those offered.
+    Work(usize),
+    /// So many works on; while the page is open, so many leaves.
+    Leaf(i32),
+    /// Large type, or an end of it.
+    Large,
+    /// High contrast, or an end of it.
+    Contrast,
+    /// The microphone off, or on again.
+    Listen,
+    /// Mark the next button that way, right and down.
+    Look([i32; 2]),
+    /// Press the marked button.
+    Enter,
+    /// It lies beside all buttons.
+    Nothing,
     /// Staff mute the kiosk, or let it sound again.
     Mute,
     /// Staff go on from the configured hours to night, to day, and back.
@@ -122,6 +140,8 @@ pub struct Keys<'a> {
     pub night: &'a Chord,
     /// Blows while it is held.
     pub blow: &'a str,
+    /// Is the page open? Then arrows choose, and nothing blows.
+    pub menu: bool,
 }
 
 impl Visitor {
@@ -138,10 +158,7 @@ impl Visitor {
                 self.activity += 1;
                 return self.key(key, keys, windowed);
             }
-            Signal::Deserted => {
-                (self.finger, self.key, self.arrows) = (None, false, [false; 4]);
-                self.presses.clear();
-            }
+            Signal::Deserted => self.let_go(),
         }
         None
     }
@@ -184,6 +201,12 @@ impl Visitor {
     /// Counts an input that is neither aim nor breath.
     pub fn note(&mut self) {
         self.activity += 1;
+    }
+
+    /// Whatever is held is let go: a page has come between.
+    pub fn let_go(&mut self) {
+        (self.finger, self.key, self.arrows) = (None, false, [false; 4]);
+        self.presses.clear();
     }
 
     /// Nobody is there any more: the next visitor starts from the centre.
@@ -235,13 +258,22 @@ impl Visitor {
         let plain = !(key.ctrl || key.alt);
         // A key that comes up lets go of the blow whatever is held with it by now.
         if key.name == keys.blow && (plain || !key.pressed) {
-            self.key = key.pressed;
+            self.key = key.pressed && !keys.menu;
         }
         if let Some(arrow) = ARROWS.iter().position(|name| *name == key.name) {
-            self.arrows[arrow] = key.pressed && plain;
+            self.arrows[arrow] = key.pressed && plain && !keys.menu;
         }
         if !key.pressed || key.repeat {
             return None;
+        }
+        if keys.menu && plain {
+            let ways = [[-1, 0], [1, 0], [0, -1], [0, 1]];
+            if let Some(arrow) = ARROWS.iter().position(|name| *name == key.name) {
+                return Some(Request::Look(ways[arrow]));
+            }
+            if key.name == "Enter" || key.name == "NumpadEnter" || key.name == keys.blow {
+                return Some(Request::Enter);
+            }
         }
         let pressed = |chord: &Chord| chord.matches(key.ctrl, key.alt, key.shift, &key.name);
         match key.name.as_str() {
@@ -251,6 +283,9 @@ impl Visitor {
             name if plain && LOUDER.contains(&name) => Some(Request::Louder(1)),
             name if plain && SOFTER.contains(&name) => Some(Request::Louder(-1)),
             "L" if plain => Some(Request::NextLanguage),
+            "Tab" if !key.ctrl && !key.alt => Some(Request::Menu),
+            "PageDown" if plain => Some(Request::Leaf(1)),
+            "PageUp" if plain => Some(Request::Leaf(-1)),
             "Escape" if windowed => Some(Request::Close),
             _ => None,
         }

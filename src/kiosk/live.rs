@@ -23,6 +23,7 @@ use crate::simulation::{MotionMode, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::{RoomSpec, SoundCommand, Synth, VolumeSettings};
 
 use super::breaths::{Breaths, Turn};
+use super::captions::Captions;
 use super::governor::Governor;
 use super::loudness::{Loudness, View, Wishes};
 use super::metrics::Metrics;
@@ -75,6 +76,14 @@ pub struct Frame {
     pub attracts: bool,
     /// Text key that attract mode shows.
     pub attract_text: Option<String>,
+    /// Rounds of its script that have ended.
+    pub attract_rounds: u32,
+    /// Seconds until attract mode begins, where they are few.
+    pub leaves_in: Option<f64>,
+    /// Keys of the captions of what can be heard.
+    pub captions: Vec<String>,
+    /// Has the visitor switched the microphone off?
+    pub deaf: bool,
     /// Is there a microphone, or a recording in its place?
     pub hears: bool,
     /// When the last breath began.
@@ -116,7 +125,7 @@ pub struct Load {
 impl Frame {
     /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
     pub fn is_deaf(&self) -> bool {
-        !self.hears && (self.load.microphone.is_silent() || matches!(self.load.audio.input, DeviceState::Missing(_)))
+        !self.hears && !self.deaf && (self.load.microphone.is_silent() || matches!(self.load.audio.input, DeviceState::Missing(_)))
     }
 
     /// Is it certain that there is no loudspeaker?
@@ -176,6 +185,10 @@ impl Live {
             due: Instant::now(),
             attracts: false,
             attract_text: None,
+            attract_rounds: 0,
+            leaves_in: None,
+            captions: Vec::new(),
+            deaf: false,
             hears: options.recording.is_some(),
             onset: None,
             load: Load::default(),
@@ -248,6 +261,8 @@ struct Thread {
     heard: Heard,
     sounds: Vec<SoundCommand>,
     breaths: Breaths,
+    captions: Captions,
+    deaf: bool,
     onset: Option<Onset>,
     /// The step that was published last.
     published: u64,
@@ -279,6 +294,8 @@ impl Thread {
             heard: Heard::default(),
             sounds: Vec::new(),
             breaths: Breaths::default(),
+            captions: Captions::default(),
+            deaf: false,
             onset: None,
             published: 0,
             load: Load::default(),
@@ -327,7 +344,9 @@ impl Thread {
         }
         add(&mut controls, &self.controllers.reading(), self.stick_speed);
         self.heard.clear();
-        let rate = self.audio.read_microphone(&mut self.heard);
+        self.deaf = controls.deaf;
+        // What a visitor does not want to be heard is read all the same, so that it is gone.
+        let rate = self.audio.read_microphone(&mut self.heard).filter(|_| !self.deaf);
         self.sounds.clear();
         let before = Instant::now();
         for i in 0..due {
@@ -339,8 +358,11 @@ impl Thread {
             self.govern(worked.elapsed().as_secs_f64());
             controls.commands.clear();
             self.sounds.extend_from_slice(self.stage.sounds());
+            self.captions.note(self.stage.exhibit(), self.stage.sounds(), self.stage.steps());
             self.write_trace()?;
-            self.load.microphone.note(rate.is_some(), &self.stage.snapshot().breath.estimate);
+            if !self.deaf {
+                self.load.microphone.note(rate.is_some(), &self.stage.snapshot().breath.estimate);
+            }
             let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
             for turn in self.breaths.note(step, breath, (self.stage.holds(), controls.strength), self.stage.attracts())
             {
@@ -372,6 +394,7 @@ impl Thread {
         self.audio.set_instruments(self.voice.synth(&exhibit));
         self.governor = Governor::new(exhibit.motion);
         self.stage.swap(exhibit);
+        self.captions = Captions::default();
         self.onset = None;
         if let Some(trace) = self.trace.take() {
             match trace.finish() {
@@ -408,6 +431,10 @@ impl Thread {
             due,
             attracts: self.stage.attracts(),
             attract_text: self.stage.attract_text().map(str::to_owned),
+            attract_rounds: self.stage.attract_course().0,
+            leaves_in: self.stage.attract_course().1,
+            captions: self.captions.shown(self.stage.exhibit(), self.stage.steps()),
+            deaf: self.deaf,
             hears,
             onset: self.onset,
             load: self.load.clone(),

@@ -6,6 +6,7 @@
 
 pub mod attract;
 pub mod breaths;
+pub mod captions;
 pub mod events;
 pub mod fonts;
 pub mod gesture;
@@ -13,13 +14,15 @@ pub mod governor;
 pub mod input;
 pub mod live;
 pub mod loudness;
+pub mod menu;
 pub mod metrics;
 pub mod microphone;
 pub mod overlay;
 pub mod pace;
+pub mod page;
 pub mod pointing;
-pub mod reload;
 pub mod screen;
+pub mod shelf;
 pub mod staff;
 pub mod stage;
 pub mod window;

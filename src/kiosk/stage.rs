@@ -31,6 +31,8 @@ pub struct Controls {
     pub presses: Vec<Press>,
     /// How hard a breath controller is blown, 0 … 1.
     pub strength: f64,
+    /// Has the visitor switched the microphone off?
+    pub deaf: bool,
     /// Width over height of the picture.
     pub aspect: f64,
     /// Inputs so far.
@@ -114,7 +116,10 @@ impl Stage {
 
     /// Shows another exhibit (or the same one, reloaded) from its start.
     pub fn swap(&mut self, exhibit: Arc<Exhibit>) {
-        self.attract = self.attract.take().map(|_| Attract::new(exhibit.attract.clone(), self.idle_s));
+        self.attract = self.attract.take().map(|before| {
+            let next = Attract::new(exhibit.attract.clone(), self.idle_s);
+            if before.is_active() { next.go_on() } else { next }
+        });
         self.simulation = Simulation::new(exhibit, *self.simulation.settings());
         self.snapshot = self.simulation.snapshot();
     }
@@ -152,6 +157,11 @@ impl Stage {
     /// Text key that attract mode shows; `None` while visitors are here.
     pub fn attract_text(&self) -> Option<&str> {
         self.attract.as_ref().and_then(Attract::text)
+    }
+
+    /// Rounds of the attract script that have ended, and the seconds until attract mode begins, where they are few.
+    pub fn attract_course(&self) -> (u32, Option<f64>) {
+        self.attract.as_ref().map_or((0, None), |attract| (attract.rounds(), attract.begins_in()))
     }
 
     /// Is attract mode playing?

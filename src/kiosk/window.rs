@@ -4,6 +4,7 @@
 //! only the staff panel leads out, or a signal from the terminal. On somebody's desk (`--windowed`) it closes like
 //! any window.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -24,8 +25,10 @@ use super::input::{Keys, Request, Visitor};
 use super::live::{self, Frame, Live, Onset, Report};
 use super::loudness::Wishes;
 use super::overlay::{Overlay, Scene};
-use super::reload::Reload;
+use super::menu::{Menu, Tile};
+use super::page::Reading;
 use super::screen::{Drawn, Screen};
+use super::shelf::{News, Offer, Places, Shelf, Work, id};
 use super::staff::{Staff, Vitals, Wish};
 use super::words::language_name;
 
@@ -35,6 +38,8 @@ const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
 const NAP: Duration = Duration::from_millis(50);
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;
+/// While attract mode plays the invitation goes to the next language after so long, s: two readings of a short line.
+const INVITES_S: f64 = 6.0;
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;
 
@@ -58,8 +63,9 @@ pub enum Ended {
     Failed(String),
 }
 
-/// Shows the exhibit until somebody ends it. `interrupted` is set by a signal from outside.
-pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> Result<Ended, Missing> {
+/// Shows an exhibit, and lets visitors choose among those of `places`, until somebody ends it. `interrupted` is set by a
+/// signal from outside.
+pub fn run(config: Config, places: &Places, options: live::Options, interrupted: &AtomicBool) -> Result<Ended, Missing> {
     let events = event_loop().map_err(Missing::Display)?;
     let display = Box::new(events.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -69,7 +75,13 @@ pub fn run(config: Config, options: live::Options, interrupted: &AtomicBool) -> 
     let mut app = App {
         instance,
         interrupted,
-        reload: Reload::new(&options.exhibit.folder, config.exhibit.hot_reload),
+        shelf: Shelf::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
+        offer: Offer::new(places),
+        pictures: Vec::new(),
+        turning: false,
+        menu: Menu::default(),
+        reading: Reading::default(),
+        listens: true,
         languages: Vec::new(),
         language: String::new(),
         waiting: Some(options),
@@ -174,7 +186,16 @@ struct App<'a> {
     /// The run, until there is a window to show it in.
     waiting: Option<live::Options>,
     show: Option<Show>,
-    reload: Reload,
+    shelf: Shelf,
+    offer: Offer,
+    /// Pictures of the works, by id.
+    pictures: Vec<(String, egui::TextureHandle)>,
+    /// Is attract mode's next work being fetched?
+    turning: bool,
+    menu: Menu,
+    reading: Reading,
+    /// Has no visitor switched the microphone off?
+    listens: bool,
     visitor: Visitor,
     modifiers: ModifiersState,
     overlay: Overlay,
@@ -252,7 +273,8 @@ impl ApplicationHandler for App<'_> {
             None => {
                 let staff = &self.config.staff;
                 let (mute, night) = (&staff.mute, &staff.night);
-                let keys = Keys { staff: &staff.chord, mute, night, blow: &self.config.controllers.key };
+                let blow = &self.config.controllers.key;
+                let keys = Keys { staff: &staff.chord, mute, night, blow, menu: self.menu.open };
                 self.visitor.signal(&signal, keys, desk)
             }
         };
@@ -267,15 +289,8 @@ impl ApplicationHandler for App<'_> {
         if over || self.interrupted.load(Ordering::Relaxed) {
             return events.exit();
         }
-        match self.reload.result() {
-            Some(Ok(exhibit)) => {
-                self.say(format!("{} is loaded anew", exhibit.id));
-                if let Some(show) = &self.show {
-                    show.live.controls().exhibit = Some(exhibit);
-                }
-            }
-            Some(Err(report)) => self.say(format!("{}\nThe last good exhibit stays on show.", report.trim_end())),
-            None => {}
+        while let Some(news) = self.shelf.news() {
+            self.hear(news);
         }
         let now = Instant::now();
         if let Some(show) = &self.show
@@ -311,18 +326,30 @@ impl App<'_> {
             time: self.clock.seconds(now),
             sight_s: self.sight.seconds,
         };
+        self.menu.tend(vitals.time, self.visitor.activity(), frame.current.breath.estimate.speed > 0.0);
         let mut wish = None;
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
             self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
             if !self.languages.contains(&self.language) {
                 self.language = first(&self.languages, &frame.exhibit.labels, &self.config);
             }
+            let tiles = tiles(ui.ctx(), self.offer.works(), &mut self.pictures, &frame.exhibit.folder, &self.language);
+            let turn = (vitals.time / INVITES_S) as usize % self.languages.len().max(1);
+            let inviting = if frame.attracts { self.languages.get(turn) } else { None };
             let scene = Scene {
                 exhibit: &frame.exhibit,
                 moment: &moment,
                 view,
                 attract_text: frame.attract_text.as_deref(),
-                hears: !frame.is_deaf(),
+                inviting: inviting.unwrap_or(&self.language),
+                hears: !frame.is_deaf() && !frame.deaf,
+                has_ear: !frame.is_deaf(),
+                listens: self.listens,
+                captions: &frame.captions,
+                silent: frame.load.loudness.muted || frame.is_mute(),
+                leaves_in: frame.leaves_in,
+                reading: self.reading,
+                tiles: &tiles,
                 languages: &self.languages,
                 language: &self.language,
                 volume: self.config.volume.steps > 0 && !frame.load.loudness.muted,
@@ -330,7 +357,7 @@ impl App<'_> {
                 points_per_mm: 1.0 / (self.config.screen.mm_per_px as f32 * ui.ctx().pixels_per_point()),
             };
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
-            self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &scene);
+            self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
             wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
         });
         if drawn == Drawn::Shown {
@@ -340,7 +367,7 @@ impl App<'_> {
         self.follow_devices(&frame);
         match wish {
             Some(Wish::Close) => events.exit(),
-            Some(Wish::Reload) => self.reload.ask(),
+            Some(Wish::Reload) => self.shelf.show(&frame.exhibit.folder),
             Some(Wish::Reset) => self.command(Command::Reset),
             Some(Wish::Mute) => self.grant(events, Request::Mute),
             Some(Wish::Night) => self.grant(events, Request::Night),
@@ -357,6 +384,7 @@ impl App<'_> {
         let window = screen.window.clone();
         // The old surface must be gone before the window can have a new one.
         drop(screen);
+        self.pictures.clear();
         self.lost += 1;
         if self.lost > LOST_DEVICES {
             return self.fail(events, format!("the graphics device was lost {} times", self.lost));
@@ -367,12 +395,52 @@ impl App<'_> {
         }
     }
 
-    /// When the last visitor has left, the next one finds aim and language as they were first.
+    /// What the shelf has to say.
+    fn hear(&mut self, news: News) {
+        match news {
+            News::Show(exhibit) => {
+                self.turning = false;
+                self.say(format!("{} is on show", exhibit.id));
+                if let Some(show) = &self.show {
+                    show.live.controls().exhibit = Some(exhibit);
+                }
+            }
+            News::Failed(report) => {
+                self.turning = false;
+                self.say(format!("{}\nThe last good exhibit stays on show.", report.trim_end()));
+            }
+            News::Stands(work) => {
+                self.pictures.retain(|(id, _)| *id != work.id);
+                self.offer.put(*work);
+            }
+            News::Falls(id, report) => {
+                self.offer.remove(&id);
+                self.say(format!("{}\n{id} is not offered until it is mended.", report.trim_end()));
+            }
+            News::Gone(id) => self.offer.remove(&id),
+        }
+    }
+
+    /// Shows the work so many places after the one on show.
+    fn leaf(&mut self, by: i32) {
+        let Some(show) = &self.show else { return };
+        let shown = id(&show.live.frame().exhibit.folder);
+        if let Some(work) = self.offer.beside(&shown, by as isize) {
+            self.shelf.show(&work.folder);
+        }
+    }
+
+    /// When the last visitor has left, the next one finds everything as it was first; meanwhile the works take turns.
     fn follow_attract(&mut self, frame: &Frame) {
         if frame.attracts && !self.attracts {
             self.visitor.leave();
             self.language.clear();
+            (self.menu, self.reading, self.listens) = (Menu::default(), Reading::default(), true);
             self.tell();
+        }
+        if frame.attracts && frame.attract_rounds > 0 && !self.turning {
+            self.turning = true;
+            self.leaf(1);
         }
         self.attracts = frame.attracts;
     }
@@ -412,6 +480,28 @@ impl App<'_> {
                 let next = shown.map_or(0, |shown| (shown + 1) % self.languages.len());
                 self.language = self.languages.get(next).cloned().unwrap_or_default();
             }
+            Request::Menu => {
+                self.menu.toggle();
+                self.visitor.let_go();
+            }
+            Request::Work(index) => {
+                if let Some(work) = self.offer.works().get(index) {
+                    self.shelf.show(&work.folder);
+                }
+                self.menu.open = false;
+            }
+            Request::Leaf(by) if self.menu.open => self.menu.turn(by),
+            Request::Leaf(by) => self.leaf(by),
+            Request::Large => self.reading.large = !self.reading.large,
+            Request::Contrast => self.reading.contrast = !self.reading.contrast,
+            Request::Listen => self.listens = !self.listens,
+            Request::Look(way) => self.menu.look(way, &self.buttons),
+            Request::Enter => {
+                if let Some(marked) = self.menu.marked(&self.buttons).filter(|request| *request != Request::Enter) {
+                    self.grant(events, marked);
+                }
+            }
+            Request::Nothing => {}
             Request::Louder(steps) => self.wish(|wishes| wishes.louder += steps),
             Request::Mute => self.wish(|wishes| wishes.mutes += 1),
             Request::Night => self.wish(|wishes| wishes.nights += 1),
@@ -434,6 +524,7 @@ impl App<'_> {
         controls.presses.clear();
         controls.presses.extend(self.visitor.presses());
         controls.activity = self.visitor.activity();
+        controls.deaf = !self.listens;
     }
 
     /// Asks something of the loudness.
@@ -459,6 +550,30 @@ impl App<'_> {
         self.failure = Some(error);
         events.exit();
     }
+}
+
+/// The works as tiles, their pictures taken over by the panel library once.
+fn tiles(
+    context: &egui::Context,
+    works: &[Work],
+    pictures: &mut Vec<(String, egui::TextureHandle)>,
+    shown: &Path,
+    language: &str,
+) -> Vec<Tile> {
+    let tile = |work: &Work| {
+        let known = pictures.iter().find(|(id, _)| *id == work.id).map(|(_, texture)| texture.id());
+        let picture = known.or_else(|| {
+            let pixels = work.thumbnail.as_ref()?;
+            let size = [pixels.width() as usize, pixels.height() as usize];
+            let image = egui::ColorImage::from_rgba_unmultiplied(size, pixels);
+            let texture = context.load_texture(&work.id, image, egui::TextureOptions::LINEAR);
+            pictures.push((work.id.clone(), texture));
+            pictures.last().map(|(_, texture)| texture.id())
+        });
+        let title = work.labels.get(language).map_or_else(|| work.id.clone(), |label| label.title.clone());
+        Tile { title, picture, shown: work.folder == shown }
+    };
+    works.iter().map(tile).collect()
 }
 
 /// Opens the window: all of the screen, or part of a desk.

@@ -157,7 +157,7 @@ mod live {
     use soffio::kiosk::attract::Attract;
     use soffio::kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
     use soffio::kiosk::pace::{MOST_BEHIND, Pacer};
-    use soffio::kiosk::reload::Reload;
+    use soffio::kiosk::shelf::{News, Offer, Places, Shelf, folders, id};
     use soffio::kiosk::words::{WORDS, language_name, words};
     use soffio::simulation::Command;
 
@@ -196,7 +196,7 @@ mod live {
     fn keys<'a>(staff: &'a Chord, blow: &'a str) -> Keys<'a> {
         static OTHERS: LazyLock<[Chord; 2]> =
             LazyLock::new(|| ["M", "N"].map(|key| Chord::new(true, true, false, key)));
-        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], blow }
+        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], blow, menu: false }
     }
 
     fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
@@ -310,7 +310,9 @@ mod live {
                 let key = Key { name: name.into(), pressed: true, repeat: false, ctrl, alt, shift };
                 let asked = tell(&mut visitor, Signal::Key(key));
                 let staff = name == "S" && ctrl && alt && !shift;
-                assert_eq!(asked, staff.then_some(Request::ToggleStaff), "{name} {held:03b}");
+                let page = name == "Tab" && !ctrl && !alt;
+                let may = if staff { Some(Request::ToggleStaff) } else { page.then_some(Request::Menu) };
+                assert_eq!(asked, may, "{name} {held:03b}");
             }
         }
         assert_eq!(
@@ -318,6 +320,24 @@ mod live {
             Some(Request::Close),
             "on a desk it may"
         );
+    }
+
+    #[test]
+    fn on_the_page_keys_choose_and_nothing_blows() {
+        let chord = chord();
+        let keys = Keys { menu: true, ..keys(&chord, "Space") };
+        let mut visitor = Visitor::default();
+        for (name, asked) in [
+            ("ArrowLeft", Request::Look([-1, 0])),
+            ("ArrowDown", Request::Look([0, 1])),
+            ("Enter", Request::Enter),
+            ("Space", Request::Enter),
+            ("Tab", Request::Menu),
+            ("PageDown", Request::Leaf(1)),
+        ] {
+            assert_eq!(visitor.signal(&key(name, true), keys, false), Some(asked), "{name}");
+            assert!(!holds(&visitor) && visitor.stick() == [0.0; 2], "{name}");
+        }
     }
 
     #[test]
@@ -395,17 +415,57 @@ mod live {
         let folder = tempfile::tempdir().expect("a folder");
         let copy = folder.path().join("steel-fish");
         copy_folder(&shipped, &copy);
-        let reload = Reload::new(&copy, true);
+        let shelf = Shelf::new(&Places::One(copy.clone()), &copy, true);
+        assert!(matches!(shelf.wait(LONG), Some(News::Stands(work)) if work.id == "steel-fish" && work.thumbnail.is_some()));
         let sidecar = copy.join("exhibit.toml");
         let text = std::fs::read_to_string(&sidecar).expect("a sidecar");
 
         std::fs::write(&sidecar, &text).expect("writable");
-        let loaded = reload.wait(LONG).expect("the change is noticed").expect("the exhibit is valid");
+        let Some(News::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
         assert_eq!(loaded.id, "steel-fish");
+        assert!(matches!(shelf.wait(LONG), Some(News::Stands(_))));
 
         std::fs::write(&sidecar, format!("{text}\n[no-such-table]\n")).expect("writable");
-        let report = reload.wait(LONG).expect("the change is noticed").expect_err("the exhibit is not valid");
-        assert!(report.contains("no-such-table"), "{report}");
+        let Some(News::Falls(id, report)) = shelf.wait(LONG) else { panic!("the change is noticed, nothing shown") };
+        assert!(id == "steel-fish" && report.contains("no-such-table"), "{report}");
+    }
+
+    #[test]
+    fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_taken_away() {
+        const LONG: Duration = Duration::from_secs(20);
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits");
+        let site = tempfile::tempdir().expect("a folder");
+        for id in ["pendulum", "steel-fish"] {
+            copy_folder(&shipped.join(id), &site.path().join(id));
+        }
+        let show = ["steel-fish", "*", "pendulum"].map(str::to_owned).to_vec();
+        let places = Places::All { folder: site.path().to_path_buf(), show };
+        let named: Vec<String> = folders(&places).iter().map(|folder| id(folder)).collect();
+        assert_eq!(named, ["steel-fish", "pendulum"]);
+        let shelf = Shelf::new(&places, &site.path().join("steel-fish"), true);
+        let mut offer = Offer::new(&places);
+        let mut said = Vec::new();
+        let mut until = |offer: &mut Offer, wanted: &[&str]| {
+            while offer.works().iter().map(|work| work.id.as_str()).ne(wanted.iter().copied()) {
+                match shelf.wait(LONG).unwrap_or_else(|| panic!("{wanted:?} never stood there: {:?}", offer.works())) {
+                    News::Stands(work) => offer.put(*work),
+                    News::Gone(id) => offer.remove(&id),
+                    News::Falls(id, report) => {
+                        offer.remove(&id);
+                        said.push(report);
+                    }
+                    News::Show(_) | News::Failed(_) => {}
+                }
+            }
+        };
+        until(&mut offer, &["steel-fish", "pendulum"]);
+        // Dropped while the kiosk runs: between the two that are named, as the star says.
+        copy_folder(&shipped.join("chains"), &site.path().join("chains"));
+        until(&mut offer, &["steel-fish", "chains", "pendulum"]);
+        assert_eq!(offer.beside("pendulum", 1).map(|work| work.id.as_str()), Some("steel-fish"), "round and round");
+        assert_eq!(offer.beside("steel-fish", -1).map(|work| work.id.as_str()), Some("pendulum"));
+        std::fs::remove_dir_all(site.path().join("chains")).expect("removable");
+        until(&mut offer, &["steel-fish", "pendulum"]);
     }
 
     fn copy_folder(from: &Path, to: &Path) {
@@ -428,11 +488,13 @@ mod live {
         assert_eq!(language_name("xx"), "xx");
         assert_eq!(words("xx").code, "en");
         for words in WORDS {
-            assert!(![words.name, words.invite, words.hold, words.privacy].contains(&""), "{}", words.code);
+            assert!(!words.all().contains(&""), "{}", words.code);
         }
     }
 }
 
+#[cfg(feature = "kiosk")]
+mod pages;
 #[cfg(feature = "kiosk")]
 mod stage;
 

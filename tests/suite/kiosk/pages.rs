@@ -1,0 +1,346 @@
+//! What lies over the picture, page by page, as a visitor meets it: what can be pressed, how large it is, and that every
+//! page is reached and left by finger and by keys, in each language, on each shape of glass.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use egui::{Rect, pos2};
+use soffio::exhibit::{self, Exhibit};
+use soffio::kiosk::captions::Captions;
+use soffio::kiosk::fonts;
+use soffio::kiosk::input::Request;
+use soffio::kiosk::menu::{Menu, Tile};
+use soffio::kiosk::overlay::{Overlay, Scene};
+use soffio::kiosk::page::{BUTTON_MM, Reading};
+use soffio::kiosk::words::{WORDS, words};
+use soffio::simulation::{Command, Settings, Simulation, Snapshot, StepInput};
+use soffio::sound::SoundCommand;
+
+/// Points a millimetre of a 43-inch glass with a picture of full HD.
+const POINTS_PER_MM: f32 = 2.0;
+/// Shapes of glass, points.
+const GLASSES: [[f32; 2]; 4] = [[1920.0, 1080.0], [1280.0, 720.0], [1080.0, 1920.0], [2560.0, 1080.0]];
+const READINGS: [Reading; 3] = [
+    Reading { large: false, contrast: false },
+    Reading { large: true, contrast: false },
+    Reading { large: true, contrast: true },
+];
+
+fn load(id: &str) -> Arc<Exhibit> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id);
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}")))
+}
+
+/// A visitor before the glass.
+struct Before {
+    context: egui::Context,
+    exhibit: Arc<Exhibit>,
+    moment: Snapshot,
+    glass: [f32; 2],
+    languages: Vec<String>,
+    language: String,
+    reading: Reading,
+    overlay: Overlay,
+    menu: Menu,
+    time: f64,
+    activity: u64,
+    works: usize,
+    hears: bool,
+    captions: Vec<String>,
+}
+
+impl Before {
+    fn new(exhibit: &Arc<Exhibit>, glass: [f32; 2]) -> Self {
+        let context = egui::Context::default();
+        context.set_fonts(fonts::definitions());
+        let languages: Vec<String> = exhibit.labels.languages.iter().map(|(code, _)| code.clone()).collect();
+        Self {
+            context,
+            exhibit: exhibit.clone(),
+            moment: Simulation::new(exhibit.clone(), Settings::default()).snapshot(),
+            glass,
+            language: languages[0].clone(),
+            languages,
+            reading: Reading::default(),
+            overlay: Overlay::default(),
+            menu: Menu::default(),
+            time: 1.0,
+            activity: 0,
+            works: 21,
+            hears: true,
+            captions: Vec::new(),
+        }
+    }
+
+    fn picture(&self) -> Rect {
+        Rect::from_min_size(pos2(0.0, 0.0), self.glass.into())
+    }
+
+    /// Looks: what can be pressed.
+    fn look(&mut self) -> Vec<(Rect, Request)> {
+        let picture = self.picture();
+        let input = egui::RawInput { screen_rect: Some(picture), ..egui::RawInput::default() };
+        self.menu.tend(self.time, self.activity, self.moment.breath.estimate.speed > 0.0);
+        let tiles: Vec<Tile> =
+            (0..self.works).map(|i| Tile { title: format!("Work {i}"), picture: None, shown: i == 0 }).collect();
+        let mut buttons = Vec::new();
+        let (context, overlay, menu) = (self.context.clone(), &mut self.overlay, &mut self.menu);
+        let scene = Scene {
+            exhibit: &self.exhibit,
+            moment: &self.moment,
+            view: self.exhibit.view(f64::from(self.glass[0] / self.glass[1])),
+            attract_text: None,
+            inviting: &self.language,
+            hears: self.hears,
+            has_ear: true,
+            listens: self.hears,
+            captions: &self.captions,
+            silent: false,
+            leaves_in: None,
+            languages: &self.languages,
+            language: &self.language,
+            volume: true,
+            time: self.time,
+            reading: self.reading,
+            tiles: &tiles,
+            points_per_mm: POINTS_PER_MM,
+        };
+        let mut laid_out = context.run_ui(input, |ui| {
+            let painter = ui.ctx().layer_painter(egui::LayerId::background());
+            buttons = overlay.paint(&painter, picture, menu, &scene);
+        });
+        laid_out.textures_delta.clear();
+        buttons
+    }
+
+    /// Presses a point; what that asks for.
+    fn press(&mut self, at: egui::Pos2) -> Option<Request> {
+        self.activity += 1;
+        let request = self.look().into_iter().find(|(rect, _)| rect.contains(at)).map(|(_, request)| request);
+        match request {
+            Some(Request::Menu) => self.menu.toggle(),
+            Some(Request::Leaf(by)) => self.menu.turn(by),
+            Some(Request::Language(i)) => self.language = self.languages[i].clone(),
+            _ => {}
+        }
+        request
+    }
+}
+
+fn overlap(a: Rect, b: Rect) -> bool {
+    let both = a.intersect(b);
+    both.width() > 0.5 && both.height() > 0.5
+}
+
+#[test]
+fn at_first_there_is_only_the_work_and_one_word() {
+    for glass in GLASSES {
+        let mut visitor = Before::new(&load("steel-fish"), glass);
+        let buttons = visitor.look();
+        assert_eq!(buttons.len(), 1, "{glass:?}: {buttons:?}");
+        assert_eq!(buttons[0].1, Request::Menu);
+        // The middle of the picture is the sculpture's: a press there blows.
+        assert_eq!(visitor.press(visitor.picture().center()), None);
+    }
+}
+
+#[test]
+fn every_button_is_large_enough_apart_and_on_the_glass_in_every_language() {
+    let mut seen = 0;
+    for id in ["steel-fish", "terry-clock", "wind-chimes"] {
+        let exhibit = load(id);
+        for glass in GLASSES {
+            for reading in READINGS {
+                let mut visitor = Before::new(&exhibit, glass);
+                visitor.reading = reading;
+                for language in visitor.languages.clone() {
+                    visitor.language = language.clone();
+                    for open in [false, true] {
+                        visitor.menu.open = open;
+                        let what = format!("{id}, {glass:?}, {reading:?}, {language}, page open: {open}");
+                        let all = visitor.look();
+                        let buttons: Vec<_> = all.iter().filter(|(_, request)| *request != Request::Nothing).collect();
+                        for (i, (rect, request)) in buttons.iter().enumerate() {
+                            let side = rect.width().min(rect.height()) / POINTS_PER_MM;
+                            assert!(side >= BUTTON_MM - 0.01, "{what}: {request:?} is {side} mm");
+                            assert!(visitor.picture().contains_rect(*rect), "{what}: {request:?} at {rect:?}");
+                            for (other, beside) in &buttons[i + 1..] {
+                                assert!(!overlap(*rect, *other), "{what}: {request:?} lies on {beside:?}");
+                            }
+                            seen += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(seen > 1000, "{seen} buttons");
+}
+
+#[test]
+fn the_page_is_reached_and_left_by_finger_and_everything_on_it_is_found() {
+    for glass in GLASSES {
+        let mut visitor = Before::new(&load("wind-chimes"), glass);
+        let more = visitor.look()[0].0.center();
+        assert_eq!(visitor.press(more), Some(Request::Menu));
+        assert!(visitor.menu.open);
+        let mut found: Vec<Request> = Vec::new();
+        for _ in 0..visitor.works {
+            let buttons = visitor.look();
+            found.extend(buttons.iter().map(|(_, request)| *request));
+            let next = buttons.iter().find(|(_, request)| *request == Request::Leaf(1));
+            let Some((rect, _)) = next else { break };
+            let at = rect.center();
+            assert_eq!(visitor.press(at), Some(Request::Leaf(1)), "{glass:?}");
+        }
+        let languages = (0..visitor.languages.len()).map(Request::Language);
+        let rest = [Request::Louder(1), Request::Louder(-1), Request::Large, Request::Contrast, Request::Listen];
+        for wanted in (0..visitor.works).map(Request::Work).chain(languages).chain(rest).chain([Request::Menu]) {
+            assert!(found.contains(&wanted), "{glass:?}: {wanted:?} is nowhere");
+        }
+        // Beside all buttons a press is nothing: neither a breath nor a way out.
+        let buttons = visitor.look();
+        let free = (0..100).map(|i| pos2(glass[0] * 0.01 * i as f32, glass[1] * 0.9)).find(|at| {
+            !buttons.iter().any(|(rect, request)| *request != Request::Nothing && rect.contains(*at))
+        });
+        assert_eq!(visitor.press(free.expect("a free place")), Some(Request::Nothing));
+        let back = visitor.look().into_iter().find(|(_, request)| *request == Request::Menu).expect("a way back");
+        assert_eq!(visitor.press(back.0.center()), Some(Request::Menu));
+        assert!(!visitor.menu.open);
+    }
+}
+
+#[test]
+fn keys_alone_reach_every_button_and_come_back() {
+    let mut visitor = Before::new(&load("steel-fish"), GLASSES[0]);
+    visitor.menu.toggle();
+    let buttons = visitor.look();
+    // From where the first key leads, by all ways from everywhere that was reached.
+    let mut first = visitor.menu.clone();
+    first.look([1, 0], &buttons);
+    let (mut marked, mut open) = (Vec::new(), vec![first]);
+    while let Some(menu) = open.pop() {
+        let now = menu.marked(&buttons).expect("something is marked");
+        assert_ne!(now, Request::Nothing);
+        if marked.contains(&now) {
+            continue;
+        }
+        marked.push(now);
+        for way in [[1, 0], [0, 1], [-1, 0], [0, -1]] {
+            let mut next = menu.clone();
+            next.look(way, &buttons);
+            open.push(next);
+        }
+    }
+    let all = visitor.look();
+    for (_, request) in all.iter().filter(|(_, request)| *request != Request::Nothing) {
+        assert!(marked.contains(request), "no key reaches {request:?}; reached {marked:?}");
+    }
+}
+
+#[test]
+fn the_page_closes_by_itself_after_half_a_minute_and_at_a_breath() {
+    let mut visitor = Before::new(&load("steel-fish"), GLASSES[1]);
+    visitor.menu.toggle();
+    for second in 0..29 {
+        visitor.time = 1.0 + f64::from(second);
+        visitor.look();
+        assert!(visitor.menu.open, "closed after {second} s");
+    }
+    visitor.activity += 1;
+    visitor.look();
+    visitor.time += 29.0;
+    visitor.look();
+    assert!(visitor.menu.open, "a touch begins the time anew");
+    visitor.time += 2.0;
+    visitor.look();
+    assert!(!visitor.menu.open);
+    visitor.menu.toggle();
+    visitor.look();
+    visitor.moment.breath.estimate.speed = 3.0;
+    visitor.look();
+    assert!(!visitor.menu.open, "whoever blows wants the sculpture");
+}
+
+#[test]
+fn after_much_hard_blowing_a_rest_is_proposed_and_forgotten() {
+    let mut visitor = Before::new(&load("steel-fish"), GLASSES[1]);
+    let blow = |visitor: &mut Before, meter: f64, seconds: f64| {
+        visitor.moment.breath.meter = meter;
+        visitor.moment.breath.speed = 10.0 * meter;
+        for _ in 0..(seconds * 10.0) as usize {
+            visitor.time += 0.1;
+            visitor.look();
+        }
+    };
+    blow(&mut visitor, 0.4, 60.0);
+    assert!(!visitor.overlay.proposes_rest(), "gentle blowing is as it should be");
+    blow(&mut visitor, 0.9, 5.0);
+    assert!(!visitor.overlay.proposes_rest());
+    blow(&mut visitor, 0.9, 10.0);
+    assert!(visitor.overlay.proposes_rest());
+    blow(&mut visitor, 0.0, 60.0);
+    assert!(!visitor.overlay.proposes_rest());
+}
+
+#[test]
+fn the_fonts_can_write_every_word_of_every_language_that_the_kiosk_speaks() {
+    let context = egui::Context::default();
+    context.set_fonts(fonts::definitions());
+    let mut laid_out = context.run_ui(egui::RawInput::default(), |ui| {
+        // Where the system has no East Asian font those languages are not offered.
+        let east = fonts::find_east_asian().is_some();
+        for words in WORDS.iter().filter(|words| east || !["ko", "ja"].contains(&words.code)) {
+            for text in words.all() {
+                let can = ui.ctx().fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), text));
+                assert!(can, "{}: {text}", words.code);
+            }
+        }
+    });
+    laid_out.textures_delta.clear();
+    assert_eq!(words("pt").code, "en");
+}
+
+#[test]
+fn what_is_heard_is_written_and_what_is_over_is_not() {
+    let exhibit = load("wind-chimes");
+    let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+    let mut captions = Captions::default();
+    let mut struck = None;
+    for step in 0..2400 {
+        let blow = match step {
+            100 => Some(Command::Blow(Some(8.0))),
+            500 => Some(Command::Blow(None)),
+            _ => None,
+        };
+        simulation.step(&StepInput { commands: blow.as_slice(), ..StepInput::default() });
+        let sounds = simulation.sounds();
+        if struck.is_none() && sounds.iter().any(|sound| matches!(sound, SoundCommand::Strike(_))) {
+            struck = Some(step);
+        }
+        captions.note(&exhibit, sounds, step);
+        if step == 99 {
+            assert_eq!(captions.shown(&exhibit, step), [""; 0], "nothing is heard yet");
+        }
+    }
+    let struck = struck.expect("a chime rings");
+    // Replayed up to there, both are written.
+    let mut again = Simulation::new(exhibit.clone(), Settings::default());
+    let mut captions = Captions::default();
+    for step in 0..=struck + 1 {
+        let blow = (step == 100).then_some(Command::Blow(Some(8.0)));
+        again.step(&StepInput { commands: blow.as_slice(), ..StepInput::default() });
+        captions.note(&exhibit, again.sounds(), step);
+    }
+    let shown = captions.shown(&exhibit, struck + 1);
+    assert!(shown.len() == 2, "chime and wind: {shown:?}");
+    for key in &shown {
+        for (code, label) in &exhibit.labels.languages {
+            assert!(label.caption.iter().any(|(known, _)| known == key), "{code} has no caption {key}");
+        }
+    }
+    assert_eq!(captions.shown(&exhibit, struck + 600), [""; 0], "two seconds later it is over");
+    let mut visitor = Before::new(&exhibit, GLASSES[0]);
+    visitor.captions = shown;
+    assert_eq!(visitor.look().len(), 1, "captions are no buttons");
+}
