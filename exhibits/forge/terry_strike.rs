@@ -37,9 +37,12 @@ const FINE: f64 = 0.7 * MM;
 /// Raised rim of the count wheel, and how much higher it is than the notches.
 const RIM: f64 = 45.0 * MM;
 const RISE: f64 = 3.0 * MM;
-/// From a lock to where the rim begins to rise, and to where it has risen, blows.
-const FOOT: f64 = 0.15;
-const TOP: f64 = 0.55;
+/// From a lock to where the rim begins to rise, and to where it has risen, blows; and from where it begins to fall and where
+/// it is down to the next lock: the feeler has to be down before the pin comes.
+const FOOT: f64 = 0.22;
+const TOP: f64 = 0.62;
+const EDGE: f64 = 0.75;
+const DOWN: f64 = 0.35;
 /// Radius of feeler, pins and arms.
 const PEG: f64 = 0.8 * MM;
 const FEELER: f64 = 1.0 * MM;
@@ -145,12 +148,11 @@ fn rise(hour: usize, now: f64) -> Solid {
         DVec2::new(radius * cos(angle), radius * sin(angle))
     };
     let (first, last) = (before, before + hour as f64);
-    let spans = 4 * hour;
-    let mut outline: Polygon = vec![at(last - FOOT, RIM - RISE), at(last - FOOT, bottom), at(first + FOOT, bottom)];
+    let mut outline: Polygon = vec![at(last - DOWN, RIM - RISE), at(last - DOWN, bottom), at(first + FOOT, bottom)];
     outline.push(at(first + FOOT, RIM - RISE));
-    outline.extend((0..=spans).map(|k| {
-        let share = k as f64 / spans as f64;
-        at(first + TOP + share * (hour as f64 - 2.0 * TOP), RIM)
+    outline.extend((0..=hour).map(|k| {
+        let share = k as f64 / hour as f64;
+        at(first + TOP + share * (hour as f64 - TOP - EDGE), RIM)
     }));
     outline.reverse();
     sheet(&outline, &[], WHEEL - 0.4 * MM, 0.1 * MM)

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::collision::Shape;
+use crate::geometry::hull::Hull;
 use crate::geometry::{Extents, TriangleMesh};
 use crate::math::{DMat3, DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
@@ -44,10 +45,15 @@ pub fn capsule(extents: &Extents) -> Shape {
     Shape::capsule(extents.center - along, extents.center + along, radius)
 }
 
-/// Support points of the mesh in directions spread evenly over the sphere (a Fibonacci lattice), shrunk about their
-/// middle by the ball's radius.
+/// The hull of the mesh, with faces where they should be and rounded edges; of a mesh of many corners that of its support
+/// points in directions spread evenly over the sphere (a Fibonacci lattice).
 pub fn convex(mesh: &TriangleMesh) -> Option<Shape> {
-    let points: Vec<DVec3> = mesh.corners().flatten().collect();
+    let mut points: Vec<DVec3> = Vec::new();
+    for point in mesh.corners().flatten() {
+        if !points.contains(&point) {
+            points.push(point);
+        }
+    }
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     let directions = (0..HULL_DIRECTIONS).map(|i| {
         let y = 1.0 - (2.0 * i as f64 + 1.0) / HULL_DIRECTIONS as f64;
@@ -56,19 +62,21 @@ pub fn convex(mesh: &TriangleMesh) -> Option<Shape> {
         DVec3::new(r * cos(angle), y, r * sin(angle))
     });
     let directions: Vec<DVec3> = directions.chain(DVec3::AXES).chain(DVec3::AXES.map(|a| -a)).collect();
-    let mut corners: Vec<DVec3> = Vec::new();
-    for direction in &directions {
-        let furthest = points.iter().copied().max_by(|a, b| a.dot(*direction).total_cmp(&b.dot(*direction)))?;
-        if !corners.contains(&furthest) {
-            corners.push(furthest);
+    if points.len() > HULL_DIRECTIONS {
+        let mut corners: Vec<DVec3> = Vec::new();
+        for direction in &directions {
+            let furthest = points.iter().copied().max_by(|a, b| a.dot(*direction).total_cmp(&b.dot(*direction)))?;
+            if !corners.contains(&furthest) {
+                corners.push(furthest);
+            }
         }
+        points = corners;
     }
-    let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
-    let reach = |d: &DVec3| corners.iter().map(|p| (*p - middle).dot(*d)).fold(f64::NEG_INFINITY, f64::max);
+    let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+    let reach = |d: &DVec3| points.iter().map(|p| (*p - middle).dot(*d)).fold(f64::NEG_INFINITY, f64::max);
     let inner = directions.iter().map(reach).fold(f64::INFINITY, f64::min);
     let radius = ROUNDING * inner;
-    corners.iter_mut().for_each(|p| *p = middle + (*p - middle) * (1.0 - ROUNDING));
-    (inner > 0.0).then(|| Shape::hull(&corners, radius))
+    (inner > 0.0).then(|| Shape::hull(&Hull::new(&points).inset(radius), radius))
 }
 
 /// Sheet metal as convex pieces; `None` where the mesh has no outline.

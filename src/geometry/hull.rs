@@ -4,7 +4,7 @@
 //! corner lies above it. That is O(n⁴) at worst, and has no order of insertion to go wrong on flat or round input.
 
 use super::support::farthest;
-use crate::math::{DVec2, DVec3, tangents};
+use crate::math::{DMat3, DVec2, DVec3, tangents};
 
 /// Corners within this share of the hull's size of a plane lie in it: ten roundings of models' 32-bit coordinates.
 const FLAT: f64 = 1e-6;
@@ -79,6 +79,20 @@ impl Hull {
     /// Outward normals of the faces.
     pub fn normals(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.faces.iter().map(|face| face.normal)
+    }
+
+    /// The corners of the hull whose faces lie so much deeper (m): with a ball of that radius swept over it, it has its own
+    /// faces back. A corner of faces n goes by the d with n·d = −depth, of more than three faces by the one nearest to that.
+    pub fn inset(&self, depth: f64) -> Vec<DVec3> {
+        let moved = |(index, corner): (usize, &DVec3)| {
+            let meets = |face: &&Face| self.loops[face.first..face.end].contains(&index);
+            let (squares, sum) = self.faces.iter().filter(meets).fold((DMat3::ZERO, DVec3::ZERO), |(m, s), face| {
+                let n = face.normal;
+                (m + DMat3::from_cols(n * n.x, n * n.y, n * n.z), s + n)
+            });
+            *corner - depth * (squares.inverse() * sum)
+        };
+        self.corners.iter().enumerate().map(moved).collect()
     }
 
     /// Corners of the face, edge or point farthest along `d` (unit) that lean against the plane across it by a sine
@@ -172,4 +186,31 @@ fn ring_of(points: &[DVec3], inside: &[usize], normal: DVec3) -> Vec<usize> {
     let mut ring = half(&mut order.iter().copied());
     ring.extend(half(&mut order.iter().rev().copied()));
     ring
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inset_hull_with_its_ball_has_the_faces_of_the_hull() {
+        /// m, of a part of 4 cm: rounding. Its edges are blunter by a share of the ball.
+        const FACES: f64 = 1e-12;
+        const BALL: f64 = 4e-5;
+        // A long thin wedge: shrunk about its middle it would be short by far more than the ball.
+        let outline = [(-0.02, 0.0), (0.02, 0.0), (0.015, 0.003), (-0.015, 0.003)];
+        let corner = |side: f64| outline.map(|(x, y)| DVec3::new(x, y, 0.002 * side));
+        let corners: Vec<DVec3> = [-1.0, 1.0].into_iter().flat_map(corner).collect();
+        let hull = Hull::new(&corners);
+        let inset = hull.inset(BALL);
+        assert_eq!((hull.corners().len(), inset.len()), (8, 8));
+        let reach = |points: &[DVec3], d: DVec3| points.iter().map(|p| p.dot(d)).fold(f64::NEG_INFINITY, f64::max);
+        for normal in hull.normals() {
+            let (own, whole) = (reach(&corners, normal), reach(&inset, normal) + BALL);
+            assert!((own - whole).abs() < FACES, "{normal}: {whole} instead of {own}");
+        }
+        assert_eq!(hull.normals().count(), 6);
+        let tip = reach(&inset, DVec3::X) + BALL;
+        assert!(tip <= 0.02 && tip > 0.02 - 2.0 * BALL, "{tip}");
+    }
 }
