@@ -112,6 +112,8 @@ pub struct Load {
     pub microphone: MicrophoneHealth,
     /// What the devices say.
     pub audio: AudioStatus,
+    /// Frames that the loudspeaker has played; `None` where there is none.
+    pub played: Option<u64>,
     /// How loud it is.
     pub loudness: View,
     /// What moves the exhibit.
@@ -125,7 +127,9 @@ pub struct Load {
 impl Frame {
     /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
     pub fn is_deaf(&self) -> bool {
-        !self.hears && !self.deaf && (self.load.microphone.is_silent() || matches!(self.load.audio.input, DeviceState::Missing(_)))
+        !self.hears
+            && !self.deaf
+            && (self.load.microphone.is_silent() || matches!(self.load.audio.input, DeviceState::Missing(_)))
     }
 
     /// Is it certain that there is no loudspeaker?
@@ -413,6 +417,7 @@ impl Thread {
 
     fn publish(&mut self, due: Instant, hears: bool) {
         self.load.audio = self.audio.status();
+        self.load.played = self.audio.played();
         self.load.loudness = self.loudness.view();
         self.load.mode = self.stage.snapshot().diagnostics.mode;
         self.metrics.tend(&self.load);

@@ -186,7 +186,10 @@ fn wall_text(page: &Page, scene: &Scene, room: Rect) {
         .into_iter()
         .chain([(label.body.trim(), 0.95, 1.2)])
         .chain(play.into_iter().map(|line| (line, 0.9, 0.35)))
-        .chain([(own.privacy, SMALL, 0.6), (scene.exhibit.credit.notice.trim(), SMALL, 0.0)])
+        .chain([
+            (if scene.hears { own.privacy } else { "" }, SMALL, 0.6),
+            (scene.exhibit.credit.notice.trim(), SMALL, 0.0),
+        ])
         .filter(|(text, ..)| !text.is_empty())
         .collect();
     let set = |scale: f32| -> Vec<_> {
@@ -233,9 +236,9 @@ fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     }
     if scene.languages.len() > 1 {
         let languages = scene.languages.iter().enumerate();
-        items.extend(languages.map(|(i, code)| {
-            (Item::Word(language_name(code), code == scene.language), Request::Language(i))
-        }));
+        items.extend(
+            languages.map(|(i, code)| (Item::Word(language_name(code), code == scene.language), Request::Language(i))),
+        );
     }
     let mut corner = page.picture.right_bottom();
     for (item, request) in items.into_iter().rev() {

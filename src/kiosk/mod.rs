@@ -25,5 +25,7 @@ pub mod screen;
 pub mod shelf;
 pub mod staff;
 pub mod stage;
+#[cfg(target_os = "linux")]
+pub mod watchdog;
 pub mod window;
 pub mod words;

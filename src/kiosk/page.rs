@@ -64,7 +64,8 @@ impl<'a> Page<'a> {
 
     /// Type `size` em high, in lines no longer than this.
     pub fn set(&self, text: &str, size: f32, color: Color32, longest: f32) -> Arc<Galley> {
-        let color = if self.reading.contrast { Color32::BLACK.gamma_multiply(f32::from(color.a()) / 255.0) } else { color };
+        let color =
+            if self.reading.contrast { Color32::BLACK.gamma_multiply(f32::from(color.a()) / 255.0) } else { color };
         self.painter.layout(text.into(), FontId::proportional(size * self.em), color, longest)
     }
 
@@ -121,7 +122,12 @@ impl<'a> Page<'a> {
         let size = vec2(self.button, self.button);
         let rect = Rect::from_min_size(right_bottom - size, size);
         let ink = if self.reading.contrast { Color32::BLACK } else { SOFT_INK };
-        self.painter.circle(rect.center(), 0.42 * self.button, PAPER.gamma_multiply(0.6), Stroke::new(0.08 * self.em, ink));
+        self.painter.circle(
+            rect.center(),
+            0.42 * self.button,
+            PAPER.gamma_multiply(0.6),
+            Stroke::new(0.08 * self.em, ink),
+        );
         let galley = self.set(sign, 1.1, ink, f32::INFINITY);
         self.painter.galley(rect.center() - 0.5 * galley.size(), galley, ink);
         rect
@@ -129,7 +135,12 @@ impl<'a> Page<'a> {
 
     /// Shows which button the keys are on.
     pub fn focus(&self, rect: Rect) {
-        self.painter.rect_stroke(rect.expand(0.1 * self.em), 0.3 * self.em, Stroke::new(0.22 * self.em, VERMILION), StrokeKind::Outside);
+        self.painter.rect_stroke(
+            rect.expand(0.1 * self.em),
+            0.3 * self.em,
+            Stroke::new(0.22 * self.em, VERMILION),
+            StrokeKind::Outside,
+        );
     }
 
     /// A part of a circle's rim, clockwise from the top.

@@ -24,8 +24,8 @@ use super::events::translate;
 use super::input::{Keys, Request, Visitor};
 use super::live::{self, Frame, Live, Onset, Report};
 use super::loudness::Wishes;
-use super::overlay::{Overlay, Scene};
 use super::menu::{Menu, Tile};
+use super::overlay::{Overlay, Scene};
 use super::page::Reading;
 use super::screen::{Drawn, Screen};
 use super::shelf::{News, Offer, Places, Shelf, Work, id};
@@ -65,7 +65,12 @@ pub enum Ended {
 
 /// Shows an exhibit, and lets visitors choose among those of `places`, until somebody ends it. `interrupted` is set by a
 /// signal from outside.
-pub fn run(config: Config, places: &Places, options: live::Options, interrupted: &AtomicBool) -> Result<Ended, Missing> {
+pub fn run(
+    config: Config,
+    places: &Places,
+    options: live::Options,
+    interrupted: &AtomicBool,
+) -> Result<Ended, Missing> {
     let events = event_loop().map_err(Missing::Display)?;
     let display = Box::new(events.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -95,6 +100,9 @@ pub fn run(config: Config, places: &Places, options: live::Options, interrupted:
         deaf: false,
         mute: false,
         clock: Clock::new(),
+        #[cfg(target_os = "linux")]
+        watchdog: super::watchdog::Watchdog::default(),
+        pictures_shown: 0,
         sight: Sight::default(),
         lost: 0,
         missing: None,
@@ -102,6 +110,8 @@ pub fn run(config: Config, places: &Places, options: live::Options, interrupted:
         config,
     };
     let looped = events.run_app(&mut app).map_err(|error| error.to_string());
+    #[cfg(target_os = "linux")]
+    app.watchdog.end();
     if let Some(missing) = app.missing {
         return Err(missing);
     }
@@ -209,6 +219,9 @@ struct App<'a> {
     deaf: bool,
     mute: bool,
     clock: Clock,
+    #[cfg(target_os = "linux")]
+    watchdog: super::watchdog::Watchdog,
+    pictures_shown: u64,
     sight: Sight,
     lost: u32,
     missing: Option<Missing>,
@@ -362,6 +375,16 @@ impl App<'_> {
         });
         if drawn == Drawn::Shown {
             self.sight.note(&frame, &moment, now);
+            self.pictures_shown += 1;
+            #[cfg(target_os = "linux")]
+            self.watchdog.tend(
+                now,
+                super::watchdog::Progress { pictures: self.pictures_shown, due: frame.due, played: frame.load.played },
+                &format!(
+                    "{} on show; microphone {}; loudspeaker {}",
+                    frame.exhibit.id, frame.load.audio.input, frame.load.audio.output
+                ),
+            );
         }
         self.follow_attract(&frame);
         self.follow_devices(&frame);

@@ -42,8 +42,22 @@ impl Words {
     /// All of them, for whoever checks that none is missing.
     pub fn all(&self) -> [&'static str; 16] {
         [
-            self.code, self.name, self.invite, self.hold, self.privacy, self.more, self.back, self.aim, self.take,
-            self.large, self.contrast, self.ear, self.ear_off, self.silent, self.rest, self.stay,
+            self.code,
+            self.name,
+            self.invite,
+            self.hold,
+            self.privacy,
+            self.more,
+            self.back,
+            self.aim,
+            self.take,
+            self.large,
+            self.contrast,
+            self.ear,
+            self.ear_off,
+            self.silent,
+            self.rest,
+            self.stay,
         ]
     }
 }

@@ -416,7 +416,9 @@ mod live {
         let copy = folder.path().join("steel-fish");
         copy_folder(&shipped, &copy);
         let shelf = Shelf::new(&Places::One(copy.clone()), &copy, true);
-        assert!(matches!(shelf.wait(LONG), Some(News::Stands(work)) if work.id == "steel-fish" && work.thumbnail.is_some()));
+        assert!(
+            matches!(shelf.wait(LONG), Some(News::Stands(work)) if work.id == "steel-fish" && work.thumbnail.is_some())
+        );
         let sidecar = copy.join("exhibit.toml");
         let text = std::fs::read_to_string(&sidecar).expect("a sidecar");
 

@@ -200,9 +200,9 @@ fn the_page_is_reached_and_left_by_finger_and_everything_on_it_is_found() {
         }
         // Beside all buttons a press is nothing: neither a breath nor a way out.
         let buttons = visitor.look();
-        let free = (0..100).map(|i| pos2(glass[0] * 0.01 * i as f32, glass[1] * 0.9)).find(|at| {
-            !buttons.iter().any(|(rect, request)| *request != Request::Nothing && rect.contains(*at))
-        });
+        let free = (0..100)
+            .map(|i| pos2(glass[0] * 0.01 * i as f32, glass[1] * 0.9))
+            .find(|at| !buttons.iter().any(|(rect, request)| *request != Request::Nothing && rect.contains(*at)));
         assert_eq!(visitor.press(free.expect("a free place")), Some(Request::Nothing));
         let back = visitor.look().into_iter().find(|(_, request)| *request == Request::Menu).expect("a way back");
         assert_eq!(visitor.press(back.0.center()), Some(Request::Menu));
