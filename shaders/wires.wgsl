@@ -58,9 +58,9 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     let from_a = globals.eye - v.a.xyz;
     let offset = dot(from_a, side);
     let cosine = dot(unit, sight);
-    let depth = (cosine * dot(from_a, unit) - dot(from_a, sight)) / sine2;
     let on_axis = v.a.xyz + unit * ((dot(from_a, unit) - cosine * dot(from_a, sight)) / sine2);
-    let pixel = globals.pixel_angle * max(depth, 1e-4);
+    // Metres of offset from one pixel to the next; exact off the picture's middle too.
+    let pixel = max(length(vec2f(dpdx(offset), dpdy(offset))), 1e-9);
     let r = v.a.w / pixel;
     let wide = max(r, 0.5);
     var alpha = clamp(wide + 0.5 - abs(offset) / pixel, 0.0, 1.0) * r / wide;
@@ -73,14 +73,13 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     }
     let towards = normalize(cross(across, unit));
     let front = select(-towards, towards, dot(towards, sight) < 0.0);
-    var s: Surface;
+    var s = plain_surface();
     s.position = on_axis + front * v.a.w;
     s.view = -sight;
     s.facing = front;
     s.albedo = v.color.rgb;
     s.metallic = v.b.w;
     s.roughness = max(v.color.w, 0.15);
-    s.occlusion = 1.0;
     // Across the round: one normal where the pixel is small against the wire, the mean of three where it is not.
     let lit = key_light_at(s);
     let normals = select(3.0, 1.0, r > 1.5);
