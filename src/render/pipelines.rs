@@ -163,7 +163,7 @@ impl Pipelines {
     pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options, scene: &Scene) -> Self {
         let device = &gpu.device;
         let module = |label: &str| {
-            let source = options.shaders.source(label).into();
+            let source = options.shaders.source(label);
             let source = wgpu::ShaderSource::Wgsl(source);
             device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
         };

@@ -51,7 +51,7 @@ fn a_bent_wire_has_no_light_seam_and_no_blot_where_its_segments_meet() {
     const SCATTER: f32 = 0.05;
     let size = (200, 100);
     let fovy = 0.2;
-    let pixel = 2.0 * (0.5 * fovy as f64).tan() * 2.0 / f64::from(size.1);
+    let pixel = 2.0 * (0.5f64 * fovy).tan() * 2.0 / f64::from(size.1);
     for width in [0.25, 0.47, 0.88, 1.66, 4.0] {
         // y = c x² in 23 segments, so that joints fall on all places between pixels.
         let bend = 1.1;
@@ -76,6 +76,25 @@ fn a_bent_wire_has_no_light_seam_and_no_blot_where_its_segments_meet() {
         println!("bent wire of {width} px: bias {:+.4}, row_cv {scatter:.4}", mean - 1.0);
         assert!((mean - 1.0).abs() < BIAS, "{width} px: {mean}");
         assert!(scatter < SCATTER, "{width} px: scatter {scatter}");
+    }
+}
+
+#[test]
+fn a_wire_that_points_at_the_eye_is_whole() {
+    // Segments that are seen along themselves: neither their joints nor the near end may let light through.
+    const LIGHT: f32 = 0.05;
+    let size = (96, 96);
+    let (eye, near, radius) = (DVec3::Z * 3.0, DVec3::new(0.0, 0.004, 0.5), 0.02);
+    let exhibit = wire(vec![DVec3::new(0.01, 0.0, -0.5), DVec3::new(0.01, 0.0, 0.0), near], radius);
+    let Some(mut renderer) = renderer(&exhibit, |options| options.look = bare(Vec3::ONE)) else { return };
+    let view = square_on(eye, DVec3::ZERO, 0.05);
+    let frame = Frame { poses: &[], motes: &[], view, size, exposure: 1.0 };
+    let picture = renderer.draw(&frame).expect("a picture");
+    let pixel = 2.0 * (0.025f64).tan() * 2.5 / 96.0;
+    for (x, y, p) in picture.enumerate_pixels() {
+        let at = DVec3::new((f64::from(x) - 47.5) * pixel, (47.5 - f64::from(y)) * pixel - near.y, 0.0);
+        let light = linear(p.0[1]);
+        assert!(at.length() > radius - 1.5 * pixel || light < LIGHT, "{light} at {x}, {y}");
     }
 }
 
