@@ -21,7 +21,7 @@ use crate::math::Pose;
 /// Most motes drawn.
 const MAX_MOTES: usize = 4096;
 /// Points of each lamp's disc that shadows of meshes are cast from.
-const LAMP_SAMPLES: [u32; 2] = [20, 48];
+const LAMP_SAMPLES: [u32; 2] = [28, 56];
 
 /// Draws one exhibit. Built once; draws any number of frames.
 pub struct Renderer {

@@ -20,15 +20,15 @@ use super::shadows::ReceivingPlane;
 use crate::exhibit::Exhibit;
 
 /// Rays of each corner.
-const CORNER_RAYS: u32 = 24;
+const CORNER_RAYS: u32 = 20;
 /// Most rays of all corners together; beyond it each has fewer.
 const MAX_RAYS: usize = 1_500_000;
 /// Fewest rays that say anything; with less the corners stay open.
 const MIN_RAYS: u32 = 6;
 /// Rays of each texel of a plane.
-const TEXEL_RAYS: u32 = 40;
+const TEXEL_RAYS: u32 = 32;
 /// Texels along each side of a plane's map.
-pub(super) const PLANE_MAP: u32 = 96;
+pub(super) const PLANE_MAP: u32 = 80;
 /// How far corners look, in radii of the work.
 const REACH: f32 = 0.22;
 
