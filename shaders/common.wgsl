@@ -64,6 +64,8 @@ struct Globals {
     area_radiance: vec3f,
     shadow_near: f32,
     background: vec3f,
+    shadow_far: f32,
+    room_work: vec3f,       // where the environment cube was taken: the middle of the work
     spare: f32,
     irradiance: array<vec4f, 9>,
     lamps: array<Lamp, 2>,
@@ -81,6 +83,19 @@ const PI: f32 = 3.14159265;
 
 fn to_world(position: vec3f, body: u32) -> vec3f {
     return vec4f(position, 1.0) * world_from_body[body];
+}
+
+// A vertex' tag: the frame that carries it in the low half, then its ambient visibility and its opacity to lamps.
+fn frame_of_tag(tag: u32) -> u32 {
+    return tag & 0xffffu;
+}
+
+fn visibility_of_tag(tag: u32) -> f32 {
+    return f32((tag >> 16u) & 0xffu) / 255.0;
+}
+
+fn opacity_of_tag(tag: u32) -> f32 {
+    return f32(tag >> 24u) / 255.0;
 }
 
 fn turn_to_world(direction: vec3f, body: u32) -> vec3f {

@@ -1,4 +1,14 @@
 // The exhibit's meshes. One vertex buffer holds them all, each vertex with the index of the body that carries it.
+//
+// Glass is drawn in two kinds of passes over what lies behind it: what it lets through multiplies that
+// (`tint_fragment`; the order of panes does not matter), what it reflects is added (`gloss_fragment`).
+
+// Places of the textures in `Material::uv`.
+const BASE: u32 = 0u;
+const ROUGH: u32 = 1u;
+const NORMAL: u32 = 2u;
+const OCCLUSION: u32 = 3u;
+const GLOW: u32 = 4u;
 
 struct Material {
     base_color: vec4f,
@@ -8,24 +18,40 @@ struct Material {
     normal_scale: f32,   // 0 without a normal map
     occlusion: f32,
     cutoff: f32,         // 0 keeps every fragment
-    spare: vec4f,
+    f0: vec3f,           // of what is not metal
+    f90: f32,
+    absorption: vec3f,   // 1/m
+    thickness: f32,      // m
+    sheen: vec3f,
+    sheen_roughness: f32,
+    transmission: f32,
+    ior: f32,
+    coat: f32,
+    coat_roughness: f32,
+    unlit: f32,
+    spare: vec3f,
+    uv: array<vec4f, 10>, // two rows of each texture's transform; w of the first: which set of coordinates
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
-@group(2) @binding(1) var material_sampler: sampler;
-@group(2) @binding(2) var base_color_texture: texture_2d<f32>;
-@group(2) @binding(3) var metallic_roughness_texture: texture_2d<f32>;
-@group(2) @binding(4) var normal_texture: texture_2d<f32>;
-@group(2) @binding(5) var occlusion_texture: texture_2d<f32>;
-@group(2) @binding(6) var emissive_texture: texture_2d<f32>;
+@group(2) @binding(1) var base_color_texture: texture_2d<f32>;
+@group(2) @binding(2) var metallic_roughness_texture: texture_2d<f32>;
+@group(2) @binding(3) var normal_texture: texture_2d<f32>;
+@group(2) @binding(4) var occlusion_texture: texture_2d<f32>;
+@group(2) @binding(5) var emissive_texture: texture_2d<f32>;
+@group(2) @binding(6) var base_color_sampler: sampler;
+@group(2) @binding(7) var metallic_roughness_sampler: sampler;
+@group(2) @binding(8) var normal_sampler: sampler;
+@group(2) @binding(9) var occlusion_sampler: sampler;
+@group(2) @binding(10) var emissive_sampler: sampler;
 
 struct Vertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) tangent: vec4f,
-    @location(3) uv: vec2f,
+    @location(3) uv: vec4f,      // two sets
     @location(4) color: vec4f,
-    @location(5) body: u32,
+    @location(5) tag: u32,
 }
 
 struct Varying {
@@ -33,33 +59,51 @@ struct Varying {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) tangent: vec4f,
-    @location(3) uv: vec2f,
+    @location(3) uv: vec4f,
     @location(4) color: vec4f,
+    @location(5) visibility: f32,
 }
 
 @vertex
 fn vertex(v: Vertex) -> Varying {
+    let frame = frame_of_tag(v.tag);
     var out: Varying;
-    out.position = to_world(v.position, v.body);
+    out.position = to_world(v.position, frame);
     out.clip = globals.clip_from_world * vec4f(out.position, 1.0);
-    out.normal = turn_to_world(v.normal, v.body);
-    out.tangent = vec4f(turn_to_world(v.tangent.xyz, v.body), v.tangent.w);
+    out.normal = turn_to_world(v.normal, frame);
+    out.tangent = vec4f(turn_to_world(v.tangent.xyz, frame), v.tangent.w);
     out.uv = v.uv;
     out.color = v.color;
+    out.visibility = visibility_of_tag(v.tag);
     return out;
 }
 
-@fragment
-fn fragment(v: Varying) -> @location(0) vec4f {
+fn place(v: Varying, texture: u32) -> vec2f {
+    let first = material.uv[2u * texture];
+    let at = vec3f(select(v.uv.xy, v.uv.zw, first.w > 0.5), 1.0);
+    return vec2f(dot(first.xyz, at), dot(material.uv[2u * texture + 1u].xyz, at));
+}
+
+// A surface and what it is besides.
+struct Seen {
+    surface: Surface,
+    base: vec4f,
+    glow: vec3f,
+}
+
+fn seen(v: Varying) -> Seen {
     let dp_x = dpdx(v.position);
     let dp_y = dpdy(v.position);
-    let duv_x = dpdx(v.uv);
-    let duv_y = dpdy(v.uv);
-    let base = material.base_color * v.color * textureSample(base_color_texture, material_sampler, v.uv);
-    let mr = textureSample(metallic_roughness_texture, material_sampler, v.uv);
-    let bump = textureSample(normal_texture, material_sampler, v.uv).xyz * 2.0 - 1.0;
-    let ao = textureSample(occlusion_texture, material_sampler, v.uv).r;
-    let glow = textureSample(emissive_texture, material_sampler, v.uv).rgb;
+    let bump_at = place(v, NORMAL);
+    let duv_x = dpdx(bump_at);
+    let duv_y = dpdy(bump_at);
+    let mr = textureSample(metallic_roughness_texture, metallic_roughness_sampler, place(v, ROUGH));
+    let bump = textureSample(normal_texture, normal_sampler, bump_at).xyz * 2.0 - 1.0;
+    let ao = textureSample(occlusion_texture, occlusion_sampler, place(v, OCCLUSION)).r;
+    let glow = textureSample(emissive_texture, emissive_sampler, place(v, GLOW)).rgb;
+    var out: Seen;
+    out.base = material.base_color * v.color * textureSample(base_color_texture, base_color_sampler, place(v, BASE));
+    out.glow = material.emissive * glow;
 
     var s: Surface;
     s.position = v.position;
@@ -89,16 +133,58 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     }
     s.normal = n;
     s.facing = facing;
-    s.albedo = base.rgb;
+    s.albedo = out.base.rgb;
     s.metallic = clamp(material.metallic * mr.b, 0.0, 1.0);
     // Curved thin metal would sparkle: widen the lobe by the turn of the normal in the pixel (Tokuyoshi, Kaplanyan 2021).
     let turn = min(0.5 * (dot(dn_x, dn_x) + dot(dn_y, dn_y)), 0.18);
     let rough = clamp(material.roughness * mr.g, 0.045, 1.0);
     s.roughness = sqrt(sqrt(min(rough * rough * rough * rough + turn, 1.0)));
-    s.occlusion = 1.0 + material.occlusion * (ao - 1.0);
-    if base.a < material.cutoff {
+    s.occlusion = (1.0 + material.occlusion * (ao - 1.0)) * v.visibility;
+    s.f0 = material.f0;
+    s.f90 = material.f90;
+    s.transmission = material.transmission;
+    s.sheen = material.sheen;
+    s.sheen_roughness = material.sheen_roughness;
+    s.coat = material.coat;
+    s.coat_roughness = sqrt(sqrt(min(pow(max(material.coat_roughness, 0.045), 4.0) + turn, 1.0)));
+    out.surface = s;
+    return out;
+}
+
+@fragment
+fn fragment(v: Varying) -> @location(0) vec4f {
+    let it = seen(v);
+    if it.base.a < material.cutoff {
         discard;
     }
-    let radiance = shade(s, key_light_at(s)) + material.emissive * glow;
-    return vec4f(display(radiance, v.clip.xy), base.a);
+    if material.unlit > 0.5 {
+        return vec4f(display(it.base.rgb, v.clip.xy), it.base.a);
+    }
+    let radiance = shade(it.surface, key_light_at(it.surface)) + it.glow;
+    return vec4f(display(radiance, v.clip.xy), it.base.a);
+}
+
+// Part of the light behind that one crossing of the surface lets through, per channel.
+@fragment
+fn tint_fragment(v: Varying) -> @location(0) vec4f {
+    let it = seen(v);
+    let s = it.surface;
+    let nv = clamp(dot(s.normal, s.view), 0.0, 1.0);
+    let x = 1.0 - nv;
+    let fresnel = s.f0 + (s.f90 - s.f0) * (x * x * x * x * x);
+    // Way through the wall by Snell's law; where a bent wall is seen along itself, as far as it goes.
+    let refracted = sqrt(max(1.0 - (1.0 - nv * nv) / (material.ior * material.ior), 0.05));
+    let way = (1.0 / refracted) + 4.0 * x * x * x;
+    // The base colour is that of a whole pane, two crossings.
+    let color = pow(max(it.base.rgb, vec3f(1e-3)), vec3f(0.5 * way)) * exp(-material.absorption * material.thickness * way);
+    let through = s.transmission * (1.0 - s.metallic) * (1.0 - fresnel) * color;
+    return vec4f(through, 1.0);
+}
+
+// What the surface itself sends to the eye.
+@fragment
+fn gloss_fragment(v: Varying) -> @location(0) vec4f {
+    let it = seen(v);
+    let radiance = shade(it.surface, key_light_at(it.surface)) + it.glow;
+    return vec4f(min(radiance * globals.exposure, vec3f(1.0)), 1.0);
 }

@@ -7,13 +7,19 @@
 @group(1) @binding(0) var environment: texture_cube<f32>;
 @group(1) @binding(1) var dfg: texture_2d<f32>;
 @group(1) @binding(2) var smooth_sampler: sampler;
-@group(1) @binding(3) var shadow_map: texture_depth_2d;
+@group(1) @binding(3) var shadow_map: texture_depth_2d;      // compared, with a filter
 @group(1) @binding(4) var shadow_sampler: sampler_comparison;
 @group(1) @binding(5) var wall_shadow: texture_2d<f32>;
 @group(1) @binding(6) var floor_shadow: texture_2d<f32>;
 @group(1) @binding(7) var lightmap: texture_2d_array<f32>;
+@group(1) @binding(8) var ambient: texture_2d_array<f32>;   // what static parts leave of the sky over each plane
+@group(1) @binding(9) var blocker_map: texture_2d<f32>;      // the shadow map's depths as numbers: high byte, low byte
 
 override AREA_LIGHT: bool = false;
+// The environment is that of the room's box: reflections are moved to where the mirror ray meets its walls.
+override GALLERY: bool = false;
+// Some material has a clear coat or a sheen.
+override LAYERS: bool = false;
 
 struct Surface {
     position: vec3f,
@@ -24,23 +30,45 @@ struct Surface {
     metallic: f32,
     roughness: f32,    // perceptual
     occlusion: f32,
+    f0: vec3f,         // of what is not metal
+    f90: f32,
+    transmission: f32, // part of the light below the surface that goes through
+    sheen: vec3f,
+    sheen_roughness: f32,
+    coat: f32,
+    coat_roughness: f32,
+}
+
+// A surface of plain paint or metal.
+fn plain_surface() -> Surface {
+    var s: Surface;
+    s.occlusion = 1.0;
+    s.f0 = vec3f(0.04);
+    s.f90 = 1.0;
+    return s;
 }
 
 struct Reflector {
     diffuse: vec3f,
     f0: vec3f,
+    f90: f32,
     energy: vec3f,
     ab: vec2f,
     nv: f32,
+    sheen_albedo: f32,
 }
 
 fn reflector(s: Surface) -> Reflector {
     var r: Reflector;
     r.nv = clamp(dot(s.normal, s.view), 1e-3, 1.0);
-    r.f0 = mix(vec3f(0.04), s.albedo, s.metallic);
-    r.diffuse = s.albedo * (1.0 - s.metallic);
+    r.f0 = mix(s.f0, s.albedo, s.metallic);
+    r.f90 = mix(s.f90, 1.0, s.metallic);
+    r.diffuse = s.albedo * ((1.0 - s.metallic) * (1.0 - s.transmission));
     r.ab = textureSampleLevel(dfg, smooth_sampler, vec2f(r.nv, s.roughness), 0.0).xy;
     r.energy = 1.0 + r.f0 * (1.0 / max(r.ab.x + r.ab.y, 1e-3) - 1.0);
+    if LAYERS {
+        r.sheen_albedo = textureSampleLevel(dfg, smooth_sampler, vec2f(r.nv, s.sheen_roughness), 0.0).z;
+    }
     return r;
 }
 
@@ -57,7 +85,7 @@ fn specular(s: Surface, r: Reflector, l: vec3f, alpha: f32, widened: f32) -> vec
     let tw = (nh * w2 - nh) * nh + 1.0;
     let d = w2 / (PI * tw * tw) * norm * norm;
     let v = 0.5 / max(nl * sqrt(r.nv * r.nv * (1.0 - a2) + a2) + r.nv * sqrt(nl * nl * (1.0 - a2) + a2), 1e-5);
-    let f = r.f0 + (1.0 - r.f0) * pow(1.0 - clamp(dot(s.view, h), 0.0, 1.0), 5.0);
+    let f = r.f0 + (r.f90 - r.f0) * pow(1.0 - clamp(dot(s.view, h), 0.0, 1.0), 5.0);
     return d * v * nl * f * r.energy;
 }
 
@@ -69,11 +97,25 @@ fn sh_irradiance(n: vec3f) -> vec3f {
     return max(e, vec3f(0.0));
 }
 
+// Where the ray from p meets the room's box, as a direction from where the cube was taken (Lagarde 2012).
+fn box_projected(p: vec3f, d: vec3f) -> vec3f {
+    if !GALLERY {
+        return d;
+    }
+    let axes = mat3x3f(globals.room_x, vec3f(0.0, 1.0, 0.0), globals.room_z);
+    let start = (p - globals.room_center) * axes;
+    let way = d * axes;
+    let safe = select(way, vec3f(1e-6), abs(way) < vec3f(1e-6));
+    let t = (sign(safe) * globals.room_half - start) / safe;
+    return p + d * max(min(t.x, min(t.y, t.z)), 0.0) - globals.room_work;
+}
+
 fn image_light(s: Surface, r: Reflector) -> vec3f {
     let mirror = reflect(-s.view, s.normal);
     let lod = s.roughness * globals.env_lods;
-    let prefiltered = textureSampleLevel(environment, smooth_sampler, mirror, lod).rgb;
-    let single = r.f0 * r.ab.x + r.ab.y;
+    let seen = box_projected(s.position, mirror);
+    let prefiltered = textureSampleLevel(environment, smooth_sampler, seen, lod).rgb;
+    let single = r.f0 * r.ab.x + r.f90 * r.ab.y;
     let specular_albedo = single * r.energy;
     let diffuse = r.diffuse * (1.0 - specular_albedo) * sh_irradiance(s.normal) / PI;
     // Specular occlusion from the diffuse one (Lagarde and de Rousiers 2014).
@@ -90,6 +132,8 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let texel = globals.shadow_texel * distance;
     let side = select(-1.0, 1.0, dot(facing, towards) > 0.0);
     let q = globals.shadow_from_world * vec4f(p + facing * side * texel * (1.0 + 2.0 * slope), 1.0);
+    let near = globals.shadow_near;
+    let far = globals.shadow_far;
     if q.w <= 0.0 {
         return 1.0;
     }
@@ -100,17 +144,19 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let size = vec2f(textureDimensions(shadow_map));
     // Size of the light as seen in texture coordinates from a receiver at depth w, per unit of (w − b) / b.
     let spread = globals.shadow_radius / (globals.shadow_texel * size.x * q.w);
-    let search = max(spread * 0.5, 1.5 / size.x);
+    // No blocker is nearer to the light than the near plane.
+    let search = max(spread * (q.w - near) / near, 1.5 / size.x);
     var blockers = 0.0;
     var depth = 0.0;
     // The number of taps is a uniform so that no driver unrolls the loops: that made shaders slow to build.
     let taps = globals.shadow_taps;
     for (var i = 0.0; i < taps; i += 1.0) {
         let texel_at = vec2i((at.xy + search * vogel(i, taps)) * size);
-        let z = textureLoad(shadow_map, clamp(texel_at, vec2i(0), vec2i(size) - 1), 0);
-        if z > at.z + 1e-6 {
+        let bytes = textureLoad(blocker_map, clamp(texel_at, vec2i(0), vec2i(size) - 1), 0).xy;
+        let z = (bytes.x * 65280.0 + bytes.y * 255.0) / 65535.0;
+        if z > at.z + 2e-5 {
             blockers += 1.0;
-            depth += globals.shadow_near / z;
+            depth += near * far / (z * (far - near) + near);
         }
     }
     if blockers == 0.0 {
@@ -209,8 +255,41 @@ fn key_light_at(s: Surface) -> f32 {
     return shadow(s.position, s.facing, light - s.position);
 }
 
+// Charlie's distribution with Neubelt's visibility, times the cosine to the light (Estevez and Kulla 2017).
+fn sheen(s: Surface, r: Reflector, l: vec3f) -> vec3f {
+    let nl = clamp(dot(s.normal, l), 0.0, 1.0);
+    let h = normalize(s.view + l + s.normal * 1e-5);
+    let nh = clamp(dot(s.normal, h), 0.0, 1.0);
+    let inverse = 1.0 / max(s.sheen_roughness * s.sheen_roughness, 0.005);
+    let d = (2.0 + inverse) * pow(max(1.0 - nh * nh, 1e-4), 0.5 * inverse) / (2.0 * PI);
+    return s.sheen * (d * nl / (4.0 * max(nl + r.nv - nl * r.nv, 1e-3)));
+}
+
 // Radiance towards the eye; `lit` is the part of the shadow-casting light that arrives.
 fn shade(s: Surface, lit: f32) -> vec3f {
+    if !LAYERS {
+        return shade_layer(s, lit);
+    }
+    let r = reflector(s);
+    // What the sheen takes is missing below it; so is what the coat reflects.
+    var sum = shade_layer(s, lit) * (1.0 - max(s.sheen.r, max(s.sheen.g, s.sheen.b)) * r.sheen_albedo);
+    sum += globals.env_intensity * s.sheen * (r.sheen_albedo * s.occlusion / PI) * sh_irradiance(s.normal);
+    for (var i = 0u; i < globals.lamp_count; i++) {
+        let l = normalize(globals.lamps[i].position - s.position);
+        sum += lamp_beam(i, s.position) * sheen(s, r, l) * select(1.0, lit, i == 0u);
+    }
+    var coat = s;
+    coat.f0 = vec3f(0.04);
+    coat.f90 = 1.0;
+    coat.albedo = vec3f(0.0);
+    coat.metallic = 0.0;
+    coat.roughness = s.coat_roughness;
+    let above = reflector(coat);
+    return sum * (1.0 - s.coat * (0.04 * above.ab.x + above.ab.y)) + s.coat * shade_layer(coat, lit);
+}
+
+// One layer of it.
+fn shade_layer(s: Surface, lit: f32) -> vec3f {
     let r = reflector(s);
     let alpha = max(s.roughness * s.roughness, 0.002);
     var sum = image_light(s, r);

@@ -4,6 +4,14 @@
 // Which shadow the faces drawn receive: 0 the wall's, 1 the floor's, 2 none.
 override RECEIVER: u32 = 2u;
 
+// Perceptual; oiled boards, long walked on.
+const FLOOR_ROUGHNESS: f32 = 0.42;
+// Width of a board and of the groove between two, m.
+const BOARD: f32 = 0.14;
+const GROOVE: f32 = 0.002;
+// Height of the shadow gap at the foot of the wall, in half heights of the room.
+const GAP: f32 = 0.004;
+
 struct Varying {
     @builtin(position) clip: vec4f,
     @location(0) position: vec3f,
@@ -35,8 +43,15 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
 }
 
 // Cubic B-spline through four bilinear taps (Sigg and Hadwiger 2005): a shadow without the squares of its texels.
-fn bicubic(t: texture_2d<f32>, at: vec2f) -> vec2f {
-    let size = vec2f(textureDimensions(t));
+// Places of the four taps, and their weights along both axes.
+struct Taps {
+    near: vec2f,
+    far: vec2f,
+    g0: vec2f,
+    g1: vec2f,
+}
+
+fn bicubic_taps(size: vec2f, at: vec2f) -> Taps {
     let x = at * size - 0.5;
     let f = fract(x);
     let i = floor(x);
@@ -44,21 +59,74 @@ fn bicubic(t: texture_2d<f32>, at: vec2f) -> vec2f {
     let w1 = (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
     let w3 = f * f * f / 6.0;
     let w2 = 1.0 - w0 - w1 - w3;
-    let g0 = w0 + w1;
-    let g1 = w2 + w3;
-    let a = (i - 0.5 + w1 / g0) / size;
-    let b = (i + 1.5 + w3 / g1) / size;
-    let top = g0.x * textureSampleLevel(t, smooth_sampler, vec2f(a.x, a.y), 0.0).xy + g1.x * textureSampleLevel(t, smooth_sampler, vec2f(b.x, a.y), 0.0).xy;
-    let low = g0.x * textureSampleLevel(t, smooth_sampler, vec2f(a.x, b.y), 0.0).xy + g1.x * textureSampleLevel(t, smooth_sampler, vec2f(b.x, b.y), 0.0).xy;
-    return g0.y * top + g1.y * low;
+    return Taps((i - 0.5 + w1 / (w0 + w1)) / size, (i + 1.5 + w3 / (w2 + w3)) / size, w0 + w1, w2 + w3);
+}
+
+fn bicubic(t: texture_2d<f32>, at: vec2f) -> vec2f {
+    let k = bicubic_taps(vec2f(textureDimensions(t)), at);
+    let top = k.g0.x * textureSampleLevel(t, smooth_sampler, k.near, 0.0).xy
+        + k.g1.x * textureSampleLevel(t, smooth_sampler, vec2f(k.far.x, k.near.y), 0.0).xy;
+    let low = k.g0.x * textureSampleLevel(t, smooth_sampler, vec2f(k.near.x, k.far.y), 0.0).xy
+        + k.g1.x * textureSampleLevel(t, smooth_sampler, k.far, 0.0).xy;
+    return k.g0.y * top + k.g1.y * low;
+}
+
+fn bicubic_layer(t: texture_2d_array<f32>, at: vec2f, layer: i32) -> f32 {
+    let k = bicubic_taps(vec2f(textureDimensions(t)), at);
+    let top = k.g0.x * textureSampleLevel(t, smooth_sampler, k.near, layer, 0.0).x
+        + k.g1.x * textureSampleLevel(t, smooth_sampler, vec2f(k.far.x, k.near.y), layer, 0.0).x;
+    let low = k.g0.x * textureSampleLevel(t, smooth_sampler, vec2f(k.near.x, k.far.y), layer, 0.0).x
+        + k.g1.x * textureSampleLevel(t, smooth_sampler, k.far, layer, 0.0).x;
+    return k.g0.y * top + k.g1.y * low;
+}
+
+// Place on the receiving plane's textures.
+fn plane_place(p: vec3f) -> vec2f {
+    let q = globals.planes[RECEIVER & 1u];
+    return vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
+}
+
+// Part of the room's own light that static parts leave.
+fn open_sky(p: vec3f) -> f32 {
+    if RECEIVER > 1u {
+        return 1.0;
+    }
+    let at = plane_place(p);
+    let open = bicubic_layer(ambient, at, i32(RECEIVER & 1u));
+    return select(1.0, open, all(at >= vec2f(0.0)) && all(at <= vec2f(1.0)));
+}
+
+// Tone of the floor's boards, 1 on average: each a little lighter or darker, with a groove between, covered in parts
+// of pixels. They run from the wall to the visitor, so a pixel is narrow across them however flat it is seen.
+fn boards(across: f32, pixel: f32) -> f32 {
+    let x = across / BOARD;
+    let w = clamp(pixel / BOARD, 1e-4, 1.0);
+    let nearest = round(x);
+    let side = clamp((x - nearest) / w + 0.5, 0.0, 1.0);
+    let tone = mix(board_tone(nearest - 1.0), board_tone(nearest), side);
+    let groove = GROOVE / BOARD;
+    let covered = clamp((0.5 * (groove + w) - abs(x - nearest)) / min(groove, w), 0.0, 1.0) * min(groove / w, 1.0);
+    return tone * (1.0 - 0.28 * covered);
+}
+
+fn board_tone(board: f32) -> f32 {
+    return 1.0 + 0.07 * pixel_noise(vec2f(board + 4096.0, 77.0));
+}
+
+// What the floor's varnish reflects of the room.
+fn floor_gloss(p: vec3f, normal: vec3f) -> vec3f {
+    let view = normalize(globals.eye - p);
+    let nv = clamp(dot(normal, view), 1e-3, 1.0);
+    let ab = textureSampleLevel(dfg, smooth_sampler, vec2f(nv, FLOOR_ROUGHNESS), 0.0).xy;
+    let seen = box_projected(p, reflect(-view, normal));
+    return textureSampleLevel(environment, smooth_sampler, seen, FLOOR_ROUGHNESS * globals.env_lods).rgb * (0.04 * ab.x + ab.y);
 }
 
 fn blocked(p: vec3f) -> vec2f {
     if RECEIVER > 1u {
         return vec2f(0.0);
     }
-    let q = globals.planes[RECEIVER & 1u];
-    let at = vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
+    let at = plane_place(p);
     var hidden: vec2f;
     if RECEIVER == 0u {
         hidden = bicubic(wall_shadow, at);
@@ -84,12 +152,25 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     // The map's fourth channel is the radiance of a luminous field.
     let albedo = select(globals.wall_albedo, globals.floor_albedo, v.face == 1u);
     let hidden = blocked(v.position);
-    var irradiance = map.rgb;
+    let open = open_sky(v.position);
+    var irradiance = map.rgb * open;
     for (var i = 0u; i < globals.lamp_count; i++) {
         let towards = normalize(globals.lamps[i].position - v.position);
         irradiance += lamp_beam(i, v.position) * max(dot(normal, towards), 0.0) * (1.0 - hidden[i]);
     }
-    let radiance = albedo / PI * irradiance + vec3f(map.a);
+    var radiance = albedo / PI * irradiance + vec3f(map.a);
+    if RECEIVER == 1u {
+        let pixel = globals.pixel_angle * length(globals.eye - v.position);
+        radiance *= boards(v.local.x * globals.room_half.x, pixel);
+        radiance += floor_gloss(v.position, normal) * open;
+    }
+    if RECEIVER != 1u {
+        // The walls end a finger above the floor: a dark line, covered in parts of pixels.
+        let away = globals.eye - v.position;
+        let pixel = globals.pixel_angle * length(away) / globals.room_half.y;
+        let above = select(v.local.y + 1.0, 1.0, v.face == 2u);
+        radiance *= 1.0 - 0.72 * clamp((GAP - above) / pixel + 0.5, 0.0, 1.0) * min(GAP / pixel, 1.0);
+    }
     return vec4f(display(radiance, v.clip.xy), 1.0);
 }
 

@@ -21,14 +21,14 @@ fn lamp_channel(lamp: u32) -> vec2f {
 }
 
 @vertex
-fn mesh_vertex(@location(0) position: vec3f, @location(5) body: u32, @builtin(instance_index) instance: u32) -> Varying {
+fn mesh_vertex(@location(0) position: vec3f, @location(5) tag: u32, @builtin(instance_index) instance: u32) -> Varying {
     let n = u32(globals.shadow_samples);
     let lamp = globals.lamps[instance / n];
     let plane = globals.planes[PLANE];
     let disc = lamp.radius * vogel(f32(instance % n), f32(n));
     let frame = frame_of(lamp.axis);
     let light = lamp.position + frame[0] * disc.x + frame[1] * disc.y - plane.origin;
-    let p = to_world(position, body) - plane.origin;
+    let p = to_world(position, frame_of_tag(tag)) - plane.origin;
     // Height of the light and of the point over the plane; what is behind the plane throws its shadow on its own foot.
     let d = dot(light, plane.normal);
     let h = max(dot(p, plane.normal), 0.0);
@@ -40,7 +40,7 @@ fn mesh_vertex(@location(0) position: vec3f, @location(5) body: u32, @builtin(in
     var out: Varying;
     let depth = 1.0 - f32(instance + 1u) / f32(n * globals.lamp_count + 1u);
     out.clip = vec4f(at.x * 2.0 - w, w - at.y * 2.0, depth * w, w);
-    out.value = lamp_channel(instance / n) / f32(n);
+    out.value = lamp_channel(instance / n) * (opacity_of_tag(tag) / f32(n));
     return out;
 }
 
@@ -127,6 +127,14 @@ fn wire_fragment(v: Strip) -> @location(0) vec4f {
 
 // The shadow map of the light that shades the work itself.
 @vertex
-fn map_vertex(@location(0) position: vec3f, @location(5) body: u32) -> @builtin(position) vec4f {
-    return globals.shadow_from_world * vec4f(to_world(position, body), 1.0);
+fn map_vertex(@location(0) position: vec3f, @location(5) tag: u32) -> @builtin(position) vec4f {
+    return globals.shadow_from_world * vec4f(to_world(position, frame_of_tag(tag)), 1.0);
+}
+
+// The depth once more, in two bytes: some drivers compare a depth texture or read it, but not both.
+@fragment
+fn map_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let whole = position.z * 65535.0;
+    let high = floor(whole / 256.0);
+    return vec4f(high / 255.0, (whole - high * 256.0) / 255.0, 0.0, 1.0);
 }

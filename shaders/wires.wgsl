@@ -32,9 +32,12 @@ fn vertex(
     let sight = end - globals.eye;
     let sideways = cross(unit, sight);
     let side = sideways * inverseSqrt(max(dot(sideways, sideways), 1e-20));
-    // The quad holds the wire and one pixel more on each side, and reaches over a joint as far as a bend may need.
+    // The quad holds the wire and one pixel more on each side, and reaches over a joint as far as a bend may need: in
+    // the picture, so that a wire that points at the eye has room too.
     let reach = a.w + 1.5 * globals.pixel_angle * length(sight);
-    let p = end + side * c.y * reach + unit * (2.0 * c.x - 1.0) * reach;
+    let beyond = cross(sight, side);
+    let ahead = beyond * (sign(dot(beyond, unit)) * inverseSqrt(max(dot(beyond, beyond), 1e-20)));
+    let p = end + side * c.y * reach + ahead * (2.0 * c.x - 1.0) * reach;
     var out: Varying;
     out.position = p;
     out.a = a;
@@ -58,14 +61,21 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     let from_a = globals.eye - v.a.xyz;
     let offset = dot(from_a, side);
     let cosine = dot(unit, sight);
-    let depth = (cosine * dot(from_a, unit) - dot(from_a, sight)) / sine2;
     let on_axis = v.a.xyz + unit * ((dot(from_a, unit) - cosine * dot(from_a, sight)) / sine2);
-    let pixel = globals.pixel_angle * max(depth, 1e-4);
+    // Metres of offset from one pixel to the next; exact off the picture's middle too.
+    let pixel = max(length(vec2f(dpdx(offset), dpdy(offset))), 1e-9);
     let r = v.a.w / pixel;
     let wide = max(r, 0.5);
     var alpha = clamp(wide + 0.5 - abs(offset) / pixel, 0.0, 1.0) * r / wide;
-    let inside_a = dot(on_axis - v.a.xyz, v.cut_a.xyz) / pixel;
-    let inside_b = dot(v.b.xyz - on_axis, v.cut_b.xyz) / pixel;
+    // Where the sight line enters the round, before it is nearest to the axis. A joint is cut there, so that both
+    // segments judge by the same point; an end shows where any of the way through the round lies within it.
+    let back = sqrt(max(v.a.w * v.a.w - offset * offset, 0.0) / sine2);
+    let nearest = (cosine * dot(from_a, unit) - dot(from_a, sight)) / sine2;
+    let enters = globals.eye + sight * (nearest - back);
+    let along = dot(on_axis - v.a.xyz, unit);
+    let through = abs(cosine) * back;
+    let inside_a = select(dot(enters - v.a.xyz, v.cut_a.xyz), along + through, v.cut_a.w > 0.5) / pixel;
+    let inside_b = select(dot(v.b.xyz - enters, v.cut_b.xyz), dot(axis, unit) - along + through, v.cut_b.w > 0.5) / pixel;
     alpha *= select(step(0.0, inside_a), clamp(inside_a + 0.5, 0.0, 1.0), v.cut_a.w > 0.5);
     alpha *= select(step(1e-6, inside_b), clamp(inside_b + 0.5, 0.0, 1.0), v.cut_b.w > 0.5);
     if alpha <= 0.0 {
@@ -73,14 +83,13 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     }
     let towards = normalize(cross(across, unit));
     let front = select(-towards, towards, dot(towards, sight) < 0.0);
-    var s: Surface;
+    var s = plain_surface();
     s.position = on_axis + front * v.a.w;
     s.view = -sight;
     s.facing = front;
     s.albedo = v.color.rgb;
     s.metallic = v.b.w;
     s.roughness = max(v.color.w, 0.15);
-    s.occlusion = 1.0;
     // Across the round: one normal where the pixel is small against the wire, the mean of three where it is not.
     let lit = key_light_at(s);
     let normals = select(3.0, 1.0, r > 1.5);

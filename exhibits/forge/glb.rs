@@ -27,6 +27,21 @@ pub struct Finish {
     pub roughness: f64,
 }
 
+/// What light meets in glass.
+#[derive(Clone, Copy, Debug)]
+pub struct Glass {
+    /// Thickness of the wall, m.
+    pub wall: f64,
+    /// Index of refraction.
+    pub ior: f64,
+    /// Part of the light that is not scattered, 0…1.
+    pub through: f64,
+    /// Linear RGB that white has become after `way` metres of it.
+    pub color: [f64; 3],
+    /// m.
+    pub way: f64,
+}
+
 /// A scene under construction.
 #[derive(Debug, Default)]
 pub struct Scene {
@@ -78,6 +93,16 @@ impl Scene {
             },
         }));
         self.materials.len() - 1
+    }
+
+    /// Makes a finish transparent, as the wall of a body of glass.
+    pub fn clear(&mut self, finish: usize, glass: &Glass) {
+        let Glass { wall, ior, through, color, way } = glass;
+        self.materials[finish]["extensions"] = json!({
+            "KHR_materials_ior": { "ior": ior },
+            "KHR_materials_transmission": { "transmissionFactor": through },
+            "KHR_materials_volume": { "attenuationColor": color, "attenuationDistance": way, "thicknessFactor": wall },
+        });
     }
 
     /// Gives `node` the shape of `solid` in `finish`.
@@ -142,7 +167,7 @@ impl Scene {
                 node["children"] = json!(children);
             }
         }
-        let document = json!({
+        let mut document = json!({
             "asset": { "version": "2.0", "generator": "Soffio forge", "copyright": copyright },
             "scene": 0,
             "scenes": [{ "name": name, "nodes": self.roots }],
@@ -154,6 +179,13 @@ impl Scene {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.binary.len() }],
         });
+        let mut used: Vec<&String> =
+            self.materials.iter().filter_map(|m| m["extensions"].as_object()).flat_map(|e| e.keys()).collect();
+        used.sort_unstable();
+        used.dedup();
+        if !used.is_empty() {
+            document["extensionsUsed"] = json!(used);
+        }
         let mut text = document.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);

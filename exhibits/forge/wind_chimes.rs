@@ -6,7 +6,7 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
-use super::glb::{Finish, Scene};
+use super::glb::{Finish, Glass, Scene};
 use super::hung::to_mass;
 use super::outline::{Polygon, area_and_centroid, ring};
 use super::piece::{Bend, Part, Piece, load, named};
@@ -44,6 +44,8 @@ pub struct Make {
     pub density: f64,
     /// How the tubes and the sail look.
     pub tubes: Finish,
+    /// What the tubes are if they are clear.
+    pub glass: Option<Glass>,
     pub sail: Finish,
 }
 
@@ -54,6 +56,7 @@ pub const ALUMINIUM: Make = Make {
     tube: [25.4, 1.65],
     density: 2710.0,
     tubes: Finish { name: "Brushed aluminium", color: [0.78, 0.79, 0.80], metallic: 1.0, roughness: 0.26 },
+    glass: None,
     sail: Finish { name: "Signal red", color: [0.55, 0.03, 0.018], metallic: 0.0, roughness: 0.45 },
 };
 
@@ -64,6 +67,7 @@ pub const BAMBOO: Make = Make {
     tube: [30.0, 4.0],
     density: 660.0,
     tubes: Finish { name: "Bamboo", color: [0.58, 0.42, 0.17], metallic: 0.0, roughness: 0.50 },
+    glass: None,
     sail: Finish { name: "Leaf green", color: [0.05, 0.17, 0.06], metallic: 0.0, roughness: 0.50 },
 };
 
@@ -73,7 +77,8 @@ pub const GLASS: Make = Make {
     lengths: &[480.3, 453.0, 427.3, 391.4, 369.1],
     tube: [20.0, 1.8],
     density: 2500.0,
-    tubes: Finish { name: "Sea glass", color: [0.20, 0.50, 0.47], metallic: 0.0, roughness: 0.08 },
+    tubes: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
+    glass: Some(Glass { wall: 1.8 * MM, ior: 1.52, through: 0.96, color: [0.36, 0.74, 0.70], way: 0.012 }),
     sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
 };
 
@@ -207,6 +212,9 @@ pub fn glb(make: &Make) -> Vec<u8> {
         }),
         iron: scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 }),
     };
+    if let Some(glass) = &make.glass {
+        scene.clear(looks.tubes, glass);
+    }
     let circle = STRIKER + GAP + 0.5 * make.tube[0] * MM;
     let (top, drop) = (HOOK * DVec3::Y, drop(make));
     let lengths = make.lengths.iter().map(|length| length * MM);

@@ -7,7 +7,7 @@ use super::{Failure, Outcome};
 use crate::exhibit::{self, Exhibit};
 use crate::offline::pictures::write_png;
 use crate::render::scenario::Scenario;
-use crate::render::{Frame, ImageRenderer, RenderError};
+use crate::render::{Frame, ImageRenderer, Options, RenderError, Shaders};
 use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// Picture size without `--size` or a scenario's.
@@ -30,6 +30,9 @@ pub struct Args {
     /// Lets the exhibit move for so many seconds first.
     #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     time: f64,
+    /// Folder of shaders to draw with instead of the built-in ones.
+    #[arg(long, value_name = "DIR", hide_short_help = true)]
+    shaders: Option<PathBuf>,
     /// PNG to write.
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
@@ -63,7 +66,12 @@ pub fn run(args: Args) -> Outcome {
     let size =
         args.size.unwrap_or((scenario.width.unwrap_or(DEFAULT_SIZE.0), scenario.height.unwrap_or(DEFAULT_SIZE.1)));
     let look = scenario.look().map_err(Failure::input)?;
-    let mut renderer = ImageRenderer::new(&exhibit, |options| options.look = look).map_err(failure)?;
+    let shaders = args.shaders.as_deref().map(Shaders::load).transpose().map_err(Failure::input)?;
+    let adjust = |options: &mut Options| {
+        options.look = look;
+        options.shaders = shaders.map_or(options.shaders.clone(), Arc::new);
+    };
+    let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(failure)?;
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure };

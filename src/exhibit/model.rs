@@ -4,8 +4,10 @@ use crate::math::{DMat4, DVec3};
 
 mod accessor;
 mod animation;
+mod deform;
 mod import;
 mod look;
+mod primitive;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use import::{Imported, import, load};
@@ -29,6 +31,8 @@ pub struct Model {
     pub lights: Vec<Light>,
     /// Key frames.
     pub animations: Vec<Animation>,
+    /// Nodes that are not drawn, sorted: hidden by KHR_node_visibility, or below one that is.
+    pub hidden: Vec<usize>,
 }
 
 /// A node of the scene graph.
@@ -72,6 +76,8 @@ pub struct Primitive {
     pub tangents: Vec<[f32; 4]>,
     /// Texture coordinates; empty where the file has none.
     pub uvs: Vec<[f32; 2]>,
+    /// The second set of them.
+    pub second_uvs: Vec<[f32; 2]>,
     /// Linear RGBA per vertex; empty where the file has none.
     pub colors: Vec<[f32; 4]>,
     /// Three per triangle.
@@ -80,33 +86,57 @@ pub struct Primitive {
     pub material: Option<usize>,
 }
 
-/// How a surface looks: the metallic–roughness model of glTF 2.0.
+/// How a surface looks: the metallic–roughness model of glTF 2.0 and the layers that ratified extensions add.
 #[derive(Clone, Debug)]
 pub struct Appearance {
     /// Name.
     pub name: String,
     /// Linear RGBA.
     pub base_color: [f32; 4],
-    /// Index of the image.
-    pub base_color_texture: Option<usize>,
+    /// Multiplies it.
+    pub base_color_texture: Option<TextureUse>,
     /// 0…1.
     pub metallic: f32,
     /// Perceptual, 0…1.
     pub roughness: f32,
-    /// Index of the image: green roughness, blue metallic.
-    pub metallic_roughness_texture: Option<usize>,
-    /// Index of the image and scale.
-    pub normal_texture: Option<(usize, f32)>,
-    /// Index of the image and strength.
-    pub occlusion_texture: Option<(usize, f32)>,
+    /// Green roughness, blue metallic.
+    pub metallic_roughness_texture: Option<TextureUse>,
+    /// With its scale.
+    pub normal_texture: Option<(TextureUse, f32)>,
+    /// With its strength.
+    pub occlusion_texture: Option<(TextureUse, f32)>,
     /// Linear RGB, strength included.
     pub emissive: [f32; 3],
-    /// Index of the image.
-    pub emissive_texture: Option<usize>,
+    /// Multiplies it.
+    pub emissive_texture: Option<TextureUse>,
     /// How alpha is used.
     pub alpha: AlphaMode,
     /// Drawn from both sides.
     pub double_sided: bool,
+    /// The base colour as it is, whatever the light (KHR_materials_unlit).
+    pub unlit: bool,
+    /// Index of refraction (KHR_materials_ior).
+    pub ior: f32,
+    /// Strength of what is not metal's mirror (KHR_materials_specular), and its linear colour.
+    pub specular: f32,
+    /// Linear RGB.
+    pub specular_color: [f32; 3],
+    /// Part of the light below the surface that goes through (KHR_materials_transmission), 0…1.
+    pub transmission: f32,
+    /// Of the wall of what is transparent (KHR_materials_volume), m.
+    pub thickness: f32,
+    /// Way in it after which white has become the attenuation colour, m; may be infinite.
+    pub attenuation_distance: f32,
+    /// Linear RGB.
+    pub attenuation_color: [f32; 3],
+    /// Strength of the clear coat (KHR_materials_clearcoat), 0…1.
+    pub coat: f32,
+    /// Perceptual.
+    pub coat_roughness: f32,
+    /// Linear RGB of a cloth's sheen (KHR_materials_sheen).
+    pub sheen: [f32; 3],
+    /// Perceptual.
+    pub sheen_roughness: f32,
 }
 
 impl Default for Appearance {
@@ -124,8 +154,81 @@ impl Default for Appearance {
             emissive_texture: None,
             alpha: AlphaMode::Opaque,
             double_sided: false,
+            unlit: false,
+            ior: 1.5,
+            specular: 1.0,
+            specular_color: [1.0; 3],
+            transmission: 0.0,
+            thickness: 0.0,
+            attenuation_distance: f32::INFINITY,
+            attenuation_color: [1.0; 3],
+            coat: 0.0,
+            coat_roughness: 0.0,
+            sheen: [0.0; 3],
+            sheen_roughness: 0.0,
         }
     }
+}
+
+/// An image on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureUse {
+    /// Index of the image.
+    pub image: usize,
+    /// Which set of texture coordinates it lies on: 0 or 1.
+    pub set: usize,
+    /// Rows that take (u, v, 1) to its own coordinates (KHR_texture_transform).
+    pub transform: [[f32; 3]; 2],
+    /// How it is read.
+    pub sampler: Sampler,
+}
+
+impl TextureUse {
+    /// The image as it is on the first set.
+    pub fn of(image: usize) -> Self {
+        Self { image, set: 0, transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], sampler: Sampler::default() }
+    }
+}
+
+/// How an image is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Sampler {
+    /// What lies beyond its edges, along u and v.
+    pub wrap: [Wrap; 2],
+    /// Blend neighbours when magnified.
+    pub smooth_near: bool,
+    /// Blend neighbours when minified.
+    pub smooth_far: bool,
+    /// Smaller levels: none, the nearest, or two blended.
+    pub levels: Levels,
+}
+
+impl Default for Sampler {
+    fn default() -> Self {
+        Self { wrap: [Wrap::Repeat; 2], smooth_near: true, smooth_far: true, levels: Levels::Blended }
+    }
+}
+
+/// What lies beyond an image's edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Wrap {
+    /// The image again.
+    Repeat,
+    /// The image mirrored.
+    Mirror,
+    /// Its edge.
+    Clamp,
+}
+
+/// Use of an image's smaller levels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Levels {
+    /// Only the image itself.
+    None,
+    /// The level that fits best.
+    Nearest,
+    /// The two that fit best, blended.
+    Blended,
 }
 
 /// How alpha is used.

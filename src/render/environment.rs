@@ -5,7 +5,8 @@
 //!   `m / (mips − 1)`, view along the normal (Karis 2013). Each texel is a sum over the same Hammersley points; a
 //!   sample reads the mip whose texel is as large as its share of the sphere, so few are enough (Křivánek and
 //!   Colbert 2008).
-//! - The table of the split sum: specular albedo A · F0 + B by cosine and roughness.
+//! - The table of the split sum: specular albedo A · F0 + B by cosine and roughness, and beside it the albedo of a
+//!   cloth's sheen.
 //!
 //! All on the CPU, once: the same numbers on any driver, and a gallery is ready in a fraction of a second.
 
@@ -258,14 +259,16 @@ fn ggx_distribution(nh: f32, alpha: f32) -> f32 {
     a2 / (PI * t * t)
 }
 
-/// Split-sum table, columns cosine, rows roughness: specular albedo = F0 · A + B.
-pub fn split_sum_table() -> Vec<[f32; 2]> {
+/// Split-sum table, columns cosine, rows roughness: specular albedo = F0 · A + B, then the albedo of a white sheen.
+pub fn split_sum_table() -> Vec<[f32; 3]> {
     let n = TABLE_SIZE;
     let mut table = Vec::with_capacity((n * n) as usize);
     for row in 0..n {
         let roughness = (row as f32 + 0.5) / n as f32;
         for column in 0..n {
-            table.push(split_sum((column as f32 + 0.5) / n as f32, roughness));
+            let cosine = (column as f32 + 0.5) / n as f32;
+            let [a, b] = split_sum(cosine, roughness);
+            table.push([a, b, sheen_albedo(cosine, roughness)]);
         }
     }
     table
@@ -292,6 +295,23 @@ fn split_sum(nv: f32, roughness: f32) -> [f32; 2] {
         b += fresnel * weight;
     }
     [a / TABLE_SAMPLES as f32, b / TABLE_SAMPLES as f32]
+}
+
+/// Part of the light that Charlie's distribution with Neubelt's visibility returns (Estevez and Kulla 2017), by
+/// directions spread evenly over the hemisphere.
+fn sheen_albedo(nv: f32, roughness: f32) -> f32 {
+    let inverse = 1.0 / (roughness * roughness).max(0.005);
+    let v = Vec3::new((1.0 - nv * nv).sqrt(), 0.0, nv);
+    let mut sum = 0.0;
+    for i in 0..TABLE_SAMPLES {
+        let (nl, turn) = hammersley(i, TABLE_SAMPLES);
+        let (sine, phi) = ((1.0 - nl * nl).sqrt(), 2.0 * PI * turn);
+        let l = Vec3::new(sine * phi.cos(), sine * phi.sin(), nl);
+        let nh = (v + l).normalize().z;
+        let d = (2.0 + inverse) * (1.0 - nh * nh).max(1e-4).powf(0.5 * inverse) / (2.0 * PI);
+        sum += d * nl / (4.0 * (nl + nv - nl * nv));
+    }
+    (2.0 * PI * sum / TABLE_SAMPLES as f32).min(1.0)
 }
 
 #[cfg(test)]

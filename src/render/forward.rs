@@ -5,21 +5,23 @@ use std::sync::Arc;
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-use super::environment::{CUBE_MIPS, CUBE_SIZE, Environment, TABLE_SIZE, split_sum_table};
-use super::gallery::{LIGHTMAP_SIZE, Room};
+use super::environment::Environment;
+use super::gallery::Room;
 use super::globals::Globals;
-use super::pipelines::{DEPTH_FORMAT, Layouts, ORDER_FORMAT, Pipelines};
-use super::scene::{MAX_FRAMES, Scene, rows};
-use super::shadows::{MapCamera, PLANE_FORMAT, ReceivingPlane};
+use super::passes::{Pass, Plan};
+use super::pipelines::{Layouts, Pipelines};
+use super::resources::{attachment, light_group};
+use super::scene::{MAX_FRAMES, Part, Scene, Surface, rows};
+use super::shadows::{MapCamera, ReceivingPlane};
 use super::wires::{self, Segment};
-use super::{Frame, Gpu, Options, Quality, RenderError, textures};
+use super::{Frame, Gpu, Options, Quality, RenderError, Shaders, occlusion, textures};
 use crate::exhibit::Exhibit;
 use crate::math::Pose;
 
 /// Most motes drawn.
 const MAX_MOTES: usize = 4096;
 /// Points of each lamp's disc that shadows of meshes are cast from.
-const LAMP_SAMPLES: [u32; 2] = [20, 48];
+const LAMP_SAMPLES: [u32; 2] = [28, 56];
 
 /// Draws one exhibit. Built once; draws any number of frames.
 pub struct Renderer {
@@ -28,7 +30,7 @@ pub struct Renderer {
     radius: f32,
     scene: Scene,
     pipelines: Pipelines,
-    resolve_layout: wgpu::BindGroupLayout,
+    layouts: Layouts,
     globals: Globals,
     globals_buffer: wgpu::Buffer,
     frames_buffer: wgpu::Buffer,
@@ -41,7 +43,8 @@ pub struct Renderer {
     materials: Vec<wgpu::BindGroup>,
     plane_views: [wgpu::TextureView; 2],
     order_views: [wgpu::TextureView; 2],
-    map_view: wgpu::TextureView,
+    map_views: [wgpu::TextureView; 2],
+    plan: Plan,
     lamp_samples: u32,
     targets: Option<Targets>,
     // Scratch, kept so that a frame allocates nothing.
@@ -56,15 +59,17 @@ pub struct Renderer {
 struct Targets {
     size: (u32, u32),
     depth: wgpu::TextureView,
-    samples: Option<(wgpu::TextureView, wgpu::BindGroup)>,
+    /// The samples, and what a shader reads them by.
+    samples: Option<(wgpu::TextureView, Option<wgpu::BindGroup>)>,
 }
 
 impl Renderer {
     /// Prepares an exhibit: its meshes, materials, light and pipelines.
     pub fn new(gpu: &Gpu, exhibit: &Exhibit, options: Options) -> Result<Self, RenderError> {
         let device = &gpu.device;
-        let scene = Scene::new(exhibit)?;
+        let mut scene = Scene::new(exhibit)?;
         let room = Room::around(exhibit);
+        occlusion::corners(&mut scene, exhibit, room.radius);
         let look = &options.look;
         let environment = match &look.environment {
             Some(environment) => environment.clone(),
@@ -73,9 +78,10 @@ impl Renderer {
         let lamp_samples = LAMP_SAMPLES[(options.quality == Quality::Full) as usize];
         let planes = ReceivingPlane::of_room(&room, exhibit, options.quality);
         let map = MapCamera::new(&room, look, options.quality);
-        let globals = Globals::new(look, &room, &environment.irradiance, &map, &planes, lamp_samples);
+        let globals =
+            Globals::new(look, &room, &environment.irradiance, &map, &planes, (options.quality, lamp_samples));
         let layouts = Layouts::new(device);
-        let pipelines = Pipelines::new(gpu, &layouts, &options);
+        let pipelines = Pipelines::new(gpu, &layouts, &options, &scene);
 
         let buffer = |label, size: usize, usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -93,13 +99,19 @@ impl Renderer {
         let globals_buffer = buffer("globals", size_of::<Globals>(), wgpu::BufferUsages::UNIFORM);
         let frames_buffer = buffer("frames", MAX_FRAMES * 48, wgpu::BufferUsages::UNIFORM);
         let segment_count = wires::count(exhibit);
-        let attachment = |label, (width, height): (u32, u32), format| {
-            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-            texture_2d(device, label, (width, height), 1, format, usage)
+        let mesh_draws: usize = scene.parts.iter().map(|part| pipelines.forward[&part.state].len()).sum();
+        let plan = Plan {
+            size: (1, 1),
+            samples: options.msaa,
+            format: options.format,
+            planes: look.background.is_none().then(|| planes.map(|plane| plane.texels)),
+            map: map.size,
+            mesh_draws: mesh_draws as u32,
         };
-        let plane_views = planes.map(|plane| attachment("plane shadow", plane.texels, PLANE_FORMAT));
-        let order_views = planes.map(|plane| attachment("plane order", plane.texels, ORDER_FORMAT));
-        let map_view = attachment("shadow map", (map.size, map.size), DEPTH_FORMAT);
+        let sampled = |of| attachment(device, of, wgpu::TextureUsages::TEXTURE_BINDING);
+        let [plane_views, order_views] = [0, 1].map(|which| planes.map(|p| sampled(plan.plane(p.texels)[which])));
+        let map_views = plan.shadow_map().map(sampled);
+        let ambient = occlusion::planes(&scene, exhibit, &planes, room.radius);
         let frame_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout: &layouts.frame,
@@ -108,7 +120,7 @@ impl Renderer {
                 wgpu::BindGroupEntry { binding: 1, resource: frames_buffer.as_entire_binding() },
             ],
         });
-        let light_group = light_group(gpu, &layouts.light, &environment, &room, &plane_views, &map_view);
+        let light_group = light_group(gpu, &layouts.light, &environment, &room, &plane_views, &map_views, &ambient);
         Ok(Self {
             exhibit: Arc::new(exhibit.clone()),
             radius: room.radius,
@@ -121,7 +133,7 @@ impl Renderer {
             ),
             motes_buffer: buffer("motes", MAX_MOTES * 16, wgpu::BufferUsages::VERTEX),
             materials: textures::materials(gpu, &exhibit.model, &layouts.material),
-            resolve_layout: layouts.resolve,
+            layouts,
             scene,
             pipelines,
             globals,
@@ -131,7 +143,8 @@ impl Renderer {
             light_group,
             plane_views,
             order_views,
-            map_view,
+            map_views,
+            plan,
             lamp_samples,
             targets: None,
             frames: Vec::with_capacity(exhibit.bodies.len() + 1),
@@ -154,6 +167,18 @@ impl Renderer {
         }
         self.picture_pass(&mut encoder, target);
         gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Draws with other shaders from the next frame on.
+    pub fn set_shaders(&mut self, gpu: &Gpu, shaders: Arc<Shaders>) {
+        self.options.shaders = shaders;
+        self.pipelines = Pipelines::new(gpu, &self.layouts, &self.options, &self.scene);
+        self.drawn_frames.clear();
+    }
+
+    /// The passes of a frame of this size in which something moves.
+    pub fn passes(&self, size: (u32, u32)) -> Vec<Pass> {
+        Plan { size, ..self.plan }.passes()
     }
 
     /// Brings poses, wires, motes and camera to the device.
@@ -185,16 +210,21 @@ impl Renderer {
         if self.targets.as_ref().is_some_and(|targets| targets.size == size) {
             return;
         }
-        let msaa = self.options.msaa;
-        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let depth = texture_2d(&gpu.device, "depth", size, msaa, DEPTH_FORMAT, attachment);
-        let samples = (msaa > 1).then(|| {
-            let usage = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
-            let view = texture_2d(&gpu.device, "samples", size, msaa, self.options.format, usage);
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("resolve"),
-                layout: &self.resolve_layout,
-                entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) }],
+        self.plan.size = size;
+        let [samples, depth] = self.plan.picture();
+        let depth = attachment(&gpu.device, depth, wgpu::TextureUsages::RENDER_ATTACHMENT);
+        let samples = (self.options.msaa > 1).then(|| {
+            // GL cannot draw into a multisampled texture that a shader may read.
+            let by_shader = self.options.shader_resolve;
+            let read = if by_shader { wgpu::TextureUsages::TEXTURE_BINDING } else { wgpu::TextureUsages::empty() };
+            let view = attachment(&gpu.device, samples, read);
+            let group = by_shader.then(|| {
+                let resource = wgpu::BindingResource::TextureView(&view);
+                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("resolve"),
+                    layout: &self.layouts.resolve,
+                    entries: &[wgpu::BindGroupEntry { binding: 0, resource }],
+                })
             });
             (view, group)
         });
@@ -218,14 +248,15 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.plane_meshes[plane]);
             pass.set_vertex_buffer(0, self.vertices.slice(..));
             pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..self.scene.opaque, 0, 0..2 * self.lamp_samples);
+            pass.draw_indexed(0..self.scene.casters, 0, 0..2 * self.lamp_samples);
             pass.set_pipeline(&self.pipelines.plane_wires[plane]);
             pass.set_vertex_buffer(0, self.segments_buffer.slice(..));
             pass.draw(0..12, 0..self.segments.len() as u32);
         }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow map"),
-            depth_stencil_attachment: Some(depth(&self.map_view, 0.0, wgpu::StoreOp::Store)),
+            color_attachments: &[Some(color(&self.map_views[1], None, wgpu::Color::TRANSPARENT))],
+            depth_stencil_attachment: Some(depth(&self.map_views[0], 0.0, wgpu::StoreOp::Store)),
             ..Default::default()
         });
         pass.set_bind_group(0, &self.frame_group, &[]);
@@ -254,11 +285,7 @@ impl Renderer {
         pass.set_bind_group(1, &self.light_group, &[]);
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for part in self.scene.parts.iter().filter(|part| !part.blend) {
-            pass.set_pipeline(&self.pipelines.forward[0][part.double_sided as usize]);
-            pass.set_bind_group(2, &self.materials[part.material], &[]);
-            pass.draw_indexed(part.indices.clone(), 0, 0..1);
-        }
+        self.draw_parts(&mut pass, Surface::Opaque);
         if self.options.look.background.is_some() {
             pass.set_pipeline(&self.pipelines.backdrop);
             pass.draw(0..3, 0..1);
@@ -268,21 +295,19 @@ impl Renderer {
                 pass.draw(corners, 0..1);
             }
         }
+        self.draw_parts(&mut pass, Surface::Glass);
         pass.set_pipeline(&self.pipelines.wires);
         pass.set_vertex_buffer(0, self.segments_buffer.slice(..));
         pass.draw(0..6, 0..self.segments.len() as u32);
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         for &(_, index) in &self.blended {
-            let part = &self.scene.parts[index];
-            pass.set_pipeline(&self.pipelines.forward[1][part.double_sided as usize]);
-            pass.set_bind_group(2, &self.materials[part.material], &[]);
-            pass.draw_indexed(part.indices.clone(), 0, 0..1);
+            self.draw_part(&mut pass, &self.scene.parts[index]);
         }
         pass.set_pipeline(&self.pipelines.motes);
         pass.set_vertex_buffer(0, self.motes_buffer.slice(..));
         pass.draw(0..6, 0..self.motes.len() as u32);
         drop(pass);
-        if let (Some((_, group)), true) = (&targets.samples, by_shader) {
+        if let Some((_, Some(group))) = &targets.samples {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("resolve"),
                 color_attachments: &[Some(color(target, None, wgpu::Color::BLACK))],
@@ -294,10 +319,26 @@ impl Renderer {
         }
     }
 
+    fn draw_parts(&self, pass: &mut wgpu::RenderPass, surface: Surface) {
+        for part in self.scene.parts.iter().filter(|part| part.state.surface == surface) {
+            self.draw_part(pass, part);
+        }
+    }
+
+    fn draw_part(&self, pass: &mut wgpu::RenderPass, part: &Part) {
+        for pipeline in &self.pipelines.forward[&part.state] {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(2, &self.materials[part.material], &[]);
+            pass.draw_indexed(part.indices.clone(), 0, 0..1);
+        }
+    }
+
     /// Blended parts, the farthest first.
     fn sort_blended(&mut self) {
         self.blended.clear();
-        for (index, part) in self.scene.parts.iter().enumerate().filter(|(_, part)| part.blend) {
+        for (index, part) in
+            self.scene.parts.iter().enumerate().filter(|(_, part)| part.state.surface == Surface::Blend)
+        {
             let center = part.center.extend(1.0);
             let world = Vec3::from_array(self.frames[part.frame].map(|row| row.dot(center)));
             self.blended.push((world.distance_squared(self.globals.eye), index));
@@ -322,95 +363,4 @@ fn color<'a>(
 fn depth(view: &wgpu::TextureView, clear: f32, store: wgpu::StoreOp) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store });
     wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }
-}
-
-fn texture_2d(
-    device: &wgpu::Device,
-    label: &str,
-    (width, height): (u32, u32),
-    sample_count: u32,
-    format: wgpu::TextureFormat,
-    usage: wgpu::TextureUsages,
-) -> wgpu::TextureView {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage,
-        view_formats: &[],
-    };
-    device.create_texture(&descriptor).create_view(&Default::default())
-}
-
-/// Textures and samplers of the light.
-fn light_group(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    environment: &Environment,
-    room: &Room,
-    plane_views: &[wgpu::TextureView; 2],
-    map_view: &wgpu::TextureView,
-) -> wgpu::BindGroup {
-    let half4 = |v: [f32; 4]| v.map(|x| half::f16::from_f32(x).to_bits());
-    // Face after face, each with all its levels: the order `create_texture_with_data` calls layer-major.
-    let mut cube = Vec::new();
-    for face in 0..6 {
-        for level in &environment.levels {
-            let texels = level.len() / 6;
-            cube.extend(level[face * texels..(face + 1) * texels].iter().map(|c| half4([c.x, c.y, c.z, 1.0])));
-        }
-    }
-    let table: Vec<_> = split_sum_table().iter().map(|&[a, b]| half4([a, b, 0.0, 1.0])).collect();
-    let lightmap: Vec<_> = room.lightmap().into_iter().map(half4).collect();
-    let upload = |label, size: u32, layers, mips, texels: &[[u16; 4]]| {
-        gpu.device.create_texture_with_data(
-            &gpu.queue,
-            &wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: layers },
-                mip_level_count: mips,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Rgba16Float,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            },
-            wgpu::util::TextureDataOrder::LayerMajor,
-            bytemuck::cast_slice(texels),
-        )
-    };
-    let view = |texture: wgpu::Texture, dimension| {
-        texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(dimension), ..Default::default() })
-    };
-    let environment_view =
-        view(upload("environment", CUBE_SIZE, 6, CUBE_MIPS, &cube), wgpu::TextureViewDimension::Cube);
-    let table_view = view(upload("split sum", TABLE_SIZE, 1, 1, &table), wgpu::TextureViewDimension::D2);
-    let lightmap_view = view(upload("light map", LIGHTMAP_SIZE, 6, 1, &lightmap), wgpu::TextureViewDimension::D2Array);
-    let sampler = |compare| {
-        gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            compare,
-            ..Default::default()
-        })
-    };
-    let (smooth, shadow) = (sampler(None), sampler(Some(wgpu::CompareFunction::GreaterEqual)));
-    use wgpu::BindingResource::{Sampler, TextureView};
-    let resources = [
-        TextureView(&environment_view),
-        TextureView(&table_view),
-        Sampler(&smooth),
-        TextureView(map_view),
-        Sampler(&shadow),
-        TextureView(&plane_views[0]),
-        TextureView(&plane_views[1]),
-        TextureView(&lightmap_view),
-    ];
-    let entries: Vec<_> =
-        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
 }

@@ -6,11 +6,11 @@ use glam::{Mat4, Vec3, Vec4};
 use super::gallery::{FLOOR_ALBEDO, Room, WALL_ALBEDO};
 use super::scene::{MAX_PUNCTUAL, Punctual};
 use super::shadows::{MapCamera, ReceivingPlane};
-use super::{Frame, Look, Tonemap};
+use super::{Frame, Look, Quality, Tonemap};
 use crate::exhibit::View;
 
-/// Taps of the blocker search and of the filter of the shadow map.
-const SHADOW_TAPS: f32 = 12.0;
+/// Taps of the blocker search and of the filter of the shadow map, by quality.
+const SHADOW_TAPS: [f32; 2] = [12.0, 20.0];
 
 /// A disc lamp.
 #[repr(C)]
@@ -84,6 +84,8 @@ pub(super) struct Globals {
     area_radiance: Vec3,
     shadow_near: f32,
     background: Vec3,
+    shadow_far: f32,
+    room_work: Vec3,
     spare: f32,
     irradiance: [Vec4; 9],
     lamps: [LampUniform; 2],
@@ -99,7 +101,7 @@ impl Globals {
         irradiance: &[Vec3; 9],
         map: &MapCamera,
         planes: &[ReceivingPlane; 2],
-        shadow_samples: u32,
+        (quality, shadow_samples): (Quality, u32),
     ) -> Self {
         let mut g = Self::zeroed();
         // Without a curve the picture is a measurement: no dither either.
@@ -116,8 +118,11 @@ impl Globals {
             (g.area_x, g.area_y) = area.half;
         }
         g.shadow_from_world = map.clip_from_world;
-        (g.shadow_radius, g.shadow_texel, g.shadow_near) = (map.light_radius, map.texel, map.near);
-        (g.shadow_samples, g.shadow_taps) = (shadow_samples as f32, SHADOW_TAPS);
+        (g.shadow_radius, g.shadow_texel) = (map.light_radius, map.texel);
+        (g.shadow_near, g.shadow_far) = (map.near, map.far);
+        let taps = SHADOW_TAPS[(quality == Quality::Full) as usize];
+        (g.shadow_samples, g.shadow_taps) = (shadow_samples as f32, taps);
+        g.room_work = room.work;
         for (to, from) in g.irradiance.iter_mut().zip(irradiance) {
             *to = from.extend(0.0);
         }

@@ -17,10 +17,13 @@ pub struct Gpu {
 impl Gpu {
     /// A device without a window.
     pub fn headless() -> Result<Self, RenderError> {
-        let descriptor = wgpu::InstanceDescriptor {
-            backends: wgpu::Backends::VULKAN,
-            ..wgpu::InstanceDescriptor::new_without_display_handle_from_env()
-        };
+        Self::headless_on(wgpu::Backends::VULKAN)
+    }
+
+    /// A device without a window on these drivers.
+    pub fn headless_on(backends: wgpu::Backends) -> Result<Self, RenderError> {
+        let descriptor =
+            wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle_from_env() };
         Self::open(wgpu::Instance::new(descriptor), None)
     }
 
@@ -48,6 +51,11 @@ impl Gpu {
     /// Does the processor draw? Then a few things are done the way that is fast there.
     pub fn is_software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// May a shader read single samples of a picture? GL drivers differ there.
+    pub fn reads_samples(&self) -> bool {
+        self.adapter.get_info().backend != wgpu::Backend::Gl
     }
 
     /// Name of the adapter and its driver, for people.

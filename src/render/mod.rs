@@ -4,19 +4,24 @@
 //! is antialiased by four samples, wires by exact coverage. Order of a frame:
 //!
 //! ```text
-//! plane shadows (wall, floor) → shadow map → opaque meshes → room → wires → blended meshes → motes → resolve
+//! plane shadows (wall, floor) → shadow map → opaque meshes → room → glass → wires → blended → motes → resolve
 //! ```
 //!
 //! | file | holds | shader |
 //! |---|---|---|
 //! | `gpu` | adapter and device | |
-//! | `gallery` | the built-in room: its light, lamps, light map | `room.wgsl` |
+//! | `gallery` | the built-in room: its measure, lamps and luminous fields | `room.wgsl` |
+//! | `radiosity` | the light in it: form factors, what walls send one another, light map | |
 //! | `environment` | image-based light: prefiltered cube, harmonics, split-sum table | `lighting.wgsl` |
 //! | `scene` | the exhibit as one vertex buffer in body frames | `forward.wgsl` |
+//! | `occlusion` | ambient visibility of corners and planes, by rays at load | |
 //! | `textures` | materials and mip maps | |
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
+//! | `passes` | the list of passes: attachments, draws, bytes | |
+//! | `resources` | textures and bind groups of the light | |
+//! | `shaders` | their sources, built in or from a folder, checked | |
 //! | `pipelines` | what state each pass is drawn with | |
 //! | `forward` | [`Renderer`]: the order of the passes | `motes.wgsl`, `resolve.wgsl` |
 //! | `picture` | [`ImageRenderer`]: headless, read back | |
@@ -38,10 +43,15 @@ mod forward;
 pub mod gallery;
 mod globals;
 mod gpu;
+mod occlusion;
+pub mod passes;
 mod picture;
 mod pipelines;
+mod radiosity;
+mod resources;
 pub mod scenario;
 mod scene;
+pub mod shaders;
 mod shadows;
 mod textures;
 mod wires;
@@ -49,6 +59,7 @@ mod wires;
 pub use forward::Renderer;
 pub use gpu::Gpu;
 pub use picture::ImageRenderer;
+pub use shaders::Shaders;
 
 /// What the renderer can fail on.
 #[derive(Debug, thiserror::Error)]
@@ -157,6 +168,8 @@ pub struct Options {
     pub shader_resolve: bool,
     /// Light and backdrop.
     pub look: Look,
+    /// Sources of the shaders.
+    pub shaders: Arc<Shaders>,
 }
 
 impl Options {
@@ -164,7 +177,8 @@ impl Options {
     pub fn for_gpu(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let software = gpu.is_software();
         let quality = if software { Quality::Light } else { Quality::Full };
-        Self { msaa: 4, format, quality, shader_resolve: software, look: Look::default() }
+        let shader_resolve = software && gpu.reads_samples();
+        Self { msaa: 4, format, quality, shader_resolve, look: Look::default(), shaders: Arc::default() }
     }
 }
 
@@ -182,13 +196,3 @@ pub struct Frame<'a> {
     /// Linear multiplier.
     pub exposure: f32,
 }
-
-/// Every shader as it is handed to the driver: file name and source.
-pub const SHADERS: [(&str, &str); 6] = [
-    ("forward", pipelines::FORWARD),
-    ("room", pipelines::ROOM),
-    ("shadows", pipelines::SHADOWS),
-    ("wires", pipelines::WIRES),
-    ("motes", pipelines::MOTES),
-    ("resolve", pipelines::RESOLVE),
-];

@@ -26,7 +26,11 @@ struct Target {
 impl ImageRenderer {
     /// Prepares an exhibit on a headless device; `adjust` may change the options that suit the device.
     pub fn new(exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Result<Self, RenderError> {
-        let gpu = Gpu::headless()?;
+        Self::on(Gpu::headless()?, exhibit, adjust)
+    }
+
+    /// Prepares an exhibit on this device.
+    pub fn on(gpu: Gpu, exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Result<Self, RenderError> {
         let mut options = Options::for_gpu(&gpu, FORMAT);
         adjust(&mut options);
         let renderer = Renderer::new(&gpu, exhibit, options)?;
@@ -36,6 +40,11 @@ impl ImageRenderer {
     /// The device.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
+    }
+
+    /// What draws.
+    pub fn renderer(&self) -> &Renderer {
+        &self.renderer
     }
 
     /// Draws one frame.

@@ -1,32 +1,13 @@
 //! Shaders, bind group layouts and pipelines: the fixed state of every pass.
 
-use super::scene::Vertex;
-use super::shadows::PLANE_FORMAT;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::scene::{Scene, State, Surface, Vertex};
+use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
 use super::wires::Segment;
 use super::{Gpu, Options, Tonemap};
 
-pub(super) const FORWARD: &str = concat!(
-    include_str!("../../shaders/common.wgsl"),
-    include_str!("../../shaders/lighting.wgsl"),
-    include_str!("../../shaders/forward.wgsl")
-);
-pub(super) const ROOM: &str = concat!(
-    include_str!("../../shaders/common.wgsl"),
-    include_str!("../../shaders/lighting.wgsl"),
-    include_str!("../../shaders/room.wgsl")
-);
-pub(super) const SHADOWS: &str =
-    concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/shadows.wgsl"));
-pub(super) const WIRES: &str = concat!(
-    include_str!("../../shaders/common.wgsl"),
-    include_str!("../../shaders/lighting.wgsl"),
-    include_str!("../../shaders/wires.wgsl")
-);
-pub(super) const MOTES: &str =
-    concat!(include_str!("../../shaders/common.wgsl"), include_str!("../../shaders/motes.wgsl"));
-pub(super) const RESOLVE: &str = include_str!("../../shaders/resolve.wgsl");
-
-/// Depth of the picture and of the shadow map: reversed, so floating.
+/// Depth of the picture: reversed, so floating.
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Order of the lamp samples in the plane shadows; 16 bits tell 65 thousand apart.
 pub(super) const ORDER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
@@ -41,8 +22,8 @@ pub(super) struct Layouts {
 
 /// Pipelines of all passes.
 pub(super) struct Pipelines {
-    /// Opaque or blended (first index), single- or double-sided (second).
-    pub forward: [[wgpu::RenderPipeline; 2]; 2],
+    /// For each state of the scene's parts what is drawn, one after the other: one pipeline, three of glass.
+    pub forward: BTreeMap<State, Vec<wgpu::RenderPipeline>>,
     /// Wall, floor, and the four faces that receive no shadow.
     pub room: [wgpu::RenderPipeline; 3],
     pub backdrop: wgpu::RenderPipeline,
@@ -59,7 +40,7 @@ const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Float32x4, 5 => Uint32
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32
     ],
 };
 const SEGMENT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
@@ -97,6 +78,7 @@ impl Layouts {
         let smooth = TextureSampleType::Float { filterable: true };
         let image = (ShaderStages::FRAGMENT, texture(smooth, TextureViewDimension::D2, false));
         let fragment = ShaderStages::FRAGMENT;
+        let sampler = (fragment, BindingType::Sampler(SamplerBindingType::Filtering));
         Self {
             frame: group("frame", &[(ShaderStages::VERTEX_FRAGMENT, uniform), (ShaderStages::VERTEX, uniform)]),
             light: group(
@@ -110,19 +92,13 @@ impl Layouts {
                     image,
                     image,
                     (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
+                    (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
+                    image,
                 ],
             ),
             material: group(
                 "material",
-                &[
-                    (fragment, uniform),
-                    (fragment, BindingType::Sampler(SamplerBindingType::Filtering)),
-                    image,
-                    image,
-                    image,
-                    image,
-                    image,
-                ],
+                &[(fragment, uniform), image, image, image, image, image, sampler, sampler, sampler, sampler, sampler],
             ),
             resolve: group(
                 "resolve",
@@ -133,20 +109,20 @@ impl Layouts {
 }
 
 /// What differs between the pipelines.
-struct State<'a> {
+struct Fixed<'a> {
     label: &'a str,
     module: &'a wgpu::ShaderModule,
     layout: &'a wgpu::PipelineLayout,
     entries: (&'a str, Option<&'a str>),
     buffer: Option<wgpu::VertexBufferLayout<'a>>,
     constants: &'a [(&'a str, f64)],
-    cull: bool,
+    cull: Option<wgpu::Face>,
     depth: Option<(wgpu::TextureFormat, bool, wgpu::CompareFunction)>,
     color: Option<(wgpu::TextureFormat, Option<wgpu::BlendState>)>,
     samples: u32,
 }
 
-fn pipeline(device: &wgpu::Device, state: State) -> wgpu::RenderPipeline {
+fn pipeline(device: &wgpu::Device, state: Fixed) -> wgpu::RenderPipeline {
     let compilation = wgpu::PipelineCompilationOptions { constants: state.constants, ..Default::default() };
     let target = state.color.map(|(format, blend)| wgpu::ColorTargetState {
         format,
@@ -163,7 +139,7 @@ fn pipeline(device: &wgpu::Device, state: State) -> wgpu::RenderPipeline {
             compilation_options: compilation.clone(),
             buffers: &[state.buffer],
         },
-        primitive: wgpu::PrimitiveState { cull_mode: state.cull.then_some(wgpu::Face::Back), ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: state.cull, ..Default::default() },
         depth_stencil: state.depth.map(|(format, write, compare)| wgpu::DepthStencilState {
             format,
             depth_write_enabled: Some(write),
@@ -184,13 +160,12 @@ fn pipeline(device: &wgpu::Device, state: State) -> wgpu::RenderPipeline {
 }
 
 impl Pipelines {
-    pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options) -> Self {
+    pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options, scene: &Scene) -> Self {
         let device = &gpu.device;
-        let module = |label, source: &'static str| {
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(source.into()),
-            })
+        let module = |label: &str| {
+            let source = options.shaders.source(label);
+            let source = wgpu::ShaderSource::Wgsl(source);
+            device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
         };
         let layout = |label, groups: &[&wgpu::BindGroupLayout]| {
             let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
@@ -204,9 +179,9 @@ impl Pipelines {
         let light_layout = layout("light", &[&layouts.frame, &layouts.light]);
         let material_layout = layout("material", &[&layouts.frame, &layouts.light, &layouts.material]);
         let resolve_layout = layout("resolve", &[&layouts.resolve]);
-        let (forward, room) = (module("forward", FORWARD), module("room", ROOM));
-        let (shadows, wires) = (module("shadows", SHADOWS), module("wires", WIRES));
-        let (motes, resolve) = (module("motes", MOTES), module("resolve", RESOLVE));
+        let (forward, room) = (module("forward"), module("room"));
+        let (shadows, wires) = (module("shadows"), module("wires"));
+        let (motes, resolve) = (module("motes"), module("resolve"));
 
         let nearer = wgpu::CompareFunction::Greater;
         let add = wgpu::BlendComponent {
@@ -223,51 +198,75 @@ impl Pipelines {
             Tonemap::Clamp => 3.0,
         };
         let area_light = if options.look.area_light.is_some() { 1.0 } else { 0.0 };
-        let constants = [("TONEMAP", tonemap), ("AREA_LIGHT", area_light)];
+        let gallery = options.look.environment.is_none() && options.look.background.is_none();
+        let constants =
+            [("TONEMAP", tonemap), ("AREA_LIGHT", area_light), ("GALLERY", if gallery { 1.0 } else { 0.0 })];
         // A pass into the picture itself.
-        let base = || State {
+        let base = || Fixed {
             label: "room",
             module: &room,
             layout: &light_layout,
             entries: ("vertex", Some("fragment")),
             buffer: None,
             constants: &constants,
-            cull: false,
+            cull: None,
             depth: Some((DEPTH_FORMAT, true, nearer)),
             color: Some((options.format, None)),
             samples: options.msaa,
         };
-        let meshes = |blend: bool, double_sided: bool| {
+        let multiply = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::Dst,
+            dst_factor: wgpu::BlendFactor::Zero,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let multiplying = Some(wgpu::BlendState { color: multiply, alpha: multiply });
+        let mesh = |state: State, entry, cull, write, blend| {
+            let layers = ("LAYERS", if state.layers { 1.0 } else { 0.0 });
             pipeline(
                 device,
-                State {
+                Fixed {
                     label: "forward",
                     module: &forward,
                     layout: &material_layout,
+                    entries: ("vertex", Some(entry)),
                     buffer: Some(VERTEX),
-                    cull: !double_sided,
-                    depth: Some((DEPTH_FORMAT, !blend, nearer)),
-                    color: Some((options.format, if blend { blending } else { None })),
+                    constants: &[constants[0], constants[1], constants[2], layers],
+                    cull,
+                    depth: Some((DEPTH_FORMAT, write, nearer)),
+                    color: Some((options.format, blend)),
                     ..base()
                 },
             )
         };
+        let meshes = |state: State| {
+            let cull = (!state.double_sided).then_some(wgpu::Face::Back);
+            match state.surface {
+                Surface::Opaque => vec![mesh(state, "fragment", cull, true, None)],
+                Surface::Blend => vec![mesh(state, "fragment", cull, false, blending)],
+                // The far wall's gloss, what both walls let through, the near wall's gloss.
+                Surface::Glass => vec![
+                    mesh(state, "gloss_fragment", Some(wgpu::Face::Front), false, adding),
+                    mesh(state, "tint_fragment", None, false, multiplying),
+                    mesh(state, "gloss_fragment", Some(wgpu::Face::Back), false, adding),
+                ],
+            }
+        };
         let overlay = |label, module, buffer, constants, blend| {
             let depth = Some((DEPTH_FORMAT, false, nearer));
             let color = Some((options.format, blend));
-            pipeline(device, State { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
+            pipeline(device, Fixed { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
         };
         let plane = |label, entries, buffer, plane: usize, compare, write| {
             pipeline(
                 device,
-                State {
+                Fixed {
                     label,
                     module: &shadows,
                     layout: &shadow_layout,
                     entries,
                     buffer: Some(buffer),
                     constants: &[("PLANE", plane as f64)],
-                    cull: false,
+                    cull: None,
                     depth: Some((ORDER_FORMAT, write, compare)),
                     color: Some((PLANE_FORMAT, adding)),
                     samples: 1,
@@ -282,15 +281,16 @@ impl Pipelines {
             let entries = ("wire_vertex", Some("wire_fragment"));
             plane("plane wires", entries, SEGMENT, p, wgpu::CompareFunction::Always, false)
         };
+        let states: BTreeSet<State> = scene.parts.iter().map(|part| part.state).collect();
         Self {
-            forward: [false, true].map(|blend| [false, true].map(|double_sided| meshes(blend, double_sided))),
+            forward: states.into_iter().map(|state| (state, meshes(state))).collect(),
             room: [0.0, 1.0, 2.0].map(|receiver| {
-                let constants = [constants[0], constants[1], ("RECEIVER", receiver)];
-                pipeline(device, State { constants: &constants, ..base() })
+                let constants = [constants[0], constants[1], constants[2], ("RECEIVER", receiver)];
+                pipeline(device, Fixed { constants: &constants, ..base() })
             }),
             backdrop: pipeline(
                 device,
-                State {
+                Fixed {
                     label: "backdrop",
                     entries: ("backdrop_vertex", Some("backdrop_fragment")),
                     depth: Some((DEPTH_FORMAT, false, wgpu::CompareFunction::GreaterEqual)),
@@ -303,21 +303,22 @@ impl Pipelines {
             plane_wires: [plane_wires(0), plane_wires(1)],
             shadow_map: pipeline(
                 device,
-                State {
+                Fixed {
                     label: "shadow map",
                     module: &shadows,
                     layout: &shadow_layout,
-                    entries: ("map_vertex", None),
+                    entries: ("map_vertex", Some("map_fragment")),
                     buffer: Some(VERTEX),
                     constants: &[],
-                    color: None,
+                    depth: Some((MAP_FORMAT, true, nearer)),
+                    color: Some((BLOCKER_FORMAT, None)),
                     samples: 1,
                     ..base()
                 },
             ),
             resolve: pipeline(
                 device,
-                State {
+                Fixed {
                     label: "resolve",
                     module: &resolve,
                     layout: &resolve_layout,

@@ -10,7 +10,7 @@ use glam::{DMat4, Mat4, Vec3, Vec4};
 use super::RenderError;
 use super::globals::PunctualUniform;
 use crate::exhibit::Exhibit;
-use crate::exhibit::model::{AlphaMode, LightKind, Primitive};
+use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
 use crate::math::Pose;
 
 /// Frames the uniform buffer holds: 48 KiB, below the 64 every adapter has. The first is the world.
@@ -25,9 +25,44 @@ pub(super) struct Vertex {
     pub position: Vec3,
     pub normal: Vec3,
     pub tangent: [f32; 4],
-    pub uv: [f32; 2],
+    /// Both sets of texture coordinates.
+    pub uv: [f32; 4],
     pub color: [f32; 4],
-    pub frame: u32,
+    /// Frame in the low 16 bits, then ambient visibility, then opacity to lamps.
+    pub tag: u32,
+}
+
+impl Vertex {
+    /// Index of the frame that carries it.
+    pub fn frame(&self) -> usize {
+        (self.tag & 0xffff) as usize
+    }
+
+    /// Sets what part of the sky it sees.
+    pub fn set_visibility(&mut self, visibility: f32) {
+        let byte = (visibility.clamp(0.0, 1.0) * 255.0 + 0.5) as u32;
+        self.tag = (self.tag & 0xff00_ffff) | (byte << 16);
+    }
+}
+
+/// How triangles are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Surface {
+    /// Hides what is behind.
+    Opaque,
+    /// Multiplies what is behind and adds its own gloss; order does not matter.
+    Glass,
+    /// Covers a part of what is behind; the farthest first.
+    Blend,
+}
+
+/// What decides the pipeline of a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct State {
+    pub surface: Surface,
+    pub double_sided: bool,
+    /// A clear coat or a sheen.
+    pub layers: bool,
 }
 
 /// Triangles drawn alike.
@@ -37,8 +72,7 @@ pub(super) struct Part {
     pub indices: std::ops::Range<u32>,
     /// Index of the appearance; one past the last is the default.
     pub material: usize,
-    pub double_sided: bool,
-    pub blend: bool,
+    pub state: State,
     /// Middle of the triangles in their frame, to sort what is blended.
     pub center: Vec3,
     pub frame: usize,
@@ -59,9 +93,12 @@ pub(super) struct Punctual {
 pub(super) struct Scene {
     pub vertices: Vec<Vertex>,
     pub indices: Vec<u32>,
-    /// Opaque parts first: the first `opaque` indices are what throws shadows.
+    /// Opaque parts first, then glass, then blended ones.
     pub parts: Vec<Part>,
+    /// So many indices, from the first, are opaque.
     pub opaque: u32,
+    /// So many throw shadows on the planes.
+    pub casters: u32,
     pub lights: Vec<Punctual>,
 }
 
@@ -73,7 +110,11 @@ impl Scene {
         let model = &exhibit.model;
         let mut pieces = Vec::new();
         let mut lights = Vec::new();
-        for (node, carrier) in model.nodes.iter().zip(exhibit.carriers()) {
+        let shown = shown(model);
+        for (index, (node, carrier)) in model.nodes.iter().zip(exhibit.carriers()).enumerate() {
+            if !shown[index] {
+                continue;
+            }
             let frame_from_node = match carrier {
                 Some(body) => rigid(model.nodes[exhibit.bodies[body].node].world).inverse() * node.world,
                 None => node.world,
@@ -98,32 +139,40 @@ impl Scene {
         }
         let state = |p: &Primitive| {
             let look = p.material.and_then(|m| model.materials.get(m));
-            let blend = look.is_some_and(|l| l.alpha == AlphaMode::Blend);
-            (blend, look.is_some_and(|l| l.double_sided), p.material.unwrap_or(model.materials.len()))
+            (look.map_or(State::PLAIN, State::of), p.material.unwrap_or(model.materials.len()))
         };
-        // Opaque before blended, then by state, so that neighbours merge into one draw.
+        // By state, so that neighbours merge into one draw.
         pieces.sort_by_key(|(p, ..)| state(p));
-        let mut scene = Self { vertices: Vec::new(), indices: Vec::new(), parts: Vec::new(), opaque: 0, lights };
+        let mut scene =
+            Self { vertices: Vec::new(), indices: Vec::new(), parts: Vec::new(), opaque: 0, casters: 0, lights };
         for (primitive, frame, matrix) in pieces {
-            let (blend, double_sided, material) = state(primitive);
+            let (state, material) = state(primitive);
+            let opacity = match state.surface {
+                Surface::Opaque => 1.0,
+                Surface::Glass => primitive.material.map_or(1.0, |m| shade_of(&model.materials[m])),
+                Surface::Blend => 0.0,
+            };
             let start = scene.indices.len() as u32;
-            let center = scene.append(primitive, frame as u32, matrix);
+            let tag = frame as u32 | (255 << 16) | (((opacity * 255.0 + 0.5) as u32) << 24);
+            let center = scene.append(primitive, tag, matrix);
             let end = scene.indices.len() as u32;
-            if !blend {
-                scene.opaque = end;
+            match state.surface {
+                Surface::Opaque => (scene.opaque, scene.casters) = (end, end),
+                Surface::Glass => scene.casters = end,
+                Surface::Blend => {}
             }
             match scene.parts.last_mut() {
-                Some(last) if !blend && (last.material, last.double_sided) == (material, double_sided) => {
+                Some(last) if state.surface != Surface::Blend && (last.material, last.state) == (material, state) => {
                     last.indices.end = end;
                 }
-                _ => scene.parts.push(Part { indices: start..end, material, double_sided, blend, center, frame }),
+                _ => scene.parts.push(Part { indices: start..end, material, state, center, frame }),
             }
         }
         Ok(scene)
     }
 
     /// Adds a primitive's triangles and returns their middle.
-    fn append(&mut self, primitive: &Primitive, frame: u32, matrix: Mat4) -> Vec3 {
+    fn append(&mut self, primitive: &Primitive, tag: u32, matrix: Mat4) -> Vec3 {
         let base = self.vertices.len() as u32;
         let linear = glam::Mat3::from_mat4(matrix);
         let mirrored = linear.determinant() < 0.0;
@@ -147,9 +196,9 @@ impl Scene {
                 position,
                 normal: (cofactor * normal).normalize_or(Vec3::Y),
                 tangent,
-                uv: primitive.uvs.get(i).copied().unwrap_or_default(),
+                uv: uv(primitive, i),
                 color: primitive.colors.get(i).copied().unwrap_or([1.0; 4]),
-                frame,
+                tag,
             });
         }
         let count = primitive.positions.len() as u32;
@@ -161,6 +210,46 @@ impl Scene {
         }
         center / count.max(1) as f32
     }
+}
+
+impl State {
+    const PLAIN: Self = Self { surface: Surface::Opaque, double_sided: false, layers: false };
+
+    fn of(look: &Appearance) -> Self {
+        let surface = match look.alpha {
+            AlphaMode::Blend => Surface::Blend,
+            _ if look.transmission > 0.0 && look.metallic < 1.0 && !look.unlit => Surface::Glass,
+            _ => Surface::Opaque,
+        };
+        let layers = look.coat > 0.0 || look.sheen.iter().any(|c| *c > 0.0);
+        Self { surface, double_sided: look.double_sided, layers }
+    }
+}
+
+/// Both sets of texture coordinates of a corner; a missing one repeats the other.
+fn uv(primitive: &Primitive, i: usize) -> [f32; 4] {
+    let first = primitive.uvs.get(i).or(primitive.second_uvs.get(i)).copied().unwrap_or_default();
+    let second = primitive.second_uvs.get(i).copied().unwrap_or(first);
+    [first[0], first[1], second[0], second[1]]
+}
+
+/// How dark the shadow of a pane of glass is: what two crossings at normal incidence take of white light.
+fn shade_of(look: &Appearance) -> f32 {
+    let reflected = (look.ior - 1.0) / (look.ior + 1.0);
+    let color = (look.base_color[0] + look.base_color[1] + look.base_color[2]) / 3.0;
+    let through = look.transmission * color * (1.0 - 2.0 * reflected * reflected);
+    (1.0 - through).clamp(0.0, 1.0)
+}
+
+/// Which nodes the scene shows: those below its roots that nothing hides.
+fn shown(model: &Model) -> Vec<bool> {
+    let mut shown = vec![false; model.nodes.len()];
+    let mut open = model.roots.clone();
+    while let Some(index) = open.pop() {
+        shown[index] = model.hidden.binary_search(&index).is_err();
+        open.extend(&model.nodes[index].children);
+    }
+    shown
 }
 
 impl Punctual {
@@ -198,7 +287,7 @@ pub(super) fn rows(pose: &Pose) -> [Vec4; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exhibit::model::{Mesh, Model, Node};
+    use crate::exhibit::model::{Mesh, Node};
 
     #[test]
     fn a_mirrored_node_keeps_its_outside_out() {

@@ -11,6 +11,10 @@ use crate::exhibit::Exhibit;
 
 /// Format of the plane shadows: blocked fraction of either lamp.
 pub(super) const PLANE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
+/// Depths of the shadow map, to be compared.
+pub(super) const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
+/// The same depths as two bytes, to be read.
+pub(super) const BLOCKER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg8Unorm;
 
 /// Part of a wall or floor that receives a shadow.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +35,8 @@ impl ReceivingPlane {
     /// The wall and the floor of a room, cut to where the exhibit's shadow can fall.
     pub fn of_room(room: &Room, exhibit: &Exhibit, quality: Quality) -> [Self; 2] {
         let (wall, floor) = match quality {
-            Quality::Light => (640, 256),
-            Quality::Full => (1536, 768),
+            Quality::Light => (560, 400),
+            Quality::Full => (1024, 720),
         };
         let corner = room.to_world(-room.half);
         [
@@ -86,8 +90,9 @@ pub(super) struct MapCamera {
     pub light_radius: f32,
     /// Size of a texel at distance 1.
     pub texel: f32,
-    /// Near plane of the reversed depth, m.
+    /// Where the reversed depth is 1, and where it is 0, m.
     pub near: f32,
+    pub far: f32,
     /// Texels along a side.
     pub size: u32,
 }
@@ -108,11 +113,15 @@ impl MapCamera {
         let (right, up) = forward.any_orthonormal_pair();
         let sine = (1.02 * room.radius / distance).min(0.97);
         let half = sine / (1.0 - sine * sine).sqrt();
-        let near = 0.02 * distance;
+        // All that the work sweeps lies between these; sixteen bits then tell a ten-thousandth of its size apart.
+        let (near, far) = (distance - 1.02 * room.radius, distance + 1.02 * room.radius);
+        let near = near.max(0.02 * distance);
         let f = 1.0 / half;
         let row = |axis: Vec3, scale: f32| (axis * scale).extend(-axis.dot(eye) * scale);
-        let clip_from_world = Mat4::from_cols(row(right, f), row(up, f), Vec4::W * near, row(forward, 1.0)).transpose();
-        let size = if quality == Quality::Light { 1024 } else { 2048 };
-        Self { clip_from_world, light_radius, texel: 2.0 * half / size as f32, near, size }
+        // z = n (f − w) / (f − n), over w.
+        let depth = row(forward, -near / (far - near)) + Vec4::W * (near * far / (far - near));
+        let clip_from_world = Mat4::from_cols(row(right, f), row(up, f), depth, row(forward, 1.0)).transpose();
+        let size = if quality == Quality::Light { 768 } else { 1024 };
+        Self { clip_from_world, light_radius, texel: 2.0 * half / size as f32, near, far, size }
     }
 }

@@ -20,7 +20,10 @@ mod kiosk;
 mod loudness;
 mod mobiles;
 mod modal;
+mod models;
 mod motion;
+#[cfg(feature = "kiosk")]
+mod picture_bars;
 #[cfg(feature = "kiosk")]
 mod pictures;
 mod procedural;

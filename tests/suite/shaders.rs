@@ -1,19 +1,28 @@
 //! Every shader is valid before any driver sees it.
 
-use soffio::render::SHADERS;
-use wgpu::naga;
+use soffio::render::Shaders;
+use soffio::render::shaders::{ShaderError, validate};
 
 #[test]
 fn every_shader_parses_and_validates() {
-    for (name, source) in SHADERS {
-        let module = naga::front::wgsl::parse_str(source)
-            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
-        // No capability beyond core WebGPU: every adapter takes them.
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
-            .validate(&module)
-            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
-        assert!(module.entry_points.len() >= 2 || name == "shadows", "{name} has a vertex and a fragment stage");
+    for (name, source) in Shaders::default().iter() {
+        let module = validate(source).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(module.entry_points.len() >= 2, "{name} has a vertex and a fragment stage");
     }
+}
+
+#[test]
+fn a_folder_of_shaders_is_taken_whole_or_not_at_all() {
+    let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    assert!(Shaders::load(&shipped).expect("the shipped ones are valid") == Shaders::default());
+    let folder = tempfile::tempdir().expect("a folder");
+    for entry in std::fs::read_dir(&shipped).expect("the shaders' folder") {
+        let path = entry.expect("an entry").path();
+        std::fs::copy(&path, folder.path().join(path.file_name().expect("a name"))).expect("a copy");
+    }
+    std::fs::write(folder.path().join("room.wgsl"), "fn fragment( {").expect("written");
+    let error = Shaders::load(folder.path()).expect_err("room.wgsl is broken");
+    assert!(matches!(error, ShaderError::Invalid("room", _)), "{error}");
 }
 
 #[test]
@@ -22,6 +31,6 @@ fn every_shader_file_is_part_of_a_shader() {
     for entry in std::fs::read_dir(folder).expect("the shaders' folder") {
         let path = entry.expect("an entry").path();
         let text = std::fs::read_to_string(&path).expect("text");
-        assert!(SHADERS.iter().any(|(_, source)| source.contains(&text)), "{} is not used", path.display());
+        assert!(Shaders::default().iter().any(|(_, source)| source.contains(&text)), "{} is not used", path.display());
     }
 }

@@ -6,12 +6,12 @@
 use std::path::{Path, PathBuf};
 
 use gltf::json;
-use gltf::mesh::Mode;
 
 use super::super::codes::{self, Code};
 use super::super::diagnostic::{Diagnostic, Report};
 use super::super::paths;
-use super::{Animation, Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, accessor, animation, look};
+use super::primitive::{decode, is_drawn};
+use super::{Animation, Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, animation, deform, look};
 use crate::math::{DMat4, DQuat, DVec3};
 
 /// Most bytes of a model file or of a buffer beside it.
@@ -39,6 +39,7 @@ const HANDLED: &[&str] = &[
     "KHR_materials_variants",
     "KHR_materials_unlit",
     "KHR_node_visibility",
+    "KHR_texture_transform",
     "KHR_xmp_json_ld",
 ];
 
@@ -49,7 +50,6 @@ fn remedy(extension: &str) -> String {
             "gltf-transform copy in.glb out.glb"
         }
         "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => "gltf-transform png in.glb out.glb",
-        "KHR_texture_transform" => "gltf-transform flatten in.glb out.glb, or bake the textures",
         _ => return "export the model again without it".into(),
     };
     format!("export again without it, or run: {command}")
@@ -111,7 +111,7 @@ impl Reader {
         };
         let mut root: json::Root = json::deserialize::from_slice(&json_bytes)
             .map_err(|error| self.broken(format_args!("its JSON cannot be read: {error}")))?;
-        if !root.asset.version.starts_with("2.") {
+        if root.asset.version != "2.0" {
             return Err(
                 self.problem(codes::BROKEN_MODEL, format_args!("glTF version {}; 2.0 is needed", root.asset.version))
             );
@@ -129,18 +129,26 @@ impl Reader {
         if let Some(index) = positions.map(|i| i.value()).find(|&i| i >= root.accessors.len()) {
             return Err(self.broken(format_args!("accessor {index} does not exist")));
         }
+        // Nor does it ask whether an image has a source at all.
+        if let Some(index) = root.images.iter().position(|image| image.uri.is_none() && image.buffer_view.is_none()) {
+            return Err(self.broken(format_args!("image {index} has neither a uri nor a bufferView")));
+        }
         let document =
             gltf::Document::from_json(root).map_err(|error| self.broken(format_args!("not valid glTF: {error}")))?;
         if document.nodes().len() > MAX_NODES {
             return Err(self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_NODES} nodes")));
         }
         let buffers = self.buffers(&document, blob)?;
-        let (nodes, roots) = self.nodes(&document)?;
+        let (mut nodes, roots) = self.nodes(&document)?;
+        let hidden = hidden(&document, &nodes);
+        let mut meshes = self.meshes(&document, &buffers)?;
+        self.frozen(&document, &buffers, &mut nodes, &mut meshes)?;
         Ok(Model {
             nodes,
             roots,
-            meshes: self.meshes(&document, &buffers)?,
-            materials: document.materials().map(|material| look::appearance(&material)).collect(),
+            meshes,
+            hidden,
+            materials: document.materials().map(|m| look::appearance(&m, |what| self.warn(what))).collect(),
             images: self.images(&document, &buffers)?,
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
@@ -231,14 +239,14 @@ impl Reader {
             let name = mesh.name().map_or_else(|| format!("mesh {}", mesh.index()), str::to_owned);
             let mut primitives = Vec::new();
             for primitive in mesh.primitives() {
-                if matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
+                if !is_drawn(&primitive) {
                     self.warn(format_args!(
                         "\"{name}\" has points or lines, which are not drawn; a wire can stand for a line"
                     ));
                     continue;
                 }
-                let primitive =
-                    decode(&primitive, buffers).map_err(|what| self.broken(format_args!("mesh \"{name}\": {what}")))?;
+                let primitive = decode(&primitive, buffers, |_| Ok(()))
+                    .map_err(|what| self.broken(format_args!("mesh \"{name}\": {what}")))?;
                 triangles += primitive.indices.len() / 3;
                 primitives.push(primitive);
             }
@@ -250,6 +258,36 @@ impl Reader {
             meshes.push(Mesh { name, primitives });
         }
         Ok(meshes)
+    }
+
+    /// Nodes that morph or have a skin get a mesh of their own, frozen as it stands at rest.
+    fn frozen(
+        &mut self,
+        document: &gltf::Document,
+        buffers: &[Vec<u8>],
+        nodes: &mut [Node],
+        meshes: &mut Vec<Mesh>,
+    ) -> Outcome<()> {
+        let mut triangles = 0;
+        for node in document.nodes().filter(deform::deforms) {
+            let Some(mesh) = node.mesh() else { continue };
+            let primitives = mesh.primitives().filter(is_drawn).map(|primitive| {
+                decode(&primitive, buffers, |out| deform::deform(&node, &primitive, nodes, buffers, out))
+            });
+            let name = nodes[node.index()].name.clone();
+            let primitives: Vec<Primitive> = primitives
+                .collect::<Result<_, _>>()
+                .map_err(|what| self.broken(format_args!("node \"{name}\": {what}")))?;
+            triangles += primitives.iter().map(|p| p.indices.len() / 3).sum::<usize>();
+            if triangles > MAX_TRIANGLES {
+                return Err(
+                    self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_TRIANGLES} triangles in skins"))
+                );
+            }
+            nodes[node.index()].mesh = Some(meshes.len());
+            meshes.push(Mesh { name, primitives });
+        }
+        Ok(())
     }
 
     fn images(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Image>> {
@@ -324,6 +362,23 @@ impl Reader {
     }
 }
 
+/// Nodes that KHR_node_visibility hides, and all below them.
+fn hidden(document: &gltf::Document, nodes: &[Node]) -> Vec<usize> {
+    let visible = |node: &gltf::Node| node.extension_value("KHR_node_visibility")?.get("visible")?.as_bool();
+    let mut open: Vec<usize> = document.nodes().filter(|n| visible(n) == Some(false)).map(|n| n.index()).collect();
+    let mut hidden = Vec::new();
+    // Nodes form a forest, so none is met more often than it has hidden ancestors; seen ones are not opened again.
+    let mut seen = vec![false; nodes.len()];
+    while let Some(index) = open.pop() {
+        if !std::mem::replace(&mut seen[index], true) {
+            hidden.push(index);
+            open.extend(&nodes[index].children);
+        }
+    }
+    hidden.sort_unstable();
+    hidden
+}
+
 /// The transform in double precision; `None` where it is not finite.
 fn matrix(transform: gltf::scene::Transform) -> Option<DMat4> {
     let matrix = match transform {
@@ -360,57 +415,5 @@ fn punctual(light: &gltf::khr_lights_punctual::Light) -> Light {
         color: DVec3::from(light.color().map(f64::from)),
         intensity: f64::from(light.intensity()),
         range: light.range().map_or(f64::INFINITY, f64::from),
-    }
-}
-
-fn decode(primitive: &gltf::Primitive, buffers: &[Vec<u8>]) -> Result<Primitive, accessor::Broken> {
-    use gltf::Semantic;
-    use gltf::accessor::Dimensions::{Vec2, Vec3, Vec4};
-    let positions = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
-    let positions: Vec<[f32; 3]> = accessor::vectors(&positions, buffers, &[Vec3], 0.0)?;
-    let list = match primitive.indices() {
-        Some(indices) => accessor::indices(&indices, buffers, positions.len())?,
-        None => (0..positions.len() as u32).collect(),
-    };
-    let same = |length: usize, what: &str| {
-        if length == positions.len() { Ok(()) } else { Err(format!("{what} and positions differ in number")) }
-    };
-    let mut out = Primitive { indices: triangles(primitive.mode(), &list), ..Primitive::default() };
-    out.material = primitive.material().index();
-    if let Some(source) = primitive.get(&Semantic::TexCoords(0)) {
-        out.uvs = accessor::vectors(&source, buffers, &[Vec2], 0.0)?;
-        same(out.uvs.len(), "texture coordinates")?;
-    }
-    if let Some(source) = primitive.get(&Semantic::Colors(0)) {
-        out.colors = accessor::vectors(&source, buffers, &[Vec3, Vec4], 1.0)?;
-        same(out.colors.len(), "colours")?;
-    }
-    if let Some(source) = primitive.get(&Semantic::Tangents) {
-        out.tangents = accessor::vectors(&source, buffers, &[Vec4], 1.0)?;
-        same(out.tangents.len(), "tangents")?;
-    }
-    match primitive.get(&Semantic::Normals) {
-        Some(source) => {
-            out.normals = accessor::vectors(&source, buffers, &[Vec3], 0.0)?;
-            same(out.normals.len(), "normals")?;
-            out.positions = positions;
-        }
-        None => look::flatten(&mut out, positions),
-    }
-    Ok(out)
-}
-
-/// Indices of a strip or fan as separate triangles, all wound alike.
-fn triangles(mode: Mode, list: &[u32]) -> Vec<u32> {
-    match mode {
-        Mode::TriangleStrip => {
-            let turned = |(i, t): (usize, &[u32])| if i % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] };
-            list.windows(3).enumerate().flat_map(turned).collect()
-        }
-        Mode::TriangleFan => match list.split_first() {
-            Some((&hub, rim)) => rim.windows(2).flat_map(|t| [hub, t[0], t[1]]).collect(),
-            None => Vec::new(),
-        },
-        _ => list[..list.len() - list.len() % 3].to_vec(),
     }
 }

@@ -1,42 +1,153 @@
 //! Appearances of a glTF file, and flat normals where it has none.
+//!
+//! Extensions are read as plain JSON, all in one way; a number that is missing or of the wrong type has its default.
 
+use gltf::json::Value;
 use gltf::material::AlphaMode as GltfAlpha;
+use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
-use super::{AlphaMode, Appearance, Primitive};
-use crate::math::DVec3;
+use super::{AlphaMode, Appearance, Levels, Primitive, Sampler, TextureUse, Wrap};
+use crate::math::{self, DVec3};
 
-/// The metallic–roughness appearance of a glTF material.
-pub fn appearance(material: &gltf::Material) -> Appearance {
+/// Textures of extensions that are not drawn: their factor alone counts.
+const UNDRAWN: [(&str, &[&str]); 5] = [
+    ("KHR_materials_transmission", &["transmissionTexture"]),
+    ("KHR_materials_volume", &["thicknessTexture"]),
+    ("KHR_materials_specular", &["specularTexture", "specularColorTexture"]),
+    ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]),
+    ("KHR_materials_sheen", &["sheenColorTexture", "sheenRoughnessTexture"]),
+];
+/// Layers of a surface that are not drawn at all.
+const IGNORED: [&str; 4] = [
+    "KHR_materials_anisotropy",
+    "KHR_materials_iridescence",
+    "KHR_materials_dispersion",
+    "KHR_materials_diffuse_transmission",
+];
+
+/// The metallic–roughness appearance of a glTF material; `note` is told what is not drawn.
+pub fn appearance(material: &gltf::Material, mut note: impl FnMut(String)) -> Appearance {
     let surface = material.pbr_metallic_roughness();
     let strength = material.emissive_strength().unwrap_or(1.0);
-    let image = |info: gltf::texture::Info| info.texture().source().index();
+    let name = material.name().unwrap_or_default().to_owned();
+    let mut texture = |texture: gltf::Texture, set: u32, transform: Option<&Value>| {
+        let set = transform.and_then(|t| t.get("texCoord")?.as_u64()).unwrap_or(u64::from(set));
+        if set > 1 {
+            note(format!("material \"{name}\" uses texture coordinates {set}; the second set is drawn instead"));
+        }
+        TextureUse {
+            image: texture.source().index(),
+            set: set.min(1) as usize,
+            transform: transform.map_or(TextureUse::of(0).transform, rows),
+            sampler: sampler(&texture.sampler()),
+        }
+    };
+    const MOVED: &str = "KHR_texture_transform";
+    let info = |i: gltf::texture::Info, texture: &mut dyn FnMut(gltf::Texture, u32, Option<&Value>) -> TextureUse| {
+        texture(i.texture(), i.tex_coord(), i.extension_value(MOVED))
+    };
+    let base_color_texture = surface.base_color_texture().map(|i| info(i, &mut texture));
+    let metallic_roughness_texture = surface.metallic_roughness_texture().map(|i| info(i, &mut texture));
+    let emissive_texture = material.emissive_texture().map(|i| info(i, &mut texture));
+    let normal_texture =
+        material.normal_texture().map(|t| (texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.scale()));
+    let occlusion_texture = material
+        .occlusion_texture()
+        .map(|t| (texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.strength()));
+    let number = |extension: &str, key: &str, default: f64| {
+        let value = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_f64());
+        value.filter(|v| v.is_finite()).unwrap_or(default) as f32
+    };
+    let color = |extension: &str, key: &str, default: f64| {
+        let list = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_array());
+        std::array::from_fn(|i| list.and_then(|l| l.get(i)?.as_f64()).unwrap_or(default) as f32)
+    };
+    let share = |x: f32| x.clamp(0.0, 1.0);
+    for (extension, keys) in UNDRAWN {
+        for key in keys {
+            if material.extension_value(extension).is_some_and(|e| e.get(key).is_some()) {
+                note(format!("material \"{name}\": {key} of {extension} is not drawn, its factor is"));
+            }
+        }
+    }
+    for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
+        note(format!("material \"{name}\": {extension} is not drawn"));
+    }
     Appearance {
-        name: material.name().unwrap_or_default().to_owned(),
         base_color: surface.base_color_factor(),
-        base_color_texture: surface.base_color_texture().map(image),
+        base_color_texture,
         metallic: surface.metallic_factor(),
         roughness: surface.roughness_factor(),
-        metallic_roughness_texture: surface.metallic_roughness_texture().map(image),
-        normal_texture: material.normal_texture().map(|t| (t.texture().source().index(), t.scale())),
-        occlusion_texture: material.occlusion_texture().map(|t| (t.texture().source().index(), t.strength())),
+        metallic_roughness_texture,
+        normal_texture,
+        occlusion_texture,
         emissive: material.emissive_factor().map(|c| c * strength),
-        emissive_texture: material.emissive_texture().map(image),
+        emissive_texture,
         alpha: match material.alpha_mode() {
             GltfAlpha::Opaque => AlphaMode::Opaque,
             GltfAlpha::Mask => AlphaMode::Mask(material.alpha_cutoff().unwrap_or(0.5)),
             GltfAlpha::Blend => AlphaMode::Blend,
         },
         double_sided: material.double_sided(),
+        unlit: material.extension_value("KHR_materials_unlit").is_some(),
+        ior: number("ior", "ior", 1.5).max(1.0),
+        specular: share(number("specular", "specularFactor", 1.0)),
+        specular_color: color("specular", "specularColorFactor", 1.0),
+        transmission: share(number("transmission", "transmissionFactor", 0.0)),
+        thickness: number("volume", "thicknessFactor", 0.0).max(0.0),
+        attenuation_distance: Some(number("volume", "attenuationDistance", 0.0))
+            .filter(|d| *d > 0.0)
+            .unwrap_or(f32::INFINITY),
+        attenuation_color: color("volume", "attenuationColor", 1.0),
+        coat: share(number("clearcoat", "clearcoatFactor", 0.0)),
+        coat_roughness: share(number("clearcoat", "clearcoatRoughnessFactor", 0.0)),
+        sheen: color("sheen", "sheenColorFactor", 0.0),
+        sheen_roughness: share(number("sheen", "sheenRoughnessFactor", 0.0)),
+        name: name.clone(),
+    }
+}
+
+/// Translation · rotation · scale of KHR_texture_transform; it turns against the clock, v down.
+fn rows(transform: &Value) -> [[f32; 3]; 2] {
+    let number = |value: Option<&Value>, default: f64| value.and_then(Value::as_f64).unwrap_or(default);
+    let pair = |key: &str, default: f64| [0, 1].map(|i| number(transform.get(key).and_then(|v| v.get(i)), default));
+    let ([x, y], [w, h]) = (pair("offset", 0.0), pair("scale", 1.0));
+    let angle = number(transform.get("rotation"), 0.0);
+    let (s, c) = (math::sin(angle), math::cos(angle));
+    [[c * w, s * h, x], [-s * w, c * h, y]].map(|row| row.map(|x| x as f32))
+}
+
+fn sampler(source: &gltf::texture::Sampler) -> Sampler {
+    let wrap = |mode| match mode {
+        WrappingMode::Repeat => Wrap::Repeat,
+        WrappingMode::MirroredRepeat => Wrap::Mirror,
+        WrappingMode::ClampToEdge => Wrap::Clamp,
+    };
+    let (smooth_far, levels) = match source.min_filter() {
+        Some(MinFilter::Nearest) => (false, Levels::None),
+        Some(MinFilter::Linear) => (true, Levels::None),
+        Some(MinFilter::NearestMipmapNearest) => (false, Levels::Nearest),
+        Some(MinFilter::LinearMipmapNearest) => (true, Levels::Nearest),
+        Some(MinFilter::NearestMipmapLinear) => (false, Levels::Blended),
+        Some(MinFilter::LinearMipmapLinear) | None => (true, Levels::Blended),
+    };
+    Sampler {
+        wrap: [wrap(source.wrap_s()), wrap(source.wrap_t())],
+        smooth_near: source.mag_filter() != Some(MagFilter::Nearest),
+        smooth_far,
+        levels,
     }
 }
 
 /// Gives a primitive without normals flat ones, as glTF 2.0 asks (3.7.2.1): each triangle gets corners of its own.
-pub fn flatten(primitive: &mut Primitive, positions: Vec<[f32; 3]>) {
+pub fn flatten(primitive: &mut Primitive) {
+    let positions = std::mem::take(&mut primitive.positions);
     let pick = |list: &mut Vec<[f32; 2]>, indices: &[u32]| {
         *list = if list.is_empty() { Vec::new() } else { indices.iter().map(|&i| list[i as usize]).collect() };
     };
     let indices = std::mem::take(&mut primitive.indices);
     pick(&mut primitive.uvs, &indices);
+    pick(&mut primitive.second_uvs, &indices);
     let colors = std::mem::take(&mut primitive.colors);
     if !colors.is_empty() {
         primitive.colors = indices.iter().map(|&i| colors[i as usize]).collect();

@@ -1,0 +1,138 @@
+//! Shapes that are not rigid, as they stand at rest: morph targets at their weights (glTF 2.0, 3.7.2.2) and skins at
+//! the pose of their joints (3.7.3.3).
+//!
+//! A body is rigid, so what deforms is frozen once: `p = Σ wⱼ Jⱼ Iⱼ (p₀ + Σ ωₜ dₜ)`, with J a joint's node to world and I
+//! its inverse bind matrix. The result is stored in the frame of the node that shows it.
+
+use gltf::Semantic;
+use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
+
+use super::accessor::{self, Broken};
+use super::{Node, Primitive};
+use crate::math::{DMat3, DMat4, DVec3};
+
+/// Most targets that one primitive morphs to.
+const MAX_TARGETS: usize = 256;
+
+/// Does this node show its mesh otherwise than the file stores it?
+pub fn deforms(node: &gltf::Node) -> bool {
+    let weights = weights(node);
+    let morphs = node.mesh().is_some_and(|m| m.primitives().any(|p| p.morph_targets().next().is_some()));
+    node.skin().is_some() || (morphs && weights.iter().any(|w| *w != 0.0))
+}
+
+fn weights(node: &gltf::Node) -> Vec<f32> {
+    let own = node.weights().filter(|w| !w.is_empty());
+    own.or_else(|| node.mesh().and_then(|m| m.weights())).unwrap_or_default().to_vec()
+}
+
+/// Deforms `out`, the primitive as stored and not yet flattened, for `node`.
+pub fn deform(
+    node: &gltf::Node,
+    source: &gltf::Primitive,
+    nodes: &[Node],
+    buffers: &[Vec<u8>],
+    out: &mut Primitive,
+) -> Result<(), Broken> {
+    let weights = weights(node);
+    for (target, weight) in source.morph_targets().take(MAX_TARGETS).zip(&weights) {
+        if !weight.is_finite() {
+            return Err("a morph weight is not finite".into());
+        }
+        add(target.positions(), *weight, buffers, &mut out.positions, "morphed positions")?;
+        add(target.normals(), *weight, buffers, &mut out.normals, "morphed normals")?;
+    }
+    if let Some(skin) = node.skin() {
+        pose(&skin, source, nodes[node.index()].world, nodes, buffers, out)?;
+    }
+    for normal in &mut out.normals {
+        *normal = DVec3::from(normal.map(f64::from)).try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
+    }
+    Ok(())
+}
+
+/// Adds weighted differences to what there is; a primitive without normals gets flat ones afterwards.
+fn add(
+    source: Option<gltf::Accessor>,
+    weight: f32,
+    buffers: &[Vec<u8>],
+    to: &mut [[f32; 3]],
+    what: &str,
+) -> Result<(), Broken> {
+    let Some(source) = source.filter(|_| !to.is_empty()) else { return Ok(()) };
+    let differences = accessor::vectors::<3>(&source, buffers, &[Vec3], 0.0)?;
+    if differences.len() != to.len() {
+        return Err(format!("{what} differ in number"));
+    }
+    for (to, difference) in to.iter_mut().zip(&differences) {
+        for (to, difference) in to.iter_mut().zip(difference) {
+            *to += weight * difference;
+        }
+    }
+    Ok(())
+}
+
+fn pose(
+    skin: &gltf::Skin,
+    source: &gltf::Primitive,
+    world_from_node: DMat4,
+    nodes: &[Node],
+    buffers: &[Vec<u8>],
+    out: &mut Primitive,
+) -> Result<(), Broken> {
+    let node_from_world = world_from_node.inverse();
+    if !node_from_world.is_finite() {
+        return Err("a skinned node has a scale of zero".into());
+    }
+    let mut matrices: Vec<DMat4> = skin.joints().map(|joint| node_from_world * nodes[joint.index()].world).collect();
+    if let Some(inverse) = skin.inverse_bind_matrices() {
+        let inverse = accessor::vectors::<16>(&inverse, buffers, &[Mat4], 0.0)?;
+        if inverse.len() < matrices.len() {
+            return Err("a skin has fewer inverse bind matrices than joints".into());
+        }
+        for (matrix, inverse) in matrices.iter_mut().zip(&inverse) {
+            *matrix *= DMat4::from_cols_array(&inverse.map(f64::from));
+        }
+    }
+    let mut blended = vec![DMat4::ZERO; out.positions.len()];
+    let mut total = vec![0.0; blended.len()];
+    for set in 0.. {
+        let (Some(joints), Some(shares)) = (source.get(&Semantic::Joints(set)), source.get(&Semantic::Weights(set)))
+        else {
+            break;
+        };
+        let joints = accessor::vectors::<4>(&joints, buffers, &[Vec4], 0.0)?;
+        let shares = accessor::vectors::<4>(&shares, buffers, &[Vec4], 0.0)?;
+        if joints.len() != blended.len() || shares.len() != blended.len() {
+            return Err("joints, weights and positions differ in number".into());
+        }
+        for (i, (joints, shares)) in joints.iter().zip(&shares).enumerate() {
+            for (joint, share) in joints.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
+                let matrix =
+                    matrices.get(*joint as usize).ok_or("a vertex names a joint that the skin does not have")?;
+                blended[i] += *matrix * f64::from(*share);
+                total[i] += f64::from(*share);
+            }
+        }
+    }
+    for (i, matrix) in blended.iter().enumerate().filter(|(i, _)| total[*i] > 0.0) {
+        // Weights that were rounded do not sum to one.
+        let matrix = *matrix * (1.0 / total[i]);
+        out.positions[i] = matrix.transform_point3(DVec3::from(out.positions[i].map(f64::from))).as_vec3().to_array();
+        let turn = DMat3::from_mat4(matrix);
+        let cofactor = DMat3::from_cols(
+            turn.y_axis.cross(turn.z_axis),
+            turn.z_axis.cross(turn.x_axis),
+            turn.x_axis.cross(turn.y_axis),
+        );
+        if let Some(normal) = out.normals.get_mut(i) {
+            *normal = (cofactor * DVec3::from(normal.map(f64::from))).as_vec3().to_array();
+        }
+        if let Some(tangent) = out.tangents.get_mut(i) {
+            let along =
+                (turn * DVec3::new(tangent[0].into(), tangent[1].into(), tangent[2].into())).normalize_or_zero();
+            *tangent = [along.x as f32, along.y as f32, along.z as f32, tangent[3]];
+        }
+    }
+    Ok(())
+}

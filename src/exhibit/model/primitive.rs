@@ -1,0 +1,77 @@
+//! Primitives of a mesh: attributes as lists of one length, and separate triangles whatever the file has.
+
+use gltf::Semantic;
+use gltf::accessor::Dimensions::{Vec2, Vec3, Vec4};
+use gltf::mesh::Mode;
+
+use super::{Primitive, accessor, look};
+
+/// Has it triangles?
+pub fn is_drawn(primitive: &gltf::Primitive) -> bool {
+    !matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip)
+}
+
+/// Decodes a primitive; `deform` may change it before flat normals are made.
+pub fn decode(
+    primitive: &gltf::Primitive,
+    buffers: &[Vec<u8>],
+    deform: impl FnOnce(&mut Primitive) -> Result<(), accessor::Broken>,
+) -> Result<Primitive, accessor::Broken> {
+    let positions = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
+    let positions: Vec<[f32; 3]> = accessor::vectors(&positions, buffers, &[Vec3], 0.0)?;
+    let list = match primitive.indices() {
+        Some(indices) => accessor::indices(&indices, buffers, positions.len())?,
+        None => (0..positions.len() as u32).collect(),
+    };
+    let count = positions.len();
+    let same = |length: usize, what: &str| {
+        if length == count { Ok(()) } else { Err(format!("{what} and positions differ in number")) }
+    };
+    let mut out = Primitive { indices: triangles(primitive.mode(), &list), ..Primitive::default() };
+    out.material = primitive.material().index();
+    let coordinates = |set: u32| match primitive.get(&Semantic::TexCoords(set)) {
+        Some(source) => {
+            let uvs = accessor::vectors(&source, buffers, &[Vec2], 0.0)?;
+            same(uvs.len(), "texture coordinates").map(|()| uvs)
+        }
+        None => Ok(Vec::new()),
+    };
+    out.uvs = coordinates(0)?;
+    out.second_uvs = coordinates(1)?;
+    if let Some(source) = primitive.get(&Semantic::Colors(0)) {
+        out.colors = accessor::vectors(&source, buffers, &[Vec3, Vec4], 1.0)?;
+        same(out.colors.len(), "colours")?;
+    }
+    if let Some(source) = primitive.get(&Semantic::Tangents) {
+        out.tangents = accessor::vectors(&source, buffers, &[Vec4], 1.0)?;
+        same(out.tangents.len(), "tangents")?;
+    }
+    if let Some(source) = primitive.get(&Semantic::Normals) {
+        out.normals = accessor::vectors(&source, buffers, &[Vec3], 0.0)?;
+        same(out.normals.len(), "normals")?;
+    }
+    out.positions = positions;
+    deform(&mut out)?;
+    if out.positions.iter().flatten().any(|x| !x.is_finite()) {
+        return Err("a skin or a morph target makes positions that are not finite".into());
+    }
+    if out.normals.is_empty() {
+        look::flatten(&mut out);
+    }
+    Ok(out)
+}
+
+/// Indices of a strip or fan as separate triangles, all wound alike.
+fn triangles(mode: Mode, list: &[u32]) -> Vec<u32> {
+    match mode {
+        Mode::TriangleStrip => {
+            let turned = |(i, t): (usize, &[u32])| if i % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] };
+            list.windows(3).enumerate().flat_map(turned).collect()
+        }
+        Mode::TriangleFan => match list.split_first() {
+            Some((&hub, rim)) => rim.windows(2).flat_map(|t| [hub, t[0], t[1]]).collect(),
+            None => Vec::new(),
+        },
+        _ => list[..list.len() - list.len() % 3].to_vec(),
+    }
+}

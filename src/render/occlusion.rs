@@ -1,0 +1,180 @@
+//! Ambient occlusion, baked once: what part of the sky near parts leave to each corner of the meshes, and static parts
+//! to the wall and the floor.
+//!
+//! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points, turned into each
+//! surface's frame), so it has no noise to crawl: v = 1 − (1/N) Σ max(0, 1 − d/reach), d the way to what a ray meets.
+//! Corners see the exhibit as it rests. Only what is near counts, so parts that swing far apart do not darken
+//! each other for ever; wheels on a common plate, which turn in place, do.
+
+use std::time::Duration;
+
+use glam::{Vec2, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ray::{Ray, RayHit};
+use obvhs::triangle::Triangle;
+
+use super::scene::Scene;
+use super::shadows::ReceivingPlane;
+use crate::exhibit::Exhibit;
+
+/// Rays of each corner.
+const CORNER_RAYS: u32 = 20;
+/// Most rays of all corners together; beyond it each has fewer.
+const MAX_RAYS: usize = 1_500_000;
+/// Fewest rays that say anything; with less the corners stay open.
+const MIN_RAYS: u32 = 6;
+/// Rays of each texel of a plane.
+const TEXEL_RAYS: u32 = 32;
+/// Texels along each side of a plane's map.
+pub(super) const PLANE_MAP: u32 = 80;
+/// How far corners look, in radii of the work.
+const REACH: f32 = 0.22;
+
+/// Triangles to look at.
+struct Solid {
+    triangles: Vec<Triangle>,
+    bvh: Bvh2,
+}
+
+impl Solid {
+    /// Opaque triangles of the scene at rest, or the static ones alone.
+    fn new(scene: &Scene, places: &[Vec3], only_static: bool) -> Option<Self> {
+        let solid = scene.indices[..scene.opaque as usize].chunks_exact(3);
+        let triangles: Vec<Triangle> = solid
+            .filter(|t| !only_static || scene.vertices[t[0] as usize].frame() == 0)
+            .map(|t| {
+                let [v0, v1, v2] = [t[0], t[1], t[2]].map(|i| Vec3A::from(places[i as usize]));
+                Triangle { v0, v1, v2 }
+            })
+            .collect();
+        if triangles.is_empty() {
+            return None;
+        }
+        let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
+        Some(Self { triangles, bvh })
+    }
+
+    /// Part of the sky over `point` that is open.
+    fn visibility(&self, point: Vec3, normal: Vec3, reach: f32, directions: &[Vec3]) -> f32 {
+        let (t, b) = normal.any_orthonormal_pair();
+        let origin = Vec3A::from(point + normal * (1e-3 * reach));
+        let mut hidden = 0.0;
+        for d in directions {
+            let way = Vec3A::from(t * d.x + b * d.y + normal * d.z);
+            let mut nearest = reach;
+            self.bvh.ray_traverse(Ray::new(origin, way, 0.0, reach), &mut RayHit::none(), |ray, id| {
+                let t = self.triangles[self.bvh.primitive_indices[id] as usize].intersect(ray);
+                nearest = nearest.min(t);
+                t
+            });
+            hidden += 1.0 - nearest / reach;
+        }
+        1.0 - hidden / directions.len() as f32
+    }
+}
+
+/// Gives each corner of the scene its visibility.
+pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
+    // Corners of one place and one normal share their rays.
+    let (places, normals) = at_rest(scene, exhibit);
+    let key = |i: usize| {
+        let whole = |v: Vec3, step: f32| [v.x, v.y, v.z].map(|c| (c / step).round() as i32);
+        (whole(places[i], 1e-4 * radius), whole(normals[i], 0.05))
+    };
+    let mut order: Vec<u32> = (0..places.len() as u32).collect();
+    order.sort_by_cached_key(|&i| key(i as usize));
+    let mut groups: Vec<&[u32]> = order.chunk_by(|&a, &b| key(a as usize) == key(b as usize)).collect();
+    groups.retain(|group| !group.is_empty());
+    let rays = CORNER_RAYS.min((MAX_RAYS / groups.len().max(1)) as u32);
+    let Some(solid) = (rays >= MIN_RAYS).then(|| Solid::new(scene, &places, false)).flatten() else { return };
+    let directions = cosine_directions(rays);
+    let seen = in_parallel(&groups, |group| {
+        let i = group[0] as usize;
+        solid.visibility(places[i], normals[i], REACH * radius, &directions)
+    });
+    for (group, visibility) in groups.iter().zip(seen) {
+        for &i in *group {
+            scene.vertices[i as usize].set_visibility(visibility);
+        }
+    }
+}
+
+/// Maps of both planes, texel by texel, row by row, a byte each: what static parts leave of the sky.
+pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane; 2], radius: f32) -> Vec<u8> {
+    let count = (PLANE_MAP * PLANE_MAP) as usize;
+    let (places, _) = at_rest(scene, exhibit);
+    let Some(solid) = Solid::new(scene, &places, true) else { return vec![255; 2 * count] };
+    let directions = cosine_directions(TEXEL_RAYS);
+    let texels: Vec<(usize, Vec2)> = (0..2 * count)
+        .map(|i| {
+            let at = Vec2::new((i as u32 % PLANE_MAP) as f32, ((i % count) as u32 / PLANE_MAP) as f32);
+            (i / count, (at + 0.5) / PLANE_MAP as f32)
+        })
+        .collect();
+    in_parallel(&texels, |&(plane, at)| {
+        let plane = &planes[plane];
+        let point = plane.origin + plane.u * (at.x * plane.size.x) + plane.v * (at.y * plane.size.y);
+        // Under a foot that stands on the floor there is no sky; the origin is moved out of its underside.
+        let visibility = solid.visibility(point, plane.normal, radius, &directions);
+        (visibility * 255.0 + 0.5) as u8
+    })
+}
+
+/// World places and normals of all corners, with the bodies where they begin.
+fn at_rest(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
+    let frames: Vec<_> = exhibit.bodies.iter().map(|body| body.pose.matrix().as_mat4()).collect();
+    let place = |v: &super::scene::Vertex| match v.frame() {
+        0 => (v.position, v.normal),
+        body => (frames[body - 1].transform_point3(v.position), frames[body - 1].transform_vector3(v.normal)),
+    };
+    scene.vertices.iter().map(place).unzip()
+}
+
+/// N directions about +Z with density cos/π.
+fn cosine_directions(count: u32) -> Vec<Vec3> {
+    (0..count)
+        .map(|i| {
+            let r2 = (i as f32 + 0.5) / count as f32;
+            let phi = i.reverse_bits() as f32 / 4_294_967_296.0 * std::f32::consts::TAU;
+            let r = r2.sqrt();
+            Vec3::new(r * phi.cos(), r * phi.sin(), (1.0 - r2).sqrt())
+        })
+        .collect()
+}
+
+/// Maps a list on all processors; the result does not depend on how many there are.
+fn in_parallel<T: Sync, R: Send>(list: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(8);
+    let chunk = list.len().div_ceil(threads).max(1);
+    std::thread::scope(|scope| {
+        let f = &f;
+        let workers: Vec<_> =
+            list.chunks(chunk).map(|part| scope.spawn(move || part.iter().map(f).collect::<Vec<R>>())).collect();
+        workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wall_hides_half_the_sky_of_the_corner_at_its_foot() {
+        // A wall much higher than the reach: of a point at its foot it hides half the directions, and by the rule each
+        // counts 1 − d/reach with d = 0.
+        const SAMPLING: f32 = 0.06;
+        let corner = |x: f32, y: f32, z: f32| Vec3A::new(x, y, z);
+        let wall = |a, b, c| Triangle { v0: a, v1: b, v2: c };
+        let (a, b, c, d) =
+            (corner(0.0, -9.0, -9.0), corner(0.0, 9.0, -9.0), corner(0.0, 9.0, 9.0), corner(0.0, -9.0, 9.0));
+        let triangles = vec![wall(a, b, c), wall(a, c, d)];
+        let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
+        let solid = Solid { triangles, bvh };
+        let directions = cosine_directions(256);
+        let at = |x: f32| solid.visibility(Vec3::new(x, 0.0, 0.0), Vec3::Z, 1.0, &directions);
+        assert!((at(1e-4) - 0.5).abs() < SAMPLING, "{}", at(1e-4));
+        assert!(at(0.5) > at(0.2) && at(2.0) == 1.0, "{} {} {}", at(0.2), at(0.5), at(2.0));
+    }
+}
