@@ -208,7 +208,7 @@ pub fn glb() -> Vec<u8> {
     for (piece, pose) in &pieces {
         piece.write(&mut scene, *pose);
     }
-    let target = DVec3::new(-0.045, 0.27, 0.0);
-    scene.camera("CamFront", target + DVec3::new(0.10, 0.07, 1.42), target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    let target = DVec3::new(-0.045, 0.262, 0.0);
+    scene.camera("CamFront", target + DVec3::new(0.10, 0.07, 1.22), target, 27.0 * PI / 180.0, 16.0 / 9.0);
     scene.into_glb("A clock that breath winds", "Original work of the Soffio project; MIT OR Apache-2.0")
 }

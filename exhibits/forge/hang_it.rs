@@ -1,5 +1,6 @@
 //! A mobile that nobody has balanced yet: its arm lies in a loop, held by friction alone, until a visitor slides it to where
-//! it hangs level. Then a hammer at its end is at the height of a cymbal.
+//! it hangs level. Then a hammer at its end is at the height of
+//! two cymbals.
 //!
 //! In the arm's frame its line is y = 0; wire, hammer and loads have their centre at (b, −h). It lies on the loop's bar at
 //! the height −r and the place u of that line, and with nothing but friction along it, it rests where the centre is under
@@ -35,10 +36,15 @@ const REACH: f64 = 38.0 * MM;
 const HAMMER: f64 = 4.0 * MM;
 /// How far from where it hangs level the arm lies at first.
 const OFF: f64 = -15.0 * MM;
-/// Cymbal: radius, thickness, and where it hangs, seen from above, from the arm's way, rad.
-const CYMBAL: f64 = 38.0 * MM;
+/// Two cymbals where the hammer of the level arm passes, their rims a little inside of its way: names, radius, and where
+/// each hangs, seen from above, from where the arm points at first, rad.
+const CYMBALS: [([&str; 4], f64, f64); 2] = [
+    (["CymbalBack", "DiscBack", "StemBack", "HookBack"], 38.0 * MM, 0.7),
+    (["CymbalFront", "DiscFront", "StemFront", "HookFront"], 30.0 * MM, -0.8),
+];
 const SHEET: f64 = 1.0 * MM;
-const ASIDE: f64 = 0.7;
+/// From a cymbal's hook down to it.
+const HANG: f64 = 26.0 * MM;
 /// How far the hammer would reach over its rim.
 const OVER: f64 = 4.0 * MM;
 
@@ -90,6 +96,24 @@ fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
     (piece, DVec2::new(whole.center.x, whole.center.y))
 }
 
+/// A disc on a stem, hung from the origin.
+fn cymbal([name, disc, stem, hook]: [&'static str; 4], radius: f64, brass: usize, steel: usize) -> Piece {
+    let (edge, half) = (0.3 * SHEET, 0.5 * SHEET);
+    let profile = [(0.0, -half), (radius - edge, -half), (radius, edge - half), (radius, half - edge)];
+    let profile = profile.into_iter().chain([(radius - edge, half), (0.0, half)]).map(|(r, y)| DVec2::new(r, y));
+    let solid = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
+    let along = DQuat::IDENTITY;
+    Piece {
+        name,
+        parts: vec![
+            part(disc, solid, -HANG * DVec3::Y, along, BRASS, brass),
+            part(stem, rod(0.8 * MM, -HANG, 0.0), DVec3::ZERO, along, STEEL, steel),
+        ],
+        bends: Vec::new(),
+        marks: vec![(hook, DVec3::ZERO)],
+    }
+}
+
 /// The model.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
@@ -126,34 +150,23 @@ pub fn glb() -> Vec<u8> {
         marks: vec![("LoopSeat", -SWIVEL * DVec3::Y)],
     };
 
-    // The cymbal hangs where the hammer of the level arm passes, its rim a little inside of that way.
     let path = RIGHT + REACH - level;
-    let away = path + HAMMER + CYMBAL - OVER;
     let height = BAR.y + BAR_RADIUS + WIRE - DROOP;
-    let middle = DVec3::new(away * cos(ASIDE), height, -away * sin(ASIDE));
-    let disc = |r: f64, t: f64| {
-        let edge = 0.3 * t;
-        [(0.0, -0.5 * t), (r - edge, -0.5 * t), (r, edge - 0.5 * t), (r, 0.5 * t - edge), (r - edge, 0.5 * t), (0.0, 0.5 * t)]
-            .map(|(r, y)| DVec2::new(r, y))
-    };
-    let hang = 26.0 * MM;
-    let cymbal = Piece {
-        name: "Cymbal",
-        parts: vec![
-            part("CymbalDisc", turned(&disc(CYMBAL, SHEET), false, 2 * ROUND), -hang * DVec3::Y, DQuat::IDENTITY, BRASS, finishes.brass),
-            part("CymbalStem", rod(0.8 * MM, -hang, 0.0), DVec3::ZERO, DQuat::IDENTITY, STEEL, finishes.steel),
-        ],
-        bends: Vec::new(),
-        marks: vec![("CymbalHook", DVec3::ZERO)],
-    };
-    let hook = middle + hang * DVec3::Y;
+    let cymbals = CYMBALS.map(|(names, radius, aside)| {
+        let away = path + HAMMER + radius - OVER;
+        let hook = DVec3::new(away * cos(aside), height + HANG, -away * sin(aside));
+        (cymbal(names, radius, finishes.brass, finishes.steel), hook)
+    });
     let mut stand = ceiling(finishes.black);
     for own in &mut stand.parts {
-        own.place.position += swivel + 8.0 * MM * DVec3::Y;
+        own.place.position += swivel - 5.0 * MM * DVec3::Y;
     }
     stand.bends.clear();
-    stand.parts.push(part("CymbalRod", rod(1.2 * MM, 0.0, 0.9), hook, DQuat::IDENTITY, STEEL, finishes.black));
-    stand.marks = vec![("SwivelPoint", swivel), ("CymbalPoint", hook)];
+    stand.marks = vec![("SwivelPoint", swivel)];
+    for ((_, hook), (name, mark)) in cymbals.iter().zip([("RodBack", "PointBack"), ("RodFront", "PointFront")]) {
+        stand.parts.push(part(name, rod(1.2 * MM, 0.0, 0.9), *hook, DQuat::IDENTITY, STEEL, finishes.black));
+        stand.marks.push((mark, *hook));
+    }
 
     let at = |position| Pose { rotation: DQuat::IDENTITY, position };
     for (piece, pose) in [
@@ -162,9 +175,11 @@ pub fn glb() -> Vec<u8> {
         (arm, arm_pose),
         (left, left_pose),
         (right, right_pose),
-        (cymbal, at(hook)),
     ] {
         piece.write(&mut scene, pose);
+    }
+    for (piece, hook) in cymbals {
+        piece.write(&mut scene, at(hook));
     }
     let target = DVec3::new(0.06, 0.42, 0.0);
     let camera = target + 1.25 * DVec3::new(0.05, 0.10, 1.0).normalize();

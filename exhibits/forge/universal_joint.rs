@@ -12,7 +12,7 @@ const SHAFT: f64 = 200.0 * MM;
 pub const BEND: f64 = 0.61;
 /// From the crossing to the rotor, and to the dial.
 const ROTOR: f64 = 90.0 * MM;
-const DIAL: f64 = 120.0 * MM;
+const DIAL: f64 = 140.0 * MM;
 
 /// The model: the rotor's shaft is its z axis, the dial's shaft its own z axis, turned by the bend.
 pub fn glb() -> Vec<u8> {
@@ -81,8 +81,8 @@ pub fn glb() -> Vec<u8> {
     stand.write(&mut scene, pose(along, none));
     rotor.write(&mut scene, pose(along, top));
     dial.write(&mut scene, pose(turn, top));
-    let target = DVec3::new(0.03, 0.17, -0.02);
-    let eye = target + 0.86 * DVec3::new(-0.42, 0.30, 1.0).normalize();
+    let target = DVec3::new(0.045, 0.165, -0.03);
+    let eye = target + 0.92 * DVec3::new(0.42, 0.32, 1.0).normalize();
     scene.camera("CamFront", eye, target, 27.0 * PI / 180.0, 16.0 / 9.0);
     scene.into_glb("Round the corner", "Original work of the Soffio project; MIT OR Apache-2.0")
 }
