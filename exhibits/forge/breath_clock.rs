@@ -103,7 +103,8 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     ];
     for (k, name) in SAIL_NAMES.into_iter().enumerate() {
         let color = if k % 2 == 0 { finishes.red } else { finishes.white };
-        let mut sail = vane(name, [66.0 * MM, 34.0 * MM, 0.8 * MM], 42.0 * MM, PI * k as f64 / 3.0, -0.6, (WOOD, color));
+        let mut sail =
+            vane(name, [66.0 * MM, 34.0 * MM, 0.8 * MM], 42.0 * MM, PI * k as f64 / 3.0, -0.6, (WOOD, color));
         sail.place.position.z += SAILS;
         parts.push(sail);
     }
@@ -182,16 +183,30 @@ pub fn glb() -> Vec<u8> {
     let upright = rotation(DVec3::Z * (0.5 * PI));
     let flat_down = rotation(0.5 * PI * DVec3::X);
     let plate = |name, size: [f64; 2], at: DVec3| {
-        part(name, slab(size[0], size[1], 5.0 * MM), at - 48.0 * MM * DVec3::Z, upright, WOOD, finishes.wood)
+        part(name, slab(size[0], size[1], 5.0 * MM), at - 48.0 * MM * DVec3::Z, upright, WOOD, finishes.white)
     };
     let weight_at = DVec3::new(places[0].x - DRUM, WEIGHT, -24.0 * MM);
     let post = |name, x: f64| {
-        part(name, rod(5.0 * MM, 10.0 * MM, 0.30), DVec3::new(x, 0.0, -56.0 * MM), DQuat::IDENTITY, WOOD, finishes.black)
+        part(
+            name,
+            rod(5.0 * MM, 10.0 * MM, 0.30),
+            DVec3::new(x, 0.0, -56.0 * MM),
+            DQuat::IDENTITY,
+            WOOD,
+            finishes.black,
+        )
     };
     let mut parts = vec![
         plate("BackPlate", [190.0 * MM, 159.0 * MM], CENTER),
         plate("WindingPlate", [150.0 * MM, 120.0 * MM], DVec3::new(-0.13, 0.375, 0.0)),
-        part("Floor", slab(0.40, 0.14, 12.0 * MM), DVec3::new(-0.04, 0.006, -10.0 * MM), flat_down, WOOD, finishes.black),
+        part(
+            "Floor",
+            slab(0.40, 0.14, 12.0 * MM),
+            DVec3::new(-0.04, 0.006, -10.0 * MM),
+            flat_down,
+            WOOD,
+            finishes.black,
+        ),
         part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass),
         post("PostLeft", -0.17),
         post("PostRight", 0.06),

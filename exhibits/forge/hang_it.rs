@@ -33,7 +33,7 @@ const RIGHT: f64 = 230.0 * MM;
 const STRAIGHT: f64 = 62.0 * MM;
 /// How far the hammer is beyond the right end.
 const REACH: f64 = 38.0 * MM;
-const HAMMER: f64 = 4.0 * MM;
+const HAMMER: f64 = 6.0 * MM;
 /// How far from where it hangs level the arm lies at first.
 const OFF: f64 = -15.0 * MM;
 /// Two cymbals where the hammer of the level arm passes, their rims a little inside of its way: names, radius, and where
@@ -46,7 +46,7 @@ const SHEET: f64 = 1.0 * MM;
 /// From a cymbal's hook down to it.
 const HANG: f64 = 26.0 * MM;
 /// How far the hammer would reach over its rim.
-const OVER: f64 = 4.0 * MM;
+const OVER: f64 = 5.0 * MM;
 
 /// A plate of wood on a stem: an oval with a hole.
 fn plate(names: [&'static str; 3], size: DVec2, thickness: f64, color: usize) -> Piece {
@@ -61,7 +61,10 @@ fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let bow = |end: f64, start: f64| {
         let between = |s: f64, y: f64| at(start + (end - start) * s, -DROOP * y);
-        open_spline(&[at(start, 0.0), between(0.25, 0.10), between(0.6, 0.48), between(0.88, 0.82), between(1.0, 1.0)], 6)
+        open_spline(
+            &[at(start, 0.0), between(0.25, 0.10), between(0.6, 0.48), between(0.88, 0.82), between(1.0, 1.0)],
+            6,
+        )
     };
     let mut points: Vec<DVec3> = bow(LEFT, -STRAIGHT).into_iter().rev().collect();
     points.extend(bow(RIGHT, STRAIGHT));
@@ -91,8 +94,7 @@ fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
         ],
     };
     let [left, right] = loads;
-    let whole =
-        piece.mass().combine(&load(left, piece.mark("ArmLeft"))).combine(&load(right, piece.mark("ArmRight")));
+    let whole = piece.mass().combine(&load(left, piece.mark("ArmLeft"))).combine(&load(right, piece.mark("ArmRight")));
     (piece, DVec2::new(whole.center.x, whole.center.y))
 }
 
@@ -118,7 +120,8 @@ fn cymbal([name, disc, stem, hook]: [&'static str; 4], radius: f64, brass: usize
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let left = plate(["PlateLeft", "PlateLeftHook", "PlateLeftStem"], DVec2::new(46.0, 62.0) * MM, 3.0 * MM, finishes.red);
+    let left =
+        plate(["PlateLeft", "PlateLeftHook", "PlateLeftStem"], DVec2::new(46.0, 62.0) * MM, 3.0 * MM, finishes.red);
     let right =
         plate(["PlateRight", "PlateRightHook", "PlateRightStem"], DVec2::new(26.0, 44.0) * MM, 3.0 * MM, finishes.blue);
     let (arm, center) = arm(finishes.brass, finishes.black, [left.mass().mass, right.mass().mass]);
@@ -169,13 +172,9 @@ pub fn glb() -> Vec<u8> {
     }
 
     let at = |position| Pose { rotation: DQuat::IDENTITY, position };
-    for (piece, pose) in [
-        (stand, at(DVec3::ZERO)),
-        (eye, at(swivel)),
-        (arm, arm_pose),
-        (left, left_pose),
-        (right, right_pose),
-    ] {
+    for (piece, pose) in
+        [(stand, at(DVec3::ZERO)), (eye, at(swivel)), (arm, arm_pose), (left, left_pose), (right, right_pose)]
+    {
         piece.write(&mut scene, pose);
     }
     for (piece, hook) in cymbals {

@@ -24,8 +24,14 @@ pub fn glb() -> Vec<u8> {
     let flat = rotation(0.5 * PI * DVec3::X);
     let (along, none) = (DQuat::IDENTITY, DVec3::ZERO);
     let [length, width, thickness] = SIZE;
-    let mut parts =
-        vec![part("BoardPlank", slab(length, width, thickness), -0.5 * thickness * DVec3::Y, flat, WOOD, finishes.wood)];
+    let mut parts = vec![part(
+        "BoardPlank",
+        slab(length, width, thickness),
+        -0.5 * thickness * DVec3::Y,
+        flat,
+        WOOD,
+        finishes.wood,
+    )];
     let (rim, high) = (10.0 * MM, 10.0 * MM);
     for (name, size, x, z) in [
         ("RimFront", [length + 2.0 * rim, rim], 0.0, 0.5 * (width + rim)),

@@ -1,6 +1,6 @@
 //! A bell, a drum, cast metal and wood in a row, and a mallet before each, hung from one rail so that a breath makes it hit.
 //!
-//! Seen from the front (mm): the rail is 400 high, a mallet's head 150 below it, the instruments' faces 12 behind the heads.
+//! Seen from the front (mm): the rail is 400 high, a mallet's head 150 below it, the instruments' faces 24 behind the heads.
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
 
@@ -15,7 +15,7 @@ const RAIL: f64 = 400.0 * MM;
 const HEAD: f64 = 150.0 * MM;
 const RADIUS: f64 = 11.0 * MM;
 /// Between head and instrument at rest.
-const GAP: f64 = 12.0 * MM;
+const GAP: f64 = 24.0 * MM;
 /// From the middle of one to the next.
 const PITCH: f64 = 135.0 * MM;
 /// Depth of the instruments' faces behind the mallets' plane.
@@ -99,7 +99,14 @@ pub fn glb() -> Vec<u8> {
     let back = FACE - 34.0 * MM;
     let mut parts = vec![
         part("Rail", rod(2.0 * MM, -half, half), RAIL * DVec3::Y, lay, STEEL, finishes.steel),
-        part("Base", slab(2.0 * half, 0.16, 14.0 * MM), DVec3::new(0.0, 7.0 * MM, -30.0 * MM), flat, WOOD, finishes.black),
+        part(
+            "Base",
+            slab(2.0 * half, 0.16, 14.0 * MM),
+            DVec3::new(0.0, 7.0 * MM, -30.0 * MM),
+            flat,
+            WOOD,
+            finishes.black,
+        ),
         part(
             "PostLeft",
             rod(6.0 * MM, 10.0 * MM, RAIL + 8.0 * MM),
@@ -118,14 +125,25 @@ pub fn glb() -> Vec<u8> {
         ),
     ];
     let height = RAIL - HEAD;
-    for (k, (name, tall)) in
-        [("LegBell", RAIL - HEAD + 46.0 * MM), ("LegDrum", 206.0 * MM), ("LegMetal", 212.0 * MM), ("LegWood", 226.0 * MM)]
-            .into_iter()
-            .enumerate()
+    for (k, (name, tall)) in [
+        ("LegBell", RAIL - HEAD + 46.0 * MM),
+        ("LegDrum", 206.0 * MM),
+        ("LegMetal", 212.0 * MM),
+        ("LegWood", 226.0 * MM),
+    ]
+    .into_iter()
+    .enumerate()
     {
         // What the bell hangs from stands behind it.
         let behind = if k == 0 { back - 34.0 * MM } else { back };
-        parts.push(part(name, rod(4.0 * MM, 10.0 * MM, tall), DVec3::new(at(k), 0.0, behind), along, STEEL, finishes.black));
+        parts.push(part(
+            name,
+            rod(4.0 * MM, 10.0 * MM, tall),
+            DVec3::new(at(k), 0.0, behind),
+            along,
+            STEEL,
+            finishes.black,
+        ));
     }
     let arm = rotation(0.5 * PI * DVec3::X);
     let bell_back = 44.0 * MM;

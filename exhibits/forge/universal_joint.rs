@@ -61,7 +61,14 @@ pub fn glb() -> Vec<u8> {
     let stand = Piece {
         name: "Stand",
         parts: vec![
-            part("Base", slab(0.34, 0.30, 12.0 * MM), DVec3::new(0.03, 6.0 * MM, -0.03), rotation(0.5 * PI * DVec3::X), WOOD, finishes.black),
+            part(
+                "Base",
+                slab(0.34, 0.30, 12.0 * MM),
+                DVec3::new(0.03, 6.0 * MM, -0.03),
+                rotation(0.5 * PI * DVec3::X),
+                WOOD,
+                finishes.black,
+            ),
             part("InBearing", bearing(50.0 * MM), top, facing(), BRASS, finishes.brass),
             part("OutBearing", bearing(-DIAL - 12.0 * MM), top, turn * facing(), BRASS, finishes.brass),
             part(

@@ -183,7 +183,7 @@ fn twenty_seconds_of_hard_breath_break_nothing_in_the_cabinet() {
 }
 
 #[test]
-#[ignore = "ten minutes of each: part `blown` of tests/check.sh --long"]
+#[ignore = "ten minutes of each: part `cabinet` of tests/check.sh --long"]
 fn ten_minutes_of_hard_breath_break_nothing_in_the_cabinet() {
     NEW.into_iter().for_each(|id| blown_hard(id, 600.0, 6));
 }
@@ -297,13 +297,13 @@ fn crossed_axes_turn_as_their_formula_says() {
         let (rotor, dial) = (visit.body("Rotor"), visit.body("Dial"));
         let shaft = DVec3::new(-sin(BEND), 0.0, cos(BEND));
         assert!((dial.rotation * DVec3::Z).distance(shaft) < FORMULA, "the dial's shaft leaves its bearing");
-        // From the plane of both shafts: tan φ_out = tan φ_in cos β where the driving pin stands across it at first.
+        // The driving pin stands across the plane of both shafts at first: tan φ_out = tan φ_in cos β.
         let pin = rotor.rotation * DVec3::Y;
         let angle = atan2(-pin.x, pin.y);
         let out = dial.rotation * DVec3::X;
         let across = shaft.cross(DVec3::Y) * -1.0;
         let turned = atan2(out.y, out.dot(across));
-        let expected = atan2(sin(angle), cos(BEND) * cos(angle));
+        let expected = atan2(sin(angle) * cos(BEND), cos(angle));
         let off = turned.abs() - expected.abs();
         assert!(off.abs() < 1e-5 || (off.abs() - PI).abs() < 1e-5, "{turned} rad for {angle}, not {expected}");
         let (one, other) = (rotor.angular_velocity.z, dial.angular_velocity.dot(shaft));
@@ -459,7 +459,7 @@ impl Wound {
         for _ in 0..steps(seconds) {
             self.wrenches.fill([0.0; 6]);
             if speed > 0.0 {
-                let blown = Blown { breath, front: None, gain: 25.0 };
+                let blown = Blown { breath, front: None, gain: 10.0 };
                 self.air.push(&self.dynamics.bodies, self.step as f64 * dt, Some(&blown), &mut self.wrenches);
             }
             let before = wheels.map(|wheel| angle(&self.dynamics.bodies[wheel]));
@@ -484,8 +484,8 @@ impl Wound {
 
 #[test]
 fn breath_lifts_the_clocks_weight_and_every_microjoule_is_accounted_for() {
-    /// Of the breath's work: the trapezoid rule where the pawl catches and teeth drop.
-    const LEDGER: f64 = 1e-3;
+    /// Of the breath's work: the trapezoid rule where the pawl catches and teeth drop; 1e-9 is found.
+    const LEDGER: f64 = 1e-6;
     let mut clock = Wound::new();
     let weight = clock.body("TimeWeight");
     let mass = clock.exhibit.bodies[weight].properties.mass;
@@ -512,10 +512,15 @@ fn breath_lifts_the_clocks_weight_and_every_microjoule_is_accounted_for() {
     let drum = 0.5 * (wound - minute * 8.0 / 64.0);
     let way = height - clock.height();
     assert!((way - 20e-3 * drum).abs() < 1e-9, "the weight goes by {way} m, the drum by {} m", 20e-3 * drum);
-    // Three more seconds with nobody: the pawl holds, but for a tooth of it.
+    // With nobody there the sails run down, and then the pawl holds, but for a tooth of it.
+    clock.run(30.0, 0.0);
     let held = clock.turns[0];
-    clock.run(3.0, 0.0);
-    assert!((clock.turns[0] - held).abs() < 2.0 * PI / 64.0 / 640.0 * 1.01, "it runs back by {}", clock.turns[0] - held);
+    clock.run(10.0, 0.0);
+    assert!(
+        (clock.turns[0] - held).abs() < 2.0 * PI / 64.0 / 640.0 * 1.01,
+        "it runs back by {}",
+        clock.turns[0] - held
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use soffio::simulation::{
 };
 
 /// Where the farthest part begins, at least, m; and where all are in the end: Δ₀ (1 + Ωt) e^(−Ωt) of half a metre is 0.2 µm.
-const SCATTERED: f64 = 0.02;
+const SCATTERED: f64 = 0.01;
 const HOME: f64 = 5e-6;
 /// Parts of one figure belong together long before that: what joints are open by after two thirds of the time, m.
 const TOGETHER: f64 = 2e-4;
@@ -33,8 +33,14 @@ fn every_exhibit_gathers_itself_in_a_few_seconds() {
                 let commands = [Command::Gather(seed)];
                 let commands = if step == 0 { &commands[..] } else { &[] };
                 simulation.step(&StepInput { commands, ..StepInput::default() });
-                assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "{id}, seed {seed}: step {step}");
-                assert!(simulation.sounds().iter().all(|s| !matches!(s, soffio::sound::SoundCommand::Strike(_))), "{id}");
+                assert!(
+                    simulation.events().iter().all(|e| e.kind != EventKind::Fault),
+                    "{id}, seed {seed}: step {step}"
+                );
+                assert!(
+                    simulation.sounds().iter().all(|s| !matches!(s, soffio::sound::SoundCommand::Strike(_))),
+                    "{id}"
+                );
                 last = simulation.gathers_from().unwrap_or_else(|| panic!("{id} does not gather"));
                 first = first.max(last);
                 if step == steps(2.0 / 3.0 * GATHERING_LASTS) {
