@@ -198,7 +198,7 @@ pub fn glb() -> Vec<u8> {
     };
     let mut parts = vec![
         plate("BackPlate", [190.0 * MM, 159.0 * MM], CENTER),
-        plate("WindingPlate", [150.0 * MM, 120.0 * MM], DVec3::new(-0.13, 0.375, 0.0)),
+        plate("WindingPlate", [150.0 * MM, 120.0 * MM], DVec3::new(-0.13, 0.375, -1.5 * MM)),
         part(
             "Floor",
             slab(0.40, 0.14, 12.0 * MM),
@@ -224,6 +224,6 @@ pub fn glb() -> Vec<u8> {
         piece.write(&mut scene, *pose);
     }
     let target = DVec3::new(-0.045, 0.262, 0.0);
-    scene.camera("CamFront", target + DVec3::new(0.10, 0.07, 1.22), target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    scene.camera("CamFront", target + DVec3::new(0.10, 0.07, 1.24), target, 27.0 * PI / 180.0, 16.0 / 9.0);
     scene.into_glb("A clock that breath winds", "Original work of the Soffio project; MIT OR Apache-2.0")
 }

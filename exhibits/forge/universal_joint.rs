@@ -35,6 +35,11 @@ pub fn glb() -> Vec<u8> {
     let face = [(0.0, -1.5), (52.0, -1.5), (54.0, 0.0), (52.0, 1.5), (0.0, 1.5)];
     let face = turned(&face.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
     let lay = rotation(0.5 * PI * DVec3::Z);
+    // As long on either side of the shaft: nothing pulls it round.
+    let pointer = |name, side: f64, color| {
+        let at = DVec3::new(side * 24.0 * MM, 0.0, 2.5 * MM - DIAL);
+        part(name, slab(48.0 * MM, 5.0 * MM, 1.5 * MM), at, along, WOOD, color)
+    };
     let dial = Piece {
         name: "Dial",
         parts: vec![
@@ -42,14 +47,8 @@ pub fn glb() -> Vec<u8> {
             part("OutFork", slab(22.0 * MM, 5.0 * MM, 4.0 * MM), -9.0 * MM * DVec3::Z, along, STEEL, finishes.steel),
             part("OutPin", rod(2.0 * MM, -12.0 * MM, 12.0 * MM), none, lay, BRASS, finishes.brass),
             part("DialFace", face, -DIAL * DVec3::Z, facing(), WOOD, finishes.white),
-            part(
-                "Pointer",
-                slab(48.0 * MM, 5.0 * MM, 1.5 * MM),
-                DVec3::new(24.0 * MM, 0.0, 2.5 * MM - DIAL),
-                along,
-                WOOD,
-                finishes.red,
-            ),
+            pointer("Pointer", 1.0, finishes.red),
+            pointer("PointerTail", -1.0, finishes.wood),
         ],
         bends: Vec::new(),
         marks: vec![("DialEnd", (-DIAL - 12.0 * MM) * DVec3::Z)],

@@ -119,7 +119,7 @@ fn scatter(bodies: &mut [RigidBody], driven: &[bool], seed: u64) {
     let mut random = Random::new(seed);
     let mass: f64 = bodies.iter().map(|body| body.properties.mass).sum();
     let middle = bodies.iter().map(|body| body.properties.mass * body.position).sum::<DVec3>() / mass.max(1e-12);
-    let size = bodies.iter().map(|body| body.position.distance(middle)).fold(0.05, f64::max);
+    let size = bodies.iter().map(|body| body.position.distance(middle)).fold(0.15, f64::max);
     for (body, _) in bodies.iter_mut().zip(driven).filter(|(_, driven)| !**driven) {
         let mut aside = || DVec3::new(random.signed(), random.signed(), random.signed());
         let (way, about) = (aside(), aside());
