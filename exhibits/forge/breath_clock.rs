@@ -102,7 +102,7 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
         along_z("RotorHub", 8.0 * MM, (SAILS - 6.0 * MM, SAILS + 8.0 * MM), BRASS, finishes.brass),
     ];
     for (k, name) in SAIL_NAMES.into_iter().enumerate() {
-        let color = if k % 2 == 0 { finishes.red } else { finishes.white };
+        let color = if k % 2 == 0 { finishes.red } else { finishes.blue };
         let mut sail =
             vane(name, [66.0 * MM, 34.0 * MM, 0.8 * MM], 42.0 * MM, PI * k as f64 / 3.0, -0.6, (WOOD, color));
         sail.place.position.z += SAILS;
