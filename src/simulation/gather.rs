@@ -1,7 +1,7 @@
 //! How an exhibit gathers itself from scattered parts: self-assembly as a change of scene.
 //!
 //! All bodies are put somewhere about their places, and what is between them is left to the joints: each row that acts
-//! from the start draws itself together as `articulation` says of what is open, −ω²C − 2ωĊ with 1/ω = [`DRAWN`]. Joints
+//! from the start draws itself together as `articulation` says of what is open, −ω²C − 2ωĊ with ω = Ω below. Joints
 //! say where parts belong to each other, not where the figure stands and how a hook is turned; so each body is called
 //! home besides, in proportion to what it weighs. With M the masses and inertias, Δ the way (and turn) from home and v the
 //! velocities,
@@ -24,10 +24,10 @@ use crate::exhibit::Exhibit;
 use crate::math::{DQuat, DVec3, Pose, rotation, rotation_vector};
 use crate::noise::Random;
 
-/// 1/ω of the joints, s.
-const DRAWN: f64 = 0.3;
 /// Ω, 1/s.
 const HOME: f64 = 4.0;
+/// 1/ω of the joints, s: at the pace of the call, so that for small ways neither strains the other.
+const DRAWN: f64 = 1.0 / HOME;
 /// s.
 pub const LASTS: f64 = 4.5;
 /// How much farther from the middle of all a body begins, as a share, and how far beside that, as a share of the size.

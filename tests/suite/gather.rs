@@ -10,9 +10,9 @@ use soffio::simulation::{
 /// Where the farthest part begins, at least, m; and where all are in the end: Δ₀ (1 + Ωt) e^(−Ωt) of half a metre is 0.2 µm.
 const SCATTERED: f64 = 0.01;
 const HOME: f64 = 5e-6;
-/// Parts of one figure belong together long before that: what joints are open by after ten of their time constants, m;
-/// 11 e^(−10) of half a metre is 0.25 mm.
-const TOGETHER: f64 = 5e-4;
+/// Parts of one figure belong together long before that: what joints are open by after twelve of their time constants, m;
+/// 13 e^(−12) of half a metre is 0.04 mm.
+const TOGETHER: f64 = 2e-4;
 
 fn load(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
