@@ -11,8 +11,8 @@
 //! ```
 //!
 //! which is critically damped in every coordinate that the joints leave free, as both sides of M q̈ = F are projected alike.
-//! Nothing else acts meanwhile: no weight, no springs, stops, gears or touches, and drives stand where they start. After
-//! [`LASTS`] what is left of Δ is below a micrometre, and the exhibit begins.
+//! Nothing else acts meanwhile: no weight or wind, no springs, stops, gears or touches, and drives stand where they start.
+//! After [`LASTS`] what is left of Δ is below a micrometre, and the exhibit begins.
 
 use super::start;
 use crate::articulation::block::{Vec6, add_wrench};

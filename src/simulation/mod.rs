@@ -331,6 +331,7 @@ impl Simulation {
         self.mode = input.mode.unwrap_or(MotionMode::of(&self.exhibit));
         if let Some((gathering, left)) = &mut self.gathering {
             *left -= 1;
+            self.wrenches.fill([0.0; 6]);
             gathering.call(&self.dynamics.bodies, &mut self.wrenches);
             self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
             return;
