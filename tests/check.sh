@@ -37,7 +37,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live hands million-hits clock-hour half-day turning-gears visits blown wind; do
+    for part in soak-blow soak-still soak-live stream-live loaded-live hands million-hits clock-hour half-day turning-gears visits blown cabinet wind; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue
@@ -49,6 +49,7 @@ long() {
             visits)     cargo test --locked --quiet --no-default-features --test suite two_hundred_visits -- --ignored --nocapture ;;
             hands)      ignored hands::no_handling_breaks_anything_in_twenty_seconds ;;
             blown)      ignored mobiles::ten_minutes_of_hard_breath_tangle_nothing ;;
+            cabinet)    ignored cabinet::ten_minutes_of_hard_breath_break_nothing_in_the_cabinet ;;
             # 10,000 patches among 5,000 triangles in 4 ms of one core, and 20 times faster than every triangle.
             wind)       "$built/soffio" bench --wind --json | tee /dev/stderr |
                             awk -F'"(ms_per_step|ratio)":' '{ split($2, ms, /[,}]/); split($3, ratio, /[,}]/); exit !(ms[1] <= 4 && ratio[1] >= 20) }' ;;

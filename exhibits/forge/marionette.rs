@@ -28,12 +28,16 @@ const NECK: DVec3 = DVec3::new(0.0, 298.0 * MM, 0.0);
 const WAIST: DVec3 = DVec3::new(0.0, 224.0 * MM, 0.0);
 /// Of the right side, which is at +x.
 const SHOULDER: DVec3 = DVec3::new(36.0 * MM, 290.0 * MM, 0.0);
-const ELBOW: DVec3 = DVec3::new(58.0 * MM, 244.0 * MM, 0.0);
-const HAND: DVec3 = DVec3::new(92.0 * MM, 262.0 * MM, 0.0);
+const ELBOW: DVec3 = DVec3::new(46.94 * MM, 240.2 * MM, 0.0);
+const HAND: DVec3 = DVec3::new(78.94 * MM, 261.55 * MM, 0.0);
+/// End of the rod that leads the hand: the thread between is drawn out by what it bears.
+const ROD_END: DVec3 = DVec3::new(79.2 * MM, 263.0 * MM, 0.0);
 /// The knees are bent a little, so that what holds the feet does not hold the hips.
 const HIP: DVec3 = DVec3::new(11.0 * MM, 196.0 * MM, 0.0);
-const KNEE: DVec3 = DVec3::new(11.0 * MM, 134.0 * MM, 12.0 * MM);
-const ANKLE: f64 = 72.0 * MM;
+const KNEE: DVec3 = DVec3::new(11.0 * MM, 132.85 * MM, 0.0);
+/// Height of the ankle, and how far it is behind the knee: the shin with its foot hangs in balance.
+const ANKLE: f64 = 70.0 * MM;
+const BEHIND: f64 = 5.7 * MM;
 
 /// The same point on one of the sides: −1 left, 1 right.
 fn on(side: f64, point: DVec3) -> DVec3 {
@@ -132,10 +136,10 @@ fn side(names: &Side, finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let piece = |name, parts, marks| Piece { name, parts, bends: Vec::new(), marks };
     let sleeve = finishes.red;
     let sole = slab(18.0 * MM, 40.0 * MM, 8.0 * MM);
-    let sole_at = DVec3::new(0.0, ANKLE - KNEE.y, 9.0 * MM - KNEE.z);
-    let down = DVec3::new(0.0, ANKLE - KNEE.y, -KNEE.z);
+    let sole_at = DVec3::new(0.0, ANKLE - KNEE.y, 9.0 * MM - BEHIND - KNEE.z);
+    let down = DVec3::new(0.0, ANKLE - KNEE.y, -BEHIND - KNEE.z);
     vec![
-        (led(rod_name, wire, rod_end, way(end, HAND)), at(end)),
+        (led(rod_name, wire, rod_end, way(end, ROD_END)), at(end)),
         (
             piece(
                 upper,

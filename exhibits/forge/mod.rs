@@ -5,28 +5,36 @@
 
 pub mod axis_wheel;
 pub mod billiards;
+pub mod blown_together;
 pub mod breaking_chain;
+pub mod breath_clock;
 pub mod breaths;
 pub mod chains;
 pub mod gear_train;
 pub mod glb;
+pub mod hang_it;
 pub mod hung;
 pub mod lobster_tree;
+pub mod loose_nail;
 pub mod marionette;
 pub mod mobile;
+pub mod moving_path;
 pub mod noise_mobile;
 pub mod outline;
 pub mod pendulum;
 pub mod piece;
 pub mod plates;
+pub mod scratch_board;
 pub mod snow;
 pub mod solid;
 pub mod steel_fish;
 pub mod stock;
+pub mod strikers;
 pub mod terry_clock;
 pub mod terry_strike;
 pub mod tree;
 pub mod twelve_moons;
+pub mod universal_joint;
 pub mod wind_chimes;
 pub mod windmill;
 pub mod windy_corner;
@@ -48,6 +56,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
         Artifact { path: "billiards/billiards.glb", bytes: billiards::glb() },
         Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
+        Artifact { path: "breath-clock/breath-clock.glb", bytes: breath_clock::glb() },
         Artifact { path: "chain-heavy/chain-heavy.glb", bytes: chains::heavy_glb() },
         Artifact { path: "chain-light/chain-light.glb", bytes: chains::light_glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
@@ -63,6 +72,13 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "wind-chimes/wind-chimes.glb", bytes: wind_chimes::glb(&wind_chimes::ALUMINIUM) },
         Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: wind_chimes::glb(&wind_chimes::BAMBOO) },
         Artifact { path: "wind-chimes-glass/wind-chimes-glass.glb", bytes: wind_chimes::glb(&wind_chimes::GLASS) },
+        Artifact { path: "blown-together/blown-together.glb", bytes: blown_together::glb() },
+        Artifact { path: "hang-it/hang-it.glb", bytes: hang_it::glb() },
+        Artifact { path: "loose-nail/loose-nail.glb", bytes: loose_nail::glb() },
+        Artifact { path: "moving-path/moving-path.glb", bytes: moving_path::glb() },
+        Artifact { path: "scratch-board/scratch-board.glb", bytes: scratch_board::glb() },
+        Artifact { path: "strikers/strikers.glb", bytes: strikers::glb() },
+        Artifact { path: "universal-joint/universal-joint.glb", bytes: universal_joint::glb() },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },

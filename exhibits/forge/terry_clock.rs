@@ -54,7 +54,7 @@ pub const TIP: f64 = 22.5 * MM;
 /// Teeth that the anchor spans.
 pub const SPAN: f64 = 7.5;
 /// Radius of the ends of teeth.
-const TOOTH: f64 = 0.1 * MM;
+pub const TOOTH: f64 = 0.1 * MM;
 /// δ.
 pub const DROP: f64 = 0.47 * MM;
 /// ψ: half the angle through which a pallet is pushed.
@@ -71,12 +71,12 @@ const BOB_RADIUS: f64 = 20.0 * MM;
 
 /// Layers: middles of wheels along z.
 pub const BACK: f64 = -36.0 * MM;
-const MIDDLE: f64 = -26.0 * MM;
-const FRONT: f64 = -16.0 * MM;
-const MOTION: f64 = 4.0 * MM;
-const ESCAPING: f64 = 8.0 * MM;
+pub const MIDDLE: f64 = -26.0 * MM;
+pub const FRONT: f64 = -16.0 * MM;
+pub const MOTION: f64 = 4.0 * MM;
+pub const ESCAPING: f64 = 8.0 * MM;
 /// The pendulum swings in front of the dial and the hands.
-const SWING: f64 = 30.0 * MM;
+pub const SWING: f64 = 30.0 * MM;
 pub const WHEEL: f64 = 4.0 * MM;
 
 /// The time that the hands show at the start.
@@ -87,7 +87,7 @@ const MINUTES: f64 = 50.0;
 pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
 
 /// Where the arbors are, m, in the plane of the plates.
-fn places() -> [DVec3; 5] {
+pub fn places() -> [DVec3; 5] {
     let apart = |(wheel, pinion): (usize, usize)| 0.5 * MODULE * (wheel + pinion) as f64;
     let great = CENTER + apart(GREAT) * DVec3::new(-0.6, -0.8, 0.0);
     let third = CENTER + apart(MINUTE) * DVec3::new(0.6, 0.8, 0.0);
@@ -109,17 +109,17 @@ fn direction(angle: f64) -> DVec3 {
 }
 
 /// Where the minute hand points at the start, rad from x.
-fn minute_hand() -> f64 {
+pub fn minute_hand() -> f64 {
     0.5 * PI - 2.0 * PI * MINUTES / 60.0
 }
 
 /// Where the hour hand points at the start.
-fn hour_hand() -> f64 {
+pub fn hour_hand() -> f64 {
     0.5 * PI - 2.0 * PI * (HOURS as f64 + MINUTES / 60.0) / 12.0
 }
 
 /// A hand that points at `angle`.
-fn hand(name: &'static str, [length, width]: [f64; 2], out: f64, z: f64, angle: f64, finish: usize) -> Part {
+pub fn hand(name: &'static str, [length, width]: [f64; 2], out: f64, z: f64, angle: f64, finish: usize) -> Part {
     let place = out * direction(angle) + DVec3::Z * z;
     part(name, slab(length, width, 0.8 * MM), place, rotation(DVec3::Z * angle), LEAD, finish)
 }
@@ -142,7 +142,7 @@ pub fn wheel(teeth: usize, phase: f64) -> Solid {
 }
 
 /// The escape wheel: tooth 0 points along +y, its leading side (clockwise) is radial.
-fn escape_wheel() -> Solid {
+pub fn escape_wheel() -> Solid {
     let step = 2.0 * PI / ESCAPE as f64;
     let root = TIP - 3.4 * MM;
     // (radius, way along the circle of the tips, against the turning), counterclockwise.
@@ -178,7 +178,7 @@ fn pallet(side: f64) -> Pose {
 }
 
 /// How far the escape wheel is turned at the start: its teeth stand free of the anchor, swung by 4° to the left.
-fn escape_phase() -> f64 {
+pub fn escape_phase() -> f64 {
     half_span() + 1.8 * MM / TIP
 }
 
@@ -201,7 +201,7 @@ pub fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usiz
 }
 
 /// The pendulum in its own frame, the pivot at the origin.
-fn pendulum(finishes: &Finishes) -> Piece {
+pub fn pendulum(finishes: &Finishes) -> Piece {
     let b = BOB_RADIUS;
     let lens = [(0.0, -5.5), (9.0, -5.2), (15.0, -3.8), (1e3 * b, 0.0), (15.0, 3.8), (9.0, 5.2), (0.0, 5.5)];
     let lens = turned(&lens.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
@@ -228,7 +228,7 @@ fn pendulum(finishes: &Finishes) -> Piece {
 }
 
 /// The anchor with its strip pallets and the crutch, in the frame of its arbor; z = 0 is the pendulum's plane.
-fn anchor(finishes: &Finishes) -> Piece {
+pub fn anchor(finishes: &Finishes) -> Piece {
     let plane = ESCAPING - SWING;
     let mut parts = vec![along_z("AnchorArbor", 1.2 * MM, (-62.0 * MM, -4.0 * MM), STEEL, finishes.steel)];
     for (name, strap, side) in [("PalletEntry", "StrapEntry", -1.0), ("PalletExit", "StrapExit", 1.0)] {

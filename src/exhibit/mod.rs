@@ -68,6 +68,8 @@ pub struct Exhibit {
     pub drives: Vec<Drive>,
     /// Length of one run, s; may be infinite.
     pub duration: f64,
+    /// Does it gather itself from scattered parts when it comes on?
+    pub gathers: bool,
     /// What moves it.
     pub motion: Motion,
     /// What hands may do to it.

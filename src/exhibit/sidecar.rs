@@ -108,6 +108,8 @@ pub struct Scene {
     pub level: Decibel,
     /// Length of one run: the exhibit then starts again; by default "inf".
     pub duration: Option<Until>,
+    /// Does it gather itself from scattered parts when it comes on? By default true.
+    pub gathers: Option<bool>,
 }
 
 /// How motion is computed.

@@ -7,6 +7,7 @@
 mod aim;
 mod contact_sound;
 mod event;
+mod gather;
 mod hands;
 mod merge;
 mod motes;
@@ -34,6 +35,8 @@ use crate::wind::front::Front;
 use aim::{Aim, AimTarget};
 use contact_sound::{ContactSound, Scene};
 pub use event::{Event, EventKind, Part};
+use gather::Gathering;
+pub use gather::LASTS as GATHERING_LASTS;
 pub use hands::Hand;
 use hands::Hands;
 use motes::Motes;
@@ -152,6 +155,9 @@ pub struct Microphone<'a> {
 pub enum Command {
     /// Puts everything back to where it started.
     Reset,
+    /// The same, but from scattered parts, which gather themselves before the exhibit begins; the seed says where they
+    /// begin. Where the exhibit does not gather it is a reset.
+    Gather(u64),
     /// Sets the source speed of the breath directly, m/s (scripts, replay); `None` gives it back.
     Blow(Option<f64>),
 }
@@ -235,6 +241,8 @@ pub struct Simulation {
     procedural: Procedural,
     hands: Hands,
     mode: MotionMode,
+    /// While the parts gather: what calls them, and the steps that are left.
+    gathering: Option<(Gathering, u64)>,
     motes: Motes,
     wrenches: Vec<Vec6>,
     impacts: Vec<Impact>,
@@ -267,6 +275,7 @@ impl Simulation {
             ),
             hands: Hands::new(&exhibit),
             mode: MotionMode::of(&exhibit),
+            gathering: None,
             motes: Motes::new(view.target, settings.seed),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
@@ -299,6 +308,9 @@ impl Simulation {
             self.carry_out(&[Command::Reset]);
         }
         self.carry_out(input.commands);
+        if matches!(self.gathering, Some((_, 0))) {
+            self.begin_anew();
+        }
         (self.speed, self.estimate) = self.source.advance(input, DT);
         let mended = self.dynamics.mend();
         self.take_aim(input);
@@ -317,6 +329,13 @@ impl Simulation {
         let driven = self.dynamics.system().driven();
         self.hands.follow(input.hands, view, &mut self.wind, (&self.exhibit, &self.dynamics.bodies, driven));
         self.mode = input.mode.unwrap_or(MotionMode::of(&self.exhibit));
+        if let Some((gathering, left)) = &mut self.gathering {
+            *left -= 1;
+            self.wrenches.fill([0.0; 6]);
+            gathering.call(&self.dynamics.bodies, &mut self.wrenches);
+            self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
+            return;
+        }
         let method = match self.mode {
             MotionMode::Dynamic => {
                 self.hands.pull(&mut self.dynamics, DT, &mut self.wrenches);
@@ -339,19 +358,41 @@ impl Simulation {
     fn carry_out(&mut self, commands: &[Command]) {
         for command in commands {
             match *command {
-                Command::Reset => {
-                    self.dynamics = start_dynamics(&self.exhibit, &self.settings);
-                    self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
-                    self.start_step = self.step;
-                    self.front.clear();
-                    self.hands.clear();
-                    let sample = self.step * SAMPLES_PER_STEP;
-                    self.contact_sound.reset(sample, &mut self.sounds);
-                    self.sounds.push(SoundCommand::Silence { sample });
+                Command::Reset => self.reset(),
+                Command::Gather(seed) => {
+                    self.reset();
+                    if self.exhibit.gathers {
+                        let (gathering, scattered) = Gathering::new(&self.exhibit, seed);
+                        self.dynamics = scattered;
+                        self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
+                    }
                 }
                 Command::Blow(speed) => self.source.command(speed),
             }
         }
+    }
+
+    /// Starts the exhibit anew, in silence.
+    fn reset(&mut self) {
+        self.begin_anew();
+        self.front.clear();
+        self.hands.clear();
+        let sample = self.step * SAMPLES_PER_STEP;
+        self.contact_sound.reset(sample, &mut self.sounds);
+        self.sounds.push(SoundCommand::Silence { sample });
+    }
+
+    /// Puts the figure where it starts; its time begins.
+    fn begin_anew(&mut self) {
+        self.gathering = None;
+        self.dynamics = start_dynamics(&self.exhibit, &self.settings);
+        self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
+        self.start_step = self.step;
+    }
+
+    /// While its parts gather: how far the farthest is from its place, m.
+    pub fn gathers_from(&self) -> Option<f64> {
+        self.gathering.as_ref().map(|(gathering, _)| gathering.way(&self.dynamics.bodies))
     }
 
     /// Points the breath.
@@ -573,19 +614,20 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
+/// The exhibit's bodies as they start.
+fn start(exhibit: &Exhibit) -> Vec<RigidBody> {
+    let body = |body: &crate::exhibit::Body| RigidBody {
+        velocity: body.velocity,
+        angular_velocity: body.angular_velocity,
+        ..RigidBody::at_rest(body.properties, body.pose)
+    };
+    exhibit.bodies.iter().map(body).collect()
+}
+
 /// The exhibit's figure at its start, to be moved by itself: without air, hands and sound.
 pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
-    let bodies = exhibit
-        .bodies
-        .iter()
-        .map(|body| RigidBody {
-            velocity: body.velocity,
-            angular_velocity: body.angular_velocity,
-            ..RigidBody::at_rest(body.properties, body.pose)
-        })
-        .collect();
     let figure = Figure {
-        bodies,
+        bodies: start(exhibit),
         damping: exhibit
             .bodies
             .iter()

@@ -5,6 +5,7 @@
 //! {"t": 1.0, "blow": 8.0}                                              m/s at the lips, until the next blow
 //! {"t": 4.0, "blow": {"strength": 0.6, "attack": 0.1, "hold": 0.8, "release": 0.3}}
 //! {"t": 9.0, "reset": true}
+//! {"t": 9.2, "gather": 7}                       a reset from scattered parts, which gather; the number says where they are
 //! {"t": 9.5, "solver": "procedural"}              or "dynamics", "position-based", "auto" (the run's own): from then on
 //! {"t": 10.0, "grab": {"at": [0.4, 0.6]}}                              or {"body": "Fish"}, by its centre of mass
 //! {"t": 10.5, "drag": [0.7, 0.5]}                                      at once; the body follows as a hand lets it
@@ -39,6 +40,7 @@ struct Line {
     aim: Option<[f64; 2]>,
     blow: Option<Blow>,
     reset: Option<bool>,
+    gather: Option<u64>,
     solver: Option<String>,
     grab: Option<Grab>,
     drag: Option<[f64; 2]>,
@@ -118,6 +120,7 @@ enum Action {
     Speed(f64),
     Envelope(Envelope),
     Reset,
+    Gather(u64),
     Solver(Option<MotionMode>),
     Grab(u64, Grab),
     Drag(u64, [f64; 2]),
@@ -192,6 +195,7 @@ impl Script {
             if line.reset == Some(true) {
                 actions.push((line.t, Action::Reset));
             }
+            actions.extend(line.gather.map(|seed| (line.t, Action::Gather(seed))));
         }
         Ok(Self { actions, named, ..Self::default() })
     }
@@ -254,6 +258,7 @@ impl Script {
                 Action::Release(hand) => self.down.retain(|down| down.hand != hand),
                 Action::Aim(aim) => self.aim = Some(aim),
                 Action::Reset => out.push(Command::Reset),
+                Action::Gather(seed) => out.push(Command::Gather(seed)),
                 Action::Solver(mode) => self.mode = mode,
                 Action::Speed(speed) => {
                     self.envelope = None;

@@ -1,0 +1,64 @@
+//! Five beads on a tray under a hook: what a breath gathers into a chain.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+
+use super::glb::Scene;
+use super::piece::Piece;
+use super::solid::turned;
+use super::stock::{MM, ROUND, STEEL, WOOD, finishes, gallows, part, rod, write};
+
+/// Height of the hook, and of the tray's floor.
+const HOOK: f64 = 400.0 * MM;
+const FLOOR: f64 = 10.0 * MM;
+/// Of a bead, and how far its eyes stand out of it.
+const RADIUS: f64 = 19.0 * MM;
+const EYE: f64 = 3.0 * MM;
+/// Where the beads lie at first, mm, and how each is turned, rad.
+const PLACES: [(f64, f64, f64); 5] =
+    [(-72.0, 22.0, 0.4), (64.0, -38.0, 1.9), (4.0, 62.0, -0.8), (-18.0, -64.0, 2.6), (82.0, 34.0, -2.1)];
+const NAMES: [[&str; 5]; 5] = [
+    ["Bead1", "Bead1Ball", "Bead1Eyes", "Bead1Top", "Bead1End"],
+    ["Bead2", "Bead2Ball", "Bead2Eyes", "Bead2Top", "Bead2End"],
+    ["Bead3", "Bead3Ball", "Bead3Eyes", "Bead3Top", "Bead3End"],
+    ["Bead4", "Bead4Ball", "Bead4Eyes", "Bead4Top", "Bead4End"],
+    ["Bead5", "Bead5Ball", "Bead5Eyes", "Bead5Top", "Bead5End"],
+];
+
+/// The model.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
+    let mut stand = gallows(HOOK * DVec3::Y, DVec2::new(0.0, -170.0 * MM), finishes.black);
+    let floor = [(0.0, 0.0), (126.0, 0.0), (130.0, 3.0), (130.0, 10.0), (0.0, 10.0)];
+    let floor = turned(&floor.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let wall = [(122.0, 10.0), (130.0, 10.0), (130.0, 34.0), (128.0, 36.0), (124.0, 36.0), (122.0, 34.0)];
+    let wall = turned(&wall.map(|(r, y)| DVec2::new(r, y) * MM), true, 2 * ROUND);
+    stand.parts.push(part("TrayFloor", floor, none, along, STEEL, finishes.black));
+    stand.parts.push(part("TrayWall", wall, none, along, STEEL, finishes.black));
+    stand.marks.push(("TrayTop", DVec3::ZERO));
+    let mut pieces = vec![(stand, none)];
+    let bead = (0..=16).map(|k| {
+        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 16.0);
+        DVec2::new(if k % 16 == 0 { 0.0 } else { RADIUS * s }, -RADIUS * c)
+    });
+    let bead = turned(&bead.collect::<Vec<_>>(), false, ROUND);
+    let thread = rod(1.2 * MM, -RADIUS - EYE, RADIUS + EYE).lying();
+    let colors = [finishes.red, finishes.white, finishes.blue, finishes.wood, finishes.red];
+    for (([name, ball, eyes, top, end], (x, z, turn)), color) in NAMES.into_iter().zip(PLACES).zip(colors) {
+        let lies = rotation(turn * DVec3::Y);
+        let hold = (RADIUS + EYE) * (lies * DVec3::X);
+        let piece = Piece {
+            name,
+            parts: vec![
+                part(ball, bead.clone(), none, lies, WOOD, color),
+                part(eyes, thread.clone(), none, lies, STEEL, finishes.steel),
+            ],
+            bends: Vec::new(),
+            marks: vec![(top, -hold), (end, hold)],
+        };
+        pieces.push((piece, DVec3::new(x * MM, FLOOR + RADIUS, z * MM)));
+    }
+    let target = DVec3::new(0.0, 0.19, 0.0);
+    write(scene, "Blown together", &pieces, target + 1.15 * DVec3::new(0.25, 0.42, 1.0).normalize(), target)
+}

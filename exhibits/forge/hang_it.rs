@@ -1,0 +1,187 @@
+//! A mobile that nobody has balanced yet: its arm lies in a loop, held by friction alone, until a visitor slides it to where
+//! it hangs level. Then a hammer at its end is at the height of
+//! two cymbals.
+//!
+//! In the arm's frame its line is y = 0; wire, hammer and loads have their centre at (b, −h). It lies on the loop's bar at
+//! the height −r and the place u of that line, and with nothing but friction along it, it rests where the centre is under
+//! that point:
+//!
+//! ```text
+//! tan θ = (u − b)/(h − r)        θ = 0 at u = b; friction holds while |tan θ| < μ
+//! ```
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
+
+use super::glb::Scene;
+use super::hung::hung_plate;
+use super::outline::{Polygon, ellipse, open_spline, ring as circle};
+use super::piece::{Bend, Piece, load, yaw};
+use super::solid::{sheet, turned};
+use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
+
+/// Where the bar of the loop is, and how far the swivel is above it.
+const BAR: DVec3 = DVec3::new(0.0, 0.52, 0.0);
+const SWIVEL: f64 = 16.0 * MM;
+/// Of the bar and of the wire.
+const BAR_RADIUS: f64 = 1.5 * MM;
+const WIRE: f64 = 1.2 * MM;
+/// How far the ends of the arm are below its line: what makes it forgiving.
+const DROOP: f64 = 90.0 * MM;
+/// Ends of the arm, and of its straight piece, from the origin of its line.
+const LEFT: f64 = -150.0 * MM;
+const RIGHT: f64 = 230.0 * MM;
+const STRAIGHT: f64 = 62.0 * MM;
+/// How far the hammer is beyond the right end.
+const REACH: f64 = 38.0 * MM;
+const HAMMER: f64 = 6.0 * MM;
+/// How far from where it hangs level the arm lies at first.
+const OFF: f64 = -15.0 * MM;
+/// Two cymbals where the hammer of the level arm passes, their rims a little inside of its way: names, radius, and where
+/// each hangs, seen from above, from where the arm points at first, rad.
+const CYMBALS: [([&str; 4], f64, f64); 2] = [
+    (["CymbalBack", "DiscBack", "StemBack", "HookBack"], 38.0 * MM, 0.7),
+    (["CymbalFront", "DiscFront", "StemFront", "HookFront"], 30.0 * MM, -0.8),
+];
+const SHEET: f64 = 1.0 * MM;
+/// From a cymbal's hook down to it.
+const HANG: f64 = 26.0 * MM;
+/// How far the hammer would reach over its rim.
+const OVER: f64 = 5.0 * MM;
+
+/// A plate of wood on a stem: an oval with a hole.
+fn plate(names: [&'static str; 3], size: DVec2, thickness: f64, color: usize) -> Piece {
+    let top = DVec2::new(0.0, 3.0 * MM - size.y);
+    let hole = ellipse(DVec2::ZERO, DVec2::splat(1.0 * MM), 0.0, 16);
+    let outline: Polygon = ellipse(top, size, 0.0, 64);
+    hung_plate(names, (sheet(&outline, &[hole], thickness, 0.15 * MM), WOOD, color), 34.0 * MM)
+}
+
+/// The arm with its loads, and where it hangs level: (b, −h).
+fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let bow = |end: f64, start: f64| {
+        let between = |s: f64, y: f64| at(start + (end - start) * s, -DROOP * y);
+        open_spline(
+            &[at(start, 0.0), between(0.25, 0.10), between(0.6, 0.48), between(0.88, 0.82), between(1.0, 1.0)],
+            6,
+        )
+    };
+    let mut points: Vec<DVec3> = bow(LEFT, -STRAIGHT).into_iter().rev().collect();
+    points.extend(bow(RIGHT, STRAIGHT));
+    points.push(at(RIGHT + REACH, -DROOP));
+    let eye = |x: f64| circle(at(x, -DROOP - 3.0 * MM), 3.0 * MM, DVec3::Y, DVec3::X, 12);
+    let sphere = (0..=12).map(|k| {
+        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
+        DVec2::new(if k % 12 == 0 { 0.0 } else { HAMMER * s }, -HAMMER * c)
+    });
+    let sphere = turned(&sphere.collect::<Vec<_>>(), false, ROUND / 2);
+    let along = DQuat::IDENTITY;
+    let piece = Piece {
+        name: "Arm",
+        parts: vec![
+            part("ArmRail", rod(WIRE, -STRAIGHT, STRAIGHT).lying(), DVec3::ZERO, along, STEEL, black),
+            part("Hammer", sphere, at(RIGHT + REACH, -DROOP), along, BRASS, brass),
+        ],
+        bends: vec![
+            Bend { name: "ArmWire", points, radius: WIRE, density: STEEL },
+            Bend { name: "ArmEyeLeft", points: eye(LEFT), radius: 0.8 * MM, density: STEEL },
+            Bend { name: "ArmEyeRight", points: eye(RIGHT), radius: 0.8 * MM, density: STEEL },
+        ],
+        marks: vec![
+            ("ArmMiddle", DVec3::ZERO),
+            ("ArmLeft", at(LEFT, -DROOP - 6.0 * MM)),
+            ("ArmRight", at(RIGHT, -DROOP - 6.0 * MM)),
+        ],
+    };
+    let [left, right] = loads;
+    let whole = piece.mass().combine(&load(left, piece.mark("ArmLeft"))).combine(&load(right, piece.mark("ArmRight")));
+    (piece, DVec2::new(whole.center.x, whole.center.y))
+}
+
+/// A disc on a stem, hung from the origin.
+fn cymbal([name, disc, stem, hook]: [&'static str; 4], radius: f64, brass: usize, steel: usize) -> Piece {
+    let (edge, half) = (0.3 * SHEET, 0.5 * SHEET);
+    let profile = [(0.0, -half), (radius - edge, -half), (radius, edge - half), (radius, half - edge)];
+    let profile = profile.into_iter().chain([(radius - edge, half), (0.0, half)]).map(|(r, y)| DVec2::new(r, y));
+    let solid = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
+    let along = DQuat::IDENTITY;
+    Piece {
+        name,
+        parts: vec![
+            part(disc, solid, -HANG * DVec3::Y, along, BRASS, brass),
+            part(stem, rod(0.8 * MM, -HANG, 0.0), DVec3::ZERO, along, STEEL, steel),
+        ],
+        bends: Vec::new(),
+        marks: vec![(hook, DVec3::ZERO)],
+    }
+}
+
+/// The model.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let left =
+        plate(["PlateLeft", "PlateLeftHook", "PlateLeftStem"], DVec2::new(46.0, 62.0) * MM, 3.0 * MM, finishes.red);
+    let right =
+        plate(["PlateRight", "PlateRightHook", "PlateRightStem"], DVec2::new(26.0, 44.0) * MM, 3.0 * MM, finishes.blue);
+    let (arm, center) = arm(finishes.brass, finishes.black, [left.mass().mass, right.mass().mass]);
+    // It is set down OFF from where it is level, tilted as far as that tilts it; the foot of its line on the bar is at u.
+    let (level, high) = (center.x, -center.y - WIRE);
+    let tilt = atan2(OFF, high);
+    let turn = rotation(tilt * DVec3::Z);
+    let normal = DVec3::new(-sin(tilt), cos(tilt), 0.0);
+    let foot = BAR + (BAR_RADIUS + WIRE) * normal;
+    let arm_pose = Pose { rotation: turn, position: foot - turn * ((level + OFF) * DVec3::X) };
+    let left_pose = Pose { rotation: yaw(0.5), position: arm_pose.point(arm.mark("ArmLeft")) };
+    let right_pose = Pose { rotation: yaw(-0.4), position: arm_pose.point(arm.mark("ArmRight")) };
+
+    let swivel = BAR + SWIVEL * DVec3::Y;
+    let ring_at = -(SWIVEL - 2.5 * MM) * DVec3::Y;
+    let lay = rotation(0.5 * PI * DVec3::Z);
+    let across = rotation(0.5 * PI * DVec3::X);
+    let bar = |half: f64| rod(BAR_RADIUS, -half, half);
+    let upper = (2.0 * (BAR_RADIUS + WIRE) + 1.6 * MM - SWIVEL) * DVec3::Y;
+    let eye = Piece {
+        name: "Loop",
+        parts: vec![
+            part("LoopRing", ring(7.5 * MM, 9.5 * MM, 3.0 * MM), ring_at, lay, STEEL, finishes.brass),
+            part("LoopBar", bar(7.5 * MM), -SWIVEL * DVec3::Y, across, STEEL, finishes.brass),
+            part("LoopGuard", bar(7.5 * MM), upper, across, STEEL, finishes.brass),
+            part("LoopStem", rod(1.5 * MM, -6.0 * MM, 8.0 * MM), DVec3::ZERO, DQuat::IDENTITY, STEEL, finishes.brass),
+        ],
+        bends: Vec::new(),
+        marks: vec![("LoopSeat", -SWIVEL * DVec3::Y)],
+    };
+
+    let path = RIGHT + REACH - level;
+    let height = BAR.y + BAR_RADIUS + WIRE - DROOP;
+    let cymbals = CYMBALS.map(|(names, radius, aside)| {
+        let away = path + HAMMER + radius - OVER;
+        let hook = DVec3::new(away * cos(aside), height + HANG, -away * sin(aside));
+        (cymbal(names, radius, finishes.brass, finishes.steel), hook)
+    });
+    let mut stand = ceiling(finishes.black);
+    for own in &mut stand.parts {
+        own.place.position += swivel - 5.0 * MM * DVec3::Y;
+    }
+    stand.bends.clear();
+    stand.marks = vec![("SwivelPoint", swivel)];
+    for ((_, hook), (name, mark)) in cymbals.iter().zip([("RodBack", "PointBack"), ("RodFront", "PointFront")]) {
+        stand.parts.push(part(name, rod(1.2 * MM, 0.0, 0.9), *hook, DQuat::IDENTITY, STEEL, finishes.black));
+        stand.marks.push((mark, *hook));
+    }
+
+    let at = |position| Pose { rotation: DQuat::IDENTITY, position };
+    for (piece, pose) in
+        [(stand, at(DVec3::ZERO)), (eye, at(swivel)), (arm, arm_pose), (left, left_pose), (right, right_pose)]
+    {
+        piece.write(&mut scene, pose);
+    }
+    for (piece, hook) in cymbals {
+        piece.write(&mut scene, at(hook));
+    }
+    let target = DVec3::new(0.06, 0.42, 0.0);
+    let camera = target + 1.25 * DVec3::new(0.05, 0.10, 1.0).normalize();
+    scene.camera("CamFront", camera, target, 27.0 * PI / 180.0, 16.0 / 9.0);
+    scene.into_glb("Hang it", "Original work of the Soffio project; MIT OR Apache-2.0")
+}

@@ -1,0 +1,53 @@
+//! A pendulum on a bead that a rail runs through: a nail that is loose along the rail, and fast again.
+
+use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+
+use super::glb::Scene;
+use super::piece::Piece;
+use super::solid::turned;
+use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+
+/// Height of the rail, and half its length.
+const RAIL: f64 = 400.0 * MM;
+const HALF: f64 = 190.0 * MM;
+/// Depth of the plate's middle under the rail.
+const DEPTH: f64 = 210.0 * MM;
+
+/// The model.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
+    let lay = rotation(0.5 * PI * DVec3::Z);
+    let flat = rotation(0.5 * PI * DVec3::X);
+    let mut parts = vec![
+        part("Rail", rod(2.5 * MM, -HALF - 12.0 * MM, HALF + 12.0 * MM), RAIL * DVec3::Y, lay, STEEL, finishes.steel),
+        part("Base", slab(0.44, 0.14, 12.0 * MM), 6.0 * MM * DVec3::Y, flat, WOOD, finishes.black),
+    ];
+    for (name, x) in [("PostLeft", -HALF), ("PostRight", HALF)] {
+        parts.push(part(name, rod(6.0 * MM, 8.0 * MM, RAIL + 8.0 * MM), x * DVec3::X, along, WOOD, finishes.black));
+    }
+    // A mark where the nail is fast.
+    parts.push(part("Mark", rod(4.5 * MM, -2.0 * MM, 2.0 * MM), RAIL * DVec3::Y, lay, BRASS, finishes.brass));
+    let stand = Piece { name: "Stand", parts, bends: Vec::new(), marks: vec![("Middle", RAIL * DVec3::Y)] };
+    let bead = (0..=12).map(|k| {
+        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
+        DVec2::new(if k % 12 == 0 { 0.0 } else { 9.0 * s }, -9.0 * c) * MM
+    });
+    let plate = [(0.0, -2.0), (36.0, -2.0), (38.0, 0.0), (36.0, 2.0), (0.0, 2.0)];
+    let plate = turned(&plate.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let pendulum = Piece {
+        name: "Pendulum",
+        parts: vec![
+            part("Bead", turned(&bead.collect::<Vec<_>>(), false, ROUND), none, along, WOOD, finishes.red),
+            part("Rod", rod(1.2 * MM, -DEPTH + 30.0 * MM, 0.0), none, along, STEEL, finishes.steel),
+            part("Plate", plate, -DEPTH * DVec3::Y, rotation(0.5 * PI * DVec3::Z), WOOD, finishes.blue),
+        ],
+        bends: Vec::new(),
+        marks: Vec::new(),
+    };
+    let pieces = [(stand, none), (pendulum, RAIL * DVec3::Y)];
+    // From beside, so that a breath goes along the rail rather than across it.
+    let target = DVec3::new(0.0, 0.22, 0.0);
+    write(scene, "A loose nail", &pieces, target + 1.2 * DVec3::new(0.95, 0.18, 0.80).normalize(), target)
+}
