@@ -58,6 +58,8 @@ pub struct Stage {
     pointing: Pointing,
     gestures: Gestures,
     holds: bool,
+    /// What the next step begins with: another exhibit gathers its parts.
+    called: Option<Command>,
     snapshot: Snapshot,
 }
 
@@ -78,6 +80,7 @@ impl Stage {
             pointing: Pointing::default(),
             gestures: Gestures::default(),
             holds: false,
+            called: None,
             snapshot,
         }
     }
@@ -91,6 +94,9 @@ impl Stage {
         self.activity = controls.activity;
         let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
         cue.commands.extend_from_slice(&controls.commands);
+        // Whoever blows or presses does not wait until the parts have gathered.
+        let impatient = (breathing || pressed) && self.simulation.gathers_from().is_some();
+        cue.commands.extend(self.called.take().or(impatient.then_some(Command::Reset)));
         let simulation = &mut self.simulation;
         let takeable = |at| simulation.can_be_taken(at, controls.aspect);
         let blows = self.gestures.step(&controls.presses, controls.aspect, takeable);
@@ -114,8 +120,9 @@ impl Stage {
         self.snapshot = self.simulation.snapshot();
     }
 
-    /// Shows another exhibit (or the same one, reloaded) from its start.
+    /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start.
     pub fn swap(&mut self, exhibit: Arc<Exhibit>) {
+        self.called = (exhibit.id != self.exhibit().id).then_some(Command::Gather(self.steps));
         self.attract = self.attract.take().map(|before| {
             let next = Attract::new(exhibit.attract.clone(), self.idle_s);
             if before.is_active() { next.go_on() } else { next }

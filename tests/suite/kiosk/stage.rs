@@ -240,3 +240,37 @@ fn a_reloaded_exhibit_starts_anew_and_the_run_counts_on() {
     stage.step(&controls, None);
     assert_eq!((stage.steps(), stage.sample()), (481, 200));
 }
+
+#[test]
+fn another_exhibit_gathers_its_parts_and_a_press_ends_the_waiting() {
+    let chimes = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/wind-chimes");
+    let chimes = Arc::new(exhibit::load(&chimes).expect("the shipped exhibit is valid"));
+    let mut stage = Stage::new(steel_fish(), Settings::default(), None, None);
+    let still = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+    let away = |stage: &Stage, exhibit: &Exhibit| {
+        let home = exhibit.bodies.iter().map(|body| body.pose.position);
+        let far = stage.snapshot().poses.iter().zip(home).map(|(pose, home)| pose.position.distance(home));
+        far.fold(0.0, f64::max)
+    };
+    stage.step(&still, None);
+    stage.swap(chimes.clone());
+    stage.step(&still, None);
+    assert!(away(&stage, &chimes) > 0.1, "its parts are scattered");
+    for _ in 0..5 * 240 {
+        stage.step(&still, None);
+    }
+    assert!(away(&stage, &chimes) < 0.01, "they have gathered");
+    // The same one, saved anew by a curator, is there at once.
+    stage.swap(chimes.clone());
+    stage.step(&still, None);
+    assert!(away(&stage, &chimes) < 0.01);
+    // Who presses does not wait.
+    let fish = steel_fish();
+    stage.swap(fish.clone());
+    for _ in 0..60 {
+        stage.step(&still, None);
+    }
+    assert!(away(&stage, &fish) > 0.05);
+    stage.step(&Controls { hold: true, ..still.clone() }, None);
+    assert!(away(&stage, &fish) < 0.01, "it is there and can be blown at");
+}
