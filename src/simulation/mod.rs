@@ -63,7 +63,7 @@ const HAND_RING: f64 = 0.04;
 const FULL_METER: f64 = 16.0;
 
 /// Room for what happens in one step: more makes its list grow, once.
-const LISTED: usize = 64;
+const LISTED: usize = 256;
 
 /// How a breath becomes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

@@ -162,12 +162,20 @@ fn a_number_that_is_none_is_found_and_the_figure_put_back() {
         ("rotation", |body| body.rotation.w = f64::NAN),
         ("speed", |body| body.velocity = DVec3::new(1e4, 0.0, 0.0)),
     ];
+    let blown = |id: &str| {
+        let mut simulation = Simulation::new(Arc::new(shipped(id)), Settings::default());
+        let blow = [Command::Blow(Some(6.0))];
+        simulation.step(&StepInput { commands: &blow, ..StepInput::default() });
+        play(&mut simulation, 30);
+        simulation
+    };
     for id in exhibit::ids() {
+        // Parts that are still on their way together are as far apart in a run without harm.
+        let mut whole = blown(&id);
+        play(&mut whole, 480);
+        let open = JOINT_ERROR.max(2.0 * whole.joint_error());
         for (what, harm) in harms {
-            let mut simulation = Simulation::new(Arc::new(shipped(&id)), Settings::default());
-            let blow = [Command::Blow(Some(6.0))];
-            simulation.step(&StepInput { commands: &blow, ..StepInput::default() });
-            play(&mut simulation, 30);
+            let mut simulation = blown(&id);
             let victim = simulation.bodies().len() - 1;
             let whole: Vec<_> = simulation.bodies().iter().map(|body| body.position).collect();
             harm(&mut simulation.bodies_mut()[victim]);
@@ -178,7 +186,7 @@ fn a_number_that_is_none_is_found_and_the_figure_put_back() {
                 assert!(body.position.distance(before) < 0.02, "{id}, {what}: put to {}", body.position);
             }
             assert!(faults(&play(&mut simulation, 480)).is_empty(), "{id}, {what}: again");
-            assert!(simulation.joint_error() < JOINT_ERROR, "{id}, {what}: {} m", simulation.joint_error());
+            assert!(simulation.joint_error() < open, "{id}, {what}: {} m", simulation.joint_error());
             assert_eq!(simulation.snapshot().diagnostics.faults, 1);
         }
     }
