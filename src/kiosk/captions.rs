@@ -32,10 +32,10 @@ impl Captions {
         for command in sounds {
             for (index, sound) in exhibit.sounds.iter().enumerate() {
                 match (command, sound.on) {
-                    (SoundCommand::Strike(strike), SoundTrigger::Impact) => {
-                        if plays(sound, strike.instrument) && strike.speed > HIT {
-                            self.heard[index] = Some(step);
-                        }
+                    (SoundCommand::Strike(strike), SoundTrigger::Impact)
+                        if plays(sound, strike.instrument) && strike.speed > HIT =>
+                    {
+                        self.heard[index] = Some(step);
                     }
                     (SoundCommand::Slide(slide), SoundTrigger::Slide) if plays(sound, slide.instrument) => {
                         self.slides[index] = slide.force > 0.0 && slide.speed > 0.0;
