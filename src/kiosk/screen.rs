@@ -28,6 +28,8 @@ pub struct Screen {
     config: wgpu::SurfaceConfiguration,
     scene: Renderer,
     shown: Arc<Exhibit>,
+    /// What will draw the exhibit that comes on next.
+    next: Option<(Arc<Exhibit>, Renderer)>,
     type_setter: egui_wgpu::Renderer,
     broken: Arc<AtomicBool>,
 }
@@ -74,7 +76,7 @@ impl Screen {
         let panel =
             egui_winit::State::new(context, egui::ViewportId::ROOT, &window, scale, window.theme(), Some(largest));
         let shown = exhibit.clone();
-        Ok(Self { window, panel, gpu, surface, config, scene, shown, type_setter, broken })
+        Ok(Self { window, panel, gpu, surface, config, scene, shown, next: None, type_setter, broken })
     }
 
     /// Pixels.
@@ -137,12 +139,22 @@ impl Screen {
         drawn
     }
 
+    /// Makes ready to draw an exhibit, so that its first moments are seen when it comes on.
+    pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
+        // What cannot be drawn is said when it is shown.
+        self.next = scene(&self.gpu, exhibit, &self.config).ok().map(|scene| (exhibit.clone(), scene));
+    }
+
     /// Takes over another exhibit. One that cannot be drawn leaves the last picture's scene on show.
     fn show(&mut self, exhibit: &Arc<Exhibit>) {
         if Arc::ptr_eq(&self.shown, exhibit) {
             return;
         }
         self.shown = exhibit.clone();
+        if let Some((_, scene)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
+            self.scene = scene;
+            return;
+        }
         match scene(&self.gpu, exhibit, &self.config) {
             Ok(scene) => self.scene = scene,
             Err(error) => tracing::error!("{} cannot be drawn: {error}", exhibit.id),

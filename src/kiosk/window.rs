@@ -424,7 +424,8 @@ impl App<'_> {
             News::Show(exhibit) => {
                 self.turning = false;
                 self.say(format!("{} is on show", exhibit.id));
-                if let Some(show) = &self.show {
+                if let Some(show) = &mut self.show {
+                    show.screen.prepare(&exhibit);
                     show.live.controls().exhibit = Some(exhibit);
                 }
             }
