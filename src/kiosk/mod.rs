@@ -10,6 +10,7 @@ pub mod captions;
 pub mod events;
 pub mod fonts;
 pub mod gesture;
+pub mod given;
 pub mod governor;
 pub mod input;
 pub mod live;

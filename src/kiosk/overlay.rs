@@ -10,6 +10,7 @@ use crate::exhibit::{Exhibit, Label, View};
 use crate::math::{PI, tangents};
 use crate::simulation::{BreathView, Snapshot};
 
+use super::given;
 use super::input::Request;
 use super::menu::{Menu, Tile};
 use super::page::{HALO, INK, Page, Reading, SMALL, SOFT_INK, VERMILION};
@@ -51,6 +52,8 @@ pub struct Scene<'a> {
     pub listens: bool,
     /// Keys of the captions of what can be heard.
     pub captions: &'a [String],
+    /// Seconds blown at it in this visit and today.
+    pub given: [f64; 2],
     /// Is the sound off?
     pub silent: bool,
     /// What is left of the time after which the kiosk takes it that nobody is there, s, where that is near.
@@ -103,6 +106,9 @@ impl Overlay {
         ring(&page, picture, &scene.view, &scene.moment.breath);
         wall_label(&page, label, scene);
         captions(&page, label, scene);
+        if let Some(said) = given::said(label, scene.given) {
+            page.text(page.picture.left_top(), Align2::LEFT_TOP, &said, 1.1, INK, line(&page));
+        }
         let said = if self.rests { words(code).rest.to_owned() } else { invitation(scene) };
         let opacity = if self.rests { 1.0 } else { self.invitation as f32 };
         invite(&page, &said, opacity);

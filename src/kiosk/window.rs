@@ -21,6 +21,7 @@ use crate::exhibit::{Label, Labels};
 use crate::simulation::{Command, Snapshot};
 
 use super::events::translate;
+use super::given::Given;
 use super::input::{Keys, Request, Visitor};
 use super::live::{self, Frame, Live, Onset, Report};
 use super::loudness::Wishes;
@@ -40,6 +41,8 @@ const NAP: Duration = Duration::from_millis(50);
 const LOST_DEVICES: u32 = 3;
 /// While attract mode plays the invitation goes to the next language after so long, s: two readings of a short line.
 const INVITES_S: f64 = 6.0;
+/// What one picture may count as given breath, s: after a longer pause nobody knows.
+const LONGEST_GIFT: f64 = 0.5;
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;
 
@@ -87,6 +90,7 @@ pub fn run(
         menu: Menu::default(),
         reading: Reading::default(),
         listens: true,
+        given: Given::default(),
         languages: Vec::new(),
         language: String::new(),
         waiting: Some(options),
@@ -206,6 +210,7 @@ struct App<'a> {
     reading: Reading,
     /// Has no visitor switched the microphone off?
     listens: bool,
+    given: Given,
     visitor: Visitor,
     modifiers: ModifiersState,
     overlay: Overlay,
@@ -326,10 +331,15 @@ impl App<'_> {
         let desk = self.on_desk();
         let Some(show) = &mut self.show else { return };
         let now = Instant::now();
+        let last = self.clock.last;
         let (adapter, software) = show.screen.adapter();
         self.clock.tick(now, if software { 1.0 / self.config.screen.software_fps } else { 0.0 });
         let frame = show.live.frame();
         let moment = frame.moment(now);
+        if moment.breath.speed > 0.0 && !frame.attracts {
+            let seconds = now.duration_since(last).as_secs_f64().min(LONGEST_GIFT);
+            self.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
+        }
         let view = frame.exhibit.view(show.screen.aspect());
         let size = show.screen.size();
         let vitals = Vitals {
@@ -359,6 +369,7 @@ impl App<'_> {
                 has_ear: !frame.is_deaf(),
                 listens: self.listens,
                 captions: &frame.captions,
+                given: self.given.of(&frame.exhibit.id),
                 silent: frame.load.loudness.muted || frame.is_mute(),
                 leaves_in: frame.leaves_in,
                 reading: self.reading,
@@ -423,6 +434,7 @@ impl App<'_> {
         match news {
             News::Show(exhibit) => {
                 self.turning = false;
+                self.given.leave();
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
                     show.screen.prepare(&exhibit);
@@ -460,6 +472,7 @@ impl App<'_> {
             self.visitor.leave();
             self.language.clear();
             (self.menu, self.reading, self.listens) = (Menu::default(), Reading::default(), true);
+            self.given.leave();
             self.tell();
         }
         if frame.attracts && frame.attract_rounds > 0 && !self.turning {

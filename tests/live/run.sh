@@ -180,7 +180,7 @@ later() {
 # ---- whoever sets the kiosk up blows three times, at two capsules ----------------------------------------------------
 doctor_blow() {
     local code=0 doctor pair heard level
-    printf '[audio]\nmicrophone = "pair"\nmicrophone_channel = 1\nsecond_capsule_channel = 2\n[exhibit]\nfolder = "%s"\n' \
+    printf '[audio]\nmicrophone = "pair"\nmicrophone_channel = 1\nsecond_capsule_channel = 2\n[exhibits]\nfolder = "%s"\n' \
         "$root/exhibits" >"$room/pair.toml"
     pair=$(pactl load-module module-remap-source source_name=pair master=air.monitor channels=2 \
         channel_map=front-left,front-right master_channel_map=aux0,aux0 remix=no)

@@ -95,6 +95,7 @@ impl Before {
             has_ear: true,
             listens: self.hears,
             captions: &self.captions,
+            given: [20.0, 400.0],
             silent: false,
             leaves_in: None,
             languages: &self.languages,
