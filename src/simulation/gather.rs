@@ -7,7 +7,7 @@
 //! velocities,
 //!
 //! ```text
-//! F = −M (Ω² Δ + 2 Ω v)        Δ(t) = Δ(0) (1 + Ω t) e^(−Ω t)        Ω = 4 1/s
+//! F = −M (Ω² Δ + 2 Ω v)        Δ(t) = Δ(0) (1 + Ω t) e^(−Ω t)        Ω = 2.5 1/s
 //! ```
 //!
 //! which is critically damped in every coordinate that the joints leave free, as both sides of M q̈ = F are projected alike.
@@ -25,11 +25,11 @@ use crate::math::{DQuat, DVec3, Pose, rotation, rotation_vector};
 use crate::noise::Random;
 
 /// Ω, 1/s.
-const HOME: f64 = 4.0;
+const HOME: f64 = 2.5;
 /// 1/ω of the joints, s: at the pace of the call, so that for small ways neither strains the other.
 const DRAWN: f64 = 1.0 / HOME;
 /// s.
-pub const LASTS: f64 = 4.5;
+pub const LASTS: f64 = 7.2;
 /// How much farther from the middle of all a body begins, as a share, and how far beside that, as a share of the size.
 const OUT: f64 = 0.5;
 const BESIDE: f64 = 0.25;
