@@ -457,13 +457,12 @@ impl App<'_> {
         }
     }
 
-    /// Shows the work so many places after the one on show.
-    fn leaf(&mut self, by: i32) {
-        let Some(show) = &self.show else { return };
+    /// Asks for the work so many places after the one on show; says whether there is another.
+    fn leaf(&self, by: i32) -> bool {
+        let Some(show) = &self.show else { return false };
         let shown = id(&show.live.frame().exhibit.folder);
-        if let Some(work) = self.offer.beside(&shown, by as isize) {
-            self.shelf.show(&work.folder);
-        }
+        let next = self.offer.beside(&shown, by as isize);
+        next.inspect(|work| self.shelf.show(&work.folder)).is_some()
     }
 
     /// When the last visitor has left, the next one finds everything as it was first; meanwhile the works take turns.
@@ -476,8 +475,7 @@ impl App<'_> {
             self.tell();
         }
         if frame.attracts && frame.attract_rounds > 0 && !self.turning {
-            self.turning = true;
-            self.leaf(1);
+            self.turning = self.leaf(1);
         }
         self.attracts = frame.attracts;
     }
@@ -528,7 +526,9 @@ impl App<'_> {
                 self.menu.open = false;
             }
             Request::Leaf(by) if self.menu.open => self.menu.turn(by),
-            Request::Leaf(by) => self.leaf(by),
+            Request::Leaf(by) => {
+                self.leaf(by);
+            }
             Request::Large => self.reading.large = !self.reading.large,
             Request::Contrast => self.reading.contrast = !self.reading.contrast,
             Request::Listen => self.listens = !self.listens,

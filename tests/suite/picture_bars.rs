@@ -1,7 +1,7 @@
 //! The bars of the picture: thin wires and their shadows, colours, energy, cost, and coming back.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use glam::{DMat4, DVec3, Vec3};
 use soffio::exhibit::model::{Appearance, Mesh, Model, Primitive};
@@ -257,28 +257,21 @@ fn a_frame_moves_few_bytes_and_asks_for_few_draws() {
     assert!(draws <= MOST_DRAWS, "{draws} draws");
 }
 
+/// How long each takes is printed, not asserted: that is the machine's and its other work's.
 #[test]
-fn the_first_picture_comes_soon_and_comes_back_when_the_device_is_destroyed() {
-    /// Of the fastest of three: the machine may be busy with other tests.
-    const SOON: Duration = Duration::from_secs(3);
+fn the_picture_comes_back_the_same_when_the_device_is_destroyed() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/terry-clock");
     let exhibit = soffio::exhibit::load(&folder).expect("shipped");
-    let mut fastest = Duration::MAX;
     let mut pictures = Vec::new();
-    for _ in 0..3 {
+    for round in 0..2 {
         let begin = Instant::now();
         let Some(mut renderer) = renderer(&exhibit, |_| {}) else { return };
         pictures.push(renderer.draw(&frame(&exhibit, &[], (640, 360))).expect("a picture"));
-        fastest = fastest.min(begin.elapsed());
+        println!("picture of device {round} after {:?}", begin.elapsed());
         // The next round is the way back after the loss.
         renderer.gpu().device.destroy();
-        if fastest < SOON && pictures.len() > 1 {
-            break;
-        }
     }
-    println!("first picture after {fastest:?}");
-    assert!(fastest < SOON, "{fastest:?}");
-    assert!(pictures.windows(2).all(|p| p[0] == p[1]), "a new device draws the same picture");
+    assert!(pictures[0] == pictures[1], "a new device draws the same picture");
 }
 
 #[test]
