@@ -132,7 +132,7 @@ latency() {
 # the recording, so that only changes count. A detector looks every 8 ms and blocks lie anyhow: medians of the first
 # and of the last third are compared, and may differ by a block.
 streaming() {
-    local blown=0 t_rec end block n median slow late_sound late_wind
+    local blown=0 t_rec end block winds sounds median slow late_sound late_wind
     limit=$(($1 + 90)) start_kiosk stream --no-attract --for "$1"
     within 10 grep -q 'supervisor: microphone: ' "$room/stream.err"
     end=$((SECONDS + $1 - 20))
@@ -153,28 +153,33 @@ streaming() {
     onsets "$room/stream_air.out" 1 -45 | sed 's/^/breath /' >"$room/stream.times"
     onsets "$room/stream_air.out" 2 -60 | sed 's/^/sound /' >>"$room/stream.times"
     log_times stream 'begins (microphone)' | awk -v t="$t_rec" '{ print "wind", $1 - t }' >>"$room/stream.times"
-    # Of each breath the first sound and the first wind about it.
+    # Of each breath the first wind and the first sound about it; while an earlier chime still rings, a sound has no onset.
     awk '$1 == "breath" { at[++n] = $2 } $1 != "breath" { for (i = n; i && at[i] > $2 + 0.5; i--); if (i && $2 < at[i] + 1.5 && !((i, $1) in d)) d[i, $1] = 1000 * ($2 - at[i]) }
-        END { for (i = 1; i <= n; i++) if ((i, "sound") in d && (i, "wind") in d) printf "%.2f %.1f %.1f\n", at[i], d[i, "sound"], d[i, "wind"] }' \
+        END { for (i = 1; i <= n; i++) for (k in d) { split(k, w, SUBSEP); if (w[1] == i) printf "%s %.2f %.1f\n", w[2], at[i], d[k] } }' \
         "$room/stream.times" >"$room/stream.delays"
-    n=$(wc -l <"$room/stream.delays")
-    median=$(cut -d' ' -f2 "$room/stream.delays" | rank 0.5)
-    slow=$(cut -d' ' -f2 "$room/stream.delays" | rank 0.9)
-    late_sound=$(later 2)
-    late_wind=$(later 3)
+    winds=$(delays wind | wc -l)
+    sounds=$(delays sound | wc -l)
+    median=$(delays sound | rank 0.5)
+    slow=$(delays sound | rank 0.9)
+    late_sound=$(delays sound | later)
+    late_wind=$(delays wind | later)
     block=$(printf '%s\n' "$(block stream microphone)" "$(block stream loudspeaker)" | sort -n | tail -1)
-    bar "every breath is wind" "$n == $blown && $n >= 9" "$n of $blown in $1 s"
-    bar "breath to sound" "$median <= 220 && $slow <= 350" "$median ms, nine in ten within $slow ms"
+    bar "every breath is wind" "$winds == $blown && $winds >= 9" "$winds of $blown in $1 s"
+    bar "breath to sound" "$sounds > 0.9 * $blown && $median <= 220 && $slow <= 350" \
+        "$median ms, nine in ten within $slow ms, of $sounds that began in quiet"
     bar "the delay is constant" "$late_sound <= $block && $late_sound >= -$block && $late_wind <= $block && $late_wind >= -$block" \
         "after $1 s wind comes $late_wind ms and sound $late_sound ms later, blocks of $block ms; $(tail -1 "$room/stream.err" | grep -o 'dropped.*' || true)"
 }
+# The delays of one kind, in the order of the breaths.
+delays() { awk -v kind="$1" '$1 == kind { print $3 }' "$room/stream.delays"; }
 # The number below which that share of the numbers lies.
 rank() { sort -n | awk -v share="$1" '{ x[NR] = $1 } END { print x[int(share * (NR - 1)) + 1] }'; }
-# By how much the last third of a column of the delays lies above the first.
+# By how much the last third of the numbers lies above the first, in their medians.
 later() {
-    local third=$(($(wc -l <"$room/stream.delays") / 3))
-    awk -v a="$(head -n "$third" "$room/stream.delays" | cut -d' ' -f"$1" | rank 0.5)" \
-        -v b="$(tail -n "$third" "$room/stream.delays" | cut -d' ' -f"$1" | rank 0.5)" 'BEGIN { print b - a }'
+    local numbers third
+    numbers=$(cat)
+    third=$(($(wc -l <<<"$numbers") / 3))
+    awk -v a="$(head -n "$third" <<<"$numbers" | rank 0.5)" -v b="$(tail -n "$third" <<<"$numbers" | rank 0.5)" 'BEGIN { print b - a }'
 }
 
 # ---- whoever sets the kiosk up blows three times, at two capsules ----------------------------------------------------
