@@ -26,6 +26,8 @@
 
 mod absorption;
 
+use fearless_simd::{Level, Simd, dispatch};
+
 use absorption::{Absorption, Absorptions, SHELVES};
 
 use crate::math::{decibels, from_decibels, pow, sqrt};
@@ -101,6 +103,7 @@ struct Allpass {
 }
 
 impl Allpass {
+    #[inline(always)]
     fn process(&mut self, x: f32) -> f32 {
         let delayed = self.line[self.at];
         let v = x + DIFFUSION * delayed;
@@ -112,6 +115,8 @@ impl Allpass {
 
 /// A room that sounds.
 pub struct Room {
+    /// Which instructions there are.
+    simd: Level,
     diffusers: [[Allpass; 3]; 2],
     /// All lines one after the other; `ends` are their ends, `at` where each is read and written.
     lines: Vec<f32>,
@@ -146,6 +151,7 @@ impl Room {
         let allpass = |seconds: f64| Allpass { line: vec![0.0; prime((seconds * sample_rate) as usize)], at: 0 };
         let longest = lengths.iter().max().copied().unwrap_or_default();
         Some(Self {
+            simd: Level::new(),
             diffusers: DIFFUSERS.map(|channel| channel.map(allpass)),
             lines: vec![0.0; end],
             starts,
@@ -161,6 +167,12 @@ impl Room {
 
     /// The room's answer to a frame: what comes on top of the sound itself.
     pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
+        dispatch!(self.simd, simd => self.answer(simd, frame))
+    }
+
+    /// All lines go side by side through the widest registers that there are; each number is made as in any others.
+    #[inline(always)]
+    fn answer<S: Simd>(&mut self, _: S, frame: [f32; 2]) -> [f32; 2] {
         let frame = frame.map(|x| if x.is_finite() { x.clamp(-LOUDEST, LOUDEST) } else { 0.0 });
         if self.quiet > self.forgets {
             if frame == [0.0; 2] {
@@ -193,6 +205,7 @@ impl Room {
         [left * self.level, right * self.level]
     }
 
+    #[inline(always)]
     fn absorb(&mut self, y: &mut [f32; LINES]) {
         let Absorptions { gain, shelves } = &self.absorption;
         for i in 0..LINES {
@@ -236,6 +249,7 @@ const LEFT: [f32; LINES] = row(9, 0.25);
 const RIGHT: [f32; LINES] = row(12, 0.25);
 
 /// H/4 by the fast transform: sums and differences of pairs.
+#[inline(always)]
 fn mix(y: &mut [f32; LINES]) {
     let mut half = LINES / 2;
     while half > 0 {
@@ -250,6 +264,7 @@ fn mix(y: &mut [f32; LINES]) {
 }
 
 /// 0 for what is below [`FLOOR`]: rounding alone would keep the smallest numbers going round for ever.
+#[inline(always)]
 fn floored(x: f32) -> f32 {
     if x.abs() < FLOOR { 0.0 } else { x }
 }
