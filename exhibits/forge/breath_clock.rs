@@ -156,7 +156,7 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     pieces.push((piece("EscapeWheel", escape_parts), turned));
     let pivot = arbor + DVec3::Z * SWING;
     pieces.push((clock::anchor(finishes), at(pivot)));
-    pieces.push((clock::pendulum(finishes), at(pivot)));
+    pieces.push((clock::pendulum(finishes, false), at(pivot)));
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio::math::sin(0.9), -soffio::math::cos(0.9), 0.0);
     phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
     let motion_parts = vec![

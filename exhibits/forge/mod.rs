@@ -30,6 +30,7 @@ pub mod solid;
 pub mod steel_fish;
 pub mod stock;
 pub mod strikers;
+pub mod terry_case;
 pub mod terry_clock;
 pub mod terry_strike;
 pub mod tree;

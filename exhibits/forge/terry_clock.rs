@@ -34,7 +34,7 @@ use super::solid::{Solid, sheet, turned};
 use super::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
 };
-use super::terry_strike;
+use super::{terry_case, terry_strike};
 
 /// Pitch diameter over number of teeth.
 pub const MODULE: f64 = 1.0 * MM;
@@ -66,8 +66,11 @@ const WIDTH: f64 = 3.0 * MM;
 
 /// Length of the simple pendulum that beats as this one does by itself, m: 6720 beats an hour at its measured swing, with
 /// the circular error and what the escapement adds.
-const LENGTH: f64 = 290.3010 * MM;
+const LENGTH: f64 = 290.3201 * MM;
 const BOB_RADIUS: f64 = 20.0 * MM;
+/// Where a leaf of sheet brass sits on the rod, m below the pivot. It stands askew, so that a breath from the front goes
+/// aside and takes the pendulum with it; the leaf is ours, not Terry's.
+const LEAF: f64 = 200.0 * MM;
 
 /// Layers: middles of wheels along z.
 pub const BACK: f64 = -36.0 * MM;
@@ -200,21 +203,24 @@ pub fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usiz
     part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
 }
 
-/// The pendulum in its own frame, the pivot at the origin.
-pub fn pendulum(finishes: &Finishes) -> Piece {
+/// The pendulum in its own frame, the pivot at the origin; with a leaf, where a breath is to move it.
+pub fn pendulum(finishes: &Finishes, with_leaf: bool) -> Piece {
     let b = BOB_RADIUS;
     let lens = [(0.0, -5.5), (9.0, -5.2), (15.0, -3.8), (1e3 * b, 0.0), (15.0, 3.8), (9.0, 5.2), (0.0, 5.5)];
     let lens = turned(&lens.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let leaf = sheet(&ellipse(DVec2::ZERO, DVec2::new(20.0, 44.0) * MM, 0.0, 2 * ROUND), &[], 0.2 * MM, 0.05 * MM);
     let with_bob = |depth: f64| {
         let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
-        piece(
-            "Pendulum",
-            vec![
-                part("Rod", rod(0.9 * MM, -depth + b, 3.0 * MM), none, along, STEEL, finishes.steel),
-                part("Bob", lens.clone(), -depth * DVec3::Y, facing(), BRASS, finishes.brass),
-                part("Nut", rod(2.5 * MM, -depth - b - 4.0 * MM, -depth - b), none, along, BRASS, finishes.brass),
-            ],
-        )
+        let mut parts = vec![
+            part("Rod", rod(0.9 * MM, -depth + b, 3.0 * MM), none, along, STEEL, finishes.steel),
+            part("Bob", lens.clone(), -depth * DVec3::Y, facing(), BRASS, finishes.brass),
+            part("Nut", rod(2.5 * MM, -depth - b - 4.0 * MM, -depth - b), none, along, BRASS, finishes.brass),
+        ];
+        if with_leaf {
+            let askew = rotation(0.25 * PI * DVec3::Y);
+            parts.push(part("Leaf", leaf.clone(), -LEAF * DVec3::Y, askew, BRASS, finishes.brass));
+        }
+        piece("Pendulum", parts)
     };
     let length = |piece: &Piece| {
         let mass = piece.mass();
@@ -338,7 +344,7 @@ pub fn glb() -> Vec<u8> {
 
     let pivot = arbor + DVec3::Z * SWING;
     pieces.push((anchor(&finishes), at(pivot)));
-    pieces.push((pendulum(&finishes), at(pivot)));
+    pieces.push((pendulum(&finishes, true), at(pivot)));
 
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-sin(0.9), -cos(0.9), 0.0);
     phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
@@ -394,18 +400,13 @@ pub fn glb() -> Vec<u8> {
         "Frame",
         vec![
             plate("BackPlate", -48.0 * MM),
-            part(
-                "Floor",
-                slab(0.34, 0.12, 12.0 * MM),
-                DVec3::new(0.0, 0.006, -10.0 * MM),
-                rotation(0.5 * PI * DVec3::X),
-                WOOD,
-                finishes.black,
-            ),
             part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass),
         ],
     );
     pieces.insert(0, (stand, at(DVec3::ZERO)));
+    let [case, dial] = terry_case::pieces(&mut scene, &finishes, [hangs, terry_strike::weight_at()]);
+    pieces.insert(1, (case, at(DVec3::ZERO)));
+    pieces.insert(2, (dial, at(DVec3::ZERO)));
     let bell = terry_strike::bell(&finishes);
     let hung = at(bell.place.position);
     let at_home =
@@ -415,6 +416,6 @@ pub fn glb() -> Vec<u8> {
     for (piece, pose) in &pieces {
         piece.write(&mut scene, *pose);
     }
-    scene.camera("CamFront", DVec3::new(0.12, 0.36, 1.35), DVec3::new(0.0, 0.27, 0.0), 27.0 * PI / 180.0, 16.0 / 9.0);
+    scene.camera("CamFront", DVec3::new(0.14, 0.38, 1.62), DVec3::new(0.01, 0.295, 0.0), 27.0 * PI / 180.0, 16.0 / 9.0);
     scene.into_glb("Eli Terry's clock", "Original work of the Soffio project; MIT OR Apache-2.0")
 }

@@ -307,8 +307,13 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
 
     let weight =
         part("StrikeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead);
-    pieces.push((piece("StrikeWeight", vec![weight]), at(DVec3::new(0.125, 0.36, -10.0 * MM))));
+    pieces.push((piece("StrikeWeight", vec![weight]), at(weight_at())));
     pieces
+}
+
+/// Where the weight of the strike hangs, wound up.
+pub fn weight_at() -> DVec3 {
+    DVec3::new(0.125, 0.36, -10.0 * MM)
 }
 
 /// Direction of an arm that a pin at `angle` of its circle just touches, on the side that the sign says.

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use soffio::articulation::LimitKind;
 use soffio::dynamics::Dynamics;
 use soffio::exhibit::{self, Exhibit};
 use soffio::math::{DVec3, PI, atan2};
-use soffio::simulation::{EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
+use soffio::simulation::{Command, EventKind, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
 
 const DT: f64 = 1.0 / 240.0;
 /// Beats an hour that its train is cut for.
@@ -101,13 +102,12 @@ impl Clock {
             self.time += dt;
         }
     }
+}
 
-    /// Beats an hour over whole swings among the beats from `first` on.
-    fn rate(&self, first: usize) -> f64 {
-        let beats = &self.beats[first..];
-        let whole = (beats.len() - 1) / 2 * 2;
-        3600.0 * whole as f64 / (beats[whole] - beats[0])
-    }
+/// Beats an hour over whole swings.
+fn rate(beats: &[f64]) -> f64 {
+    let whole = (beats.len() - 1) / 2 * 2;
+    3600.0 * whole as f64 / (beats[whole] - beats[0])
 }
 
 /// Where a cubic with these values and slopes at 0 and 1 passes 0.
@@ -132,10 +132,12 @@ fn it_beats_6720_times_an_hour_tooth_by_tooth() {
     const OFF: f64 = 1.0;
     /// Of a swing to the next on the same side.
     const STEADY: f64 = 2e-3;
+    // It is rated where it hangs: what the air takes from its swing is a part of its rate.
+    let (_, beats, _) = in_the_room(150.0);
+    let rate = rate(&beats[SETTLES..]);
+    assert!((rate - RATE).abs() < OFF, "{rate} beats an hour");
     let mut clock = Clock::new();
     clock.run(150.0, DT);
-    let rate = clock.rate(SETTLES);
-    assert!((rate - RATE).abs() < OFF, "{rate} beats an hour");
     for pair in clock.swings[SETTLES..].windows(3) {
         assert!((pair[2] / pair[0] - 1.0).abs() < STEADY, "swings of {pair:?} rad");
     }
@@ -250,6 +252,122 @@ fn struck(blows: &[f64]) -> Vec<(usize, usize, f64)> {
         }
     }
     hours
+}
+
+/// The clock as a visitor meets it, the ring at the leaf: a puff is blown in these steps, and a hand is where it says.
+struct Visited {
+    simulation: Simulation,
+    pendulum: usize,
+    step: u64,
+}
+
+/// Where the leaf on the pendulum is seen.
+const LEAF: [f64; 2] = [0.5, 0.55];
+/// A strong breath at the lips, m/s, and how long a puff lasts, s: about half a swing to and fro.
+const PUFF: f64 = 14.0;
+const PUFFS: f64 = 0.5;
+
+impl Visited {
+    fn new(exhibit: Exhibit) -> Self {
+        let simulation = Simulation::new(Arc::new(exhibit), Settings::default());
+        let pendulum = simulation.exhibit().bodies.iter().position(|body| body.name == "Pendulum").expect("a pendulum");
+        Self { simulation, pendulum, step: 0 }
+    }
+
+    fn angle(&self) -> f64 {
+        let rotation = self.simulation.bodies()[self.pendulum].rotation;
+        2.0 * atan2(rotation.z, rotation.w)
+    }
+
+    /// Goes on for a time under a breath (m/s) and hands; the widest swing, degrees, and how many teeth were let go.
+    fn go_on(&mut self, seconds: f64, breath: f64, hands: &[Hand]) -> (f64, usize) {
+        let commands = [Command::Blow((breath > 0.0).then_some(breath))];
+        let (mut widest, mut teeth): (f64, usize) = (0.0, 0);
+        let input = StepInput { commands: &commands, hands, pointer: Some(LEAF), ..StepInput::default() };
+        for _ in 0..(seconds * STEPS_PER_SECOND as f64) as u64 {
+            self.simulation.step(&input);
+            self.step += 1;
+            widest = widest.max(self.angle().abs());
+            let drops = self.simulation.events().iter().filter(|e| e.kind == EventKind::Impact);
+            teeth += drops.filter(|e| e.bodies.contains(&Some(self.anchor()))).count();
+        }
+        (widest.to_degrees(), teeth)
+    }
+
+    fn anchor(&self) -> usize {
+        self.simulation.exhibit().bodies.iter().position(|body| body.name == "Anchor").expect("an anchor")
+    }
+
+    /// Waits until the pendulum turns back at its right (or left) end.
+    fn wait_for(&mut self, right: bool) {
+        let rate = |clock: &Self| clock.simulation.bodies()[clock.pendulum].angular_velocity.z;
+        loop {
+            let before = rate(self);
+            self.go_on(1.5 / STEPS_PER_SECOND as f64, 0.0, &[]);
+            if before * rate(self) <= 0.0 && (before > 0.0) == right {
+                return;
+            }
+        }
+    }
+}
+
+/// Wider than the escapement needs to let teeth go, and so narrow that it lets none go, degrees.
+const GOES: f64 = 2.6;
+const STANDS: f64 = 1.0;
+
+#[test]
+fn a_puff_widens_its_swing_or_stops_it_and_starts_it_again() {
+    let mut clock = Visited::new(shipped().as_ref().clone());
+    let (own, _) = clock.go_on(20.0, 0.0, &[]);
+    // The leaf takes the pendulum to the left. Blown while it comes from there, it takes the swing away.
+    clock.wait_for(true);
+    clock.go_on(PUFFS, PUFF, &[]);
+    let (with, _) = clock.go_on(2.0, 0.0, &[]);
+    assert!(with > 1.2 * own, "{own} degrees, and {with} after a puff with it");
+    clock.go_on(60.0, 0.0, &[]);
+    clock.wait_for(false);
+    clock.go_on(PUFFS, PUFF, &[]);
+    clock.go_on(60.0, 0.0, &[]);
+    let (still, teeth) = clock.go_on(10.0, 0.0, &[]);
+    assert!(still < STANDS && teeth == 0, "still {still} degrees, {teeth} teeth");
+    clock.go_on(PUFFS, PUFF, &[]);
+    clock.go_on(10.0, 0.0, &[]);
+    let (again, teeth) = clock.go_on(10.0, 0.0, &[]);
+    assert!(again > GOES && teeth >= 18, "again {again} degrees, {teeth} teeth in ten seconds");
+}
+
+#[test]
+fn it_runs_down_when_its_weight_stands_and_whoever_lifts_the_weight_winds_it() {
+    /// The click falls back to its last tooth: one of 32 on the drum, less than that of the weight's way, m.
+    const CLICK: f64 = 2.5e-3;
+    // The same clock, its weight almost down: a millimetre lasts for eight minutes.
+    let mut exhibit = shipped().as_ref().clone();
+    let guide = exhibit.limits.iter_mut().find(|limit| limit.name.starts_with("time-guide")).expect("a guide");
+    let LimitKind::Range { min, .. } = &mut guide.kind else { panic!("{guide:?}") };
+    *min = -1e-4;
+    let mut clock = Visited::new(exhibit);
+    let weight = clock.simulation.exhibit().bodies.iter().position(|body| body.name == "TimeWeight").expect("a weight");
+    let height = |clock: &Visited| clock.simulation.bodies()[weight].position.y;
+    let (_, teeth) = clock.go_on(20.0, 0.0, &[]);
+    assert!(teeth > 30, "{teeth} teeth");
+    clock.go_on(200.0, 0.0, &[]);
+    let (swing, teeth) = clock.go_on(10.0, 0.0, &[]);
+    assert!(swing < STANDS && teeth == 0, "run down: {swing} degrees, {teeth} teeth");
+    // A visitor takes the weight and lifts it by as much as a hand's breadth of the picture.
+    let aspect = 16.0 / 9.0;
+    let low = clock.simulation.view(aspect).project(clock.simulation.bodies()[weight].position, aspect).expect("seen");
+    let (before, grab) = (height(&clock), |y: f64| [Hand { id: 1, at: [low[0], y], body: Some(weight) }]);
+    clock.go_on(0.5, 0.0, &grab(low[1]));
+    clock.go_on(1.0, 0.0, &grab(low[1] - 0.006));
+    let lifted = height(&clock);
+    clock.go_on(1.0, 0.0, &[]);
+    let held = height(&clock);
+    assert!(lifted > before + 2.0e-3, "lifted by {} m", lifted - before);
+    assert!(held > lifted - CLICK && held > before + 5e-4, "fell back from {lifted} to {held} m");
+    clock.go_on(PUFFS, PUFF, &[]);
+    clock.go_on(10.0, 0.0, &[]);
+    let (swing, teeth) = clock.go_on(10.0, 0.0, &[]);
+    assert!(swing > GOES && teeth >= 18, "wound: {swing} degrees, {teeth} teeth in ten seconds");
 }
 
 /// From the flirt's fall to the first blow, s: the lever drops, the train runs up, the hammer is lifted and falls.
