@@ -39,6 +39,9 @@ const SAILS: f64 = 60.0 * MM;
 const SAIL_NAMES: [&str; 6] = ["Sail1", "Sail2", "Sail3", "Sail4", "Sail5", "Sail6"];
 /// Where the weight's middle is at first: it has 30 mm to go.
 const WEIGHT: f64 = 104.0 * MM;
+/// Length of the simple pendulum that beats 6720 times an hour at this clock's swing, m; without a leaf it swings wider than
+/// Terry's.
+const LENGTH: f64 = 290.3010 * MM;
 
 /// Arbors of the winding train: winding wheel, first, second, third, rotor.
 fn winding_places() -> [DVec3; 5] {
@@ -156,7 +159,7 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     pieces.push((piece("EscapeWheel", escape_parts), turned));
     let pivot = arbor + DVec3::Z * SWING;
     pieces.push((clock::anchor(finishes), at(pivot)));
-    pieces.push((clock::pendulum(finishes, false), at(pivot)));
+    pieces.push((clock::pendulum(finishes, LENGTH, false), at(pivot)));
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio::math::sin(0.9), -soffio::math::cos(0.9), 0.0);
     phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
     let motion_parts = vec![

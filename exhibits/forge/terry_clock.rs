@@ -203,8 +203,9 @@ pub fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usiz
     part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
 }
 
-/// The pendulum in its own frame, the pivot at the origin; with a leaf, where a breath is to move it.
-pub fn pendulum(finishes: &Finishes, with_leaf: bool) -> Piece {
+/// The pendulum in its own frame, the pivot at the origin, that swings as a simple one of this length (m); with a leaf, where
+/// a breath is to move it.
+pub fn pendulum(finishes: &Finishes, simple: f64, with_leaf: bool) -> Piece {
     let b = BOB_RADIUS;
     let lens = [(0.0, -5.5), (9.0, -5.2), (15.0, -3.8), (1e3 * b, 0.0), (15.0, 3.8), (9.0, 5.2), (0.0, 5.5)];
     let lens = turned(&lens.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
@@ -227,7 +228,7 @@ pub fn pendulum(finishes: &Finishes, with_leaf: bool) -> Piece {
         mass.inertia_about(DVec3::ZERO).z_axis.z / (mass.mass * -mass.center.y)
     };
     // A longer rod makes the same difference longer a pendulum, nearly.
-    let depth = (0..40).fold(LENGTH, |depth, _| depth + LENGTH - length(&with_bob(depth)));
+    let depth = (0..40).fold(simple, |depth, _| depth + simple - length(&with_bob(depth)));
     let mut piece = with_bob(depth);
     piece.marks.push(("RodSlot", DVec3::new(0.0, -45.0 * MM, 0.0)));
     piece
@@ -344,7 +345,7 @@ pub fn glb() -> Vec<u8> {
 
     let pivot = arbor + DVec3::Z * SWING;
     pieces.push((anchor(&finishes), at(pivot)));
-    pieces.push((pendulum(&finishes, true), at(pivot)));
+    pieces.push((pendulum(&finishes, LENGTH, true), at(pivot)));
 
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-sin(0.9), -cos(0.9), 0.0);
     phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
