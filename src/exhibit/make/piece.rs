@@ -2,8 +2,8 @@
 //!
 //! Invariant: the mass a piece balances with comes from the very meshes and wires that are written to the file.
 
-use soffio::bodies::MassProperties;
-use soffio::math::{DMat3, DQuat, DVec3, Pose, rotation};
+use crate::bodies::MassProperties;
+use crate::math::{DMat3, DQuat, DVec3, Pose, rotation};
 
 use super::glb::Scene;
 use super::solid::{Solid, wire_mass};
