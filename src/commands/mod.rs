@@ -20,6 +20,7 @@ pub mod explain;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
 pub mod loudness;
+pub mod new;
 pub mod play;
 #[cfg(feature = "kiosk")]
 pub mod render;
@@ -96,6 +97,7 @@ enum Command {
     Render(render::Args),
     Check(check::Args),
     Explain(explain::Args),
+    New(new::Args),
     Schema(schema::Args),
     Devices(devices::Args),
     Doctor(doctor::Args),
@@ -120,6 +122,7 @@ pub fn run() -> ExitCode {
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),
+        Some(Command::New(args)) => new::run(args),
         Some(Command::Schema(args)) => schema::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Doctor(args)) => doctor::run(args),

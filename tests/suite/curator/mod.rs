@@ -1,0 +1,3 @@
+//! What a curator does: begins an exhibit, takes one over from a model, translates its labels, makes mistakes.
+
+mod new;
