@@ -17,6 +17,7 @@ pub mod check;
 pub mod devices;
 pub mod doctor;
 pub mod explain;
+pub mod import;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
 pub mod loudness;
@@ -98,6 +99,7 @@ enum Command {
     Check(check::Args),
     Explain(explain::Args),
     New(new::Args),
+    Import(import::Args),
     Schema(schema::Args),
     Devices(devices::Args),
     Doctor(doctor::Args),
@@ -123,6 +125,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),
         Some(Command::New(args)) => new::run(args),
+        Some(Command::Import(args)) => import::run(args),
         Some(Command::Schema(args)) => schema::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Doctor(args)) => doctor::run(args),
