@@ -20,6 +20,7 @@ pub mod explain;
 pub mod import;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
+pub mod labels;
 pub mod loudness;
 pub mod new;
 pub mod play;
@@ -100,6 +101,7 @@ enum Command {
     Explain(explain::Args),
     New(new::Args),
     Import(import::Args),
+    Labels(labels::Args),
     Schema(schema::Args),
     Devices(devices::Args),
     Doctor(doctor::Args),
@@ -125,6 +127,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),
         Some(Command::New(args)) => new::run(args),
+        Some(Command::Labels(args)) => labels::run(args),
         Some(Command::Import(args)) => import::run(args),
         Some(Command::Schema(args)) => schema::run(args),
         Some(Command::Devices(args)) => devices::run(args),

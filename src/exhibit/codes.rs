@@ -75,6 +75,7 @@ codes! {
     CYCLE = "E0305", "the node tree of the model is not a tree";
     CONFIG = "E0501", "the site's configuration does not hold";
     NEW = "E0601", "a new exhibit cannot be made of what is given";
+    TABLE = "E0602", "a table of label texts cannot be taken over";
     NO_CAPTION = "W0401", "a sound has no caption";
     MISSING_WORDS = "W0402", "a label is missing in a language";
     NO_ALT = "W0403", "a label has no description for those who cannot see";

@@ -19,6 +19,7 @@ use crate::wind::{Shelter, Surface};
 pub mod codes;
 pub mod diagnostic;
 mod fit;
+pub mod labels;
 pub mod make;
 mod materials;
 pub mod model;
