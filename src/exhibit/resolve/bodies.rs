@@ -177,7 +177,8 @@ impl Context<'_> {
     /// A number that must not be below zero.
     pub(super) fn not_negative(&mut self, value: f64, at: &str) -> f64 {
         if value < 0.0 {
-            self.report(at, Diagnostic::new(codes::RANGE, format!("{value} is below zero")));
+            let problem = Diagnostic::new(codes::RANGE, format!("{value} is below zero"));
+            self.report(at, problem.help("write 0 or a number above it"));
         }
         value.max(0.0)
     }
@@ -187,7 +188,8 @@ impl Context<'_> {
         if value > 0.0 {
             return value;
         }
-        self.report(at, Diagnostic::new(codes::RANGE, format!("{value} is not above zero")));
+        let problem = Diagnostic::new(codes::RANGE, format!("{value} is not above zero"));
+        self.report(at, problem.help("write a number above zero"));
         f64::MIN_POSITIVE
     }
 

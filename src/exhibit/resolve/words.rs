@@ -130,7 +130,8 @@ impl Context<'_> {
         let duration = sidecar.attract.duration.map_or(if steps.is_empty() { 0.0 } else { last + PAUSE }, |d| d.0);
         if duration < last {
             let message = format!("the round ends after {duration} s, and its last step is at {last} s");
-            self.report("/attract/duration", Diagnostic::new(codes::ATTRACT_ORDER, message));
+            let problem = Diagnostic::new(codes::ATTRACT_ORDER, message);
+            self.report("/attract/duration", problem.help("make it longer, or leave it out"));
         }
         Attract { steps, duration }
     }

@@ -2,4 +2,5 @@
 
 mod import;
 mod labels;
+mod mistakes;
 mod new;
