@@ -1,12 +1,11 @@
 //! `soffio import`: an exhibit folder from any glTF model.
 
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
-use super::new::{place, settle};
+use super::new::{place, tell, write};
 use super::{Failure, Outcome};
 use crate::exhibit::make::imported;
+use crate::exhibit::{self, SIDECAR};
 
 /// Makes an exhibit folder from a glTF model (.glb, .gltf with its files): a sidecar proposes bodies, masses, joints.
 #[derive(clap::Args, Debug)]
@@ -15,7 +14,8 @@ Example: soffio import bird.glb
          soffio import scans/bird.gltf --id paper-bird
 
 Physics that the model carries (KHR_physics_rigid_bodies, KHR_implicit_shapes) is taken over: motions, shapes, materials,
-joints. What cannot be taken over is told, node by node. The folder is made in `exhibits/` if there is one here, else here.")]
+joints. What cannot be taken over is told, node by node; what then does not hold is told with its line, and the folder is
+there all the same, to be mended. The folder is made in `exhibits/` if there is one here, else here.")]
 pub struct Args {
     /// The model.
     model: PathBuf,
@@ -29,7 +29,15 @@ pub fn run(args: Args) -> Outcome {
     let id = args.id.unwrap_or_else(|| id_of(&args.model));
     let (folder, id) = place(&id)?;
     let made = imported::folder(&args.model, &id).map_err(Failure::input)?;
-    settle(&made, &folder, &id, &Arc::new(AtomicBool::new(false)))
+    write(&made, &folder)?.finish().map_err(Failure::input)?;
+    let exhibit = exhibit::load(&folder).map_err(|report| {
+        let shown = folder.display();
+        Failure::input(format!(
+            "{report}the folder {shown} is there; mend its {SIDECAR} or the model, then: soffio check {shown}"
+        ))
+    })?;
+    tell(&made, &folder, &id, &exhibit);
+    Ok(())
 }
 
 /// `My Bird_2.glb` as an id: `my-bird-2`.

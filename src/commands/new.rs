@@ -11,7 +11,7 @@ use crate::exhibit::make::given::{Metal, Outline, sized};
 use crate::exhibit::make::notes::{chime, note};
 use crate::exhibit::make::template::Template;
 use crate::exhibit::make::{Made, id_problem, starter};
-use crate::exhibit::{self, Diagnostic, Report};
+use crate::exhibit::{self, Diagnostic, Exhibit, Report};
 use crate::offline::whole_folder::WholeFolder;
 
 /// Plates that are proposed at a terminal.
@@ -91,7 +91,6 @@ impl From<Material> for Metal {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    let stop = Arc::new(AtomicBool::new(false));
     let (folder, id) = place(&args.id)?;
     let given_plates = !args.plates.is_empty() || args.outlines.is_some();
     for (given, kind, option) in
@@ -111,15 +110,15 @@ pub fn run(args: Args) -> Outcome {
             let names = if args.notes.is_empty() { NOTES.split(',').map(str::to_owned).collect() } else { args.notes };
             all(names.iter().map(|name| note(name))).and_then(|notes| chime(&id, &notes).map_err(Report::of))
         }
-        Kind::Clock => return copy(Template::Clock, &folder, &id, &stop),
-        Kind::Pendulum => return copy(Template::Pendulum, &folder, &id, &stop),
+        Kind::Clock => return copy(Template::Clock, &folder, &id),
+        Kind::Pendulum => return copy(Template::Pendulum, &folder, &id),
         Kind::Empty => Ok(starter::empty(&id)),
     };
-    settle(&made.map_err(Failure::input)?, &folder, &id, &stop)
+    settle(&made.map_err(Failure::input)?, &folder, &id)
 }
 
-fn copy(template: Template, folder: &Path, id: &str, stop: &Arc<AtomicBool>) -> Outcome {
-    settle(&template.copy(id).map_err(Failure::input)?, folder, id, stop)
+fn copy(template: Template, folder: &Path, id: &str) -> Outcome {
+    settle(&template.copy(id).map_err(Failure::input)?, folder, id)
 }
 
 /// All results, or all problems.
@@ -156,25 +155,37 @@ pub(super) fn place(id: &str) -> Result<(PathBuf, String), Failure> {
 }
 
 /// Writes what is made, loads it as the kiosk would, and only then gives it its name.
-pub(super) fn settle(made: &Made, folder: &Path, id: &str, stop: &Arc<AtomicBool>) -> Outcome {
-    super::stop_on_ctrl_c(stop);
+fn settle(made: &Made, folder: &Path, id: &str) -> Outcome {
+    let whole = write(made, folder)?;
+    let exhibit = exhibit::load(whole.aside()).map_err(Failure::input)?;
+    whole.finish().map_err(Failure::input)?;
+    tell(made, folder, id, &exhibit);
+    Ok(())
+}
+
+/// All files of a folder on its way; Ctrl-C leaves nothing of it.
+pub(super) fn write(made: &Made, folder: &Path) -> Result<WholeFolder, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    super::stop_on_ctrl_c(&stop);
     let whole = WholeFolder::create(folder).map_err(Failure::input)?;
     for (name, bytes) in &made.files {
         whole.write(name, bytes).map_err(Failure::input)?;
+        if stop.load(Ordering::Relaxed) {
+            return Err(Failure { code: 130, message: "interrupted; nothing is left".into() });
+        }
     }
-    let exhibit = exhibit::load(whole.aside()).map_err(Failure::input)?;
-    let warnings = exhibit.warnings.len();
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure { code: 130, message: "interrupted; nothing is left".into() });
-    }
-    whole.finish().map_err(Failure::input)?;
+    Ok(whole)
+}
+
+/// Says what there is now, and what to do next.
+pub(super) fn tell(made: &Made, folder: &Path, id: &str, exhibit: &Exhibit) {
     for remark in &made.remarks {
         eprintln!("{remark}");
     }
     let shown = folder.display();
-    let counted = match warnings {
+    let counted = match exhibit.warnings.len() {
         0 => String::new(),
-        n => format!(", {n} warnings: `soffio check {shown}`"),
+        n => format!(", {n} warnings"),
     };
     println!("{shown}");
     eprintln!("{} bodies, {} joints{counted}", exhibit.bodies.len(), exhibit.constraints.len());
@@ -184,7 +195,6 @@ pub(super) fn settle(made: &Made, folder: &Path, id: &str, stop: &Arc<AtomicBool
          soffio kiosk --windowed --exhibit {id}",
         exhibit::SIDECAR
     );
-    Ok(())
 }
 
 /// The plates: given, drawn, or asked for.

@@ -109,7 +109,7 @@ pub fn yaw(angle: f64) -> DQuat {
     rotation(angle * DVec3::Y)
 }
 
-/// A name made from parts: the forge runs once, and what it names lasts as long.
+/// A name made from parts. It lasts as long as the program: a model has some hundreds of them, and a program makes few.
 pub fn named(text: String) -> &'static str {
     text.leak()
 }

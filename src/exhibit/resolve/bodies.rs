@@ -92,7 +92,8 @@ impl Context<'_> {
         }
         if declared.len() > MAX_BODIES {
             let message = format!("{} moving bodies; the limit is {MAX_BODIES}", declared.len());
-            self.report("/body", Diagnostic::new(codes::MODEL_LIMIT, message));
+            let problem = Diagnostic::new(codes::MODEL_LIMIT, message);
+            self.report("/body", problem.help("make one body of what does not move against each other"));
         }
         for node in 0..self.model.nodes.len() {
             let ancestors = std::iter::successors(Some(node), |&n| self.model.nodes[n].parent);
@@ -294,7 +295,8 @@ impl Context<'_> {
             };
             if self.owner[node] != Some(body) || node == root {
                 let message = format!("node \"{}\" is not below the body \"{}\"", part.node, given.node);
-                self.report(&format!("{place}/node"), Diagnostic::new(codes::NOT_DESCENDANT, message));
+                let problem = Diagnostic::new(codes::NOT_DESCENDANT, message);
+                self.report(&format!("{place}/node"), problem.help("hang it below the body in the model"));
                 continue;
             }
             let material = self.material(&part.material, &format!("{place}/material"));

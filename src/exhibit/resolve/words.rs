@@ -34,7 +34,8 @@ impl Context<'_> {
             for (key, value) in [("title", &words.title), ("alt", &words.alt)] {
                 if value.is_empty() {
                     let code_of = if key == "alt" { codes::NO_ALT } else { codes::MISSING_WORDS };
-                    self.report(&at, Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}")));
+                    let problem = Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}"));
+                    self.report(&at, problem.help(format!("write {key} = \"…\" there")));
                 }
             }
             languages.push((code.clone(), self.label(words, &at)));
@@ -84,7 +85,9 @@ impl Context<'_> {
                     let message = format!("{kind} \"{key}\" is missing in \"{code}\"");
                     let problem = Diagnostic::new(codes::MISSING_WORDS, message);
                     let label = format!("\"{default_code}\" has it and is shown instead");
-                    self.report(&join("/label", code), problem.label(label));
+                    let help =
+                        format!("write {kind} = {{ {key} = \"…\" }} there; `soffio labels` makes a table of all texts");
+                    self.report(&join("/label", code), problem.label(label).help(help));
                 }
             }
         }

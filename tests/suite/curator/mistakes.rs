@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use serde_json::json;
 use soffio::config::Config;
 use soffio::exhibit;
 use soffio::noise::Random;
@@ -97,7 +98,15 @@ fn a_model_is_imported_under_the_name_of_its_file() {
     assert!(check.err.contains("my-cup-2: good\n"), "{}", check.err);
     desk.soffio(&["import", "My Cup_2.glb"]).refused(1, &["my-cup-2", "is there already"]);
     desk.soffio(&["import", "My Cup_2.glb", "--id", "cup"]).done();
-    assert_eq!(desk.files(), ["My Cup_2.glb", "cup", "my-cup-2"]);
+    // Physics that no body has: the folder is there to be mended, and the message says where.
+    let body = scene.node("Odd", [1.0, 1.0, 0.0], None, &[]);
+    let motion = json!({ "motion": { "mass": 1.0, "inertiaDiagonal": [1.0, 1.0, 10.0] } });
+    scene.set(body, "extensions", json!({ "KHR_physics_rigid_bodies": motion }));
+    desk.write("odd.glb", scene.glb());
+    let odd = desk.soffio(&["import", "odd.glb"]);
+    odd.refused(1, &["E0223", "odd/exhibit.toml:", "is there; mend", "soffio check odd"]);
+    assert_eq!(desk.soffio(&["check", "odd"]).code, Some(1));
+    assert_eq!(desk.files(), ["My Cup_2.glb", "cup", "my-cup-2", "odd", "odd.glb"]);
 }
 
 /// What stands in a new sidecar, what a curator makes of it, and the words that say what is wrong and what to do. The line is
