@@ -2,10 +2,10 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI};
 
-use super::glb::Scene;
-use super::piece::Piece;
-use super::solid::turned;
-use super::stock::{BRASS, MM, ROUND, WOOD, facing, finishes, part, ring, rod, vane, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{BRASS, MM, ROUND, WOOD, facing, finishes, part, ring, rod, vane, write};
 
 /// Height of the wheel's middle above the floor.
 const MIDDLE: f64 = 300.0 * MM;

@@ -2,11 +2,11 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
-use super::glb::{Finish, Scene};
-use super::outline::Polygon;
-use super::piece::Piece;
-use super::solid::{Solid, sheet, turned};
-use super::stock::{MM, WOOD, finishes, part, rod};
+use soffio::exhibit::make::glb::{Finish, Scene};
+use soffio::exhibit::make::outline::Polygon;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::{Solid, sheet, turned};
+use soffio::exhibit::make::stock::{MM, WOOD, finishes, part, rod};
 
 /// Radius of a ball; the sidecar says the same, and what a shell of celluloid of that size weighs.
 const RADIUS: f64 = 20.0 * MM;

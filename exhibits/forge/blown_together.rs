@@ -2,10 +2,10 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use super::glb::Scene;
-use super::piece::Piece;
-use super::solid::turned;
-use super::stock::{MM, ROUND, STEEL, WOOD, finishes, gallows, part, rod, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{MM, ROUND, STEEL, WOOD, finishes, gallows, part, rod, write};
 
 /// Height of the hook, and of the tray's floor.
 const HOOK: f64 = 400.0 * MM;

@@ -2,12 +2,12 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use super::glb::Scene;
-use super::hung::disc;
-use super::mobile::EYE_STEPS;
-use super::outline::ring;
-use super::piece::{Bend, Piece};
-use super::stock::{ALUMINIUM, MM, STEEL, finishes, gallows, part, rod, slab, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::hung::disc;
+use soffio::exhibit::make::mobile::EYE_STEPS;
+use soffio::exhibit::make::outline::ring;
+use soffio::exhibit::make::piece::{Bend, Piece};
+use soffio::exhibit::make::stock::{ALUMINIUM, MM, STEEL, finishes, gallows, part, rod, slab, write};
 
 /// From eye to eye of a link.
 const PITCH: f64 = 44.0 * MM;

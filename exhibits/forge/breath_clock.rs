@@ -15,16 +15,16 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
-use super::glb::Scene;
-use super::outline::{Polygon, ellipse};
-use super::piece::Piece;
-use super::stock::{
-    BRASS, Finishes, LEAD, MM, STEEL, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane,
-};
 use super::terry_clock as clock;
 use super::terry_clock::{
     BACK, CANNON, CENTER, DRUM, ESCAPING, FRONT, GREAT, HOUR, MIDDLE, MINUTE, MODULE, MOTION, SWING, THIRD, TIP, TOOTH,
     WHEEL, along_z, flat, piece, toward, wheel,
+};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::outline::{Polygon, ellipse};
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::stock::{
+    BRASS, Finishes, LEAD, MM, STEEL, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane,
 };
 
 /// Teeth of the winding train, each pair from the slower wheel to the faster pinion.

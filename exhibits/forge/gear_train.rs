@@ -2,10 +2,12 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use super::glb::Scene;
-use super::outline::ellipse;
-use super::piece::Piece;
-use super::stock::{BRASS, LEAD, MM, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::outline::ellipse;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::stock::{
+    BRASS, LEAD, MM, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane, write,
+};
 
 /// Pitch diameter over number of teeth.
 pub const MODULE: f64 = 2.0 * MM;

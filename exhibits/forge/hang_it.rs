@@ -12,12 +12,12 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
-use super::glb::Scene;
-use super::hung::hung_plate;
-use super::outline::{Polygon, ellipse, open_spline, ring as circle};
-use super::piece::{Bend, Piece, load, yaw};
-use super::solid::{sheet, turned};
-use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::hung::hung_plate;
+use soffio::exhibit::make::outline::{Polygon, ellipse, open_spline, ring as circle};
+use soffio::exhibit::make::piece::{Bend, Piece, load, yaw};
+use soffio::exhibit::make::solid::{sheet, turned};
+use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
 
 /// Where the bar of the loop is, and how far the swivel is above it.
 const BAR: DVec3 = DVec3::new(0.0, 0.52, 0.0);

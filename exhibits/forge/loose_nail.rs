@@ -2,10 +2,10 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use super::glb::Scene;
-use super::piece::Piece;
-use super::solid::turned;
-use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// Height of the rail, and half its length.
 const RAIL: f64 = 400.0 * MM;

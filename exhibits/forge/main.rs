@@ -48,7 +48,7 @@ fn main() -> ExitCode {
 }
 
 /// What a curator or a reader wants to know of the balanced work.
-fn report(work: &forge::mobile::Mobile) {
+fn report(work: &soffio::exhibit::make::mobile::Mobile) {
     for (piece, _) in &work.pieces {
         println!("{:<12} {:7.3} g", piece.name, 1e3 * piece.mass().mass);
     }

@@ -14,10 +14,12 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use super::glb::Scene;
-use super::piece::{Bend, Part, Piece};
-use super::solid::turned;
-use super::stock::{Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, rod, slab, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::{Bend, Part, Piece};
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{
+    Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, rod, slab, write,
+};
 
 const HOOK: DVec3 = DVec3::new(0.0, 452.0 * MM, 0.0);
 /// The bar's line under its hook, and where the hand rods hang on it.

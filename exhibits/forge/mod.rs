@@ -2,6 +2,9 @@
 //!
 //! `exhibits/` never holds geometry that nobody can remake: each `.glb` and each recorded breath there comes from
 //! this code, byte for byte. Invariant: no clock, no randomness without a stated seed, software transcendentals.
+//! What it shares with `soffio new` (sheet, wire, balance, glTF) is `soffio::exhibit::make`.
+
+use soffio::exhibit::make::chimes;
 
 pub mod axis_wheel;
 pub mod billiards;
@@ -11,32 +14,23 @@ pub mod breath_clock;
 pub mod breaths;
 pub mod chains;
 pub mod gear_train;
-pub mod glb;
 pub mod hang_it;
-pub mod hung;
 pub mod lobster_tree;
 pub mod loose_nail;
 pub mod marionette;
-pub mod mobile;
 pub mod moving_path;
 pub mod noise_mobile;
-pub mod outline;
 pub mod pendulum;
-pub mod piece;
 pub mod plates;
 pub mod scratch_board;
 pub mod snow;
-pub mod solid;
 pub mod steel_fish;
-pub mod stock;
 pub mod strikers;
 pub mod terry_case;
 pub mod terry_clock;
 pub mod terry_strike;
-pub mod tree;
 pub mod twelve_moons;
 pub mod universal_joint;
-pub mod wind_chimes;
 pub mod windmill;
 pub mod windy_corner;
 
@@ -70,9 +64,9 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "terry-clock/terry-clock.glb", bytes: terry_clock::glb() },
         Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },
         Artifact { path: "twelve-moons/twelve-moons.glb", bytes: twelve_moons::glb().1 },
-        Artifact { path: "wind-chimes/wind-chimes.glb", bytes: wind_chimes::glb(&wind_chimes::ALUMINIUM) },
-        Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: wind_chimes::glb(&wind_chimes::BAMBOO) },
-        Artifact { path: "wind-chimes-glass/wind-chimes-glass.glb", bytes: wind_chimes::glb(&wind_chimes::GLASS) },
+        Artifact { path: "wind-chimes/wind-chimes.glb", bytes: chimes::glb(&chimes::ALUMINIUM) },
+        Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: chimes::glb(&chimes::BAMBOO) },
+        Artifact { path: "wind-chimes-glass/wind-chimes-glass.glb", bytes: chimes::glb(&chimes::GLASS) },
         Artifact { path: "blown-together/blown-together.glb", bytes: blown_together::glb() },
         Artifact { path: "hang-it/hang-it.glb", bytes: hang_it::glb() },
         Artifact { path: "loose-nail/loose-nail.glb", bytes: loose_nail::glb() },

@@ -2,11 +2,11 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, sin};
 
-use super::glb::Scene;
-use super::outline::{Knot, closed_spline, reversed};
-use super::piece::{Bend, Piece};
-use super::solid::sheet;
-use super::stock::{MM, STEEL, WOOD, finishes, gallows, part, rod, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::outline::{Knot, closed_spline, reversed};
+use soffio::exhibit::make::piece::{Bend, Piece};
+use soffio::exhibit::make::solid::sheet;
+use soffio::exhibit::make::stock::{MM, STEEL, WOOD, finishes, gallows, part, rod, write};
 
 /// Half width and half depth of the eight, and its height. The sidecar says when the nail is where.
 const EIGHT: DVec2 = DVec2::new(150.0 * MM, 60.0 * MM);

@@ -5,10 +5,10 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI};
 
-use super::glb::Scene;
-use super::piece::Piece;
-use super::solid::turned;
-use super::stock::{BRASS, Finishes, MM, ROUND, STEEL, facing, finishes, gallows, part, rod, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{BRASS, Finishes, MM, ROUND, STEEL, facing, finishes, gallows, part, rod, write};
 
 /// To and fro, s: 6720 beats an hour.
 const PERIOD: f64 = 2.0 * 3600.0 / 6720.0;

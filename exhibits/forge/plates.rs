@@ -2,10 +2,10 @@
 
 use soffio::math::{DVec2, DVec3, PI, Pose};
 
-use super::glb::Scene;
-use super::hung::disc;
-use super::mobile::{Mobile, Wires, cascade};
-use super::stock::{MM, STEEL, finishes, gallows};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::hung::disc;
+use soffio::exhibit::make::mobile::{Mobile, Wires, cascade};
+use soffio::exhibit::make::stock::{MM, STEEL, finishes, gallows};
 
 /// Where the mobile hangs.
 const HOOK: f64 = 330.0 * MM;

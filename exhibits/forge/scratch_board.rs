@@ -2,11 +2,11 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use super::glb::Scene;
-use super::outline::{Knot, closed_spline};
-use super::piece::Piece;
-use super::solid::{sheet, turned};
-use super::stock::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::outline::{Knot, closed_spline};
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::{sheet, turned};
+use soffio::exhibit::make::stock::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// Board: length, width, thickness, and the height of its upper face.
 const SIZE: [f64; 3] = [360.0 * MM, 240.0 * MM, 12.0 * MM];

@@ -6,13 +6,13 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, exp, ln, rotation};
 
-use super::glb::{Finish, Scene};
-use super::mobile::Mobile;
-use super::outline::ellipse;
-use super::piece::{Part, named};
-use super::solid::sheet;
-use super::stock::{ALUMINIUM, MM, ceiling};
-use super::tree::{Bough, Hanging, hang};
+use soffio::exhibit::make::glb::{Finish, Scene};
+use soffio::exhibit::make::mobile::Mobile;
+use soffio::exhibit::make::outline::ellipse;
+use soffio::exhibit::make::piece::{Part, named};
+use soffio::exhibit::make::solid::sheet;
+use soffio::exhibit::make::stock::{ALUMINIUM, MM, ceiling};
+use soffio::exhibit::make::tree::{Bough, Hanging, hang};
 
 /// Boughs of a chain; it has one disc more.
 const CHAIN: usize = 12;

@@ -17,12 +17,14 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
 
-use super::glb::{Finish, Scene};
-use super::hung::{self, HOLE_RADIUS, hung_plate, to_mass};
-use super::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
-use super::outline::{Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring};
-use super::piece::{Bend, Part, Piece, load, yaw};
-use super::solid::{Solid, turned};
+use soffio::exhibit::make::glb::{Finish, Scene};
+use soffio::exhibit::make::hung::{self, HOLE_RADIUS, hung_plate, to_mass};
+use soffio::exhibit::make::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
+use soffio::exhibit::make::outline::{
+    Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring,
+};
+use soffio::exhibit::make::piece::{Bend, Part, Piece, load, yaw};
+use soffio::exhibit::make::solid::{Solid, turned};
 
 /// m.
 const MM: f64 = 1e-3;

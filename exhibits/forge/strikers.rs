@@ -4,10 +4,10 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use super::glb::Scene;
-use super::piece::{Part, Piece};
-use super::solid::turned;
-use super::stock::{BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, write};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::{Part, Piece};
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, write};
 
 /// Height of the rail.
 const RAIL: f64 = 400.0 * MM;
@@ -22,7 +22,7 @@ const PITCH: f64 = 135.0 * MM;
 const FACE: f64 = -(RADIUS + GAP);
 
 /// A ball of beech about the origin.
-fn ball(radius: f64) -> super::solid::Solid {
+fn ball(radius: f64) -> soffio::exhibit::make::solid::Solid {
     let arc = (0..=12).map(|k| {
         let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { radius * s }, -radius * c)

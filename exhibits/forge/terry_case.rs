@@ -3,12 +3,12 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use super::glb::{Finish, Glass, Scene};
-use super::outline::{Polygon, ellipse, reversed};
-use super::piece::{Part, Piece};
-use super::solid::{Solid, sheet, turned};
-use super::stock::{BRASS, Finishes, MM, ROUND, WOOD, facing, part, ring, rod, slab};
 use super::terry_clock::{CENTER, piece};
+use soffio::exhibit::make::glb::{Finish, Glass, Scene};
+use soffio::exhibit::make::outline::{Polygon, ellipse, reversed};
+use soffio::exhibit::make::piece::{Part, Piece};
+use soffio::exhibit::make::solid::{Solid, sheet, turned};
+use soffio::exhibit::make::stock::{BRASS, Finishes, MM, ROUND, WOOD, facing, part, ring, rod, slab};
 
 /// The inside: left, right, bottom, top, back and front, m.
 const INSIDE: ([f64; 2], [f64; 2], [f64; 2]) = ([-0.200, 0.220], [0.034, 0.492], [-0.098, 0.050]);

@@ -27,14 +27,14 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
-use super::glb::Scene;
-use super::outline::{Polygon, ellipse};
-use super::piece::{Part, Piece};
-use super::solid::{Solid, sheet, turned};
-use super::stock::{
+use super::{terry_case, terry_strike};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::outline::{Polygon, ellipse};
+use soffio::exhibit::make::piece::{Part, Piece};
+use soffio::exhibit::make::solid::{Solid, sheet, turned};
+use soffio::exhibit::make::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
 };
-use super::{terry_case, terry_strike};
 
 /// Pitch diameter over number of teeth.
 pub const MODULE: f64 = 1.0 * MM;

@@ -16,11 +16,13 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
-use super::outline::{Polygon, ellipse};
-use super::piece::{Part, Piece};
-use super::solid::{Solid, sheet, turned};
-use super::stock::{BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, meshing_phase, part, rod, slab, spur};
 use super::terry_clock::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
+use soffio::exhibit::make::outline::{Polygon, ellipse};
+use soffio::exhibit::make::piece::{Part, Piece};
+use soffio::exhibit::make::solid::{Solid, sheet, turned};
+use soffio::exhibit::make::stock::{
+    BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, meshing_phase, part, rod, slab, spur,
+};
 
 /// Teeth of the wheels and of the pinions that they drive.
 pub const GREAT: (usize, usize) = (52, 8);

@@ -6,13 +6,13 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
-use super::glb::{Finish, Scene};
-use super::hung::cut_plate;
-use super::mobile::Mobile;
-use super::outline::{Polygon, ellipse};
-use super::piece::{Piece, named};
-use super::stock::{ALUMINIUM, MM, ceiling};
-use super::tree::{Bough, Hanging, hang};
+use soffio::exhibit::make::glb::{Finish, Scene};
+use soffio::exhibit::make::hung::cut_plate;
+use soffio::exhibit::make::mobile::Mobile;
+use soffio::exhibit::make::outline::{Polygon, ellipse};
+use soffio::exhibit::make::piece::{Piece, named};
+use soffio::exhibit::make::stock::{ALUMINIUM, MM, ceiling};
+use soffio::exhibit::make::tree::{Bough, Hanging, hang};
 
 /// Sheet of all moons.
 const SHEET: f64 = 1.0 * MM;

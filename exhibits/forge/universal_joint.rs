@@ -2,10 +2,10 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
-use super::glb::Scene;
-use super::piece::Piece;
-use super::solid::turned;
-use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, ring, rod, slab, vane};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::turned;
+use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, ring, rod, slab, vane};
 
 /// Height of both shafts, and the angle between them, rad.
 const SHAFT: f64 = 200.0 * MM;

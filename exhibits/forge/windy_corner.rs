@@ -2,13 +2,13 @@
 
 use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
 
-use super::glb::Scene;
-use super::hung::{HOLE_RADIUS, hung_plate};
-use super::mobile::{Mobile, Wires, cascade};
-use super::outline::{Polygon, ellipse};
-use super::piece::Piece;
-use super::solid::{sheet, turned};
-use super::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
+use soffio::exhibit::make::glb::Scene;
+use soffio::exhibit::make::hung::{HOLE_RADIUS, hung_plate};
+use soffio::exhibit::make::mobile::{Mobile, Wires, cascade};
+use soffio::exhibit::make::outline::{Polygon, ellipse};
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::{sheet, turned};
+use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
 
 /// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
 const CARD: f64 = 750.0;

@@ -50,6 +50,7 @@ fn expand(path: &str) -> Vec<String> {
     let children = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut inside: Vec<String> = children
         .filter(|child| child.join(exhibit::SIDECAR).exists())
+        .filter(|child| child.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')))
         .map(|child| child.to_string_lossy().into_owned())
         .collect();
     inside.sort();

@@ -17,9 +17,12 @@ pub mod check;
 pub mod devices;
 pub mod doctor;
 pub mod explain;
+pub mod import;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
+pub mod labels;
 pub mod loudness;
+pub mod new;
 pub mod play;
 #[cfg(feature = "kiosk")]
 pub mod render;
@@ -96,6 +99,9 @@ enum Command {
     Render(render::Args),
     Check(check::Args),
     Explain(explain::Args),
+    New(new::Args),
+    Import(import::Args),
+    Labels(labels::Args),
     Schema(schema::Args),
     Devices(devices::Args),
     Doctor(doctor::Args),
@@ -120,6 +126,9 @@ pub fn run() -> ExitCode {
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),
+        Some(Command::New(args)) => new::run(args),
+        Some(Command::Labels(args)) => labels::run(args),
+        Some(Command::Import(args)) => import::run(args),
         Some(Command::Schema(args)) => schema::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Doctor(args)) => doctor::run(args),

@@ -1,8 +1,8 @@
 //! Codes of all diagnostics. A code keeps its meaning for ever; a retired one is not given again.
 //!
 //! E0232 (a closed loop) and E0233 (the same freedom held twice) are retired: loops are solved, and W0407 warns.
-//! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, E05xx the site's configuration, W0xxx
-//! warnings.
+//! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, E05xx the site's configuration, E06xx
+//! what the curator's tools are given, W0xxx warnings.
 
 /// A diagnostic's stable code and its meaning in one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +74,8 @@ codes! {
     IMAGE = "E0304", "an image of the model cannot be decoded";
     CYCLE = "E0305", "the node tree of the model is not a tree";
     CONFIG = "E0501", "the site's configuration does not hold";
+    NEW = "E0601", "a new exhibit cannot be made of what is given";
+    TABLE = "E0602", "a table of label texts cannot be taken over";
     NO_CAPTION = "W0401", "a sound has no caption";
     MISSING_WORDS = "W0402", "a label is missing in a language";
     NO_ALT = "W0403", "a label has no description for those who cannot see";

@@ -19,6 +19,8 @@ use crate::wind::{Shelter, Surface};
 pub mod codes;
 pub mod diagnostic;
 mod fit;
+pub mod labels;
+pub mod make;
 mod materials;
 pub mod model;
 mod pairs;

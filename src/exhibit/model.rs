@@ -10,7 +10,7 @@ mod look;
 mod primitive;
 
 pub use animation::{Animation, Channel, Curve, Track};
-pub use import::{Imported, import, load};
+pub use import::{Imported, MAX_FILE_BYTES, import, load};
 
 /// A glTF model.
 #[derive(Clone, Debug, Default)]

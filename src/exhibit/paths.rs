@@ -89,6 +89,7 @@ pub fn ids() -> Vec<String> {
         .flat_map(|entries| entries.flatten())
         .filter(|entry| entry.path().join(super::SIDECAR).is_file())
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|id| !id.starts_with('.'))
         .collect();
     ids.sort();
     ids.dedup();

@@ -90,7 +90,8 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
 /// one with the fewest problems.
 fn meant<'a>(context: &'a [Vec<ValidationError<'static>>], here: usize) -> Option<&'a [ValidationError<'static>]> {
     let other = |error: &ValidationError| match error.kind() {
-        ValidationErrorKind::Constant { .. } => depth(error) > here,
+        // Of a choice of words none is meant more than the others: all of them are named.
+        ValidationErrorKind::Constant { .. } => true,
         ValidationErrorKind::Required { .. } | ValidationErrorKind::AdditionalProperties { .. } => false,
         _ => depth(error) == here,
     };
@@ -99,19 +100,23 @@ fn meant<'a>(context: &'a [Vec<ValidationError<'static>>], here: usize) -> Optio
         _ => 1,
     };
     let mut all = Vec::new();
-    branches(context, &mut all);
+    branches(context, here, &mut all);
     all.into_iter()
         .filter(|branch| !branch.is_empty() && !branch.iter().any(other))
         .min_by_key(|branch| branch.iter().map(problems).sum::<usize>())
 }
 
-/// The branches of a choice; one that is itself a choice (an optional one is) stands for its own branches.
-fn branches<'a>(context: &'a [Vec<ValidationError<'static>>], out: &mut Vec<&'a [ValidationError<'static>]>) {
+/// The branches of a choice; one that is itself a choice of the same value (an optional one is) stands for its own branches.
+fn branches<'a>(
+    context: &'a [Vec<ValidationError<'static>>],
+    here: usize,
+    out: &mut Vec<&'a [ValidationError<'static>]>,
+) {
     for branch in context {
         match branch.as_slice() {
-            [one] => match one.kind() {
+            [one] if depth(one) == here => match one.kind() {
                 ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
-                    branches(context, out);
+                    branches(context, here, out);
                 }
                 _ => out.push(branch),
             },
@@ -144,7 +149,19 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
                 TypeKind::Single(one) => one.to_string(),
                 TypeKind::Multiple(many) => many.iter().map(|t| t.to_string()).collect::<Vec<_>>().join(" or "),
             };
-            (codes::WRONG_TYPE, format!("{place} is {shown}, which is not of type {wanted}"), None)
+            let help = match kind {
+                TypeKind::Single(one) => one.to_string(),
+                TypeKind::Multiple(_) => String::new(),
+            };
+            let help = match help.as_str() {
+                "string" => "write a text, in quotes",
+                "number" | "integer" => "write a number, without quotes",
+                "boolean" => "write true or false",
+                "array" => "write a list: [ …, … ]",
+                "object" => "write a table: { key = …, … }",
+                _ => "`soffio schema exhibit` says what may stand here",
+            };
+            (codes::WRONG_TYPE, format!("{place} is {shown}, which is not of type {wanted}"), Some(help.to_owned()))
         }
         ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
             // A choice of words or quantities: each branch is one of them.
@@ -198,7 +215,10 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
         ValidationErrorKind::MaxItems { limit } => {
             (codes::WRONG_SHAPE, format!("{place} has too many entries"), Some(format!("give at most {limit}")))
         }
-        _ => (codes::WRONG_SHAPE, format!("{place} is {shown}, which this key does not allow"), None),
+        _ => {
+            let help = "`soffio schema exhibit` says what may stand here";
+            (codes::WRONG_SHAPE, format!("{place} is {shown}, which this key does not allow"), Some(help.to_owned()))
+        }
     }
 }
 

@@ -263,8 +263,9 @@ pub fn is_change(kind: &EventKind) -> bool {
     matches!(kind, EventKind::Create(_) | EventKind::Modify(_) | EventKind::Remove(_) | EventKind::Any)
 }
 
+/// A folder whose name begins with a dot is on its way, or nobody's business.
 fn is_exhibit(folder: &Path) -> bool {
-    folder.join(exhibit::SIDECAR).is_file()
+    !id(folder).starts_with('.') && folder.join(exhibit::SIDECAR).is_file()
 }
 
 /// The id of an exhibit: the name of its folder.

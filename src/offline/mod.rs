@@ -16,3 +16,4 @@ pub mod soundtrack;
 pub mod trace;
 pub mod wav;
 pub mod whole_file;
+pub mod whole_folder;

@@ -9,31 +9,31 @@ use std::process::Command;
 use serde_json::Value;
 
 /// A folder of its own for one test.
-struct Desk(tempfile::TempDir);
+pub(super) struct Desk(tempfile::TempDir);
 
 /// What a run of the program left.
-struct Run {
-    code: Option<i32>,
-    out: String,
-    err: String,
+pub(super) struct Run {
+    pub(super) code: Option<i32>,
+    pub(super) out: String,
+    pub(super) err: String,
     args: String,
 }
 
 impl Desk {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(tempfile::tempdir().expect("a temporary folder"))
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(super) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+    pub(super) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         std::fs::write(self.path(name), bytes).expect("a writable folder");
     }
 
     /// The program in this folder, without a screen or a graphics driver.
-    fn soffio(&self, args: &[&str]) -> Run {
+    pub(super) fn soffio(&self, args: &[&str]) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_soffio"))
             .args(args)
             .current_dir(self.0.path())
@@ -54,7 +54,7 @@ impl Desk {
     }
 
     /// Names of all that lies here, sorted.
-    fn files(&self) -> Vec<String> {
+    pub(super) fn files(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.0.path()).expect("readable").flatten();
         let mut names: Vec<_> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
         names.sort();
@@ -91,7 +91,7 @@ impl Desk {
 impl Run {
     /// Ended with `code` and nothing on stdout, and stderr is one message with all these words.
     #[track_caller]
-    fn refused(&self, code: i32, words: &[&str]) {
+    pub(super) fn refused(&self, code: i32, words: &[&str]) {
         assert_eq!(self.code, Some(code), "soffio {}\n{}", self.args, self.err);
         assert_eq!(self.out, "", "soffio {}", self.args);
         let heads = self.err.lines().filter(|line| line.starts_with("soffio: ") || line.starts_with("error: ")).count();
@@ -103,7 +103,7 @@ impl Run {
 
     /// Ended well; its stdout.
     #[track_caller]
-    fn done(&self) -> &str {
+    pub(super) fn done(&self) -> &str {
         assert_eq!(self.code, Some(0), "soffio {}\n{}", self.args, self.err);
         &self.out
     }
@@ -126,7 +126,7 @@ fn fish() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish")
 }
 
-fn text(path: &Path) -> &str {
+pub(super) fn text(path: &Path) -> &str {
     path.to_str().expect("UTF-8")
 }
 

@@ -6,11 +6,11 @@ mod workshop;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use soffio::exhibit::make::mobile::Mobile;
+use soffio::exhibit::make::outline::{Knot, area_and_centroid, closed_spline, ellipse};
+use soffio::exhibit::make::piece::Piece;
+use soffio::exhibit::make::solid::{Solid, sheet, turned, wire_mass};
 use soffio::math::{DVec2, DVec3, PI, Pose, sin};
-use workshop::mobile::Mobile;
-use workshop::outline::{Knot, area_and_centroid, closed_spline, ellipse};
-use workshop::piece::Piece;
-use workshop::solid::{Solid, sheet, turned, wire_mass};
 use workshop::steel_fish;
 
 /// Sums of a few thousand products in f64, relative.

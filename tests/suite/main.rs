@@ -9,6 +9,7 @@ mod cli;
 mod clock;
 mod collision;
 mod contacts;
+mod curator;
 mod dynamics;
 mod escapement;
 mod exhibit;

@@ -41,6 +41,9 @@ const HANDLED: &[&str] = &[
     "KHR_node_visibility",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
+    // What `soffio import` takes over into a sidecar.
+    "KHR_implicit_shapes",
+    "KHR_physics_rigid_bodies",
 ];
 
 /// What to do about a required extension that is not handled.

@@ -92,7 +92,8 @@ impl Context<'_> {
         }
         if declared.len() > MAX_BODIES {
             let message = format!("{} moving bodies; the limit is {MAX_BODIES}", declared.len());
-            self.report("/body", Diagnostic::new(codes::MODEL_LIMIT, message));
+            let problem = Diagnostic::new(codes::MODEL_LIMIT, message);
+            self.report("/body", problem.help("make one body of what does not move against each other"));
         }
         for node in 0..self.model.nodes.len() {
             let ancestors = std::iter::successors(Some(node), |&n| self.model.nodes[n].parent);
@@ -177,7 +178,8 @@ impl Context<'_> {
     /// A number that must not be below zero.
     pub(super) fn not_negative(&mut self, value: f64, at: &str) -> f64 {
         if value < 0.0 {
-            self.report(at, Diagnostic::new(codes::RANGE, format!("{value} is below zero")));
+            let problem = Diagnostic::new(codes::RANGE, format!("{value} is below zero"));
+            self.report(at, problem.help("write 0 or a number above it"));
         }
         value.max(0.0)
     }
@@ -187,7 +189,8 @@ impl Context<'_> {
         if value > 0.0 {
             return value;
         }
-        self.report(at, Diagnostic::new(codes::RANGE, format!("{value} is not above zero")));
+        let problem = Diagnostic::new(codes::RANGE, format!("{value} is not above zero"));
+        self.report(at, problem.help("write a number above zero"));
         f64::MIN_POSITIVE
     }
 
@@ -292,7 +295,8 @@ impl Context<'_> {
             };
             if self.owner[node] != Some(body) || node == root {
                 let message = format!("node \"{}\" is not below the body \"{}\"", part.node, given.node);
-                self.report(&format!("{place}/node"), Diagnostic::new(codes::NOT_DESCENDANT, message));
+                let problem = Diagnostic::new(codes::NOT_DESCENDANT, message);
+                self.report(&format!("{place}/node"), problem.help("hang it below the body in the model"));
                 continue;
             }
             let material = self.material(&part.material, &format!("{place}/material"));

@@ -175,8 +175,12 @@ fn typed(source: &Source) -> Result<Sidecar, Vec<Diagnostic>> {
         return Err(problems);
     }
     // The schema is made from these types; what it cannot say (a number beyond f32) is caught here.
-    serde_json::from_value(source.value.clone())
-        .map_err(|error| vec![Diagnostic::new(codes::WRONG_SHAPE, format!("{}: {error}", source.file))])
+    serde_json::from_value(source.value.clone()).map_err(|error| {
+        let mut problem = Diagnostic::new(codes::WRONG_SHAPE, format!("{}: {error}", source.file))
+            .help("write a number of ordinary size there");
+        problem.location = Some(source.locate(source.span("")));
+        vec![problem]
+    })
 }
 
 /// Time constant 1/ω₀ of the joints' stabiliser unless the sidecar says otherwise, s.
@@ -341,7 +345,7 @@ impl<'a> Context<'a> {
         };
         if given.budget.is_some() && given.motion != sidecar::MovedBy::Auto {
             let problem = Diagnostic::new(codes::UNUSED, "the budget is for motion = \"auto\" and does nothing here");
-            self.report("/solver/budget", problem);
+            self.report("/solver/budget", problem.help("leave it out, or write motion = \"auto\""));
         }
         self.trace("solver", "motion", format!("{motion:?}"), "/solver/motion", "default");
         motion

@@ -240,7 +240,8 @@ impl Context<'_> {
         if mesh.triangles.is_empty() {
             let name = &self.model.nodes[node].name;
             let message = format!("node \"{name}\" has no mesh");
-            self.report(at, Diagnostic::new(codes::NO_MESH, message).label(format!("needed for {used_for}")));
+            let problem = Diagnostic::new(codes::NO_MESH, message).label(format!("needed for {used_for}"));
+            self.report(at, problem.help("give it a mesh in the model, or name the node that has one"));
             return None;
         }
         Some(mesh)

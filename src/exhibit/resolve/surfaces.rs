@@ -62,7 +62,11 @@ impl Context<'_> {
         };
         if given.sampling.min > given.sampling.max || given.sampling.per_area.0 <= 0.0 {
             let message = "sampling needs min ≤ max and a density above zero";
-            self.report(&format!("{at}/sampling"), Diagnostic::new(codes::RANGE, message));
+            let problem = Diagnostic::new(codes::RANGE, message);
+            self.report(
+                &format!("{at}/sampling"),
+                problem.help("such as { per_area = \"400 /m2\", min = 16, max = 64 }"),
+            );
         }
         let mesh = self.mesh_of(node, &place, "a wind surface")?;
         let extents = mesh.extents()?;
@@ -135,10 +139,8 @@ impl Context<'_> {
         let body_node = self.node(&given.body, &format!("{at}/body"), &used_for)?;
         let Some(body) = self.owner[body_node] else {
             let message = format!("node \"{}\" is not a moving body", given.body);
-            self.report(
-                &format!("{at}/body"),
-                Diagnostic::new(codes::UNKNOWN_BODY, message).label("it cannot set off a sound"),
-            );
+            let problem = Diagnostic::new(codes::UNKNOWN_BODY, message).label("it cannot set off a sound");
+            self.report(&format!("{at}/body"), problem.help("make it a [[body]], or name the body that is hit"));
             return None;
         };
         let node = match &given.node {

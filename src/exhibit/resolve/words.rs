@@ -34,7 +34,8 @@ impl Context<'_> {
             for (key, value) in [("title", &words.title), ("alt", &words.alt)] {
                 if value.is_empty() {
                     let code_of = if key == "alt" { codes::NO_ALT } else { codes::MISSING_WORDS };
-                    self.report(&at, Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}")));
+                    let problem = Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}"));
+                    self.report(&at, problem.help(format!("write {key} = \"…\" there")));
                 }
             }
             languages.push((code.clone(), self.label(words, &at)));
@@ -84,7 +85,9 @@ impl Context<'_> {
                     let message = format!("{kind} \"{key}\" is missing in \"{code}\"");
                     let problem = Diagnostic::new(codes::MISSING_WORDS, message);
                     let label = format!("\"{default_code}\" has it and is shown instead");
-                    self.report(&join("/label", code), problem.label(label));
+                    let help =
+                        format!("write {kind} = {{ {key} = \"…\" }} there; `soffio labels` makes a table of all texts");
+                    self.report(&join("/label", code), problem.label(label).help(help));
                 }
             }
         }
@@ -130,7 +133,8 @@ impl Context<'_> {
         let duration = sidecar.attract.duration.map_or(if steps.is_empty() { 0.0 } else { last + PAUSE }, |d| d.0);
         if duration < last {
             let message = format!("the round ends after {duration} s, and its last step is at {last} s");
-            self.report("/attract/duration", Diagnostic::new(codes::ATTRACT_ORDER, message));
+            let problem = Diagnostic::new(codes::ATTRACT_ORDER, message);
+            self.report("/attract/duration", problem.help("make it longer, or leave it out"));
         }
         Attract { steps, duration }
     }

@@ -48,7 +48,8 @@ impl Context<'_> {
                     let degrees = off.abs() * 180.0 / PI;
                     let message = format!("the two axes of \"{name}\" are {degrees:.2}° from their angle at rest");
                     let problem = Diagnostic::new(codes::NOT_PERPENDICULAR, message);
-                    self.report(at, problem.label(format!("{t} and {n} in the world")));
+                    let problem = problem.label(format!("{t} and {n} in the world"));
+                    self.report(at, problem.help("turn them in the model or here, or write the angle that they have"));
                 }
             }
             ConstraintKind::Coupling { .. } => {}

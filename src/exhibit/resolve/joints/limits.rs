@@ -173,7 +173,8 @@ impl Context<'_> {
             Some(_) => {
                 let (is, wanted) = if turn { ("a length", "an angle") } else { ("an angle", "a length") };
                 let message = format!("\"{name}\" is bounded by {is}, and needs {wanted}");
-                self.report(at, Diagnostic::new(codes::WRONG_TYPE, message));
+                let help = if turn { "write it as \"12 deg\"" } else { "write it as \"12 mm\"" };
+                self.report(at, Diagnostic::new(codes::WRONG_TYPE, message).help(help));
                 None
             }
         }

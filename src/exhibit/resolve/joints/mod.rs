@@ -82,7 +82,8 @@ impl Context<'_> {
         out.springs.retain(|spring| acts(&spring.name));
         if out.constraints.len() > MAX_CONSTRAINTS {
             let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.constraints.len());
-            self.report("/constraint", Diagnostic::new(codes::MODEL_LIMIT, message));
+            let problem = Diagnostic::new(codes::MODEL_LIMIT, message);
+            self.report("/constraint", problem.help("make one body of what does not move against each other"));
         }
         out
     }

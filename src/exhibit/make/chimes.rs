@@ -4,7 +4,7 @@
 //! All are struck at the same height, 40 % of the length from the lower end, where the first five modes sound: hung so,
 //! their tops and feet are a stair. The cords hang from a round crown.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use crate::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use super::glb::{Finish, Glass, Scene};
 use super::hung::to_mass;
@@ -33,24 +33,25 @@ const SAIL_MASS: f64 = 10e-3;
 const LIME_WOOD: f64 = 530.0;
 
 /// What a chime is made of.
-pub struct Make {
+pub struct Make<'a> {
     /// Title of the scene.
-    pub title: &'static str,
+    pub title: &'a str,
     /// Lengths of the tubes, mm, the longest first.
-    pub lengths: &'static [f64],
+    pub lengths: &'a [f64],
     /// Outer diameter and wall, mm.
     pub tube: [f64; 2],
     /// kg/m³.
     pub density: f64,
-    /// How the tubes and the sail look.
+    /// How the tubes look.
     pub tubes: Finish,
     /// What the tubes are if they are clear.
     pub glass: Option<Glass>,
+    /// How the sail looks.
     pub sail: Finish,
 }
 
 /// Aluminium 6061-T6, C5 to C6.
-pub const ALUMINIUM: Make = Make {
+pub const ALUMINIUM: Make<'static> = Make {
     title: "Wind chimes of aluminium",
     lengths: &[533.8, 503.4, 474.7, 434.6, 409.7, 374.9],
     tube: [25.4, 1.65],
@@ -61,7 +62,7 @@ pub const ALUMINIUM: Make = Make {
 };
 
 /// Bamboo, C5 to A5.
-pub const BAMBOO: Make = Make {
+pub const BAMBOO: Make<'static> = Make {
     title: "Wind chimes of bamboo",
     lengths: &[497.0, 468.0, 440.0, 401.0, 377.0],
     tube: [30.0, 4.0],
@@ -72,7 +73,7 @@ pub const BAMBOO: Make = Make {
 };
 
 /// Soda-lime glass, C5 to A5.
-pub const GLASS: Make = Make {
+pub const GLASS: Make<'static> = Make {
     title: "Wind chimes of glass",
     lengths: &[480.3, 453.0, 427.3, 391.4, 369.1],
     tube: [20.0, 1.8],

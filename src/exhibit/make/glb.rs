@@ -4,8 +4,8 @@
 //! as 32-bit floats, so the same scene gives the same bytes on any machine. Layout as in the glTF 2.0
 //! specification, section 4.4: a 12-byte header, the JSON chunk padded with spaces, the binary chunk with zeros.
 
+use crate::math::{DQuat, DVec3};
 use serde_json::{Value, json};
-use soffio::math::{DQuat, DVec3};
 
 use super::solid::Solid;
 
@@ -138,7 +138,7 @@ impl Scene {
         // A glTF camera looks along −Z of its node with +Y up.
         let back = (eye - target).normalize();
         let right = DVec3::Y.cross(back).normalize();
-        let rotation = DQuat::from_mat3(&soffio::math::DMat3::from_cols(right, back.cross(right), back));
+        let rotation = DQuat::from_mat3(&crate::math::DMat3::from_cols(right, back.cross(right), back));
         let node = self.node(name, None, eye, rotation);
         self.nodes[node]["camera"] = json!(self.cameras.len());
         self.cameras.push(json!({

@@ -4,8 +4,8 @@
 //! by the divergence theorem is positive and the mass that a loader computes from the file is the mass the forge
 //! balanced with.
 
-use soffio::bodies::MassProperties;
-use soffio::math::{DMat3, DVec2, DVec3, PI, cos, outer, sin};
+use crate::bodies::MassProperties;
+use crate::math::{DMat3, DVec2, DVec3, PI, cos, outer, sin};
 
 use super::outline::{Polygon, reversed};
 

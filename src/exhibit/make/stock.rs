@@ -2,7 +2,7 @@
 //!
 //! Lengths in metres; shapes lie about the origin, rods and rings along y, slabs and wheels in the plane z = 0.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
+use crate::math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
 use super::glb::{Finish, Scene};
 use super::outline::{Polygon, open_spline};
@@ -15,21 +15,34 @@ pub const MM: f64 = 1e-3;
 pub const ROUND: usize = 48;
 /// Densities, kg/m³; the sidecars' materials say the same.
 pub const STEEL: f64 = 7850.0;
+/// kg/m³.
 pub const ALUMINIUM: f64 = 2700.0;
+/// kg/m³.
 pub const BRASS: f64 = 8500.0;
+/// kg/m³.
 pub const LEAD: f64 = 11_300.0;
+/// kg/m³.
+pub const COPPER: f64 = 8900.0;
 /// Of parts that stand still or whose weight the loader alone needs.
 pub const WOOD: f64 = 720.0;
 
 /// Finishes that all works share.
 pub struct Finishes {
+    /// Index in the scene.
     pub black: usize,
+    /// Index in the scene.
     pub red: usize,
+    /// Index in the scene.
     pub white: usize,
+    /// Index in the scene.
     pub blue: usize,
+    /// Index in the scene.
     pub wood: usize,
+    /// Index in the scene.
     pub steel: usize,
+    /// Index in the scene.
     pub brass: usize,
+    /// Index in the scene.
     pub lead: usize,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Invariant: the mass a piece balances with comes from the very meshes and wires that are written to the file.
 
-use soffio::bodies::MassProperties;
-use soffio::math::{DMat3, DQuat, DVec3, Pose, rotation};
+use crate::bodies::MassProperties;
+use crate::math::{DMat3, DQuat, DVec3, Pose, rotation};
 
 use super::glb::Scene;
 use super::solid::{Solid, wire_mass};
@@ -109,7 +109,7 @@ pub fn yaw(angle: f64) -> DQuat {
     rotation(angle * DVec3::Y)
 }
 
-/// A name made from parts: the forge runs once, and what it names lasts as long.
+/// A name made from parts. It lasts as long as the program: a model has some hundreds of them, and a program makes few.
 pub fn named(text: String) -> &'static str {
     text.leak()
 }

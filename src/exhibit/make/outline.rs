@@ -6,7 +6,7 @@
 //!
 //! Units: whatever the points are in; the callers use metres.
 
-use soffio::math::{DVec2, DVec3, PI, cos, sin};
+use crate::math::{DVec2, DVec3, PI, cos, sin};
 
 /// A point of a drawn outline.
 #[derive(Clone, Copy, Debug)]

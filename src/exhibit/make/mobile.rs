@@ -8,8 +8,8 @@
 //!
 //! Invariant: every piece of a [`Mobile`] but the first hangs at a mark of one before it, the poses say where.
 
-use soffio::bodies::MassProperties;
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
+use crate::bodies::MassProperties;
+use crate::math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::outline::ring;
 use super::piece::{Bend, Part, Piece, load, yaw};

@@ -4,7 +4,7 @@
 //! Each bough's right end droops as far as puts the centre of what it carries `depth` below its loop, and with that
 //! its tilt has the period 2π √(I/(M g depth)), I about the loop.
 
-use soffio::math::{DVec3, Pose};
+use crate::math::{DVec3, Pose};
 
 use super::mobile::{Branch, branch_of_depth};
 use super::piece::{Part, Piece, named, yaw};

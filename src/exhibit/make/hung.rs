@@ -1,11 +1,11 @@
 //! Plates that hang on stems from hooks: discs, and any sheet with a hole.
 
-use soffio::math::{DVec2, DVec3, PI, Pose};
+use crate::math::{DVec2, DVec3, PI, Pose};
 
 use super::mobile::{EYE_STEPS, STEEL};
 use super::outline::{Polygon, area_and_centroid, ellipse, ring};
 use super::piece::{Bend, Part, Piece};
-use super::solid::{Solid, sheet};
+use super::solid::{Solid, sheet, wire_mass};
 
 /// m.
 const MM: f64 = 1e-3;
@@ -13,8 +13,9 @@ const MM: f64 = 1e-3;
 const ROUND: usize = 64;
 /// How far the edges of a sheet are broken.
 const BEVEL: f64 = 0.12 * MM;
-/// Distance of a plate's hole from its rim, and the hole's radius, mm.
+/// Distance of a plate's hole from its rim, mm.
 const HOLE_INSET: f64 = 2.4;
+/// Of the hole that a plate hangs by, mm.
 pub const HOLE_RADIUS: f64 = 1.0;
 
 /// A stem hung by its eye from the origin, straight down to `length` m; it ends in a small eye through a plate.
@@ -58,18 +59,12 @@ pub fn to_mass(outline: Polygon, holes: Vec<Polygon>, thickness: f64, (density, 
     cut(scale)
 }
 
-/// A plate of this mass on a stem, cut from an outline and holes in mm, drawn anywhere: it hangs by a hole `inset` mm
-/// below its upper edge, straight above its centre. `stuff` is thickness, density, mass of plate and stem, and finish.
-pub fn cut_plate(
-    names: [&'static str; 3],
-    (outline, holes): (Polygon, Vec<Polygon>),
-    inset: f64,
-    length: f64,
-    (thickness, density, mass, finish): (f64, f64, f64, usize),
-) -> Piece {
-    let (mut area, mut moment) = area_and_centroid(&outline);
+/// Outline and holes in mm, drawn anywhere, as they hang: their origin is a hole `inset` mm below the upper edge, straight
+/// above the centre. That hole is the last.
+pub fn as_hung((outline, holes): &(Polygon, Vec<Polygon>), inset: f64) -> (Polygon, Vec<Polygon>) {
+    let (mut area, mut moment) = area_and_centroid(outline);
     moment *= area;
-    for hole in &holes {
+    for hole in holes {
         let (own, center) = area_and_centroid(hole);
         area -= own;
         moment -= own * center;
@@ -85,10 +80,40 @@ pub fn cut_plate(
     let moved = |polygon: &Polygon| polygon.iter().map(|p| *p - from).collect::<Polygon>();
     let mut cuts: Vec<Polygon> = holes.iter().map(moved).collect();
     cuts.push(ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS), 0.0, ROUND / 4));
+    (moved(outline), cuts)
+}
+
+/// A plate of this mass on a stem, cut from an outline and holes in mm, drawn anywhere: it hangs by a hole `inset` mm
+/// below its upper edge, straight above its centre. `stuff` is thickness, density, mass of plate and stem, and finish.
+pub fn cut_plate(
+    names: [&'static str; 3],
+    drawn: (Polygon, Vec<Polygon>),
+    inset: f64,
+    length: f64,
+    (thickness, density, mass, finish): (f64, f64, f64, usize),
+) -> Piece {
+    let (outline, cuts) = as_hung(&drawn, inset);
     let stem_wire = stem(names[2], length);
-    let stem_mass = super::solid::wire_mass(&stem_wire.points, stem_wire.radius, stem_wire.density).mass;
-    let solid = to_mass(moved(&outline), cuts, thickness, (density, mass - stem_mass));
-    // What bevels moved the centre by, micrometres.
+    let stem_mass = wire_mass(&stem_wire.points, stem_wire.radius, stem_wire.density).mass;
+    plumb(names, to_mass(outline, cuts, thickness, (density, mass - stem_mass)), length, (density, finish))
+}
+
+/// A plate as large as it is drawn, else as [`cut_plate`]; `stuff` is thickness, density and finish.
+pub fn drawn_plate(
+    names: [&'static str; 3],
+    drawn: &(Polygon, Vec<Polygon>),
+    inset: f64,
+    length: f64,
+    (thickness, density, finish): (f64, f64, usize),
+) -> Piece {
+    let (outline, cuts) = as_hung(drawn, inset);
+    let size = |polygon: &Polygon| polygon.iter().map(|p| *p * MM).collect::<Polygon>();
+    let solid = sheet(&size(&outline), &cuts.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL);
+    plumb(names, solid, length, (density, finish))
+}
+
+/// A plate on its stem, its centre right below its hole: bevels have moved it by micrometres.
+fn plumb(names: [&'static str; 3], solid: Solid, length: f64, (density, finish): (f64, usize)) -> Piece {
     let aside = solid.mass(density).center.x;
     hung_plate(names, (solid.moved(DVec3::new(-aside, 0.0, 0.0)), density, finish), length)
 }

@@ -1,0 +1,49 @@
+//! `soffio import`: an exhibit folder from any glTF model.
+
+use std::path::PathBuf;
+
+use super::new::{place, tell, write};
+use super::{Failure, Outcome};
+use crate::exhibit::make::imported;
+use crate::exhibit::{self, SIDECAR};
+
+/// Makes an exhibit folder from a glTF model (.glb, .gltf with its files): a sidecar proposes bodies, masses, joints.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "\
+Example: soffio import bird.glb
+         soffio import scans/bird.gltf --id paper-bird
+
+Physics that the model carries (KHR_physics_rigid_bodies, KHR_implicit_shapes) is taken over: motions, shapes, materials,
+joints. What cannot be taken over is told, node by node; what then does not hold is told with its line, and the folder is
+there all the same, to be mended. The folder is made in `exhibits/` if there is one here, else here.")]
+pub struct Args {
+    /// The model.
+    model: PathBuf,
+    /// Id of the exhibit, or the path of the folder to make, which ends in it; by default after the model's file.
+    #[arg(long)]
+    id: Option<String>,
+}
+
+/// Runs the command.
+pub fn run(args: Args) -> Outcome {
+    let id = args.id.unwrap_or_else(|| id_of(&args.model));
+    let (folder, id) = place(&id)?;
+    let made = imported::folder(&args.model, &id).map_err(Failure::input)?;
+    write(&made, &folder)?.finish().map_err(Failure::input)?;
+    let exhibit = exhibit::load(&folder).map_err(|report| {
+        let shown = folder.display();
+        Failure::input(format!(
+            "{report}the folder {shown} is there; mend its {SIDECAR} or the model, then: soffio check {shown}"
+        ))
+    })?;
+    tell(&made, &folder, &id, &exhibit);
+    Ok(())
+}
+
+/// `My Bird_2.glb` as an id: `my-bird-2`.
+fn id_of(model: &std::path::Path) -> String {
+    let stem = model.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let plain: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let words: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();
+    words.join("-")
+}

@@ -1,0 +1,229 @@
+//! `soffio new`: begins an exhibit that hangs, runs and sounds.
+
+use std::io::{BufRead, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::{Failure, Outcome};
+use crate::exhibit::make::drawing::outlines;
+use crate::exhibit::make::given::{Metal, Outline, sized};
+use crate::exhibit::make::notes::{chime, note};
+use crate::exhibit::make::template::Template;
+use crate::exhibit::make::{Made, id_problem, starter};
+use crate::exhibit::{self, Diagnostic, Exhibit, Report};
+use crate::offline::whole_folder::WholeFolder;
+
+/// Plates that are proposed at a terminal.
+const PLATES: &str = "120x80,100,90x60,70";
+/// Notes of the shipped chimes.
+const NOTES: &str = "C5,D5,E5,G5,A5,C6";
+/// Largest drawing, bytes.
+const MAX_DRAWING: u64 = 16 << 20;
+
+/// Begins an exhibit: a folder that hangs, runs and sounds, with a sidecar whose comments teach.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "\
+Example: soffio new red-mobile --from mobile --plates 120x80,100,90x60
+         soffio new fish --from mobile --outlines fish.svg --thickness 0.8 --material steel
+         soffio new my-chimes --from chimes --notes C5,E5,G5,C6
+
+Plates hang in pairs that ring; wires are bent so that all hangs level. The folder is made in `exhibits/` if there is one
+here, else here. Nothing is ever written over.")]
+pub struct Args {
+    /// Id of the exhibit, lower-case letters, digits and hyphens; or the path of the folder to make, which ends in it.
+    id: String,
+    /// What it begins from.
+    #[arg(long, value_enum)]
+    from: Kind,
+    /// Mobile: sizes of the plates, mm: 120x80 is width x height with round corners, 100 a disc.
+    #[arg(long, value_name = "SIZES", value_delimiter = ',', conflicts_with = "outlines")]
+    plates: Vec<String>,
+    /// Mobile: a drawing whose closed shapes are the plates.
+    #[arg(long, value_name = "SVG")]
+    outlines: Option<PathBuf>,
+    /// Mobile: thickness of the sheet, mm.
+    #[arg(long, value_name = "MM", default_value_t = 0.8)]
+    thickness: f64,
+    /// Mobile: what the plates are cut from.
+    #[arg(long, value_enum, default_value_t)]
+    material: Material,
+    /// Chimes: the tubes' notes, from C4 to C7; by default C5,D5,E5,G5,A5,C6.
+    #[arg(long, value_delimiter = ',')]
+    notes: Vec<String>,
+}
+
+/// What an exhibit begins from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Kind {
+    /// A balanced mobile of your plates.
+    Mobile,
+    /// Wind chimes of your notes.
+    Chimes,
+    /// A copy of Eli Terry's clock.
+    Clock,
+    /// A copy of the pendulum.
+    Pendulum,
+    /// One body, to begin with.
+    Empty,
+}
+
+/// What plates are cut from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Material {
+    #[default]
+    Aluminium,
+    Steel,
+    Brass,
+    Copper,
+}
+
+impl From<Material> for Metal {
+    fn from(material: Material) -> Self {
+        match material {
+            Material::Aluminium => Self::Aluminium,
+            Material::Steel => Self::Steel,
+            Material::Brass => Self::Brass,
+            Material::Copper => Self::Copper,
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(args: Args) -> Outcome {
+    let (folder, id) = place(&args.id)?;
+    let given_plates = !args.plates.is_empty() || args.outlines.is_some();
+    for (given, kind, option) in
+        [(given_plates, Kind::Mobile, "--plates and --outlines"), (!args.notes.is_empty(), Kind::Chimes, "--notes")]
+    {
+        if given && args.from != kind {
+            let message = format!("{option} say nothing about what is begun here; leave them out");
+            return Err(Failure { code: 2, message });
+        }
+    }
+    let made = match args.from {
+        Kind::Mobile => {
+            let plates = plates(&args)?;
+            starter::mobile(&id, &plates, args.thickness * 1e-3, args.material.into()).map_err(Report::from)
+        }
+        Kind::Chimes => {
+            let names = if args.notes.is_empty() { NOTES.split(',').map(str::to_owned).collect() } else { args.notes };
+            all(names.iter().map(|name| note(name))).and_then(|notes| chime(&id, &notes).map_err(Report::of))
+        }
+        Kind::Clock => return copy(Template::Clock, &folder, &id),
+        Kind::Pendulum => return copy(Template::Pendulum, &folder, &id),
+        Kind::Empty => Ok(starter::empty(&id)),
+    };
+    settle(&made.map_err(Failure::input)?, &folder, &id)
+}
+
+fn copy(template: Template, folder: &Path, id: &str) -> Outcome {
+    settle(&template.copy(id).map_err(Failure::input)?, folder, id)
+}
+
+/// All results, or all problems.
+fn all<T>(results: impl Iterator<Item = Result<T, Diagnostic>>) -> Result<Vec<T>, Report> {
+    let (mut good, mut problems) = (Vec::new(), Vec::new());
+    for result in results {
+        match result {
+            Ok(value) => good.push(value),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if problems.is_empty() { Ok(good) } else { Err(problems.into()) }
+}
+
+/// The folder to make, and the id that it ends in.
+pub(super) fn place(id: &str) -> Result<(PathBuf, String), Failure> {
+    let given = Path::new(id);
+    let name = given.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    if let Some(problem) = id_problem(&name) {
+        return Err(Failure::input(Report::of(problem)));
+    }
+    let shelf = Path::new("exhibits");
+    let folder = if id == name && shelf.is_dir() { shelf.join(id) } else { given.to_path_buf() };
+    let parent = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !parent.is_dir() {
+        return Err(Failure::input(format!("there is no folder {}; make it first", parent.display())));
+    }
+    if folder.symlink_metadata().is_ok() {
+        let message =
+            format!("{} is there already and stays as it is; choose another id, or move it away", folder.display());
+        return Err(Failure::input(message));
+    }
+    Ok((folder, name))
+}
+
+/// Writes what is made, loads it as the kiosk would, and only then gives it its name.
+fn settle(made: &Made, folder: &Path, id: &str) -> Outcome {
+    let whole = write(made, folder)?;
+    let exhibit = exhibit::load(whole.aside()).map_err(Failure::input)?;
+    whole.finish().map_err(Failure::input)?;
+    tell(made, folder, id, &exhibit);
+    Ok(())
+}
+
+/// All files of a folder on its way; Ctrl-C leaves nothing of it.
+pub(super) fn write(made: &Made, folder: &Path) -> Result<WholeFolder, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    super::stop_on_ctrl_c(&stop);
+    let whole = WholeFolder::create(folder).map_err(Failure::input)?;
+    for (name, bytes) in &made.files {
+        whole.write(name, bytes).map_err(Failure::input)?;
+        if stop.load(Ordering::Relaxed) {
+            return Err(Failure { code: 130, message: "interrupted; nothing is left".into() });
+        }
+    }
+    Ok(whole)
+}
+
+/// Says what there is now, and what to do next.
+pub(super) fn tell(made: &Made, folder: &Path, id: &str, exhibit: &Exhibit) {
+    for remark in &made.remarks {
+        eprintln!("{remark}");
+    }
+    let shown = folder.display();
+    let counted = match exhibit.warnings.len() {
+        0 => String::new(),
+        n => format!(", {n} warnings"),
+    };
+    println!("{shown}");
+    eprintln!("{} bodies, {} joints{counted}", exhibit.bodies.len(), exhibit.constraints.len());
+    eprintln!(
+        "Next: write its words in {shown}/{}, then\n  soffio check {shown}\n  soffio play {shown} --no-wind --seconds 5\n  \
+         soffio loudness {shown} --write\n  soffio render {shown} --size 1280x720 -o {shown}/thumbnail.png\n  \
+         soffio kiosk --windowed --exhibit {id}",
+        exhibit::SIDECAR
+    );
+}
+
+/// The plates: given, drawn, or asked for.
+fn plates(args: &Args) -> Result<Vec<Outline>, Failure> {
+    if let Some(path) = &args.outlines {
+        let unreadable =
+            |why: &dyn std::fmt::Display| Failure::input(format!("{} cannot be read: {why}", path.display()));
+        let size = std::fs::metadata(path).map_err(|error| unreadable(&error))?.len();
+        if size > MAX_DRAWING {
+            return Err(unreadable(&format_args!("it has {size} bytes; the limit is {MAX_DRAWING}")));
+        }
+        let bytes = std::fs::read(path).map_err(|error| unreadable(&error))?;
+        let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8 text; save it as plain SVG"))?;
+        return outlines(&path.display().to_string(), &text).map_err(Failure::input);
+    }
+    let sizes = if args.plates.is_empty() { ask()? } else { args.plates.clone() };
+    all(sizes.iter().map(|size| sized(size))).map_err(Failure::input)
+}
+
+/// Asks for sizes at a terminal.
+fn ask() -> Result<Vec<String>, Failure> {
+    if !std::io::stdin().is_terminal() {
+        let message = format!("which plates? Give --plates {PLATES} (mm), or a drawing by --outlines FILE.svg");
+        return Err(Failure { code: 2, message });
+    }
+    eprint!("Plates in mm, width x height or a disc's diameter [{PLATES}]: ");
+    std::io::stderr().flush().map_err(Failure::input)?;
+    let mut line = String::new();
+    std::io::stdin().lock().read_line(&mut line).map_err(Failure::input)?;
+    let line = if line.trim().is_empty() { PLATES } else { line.trim() };
+    Ok(line.split([',', ' ']).filter(|size| !size.is_empty()).map(str::to_owned).collect())
+}

@@ -1,0 +1,106 @@
+//! The parts of a new sidecar that are words: attract script, labels in three languages, credit. Each text asks to be replaced.
+
+use std::fmt::Write;
+
+/// Words of one language.
+#[derive(Clone, Debug, Default)]
+pub struct Words {
+    /// Language code.
+    pub code: &'static str,
+    /// Title of the work.
+    pub title: String,
+    /// Maker.
+    pub maker: String,
+    /// Wall text.
+    pub body: String,
+    /// What is to be seen.
+    pub alt: String,
+    /// Captions by key.
+    pub captions: Vec<(&'static str, String)>,
+}
+
+/// A breath of the attract script: when (s), how strong (0…1), where.
+pub type Puff = (f64, f64, [f64; 2]);
+
+/// A TOML string.
+pub fn quoted(text: &str) -> String {
+    toml_edit::Value::from(text).to_string()
+}
+
+/// What happens when nobody is there: the invitation, breaths, and all is put back.
+pub fn attract(puffs: &[Puff]) -> String {
+    let end = puffs.last().map_or(20.0, |puff| puff.0 + 18.0);
+    let mut out = format!(
+        "# ---- when nobody is there ------------------------------------------------------------------------------------\n\
+         # Steps in the order of time, seconds since the round began. A step shows a text, blows, or puts everything back.\n\
+         # strength: 0.22 is a gentle breath, 1 the hardest. aim: (0,0) is the picture's top left, (1,1) its bottom right.\n\n\
+         [attract]\nduration = {}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n",
+        end + 1.0
+    );
+    for (at, strength, [x, y]) in puffs {
+        let _ = write!(
+            out,
+            "\n[[attract.step]]\nat = {at}\nblow = {{ strength = {strength}, hold = \"1.5 s\", aim = [{x}, {y}] }}\n"
+        );
+    }
+    let _ = write!(out, "\n[[attract.step]]\nat = {end}\nreset = true\n");
+    out
+}
+
+/// Labels and credit.
+pub fn labels(languages: &[Words]) -> String {
+    let mut out = "# ---- words ---------------------------------------------------------------------------------------------------\n\
+                   # REPLACE these texts by yours; `soffio labels ID --csv texts.csv` makes a table of them for translators. `alt`\n\
+                   # says what is to be seen to those who cannot see it; `caption` is written when a sound is heard.\n\n\
+                   [label]\ndefault_language = \"en\"\n"
+        .to_owned();
+    for Words { code, title, maker, body, alt, captions } in languages {
+        let invite = match *code {
+            "ko" => "부드럽게 불어 보세요. 고리를 움직여 방향을 정하세요.",
+            "it" => "Soffia piano. Muovi l'anello per mirare.",
+            _ => "Blow gently. Move the ring to aim.",
+        };
+        let captions: Vec<String> = captions.iter().map(|(key, text)| format!("{key} = {}", quoted(text))).collect();
+        let _ = write!(
+            out,
+            "\n[label.{code}]\ntitle = {}\nmaker = {}\nbody = {}\nalt = {}\ntext = {{ invite = {} }}\ncaption = {{ {} }}\n",
+            quoted(title),
+            quoted(maker),
+            quoted(body),
+            quoted(alt),
+            quoted(invite),
+            captions.join(", ")
+        );
+    }
+    out += "\n# Whose work this is, under which licence (https://spdx.org/licenses), and where the label's facts come from.\n\
+            [credit]\nmodel_license = \"LicenseRef-REPLACE\"\nmodel_author = \"REPLACE by the maker's name\"\nsources = []\n";
+    out
+}
+
+/// English, Korean and Italian words of a new work: title, wall text, what is to be seen, and captions by key.
+pub fn three(
+    titles: [&str; 3],
+    bodies: [&str; 3],
+    alts: [String; 3],
+    captions: &[(&'static str, [&str; 3])],
+) -> Vec<Words> {
+    let makers = ["REPLACE: the maker's name", "바꾸세요: 만든 이의 이름", "DA SOSTITUIRE: il nome dell'autore"];
+    let begin = [
+        "REPLACE this text: who made it, when, of what, and what a breath does to it.",
+        "이 글을 바꾸세요: 누가, 언제, 무엇으로 만들었고, 숨결이 닿으면 어떻게 되는지.",
+        "DA SOSTITUIRE: chi l'ha fatto, quando, di che cosa, e che cosa fa un soffio.",
+    ];
+    let mut alts = alts.into_iter();
+    ["en", "ko", "it"]
+        .into_iter()
+        .enumerate()
+        .map(|(i, code)| Words {
+            code,
+            title: titles[i].to_owned(),
+            maker: makers[i].to_owned(),
+            body: format!("{} {}", begin[i], bodies[i]),
+            alt: alts.next().unwrap_or_default(),
+            captions: captions.iter().map(|(key, texts)| (*key, texts[i].to_owned())).collect(),
+        })
+        .collect()
+}
