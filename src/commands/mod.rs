@@ -20,6 +20,7 @@ pub mod explain;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
 pub mod loudness;
+pub mod pin;
 pub mod play;
 #[cfg(feature = "kiosk")]
 pub mod render;
@@ -99,6 +100,7 @@ enum Command {
     Schema(schema::Args),
     Devices(devices::Args),
     Doctor(doctor::Args),
+    Pin(pin::Args),
     Bench(bench::Args),
 }
 
@@ -123,6 +125,7 @@ pub fn run() -> ExitCode {
         Some(Command::Schema(args)) => schema::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Doctor(args)) => doctor::run(args),
+        Some(Command::Pin(args)) => pin::run(args),
         Some(Command::Bench(args)) => bench::run(args),
     };
     match outcome {

@@ -92,6 +92,7 @@ impl Before {
             attract_text: None,
             inviting: &self.language,
             hears: self.hears,
+            breath: true,
             has_ear: true,
             listens: self.hears,
             captions: &self.captions,
