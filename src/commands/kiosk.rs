@@ -82,6 +82,7 @@ pub fn run(args: Args) -> Outcome {
     let options = Options {
         exhibit: exhibit.clone(),
         site,
+        closed: false,
         recording: recording.as_ref().map(WavFeed::from),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
         trace: args.trace,

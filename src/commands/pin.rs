@@ -1,6 +1,6 @@
 //! `soffio pin`.
 
-use std::io::BufRead;
+use std::io::{BufRead, IsTerminal};
 
 use super::{Failure, Outcome};
 use crate::config::{DIGITS, Pin};
@@ -17,7 +17,7 @@ pub struct Args {}
 /// Runs the command.
 pub fn run(Args {}: Args) -> Outcome {
     let terminal = console::Term::stderr();
-    let digits = if console::user_attended() && terminal.is_term() {
+    let digits = if std::io::stdin().is_terminal() {
         let ask = |question: &str| {
             let asked = terminal.write_str(question).and_then(|()| terminal.read_secure_line());
             asked.map_err(|error| Failure::input(format!("the terminal cannot be read: {error}")))

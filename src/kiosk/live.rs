@@ -39,6 +39,8 @@ pub struct Options {
     pub exhibit: Arc<Exhibit>,
     /// What the site says.
     pub site: Site,
+    /// Is the house closed when the run begins?
+    pub closed: bool,
     /// A recording in the microphone's place.
     pub recording: Option<WavFeed>,
     /// End after so many steps.
@@ -189,7 +191,12 @@ impl Live {
             inspection: None,
         };
         let shared = Arc::new(Shared {
-            controls: Mutex::new(Controls { aspect, ..Controls::default() }),
+            controls: Mutex::new(Controls {
+                aspect,
+                closed: options.closed,
+                inert: options.closed,
+                ..Controls::default()
+            }),
             frame: Mutex::new(Arc::new(frame)),
             stop: AtomicBool::new(false),
         });
@@ -261,6 +268,7 @@ struct Thread {
     breaths: Breaths,
     captions: Captions,
     deaf: bool,
+    closed: bool,
     onset: Option<Onset>,
     /// The step that was published last.
     published: u64,
@@ -273,7 +281,8 @@ impl Thread {
     fn new(stage: Stage, trace: Option<TraceWriter>, options: Options, shared: Arc<Shared>) -> Self {
         let site = options.site;
         let voice = voice(&site);
-        let audio = AudioIo::start_with(&site.audio, site.breath, voice.synth(&options.exhibit, None));
+        let audio =
+            AudioIo::start_with(&site.audio, site.breath && !options.closed, voice.synth(&options.exhibit, None));
         Self {
             previous: stage.snapshot().clone(),
             stage,
@@ -294,6 +303,7 @@ impl Thread {
             breaths: Breaths::default(),
             captions: Captions::default(),
             deaf: false,
+            closed: options.closed,
             onset: None,
             published: 0,
             load: Load::default(),
@@ -348,7 +358,8 @@ impl Thread {
         }
         add(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
         self.heard.clear();
-        self.audio.listen(self.site.breath && !controls.closed);
+        self.closed = controls.closed;
+        self.audio.listen(self.site.breath && !self.closed);
         self.deaf = controls.deaf;
         // What a visitor does not want to be heard is read all the same, so that it is gone.
         let rate = self.audio.read_microphone(&mut self.heard).filter(|_| !self.deaf);
@@ -405,8 +416,8 @@ impl Thread {
         let reopens = devices(&before) != devices(site);
         if reopens {
             let synth = self.voice.synth(self.stage.exhibit(), self.guest.as_ref());
-            self.audio = AudioIo::start_with(&site.audio, site.breath, synth);
-        } else if self.voice != voice(&before) {
+            self.audio = AudioIo::start_with(&site.audio, site.breath && !self.closed, synth);
+        } else if self.voice != voice(&before) || before.settings != site.settings {
             self.audio.set_instruments(self.voice.synth(self.stage.exhibit(), self.guest.as_ref()));
         }
         let loud = |site: &Site| (site.volume, site.night.clone(), site.silent_attract);
@@ -420,6 +431,21 @@ impl Thread {
             self.controllers = Controllers::start(&site.controllers);
         }
         self.stage.settle(site.settings, site.idle_s);
+        if before.settings != self.site.settings {
+            self.begin_anew();
+        }
+    }
+
+    /// The exhibit begins at its start: what was told of it is over. A trace knows one run only and ends.
+    fn begin_anew(&mut self) {
+        self.captions = Captions::default();
+        self.onset = None;
+        if let Some(trace) = self.trace.take() {
+            match trace.finish() {
+                Ok(_) => tracing::warn!("the trace ends here: the exhibit begins anew"),
+                Err(error) => tracing::error!("{error}"),
+            }
+        }
     }
 
     /// Plays what staff want to hear: the exhibit's own instruments at once, others when they have been built.
@@ -448,20 +474,13 @@ impl Thread {
         }
     }
 
-    /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
+    /// Another exhibit from its start, with its own sounds.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
         (self.guest, self.trial) = (None, None);
         self.audio.set_instruments(self.voice.synth(&exhibit, None));
         self.governor = Governor::new(exhibit.motion);
         self.stage.swap(exhibit);
-        self.captions = Captions::default();
-        self.onset = None;
-        if let Some(trace) = self.trace.take() {
-            match trace.finish() {
-                Ok(_) => tracing::warn!("the trace ends here: the exhibit was loaded anew"),
-                Err(error) => tracing::error!("{error}"),
-            }
-        }
+        self.begin_anew();
     }
 
     fn write_trace(&mut self) -> Result<(), String> {

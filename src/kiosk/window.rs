@@ -219,7 +219,9 @@ struct App<'a> {
 
 impl ApplicationHandler for App<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        let Some(options) = self.waiting.take() else { return };
+        self.follow_hours();
+        let closed = !self.house.is_open();
+        let Some(options) = self.waiting.take().map(|options| live::Options { closed, ..options }) else { return };
         let screen = open(events, self.on_desk())
             .map_err(Missing::Display)
             .and_then(|w| Screen::new(self.instance.clone(), w, &options.exhibit).map_err(Missing::Graphics));
@@ -263,11 +265,9 @@ impl ApplicationHandler for App<'_> {
             }
             _ => {}
         }
-        let over_panel = self.staff.is_open() && panel.egui_ctx().egui_wants_pointer_input();
         let Some(signal) = translate(&event, show.screen.window.inner_size(), self.modifiers) else { return };
         let points = panel.egui_ctx().content_rect();
-        self.staff.feel(&signal);
-        let above = Above { keys: self.staff.is_open(), pointer: over_panel || self.staff.tests() };
+        let above = Above { pointer: self.staff.feel(&signal), keys: self.staff.is_open() };
         let button = match self.visitor.press_position(&signal) {
             Some([x, y]) if !above.pointer && self.house.hears(time) => {
                 self.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)))

@@ -37,8 +37,9 @@ pub struct JointState {
     pub error: f64,
     /// Does it hold an angle?
     pub angle: bool,
-    /// What it carried in the last solve: N, of an angle N m.
-    pub load: f64,
+    /// The force that its joint carried in the last step, all lengths between the two bodies together, N; `None` for
+    /// angles and couplings.
+    pub load: Option<f64>,
 }
 
 /// How a body is.
@@ -77,15 +78,14 @@ impl Simulation {
     }
 
     fn joint_states(&self) -> Vec<JointState> {
-        let system = self.dynamics.system();
-        let gaps = system.gaps(&self.dynamics.bodies);
-        let states = gaps.into_iter().zip(system.constraints()).enumerate();
-        let state = |(index, (error, constraint)): (usize, (f64, &crate::articulation::Constraint))| {
-            let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });
-            let (force, torque) = system.carried(index);
-            JointState { error, angle, load: if angle { torque } else { force } }
-        };
-        states.map(state).collect()
+        let gaps = self.dynamics.system().gaps(&self.dynamics.bodies);
+        let states = self.dynamics.loads().into_iter().zip(gaps).zip(self.dynamics.system().constraints());
+        states
+            .map(|((load, error), constraint)| {
+                let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });
+                JointState { error, angle, load: load.filter(|_| !angle) }
+            })
+            .collect()
     }
 
     fn body_states(&self) -> Vec<BodyState> {

@@ -3,7 +3,7 @@
 use egui::{Grid, Ui};
 
 use super::plot::Course;
-use super::{BAD, Sight};
+use super::{BAD, ROW, Sight};
 use crate::simulation::STEPS_PER_SECOND;
 
 /// A joint that is farther open than this is told, m or rad.
@@ -47,19 +47,19 @@ impl Bodies {
         ui.label("Joints; press one for its course");
         Grid::new("joints").num_columns(3).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
             for (index, (constraint, joint)) in joints.iter().enumerate() {
-                let (unit, load) = if joint.angle { ("rad", "N m") } else { ("m", "N") };
+                let unit = if joint.angle { "rad" } else { "m" };
                 if ui.selectable_label(self.picked == Some(index), &constraint.name).clicked() {
                     self.picked = (self.picked != Some(index)).then_some(index);
                     self.own = Course::default();
                 }
                 let error = egui::RichText::new(format!("{:9.2e} {unit}", joint.error)).monospace();
                 ui.label(if joint.error > OPEN { error.color(BAD) } else { error });
-                ui.monospace(format!("{:9.3e} {load}", joint.load));
+                ui.monospace(joint.load.map_or_else(String::new, |load| format!("{load:9.3e} N")));
                 ui.end_row();
             }
         });
         ui.separator();
-        Grid::new("bodies").num_columns(5).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
+        Grid::new("bodies").num_columns(5).min_row_height(ROW).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
             for name in ["body", "mass, g", "speed, m/s", "spin, rad/s", "height, m"] {
                 ui.label(name);
             }

@@ -2,7 +2,7 @@
 
 use egui::{Color32, DragValue, Grid, Sense, Ui, pos2, vec2};
 
-use super::{BAD, GOOD, Sight, row};
+use super::{BAD, GOOD, ROW, Sight, row};
 use crate::config::remedies;
 use crate::kiosk::edit::{Changes, with_key};
 use crate::wind::blow::{BlowEstimate, Reason};
@@ -64,6 +64,11 @@ impl Microphone {
         let heard = &frame.current.breath.estimate;
         if !frame.hears {
             ui.colored_label(BAD, format!("nothing arrives; {}", frame.load.audio.input));
+            for remedy in frame.load.microphone.remedies() {
+                ui.colored_label(BAD, remedy);
+            }
+            self.range = None;
+            return;
         }
         let level = heard.level_dbfs.max(QUIETEST_DBFS);
         let [low, high] = self.range.unwrap_or([level, level]);
@@ -71,7 +76,7 @@ impl Microphone {
         self.range = Some(range);
         meter(ui, heard, range);
         let health = &frame.load.microphone;
-        Grid::new("microphone").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+        Grid::new("microphone").num_columns(2).min_row_height(ROW).spacing([24.0, 4.0]).show(ui, |ui| {
             row(ui, "level now", format!("{:6.1} dBFS", heard.level_dbfs), false);
             row(ui, "since the page opened", format!("{:6.1} to {:6.1} dBFS", range[0], range[1]), false);
             let loud = heard.floor_dbfs > remedies::LOUD_DBFS;
@@ -88,9 +93,9 @@ impl Microphone {
         let mut well = true;
         for remedy in health.remedies() {
             well = false;
-            ui.colored_label(BAD, format!("\u{2192} {remedy}"));
+            ui.colored_label(BAD, format!("\u{27a1} {remedy}"));
         }
-        if well && frame.hears {
+        if well {
             ui.colored_label(GOOD, "Nothing to mend.");
         }
         if ui.button("Measure the range anew").clicked() {

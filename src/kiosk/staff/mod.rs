@@ -13,6 +13,7 @@ use super::house::House;
 use super::input::{Phase, Signal};
 use super::live::Frame;
 use super::log::Log;
+use super::page::INK;
 use super::voice::Trial;
 use crate::config::Config;
 use crate::exhibit::View;
@@ -41,6 +42,9 @@ const WIDTH: f32 = 500.0;
 const WIDTH_SHARE: f32 = 0.6;
 /// Height of what staff press, mm: half of a visitor's button, for a practised finger.
 const PRESS_MM: f32 = 9.0;
+
+/// Height of a row of numbers, points.
+const ROW: f32 = 17.0;
 
 /// What is not as it should be.
 const BAD: Color32 = Color32::from_rgb(200, 50, 30);
@@ -172,6 +176,8 @@ pub struct Staff {
     open: bool,
     page: Page,
     gate: Gate,
+    /// Its share of the picture's width.
+    share: f32,
     /// Inputs that were seen, and when the last one came, s.
     touched: (u64, f64),
     toast: Option<(f64, String)>,
@@ -219,11 +225,6 @@ impl Staff {
         &mut self.gate
     }
 
-    /// Are fingers tested now, instead of the work?
-    pub fn tests(&self) -> bool {
-        self.open && self.page == Page::Test
-    }
-
     /// What the open page looks at.
     pub fn look(&self, site: &Config) -> Look {
         match self.page {
@@ -239,19 +240,23 @@ impl Staff {
         self.toast = Some((time, message.into()));
     }
 
-    /// What a finger or the pointer does while the panel is open, for the test of the glass.
-    pub fn feel(&mut self, signal: &Signal) {
-        if self.open {
-            match signal {
-                Signal::Pointer(at) => self.test.slide(None, *at),
-                Signal::Button(down) => self.test.press(None, None, *down),
-                Signal::Touch { finger, at, phase: Phase::Move } => self.test.slide(Some(*finger), *at),
-                Signal::Touch { finger, at, phase } => {
-                    self.test.press(Some(*finger), Some(*at), *phase == Phase::Down);
-                }
-                Signal::Key(_) | Signal::Deserted => {}
+    /// What a finger or the pointer does; says whether it does it to the panel, or to the test of the glass.
+    pub fn feel(&mut self, signal: &Signal) -> bool {
+        match signal {
+            Signal::Pointer(at) => self.test.slide(None, *at),
+            Signal::Button(down) if self.open => self.test.press(None, None, *down),
+            Signal::Touch { finger, at, phase: Phase::Move } => self.test.slide(Some(*finger), *at),
+            Signal::Touch { finger, at, phase } if self.open => {
+                self.test.press(Some(*finger), Some(*at), *phase == Phase::Down);
             }
+            _ => {}
         }
+        let at = match signal {
+            Signal::Pointer(at) | Signal::Touch { at, .. } => Some(*at),
+            Signal::Button(_) => self.test.pointer(),
+            Signal::Key(_) | Signal::Deserted => None,
+        };
+        self.open && (self.page == Page::Test || at.is_some_and(|[x, _]| x >= 1.0 - f64::from(self.share)))
     }
 
     /// Draws the panel when it is open, and a new message where staff may see it.
@@ -276,11 +281,13 @@ impl Staff {
             self.test.paint(ui.ctx());
             return wishes;
         }
-        let width = WIDTH.min(WIDTH_SHARE * ui.ctx().content_rect().width());
+        let width = width(ui.ctx());
+        self.share = width / ui.ctx().content_rect().width();
         let panel = egui::Panel::right("staff").resizable(false).exact_size(width);
         panel.show(ui, |ui| {
             ui.spacing_mut().interact_size.y = (PRESS_MM * sight.points_per_mm).clamp(18.0, 48.0);
             ui.spacing_mut().item_spacing = vec2(8.0, 6.0);
+            ui.visuals_mut().override_text_color = Some(INK);
             if self.gate.has_pin() && !self.gate.is_open() {
                 keypad::show(ui, &mut self.gate, time, sight.points_per_mm);
             } else {
@@ -346,6 +353,11 @@ impl Staff {
             });
         }
     }
+}
+
+/// Width of the panel, points.
+fn width(context: &egui::Context) -> f32 {
+    WIDTH.min(WIDTH_SHARE * context.content_rect().width())
 }
 
 /// One row of a grid of names and values.

@@ -65,9 +65,11 @@ impl Course {
         let font = FontId::monospace(12.0);
         let ink = Color32::from_gray(30);
         painter.text(room.left_top() + vec2(4.0, 2.0), Align2::LEFT_TOP, format!("{name}: {last}"), font.clone(), ink);
+        // What is written below a level line is the same number: above it stands by how much the other end differs.
         let bound = |value: f64| if powers { format!("1e{value:.0}") } else { format!("{value:.3e}") };
+        let top = if powers { bound(high) } else { format!("+ {:.1e}", high - low) };
         let soft = Color32::from_gray(90);
-        painter.text(room.right_top() + vec2(-4.0, 2.0), Align2::RIGHT_TOP, bound(high), font.clone(), soft);
+        painter.text(room.right_top() + vec2(-4.0, 2.0), Align2::RIGHT_TOP, top, font.clone(), soft);
         painter.text(room.right_bottom() - vec2(4.0, 2.0), Align2::RIGHT_BOTTOM, bound(low), font, soft);
     }
 }

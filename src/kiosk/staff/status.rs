@@ -2,7 +2,7 @@
 
 use egui::{Grid, Ui};
 
-use super::{BAD, Sight, Wish, row};
+use super::{BAD, ROW, Sight, Wish, row};
 use crate::audio_io::DeviceState;
 use crate::controllers::State;
 use crate::kiosk::loudness::NightBy;
@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
         ui.colored_label(BAD, format!("microphone: {remedy}"));
     }
     ui.separator();
-    Grid::new("numbers").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, sight));
+    Grid::new("numbers").num_columns(2).min_row_height(ROW).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, sight));
 }
 
 fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {

@@ -4,7 +4,7 @@
 use egui::{Align2, Color32, FontId, LayerId, Order, Ui, vec2};
 
 use super::display::Pattern;
-use super::{Sight, Wish, row};
+use super::{ROW, Sight, Wish, row};
 use crate::kiosk::voice::{Trial, Tried};
 
 /// The timbre that loudspeakers are told apart by, and the speed of its hit, m/s.
@@ -54,9 +54,14 @@ impl Test {
         }
     }
 
+    /// Where the pointer is.
+    pub fn pointer(&self) -> Option<[f64; 2]> {
+        self.pointer
+    }
+
     /// Nothing is tested any more.
     pub fn end(&mut self) {
-        *self = Self::default();
+        *self = Self { pointer: self.pointer, ..Self::default() };
     }
 
     /// Is a picture over everything?
@@ -95,7 +100,7 @@ impl Test {
         });
         ui.heading("Microphone");
         let heard = &sight.frame.current.breath.estimate;
-        egui::Grid::new("decision").num_columns(2).show(ui, |ui| {
+        egui::Grid::new("decision").num_columns(2).min_row_height(ROW).show(ui, |ui| {
             let decision = if heard.speed > 0.0 { "a breath" } else { "no breath" };
             row(ui, "decision", if sight.frame.hears { decision } else { "nothing arrives" }, !sight.frame.hears);
             row(ui, "because", format!("{:?}", heard.reason), false);

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Grid, LayerId, Order, Ui, pos2, vec2};
 
-use super::Sight;
+use super::{ROW, Sight, width};
 use crate::simulation::WindSample;
 
 /// Air as fast as this is drawn at its reddest, m/s.
@@ -17,7 +17,7 @@ pub fn show(ui: &mut Ui, sight: &Sight) {
     };
     dots(ui, sight, &seen.wind);
     let exhibit = &sight.frame.exhibit;
-    Grid::new("surfaces").num_columns(4).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
+    Grid::new("surfaces").num_columns(4).min_row_height(ROW).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
         for name in ["surface of", "hit", "mean, m/s", "fastest, m/s"] {
             ui.label(name);
         }
@@ -42,7 +42,9 @@ pub fn show(ui: &mut Ui, sight: &Sight) {
 fn dots(ui: &Ui, sight: &Sight, samples: &[WindSample]) {
     let picture = ui.ctx().content_rect();
     let aspect = f64::from(picture.width() / picture.height());
-    let painter = ui.ctx().layer_painter(LayerId::new(Order::Background, egui::Id::unique("wind samples")));
+    let layer = LayerId::new(Order::Background, egui::Id::unique("wind samples"));
+    let beside = picture.with_max_x(picture.right() - width(ui.ctx()));
+    let painter = ui.ctx().layer_painter(layer).with_clip_rect(beside);
     for sample in samples {
         let Some([x, y]) = sight.view.project(sample.point, aspect) else { continue };
         let at = picture.lerp_inside(vec2(x as f32, y as f32));

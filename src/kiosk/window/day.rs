@@ -80,6 +80,7 @@ impl App<'_> {
                     continue;
                 }
             };
+            let mended = !self.site_says.is_empty();
             self.site_says.clear();
             let waits = waits_for_restart(&self.config, &config);
             if !waits.is_empty() {
@@ -91,6 +92,9 @@ impl App<'_> {
             let (old, new) = (&self.config.exhibits, &mut config.exhibits);
             (new.folder, new.hot_reload) = (old.folder.clone(), old.hot_reload);
             if config == self.config {
+                if mended {
+                    self.say("the configuration is good again".into());
+                }
                 continue;
             }
             let reordered = config.exhibits.show != self.config.exhibits.show;
