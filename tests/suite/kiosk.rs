@@ -511,6 +511,8 @@ mod site;
 mod staff;
 #[cfg(feature = "kiosk")]
 mod stage;
+#[cfg(feature = "kiosk")]
+mod voice;
 
 mod room {
     use soffio::commands::doctor::{Health, judge_blow, judge_room};

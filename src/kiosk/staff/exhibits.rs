@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use egui::Ui;
+use egui::{RichText, Ui};
 
 use super::{Sight, Wish};
 use crate::config::OTHERS;
@@ -71,10 +71,10 @@ impl Exhibits {
         let mut change = None;
         for (row, id) in self.list.iter().enumerate() {
             ui.horizontal(|ui| {
-                for (sign, by) in [("\u{2b06}", -1), ("\u{2b07}", 1)] {
+                for (sign, by) in [("\u{2191}", -1), ("\u{2193}", 1)] {
                     let to = row as isize + by;
                     let room = (0..self.list.len() as isize).contains(&to);
-                    if ui.add_enabled(room, egui::Button::new(sign)).clicked() {
+                    if ui.add_enabled(room, egui::Button::new(RichText::new(sign).monospace())).clicked() {
                         change = Some(Change::Move(row, by));
                     }
                 }

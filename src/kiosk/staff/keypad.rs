@@ -54,11 +54,12 @@ fn pad(ui: &mut Ui, side: f32) -> Option<Pressed> {
             for row in ["123", "456", "789", "<0>"] {
                 for sign in row.chars() {
                     let (name, key) = match sign {
-                        '<' => ("\u{2b05}".to_owned(), Pressed::Back),
+                        '<' => ("\u{2190}".to_owned(), Pressed::Back),
                         '>' => ("OK".to_owned(), Pressed::Enter),
                         digit => (digit.to_string(), Pressed::Digit(digit)),
                     };
-                    let button = Button::new(RichText::new(name).size(0.4 * side)).min_size(vec2(side, side));
+                    let button =
+                        Button::new(RichText::new(name).monospace().size(0.4 * side)).min_size(vec2(side, side));
                     if ui.add(button).clicked() {
                         pressed = Some(key);
                     }

@@ -93,7 +93,7 @@ impl Microphone {
         let mut well = true;
         for remedy in health.remedies() {
             well = false;
-            ui.colored_label(BAD, format!("\u{27a1} {remedy}"));
+            ui.colored_label(BAD, remedy);
         }
         if well {
             ui.colored_label(GOOD, "Nothing to mend.");

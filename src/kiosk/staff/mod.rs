@@ -4,19 +4,13 @@
 //! panel shows all and changes nothing; on somebody's desk, where Esc ends the kiosk anyway, it does both. It closes
 //! when nobody has touched it for a while, and asks for the PIN anew.
 
-use std::path::Path;
-
 use egui::{Color32, RichText, Ui, vec2};
 
 use super::edit::Changes;
-use super::house::House;
 use super::input::{Phase, Signal};
-use super::live::Frame;
-use super::log::Log;
 use super::page::INK;
 use super::voice::Trial;
 use crate::config::Config;
-use crate::exhibit::View;
 use crate::simulation::Look;
 
 mod bodies;
@@ -28,12 +22,14 @@ mod log;
 mod microphone;
 mod parameters;
 mod plot;
+mod sight;
 mod sound;
 mod status;
 mod test;
 mod wind;
 
 use gate::Gate;
+pub use sight::{Sight, Vitals};
 
 /// How long a message stays in the corner of a desk, s.
 const TOAST_S: f64 = 10.0;
@@ -125,49 +121,6 @@ impl Page {
             Self::Log => "Log",
         }
     }
-}
-
-/// What the window knows besides the simulation.
-#[derive(Clone, Copy, Debug)]
-pub struct Vitals<'a> {
-    /// Name and kind of the graphics adapter.
-    pub adapter: &'a str,
-    /// Mean time from picture to picture, s.
-    pub frame_s: f64,
-    /// Pixels.
-    pub size: [u32; 2],
-    /// Seconds since the kiosk began.
-    pub time: f64,
-    /// From the last breath's first wind to its first picture, s.
-    pub sight_s: f64,
-}
-
-/// What the panel is drawn from.
-pub struct Sight<'a> {
-    /// The latest moments.
-    pub frame: &'a Frame,
-    /// The camera of the picture.
-    pub view: View,
-    /// The window's own numbers.
-    pub vitals: Vitals<'a>,
-    /// The site's configuration, and its file where it has one.
-    pub site: &'a Config,
-    /// See above.
-    pub file: Option<&'a Path>,
-    /// What staff should know of it: what is wrong with the file, what waits for a restart.
-    pub site_says: &'a [String],
-    /// Ids of the works that visitors can choose from.
-    pub works: &'a [&'a str],
-    /// Is it open, is it cleaned?
-    pub house: &'a House,
-    /// What was logged.
-    pub log: &'a Log,
-    /// Inputs so far.
-    pub activity: u64,
-    /// Is this somebody's desk and not the gallery?
-    pub on_desk: bool,
-    /// Points per millimetre of glass.
-    pub points_per_mm: f32,
 }
 
 /// The panel and what its pages remember.

@@ -25,7 +25,8 @@ pub fn show(ui: &mut Ui, sight: &Sight) {
         for (index, surface) in exhibit.wind_surfaces.iter().enumerate() {
             let own = || seen.wind.iter().filter(|sample| sample.surface == index);
             let hit = || own().filter(|sample| sample.hit);
-            let mean = hit().map(|sample| sample.speed).sum::<f64>() / hit().count().max(1) as f64;
+            let sum = hit().fold(0.0, |sum, sample| sum + sample.speed);
+            let mean = sum / hit().count().max(1) as f64;
             let fastest = own().fold(0.0, |most: f64, sample| most.max(sample.speed));
             ui.label(exhibit.bodies.get(surface.body).map_or("?", |body| body.name.as_str()));
             ui.monospace(format!("{:3} of {:3}", hit().count(), own().count()));

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
+use egui::{Event, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
 use soffio::config::{Config, Pin};
 use soffio::exhibit;
 use soffio::kiosk::fonts;
@@ -99,7 +99,8 @@ struct Before {
     time: f64,
     activity: u64,
     on_desk: bool,
-    words: Vec<(String, Rect)>,
+    /// What is written, where, and in which font.
+    words: Vec<(String, Rect, FontId)>,
 }
 
 impl Before {
@@ -185,16 +186,16 @@ impl Before {
 
     /// Where these words stand.
     fn find(&self, words: &str) -> Pos2 {
-        let found = self.words.iter().find(|(text, _)| text == words);
+        let found = self.words.iter().find(|(text, ..)| text == words);
         found.unwrap_or_else(|| panic!("\"{words}\" is not among {:?}", self.said())).1.center()
     }
 
     fn said(&self) -> Vec<&str> {
-        self.words.iter().map(|(text, _)| text.as_str()).collect()
+        self.words.iter().map(|(text, ..)| text.as_str()).collect()
     }
 
     fn says(&self, part: &str) -> bool {
-        self.words.iter().any(|(text, _)| text.contains(part))
+        self.words.iter().any(|(text, ..)| text.contains(part))
     }
 
     /// Presses words with the pointer; what that asks for.
@@ -217,10 +218,13 @@ impl Before {
 }
 
 /// All texts of a shape with their places.
-fn collect(shape: &Shape, out: &mut Vec<(String, Rect)>) {
+fn collect(shape: &Shape, out: &mut Vec<(String, Rect, FontId)>) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, out)),
-        Shape::Text(text) => out.push((text.galley.text().to_owned(), text.visual_bounding_rect())),
+        Shape::Text(text) => {
+            let font = text.galley.job.sections.first().map(|section| section.format.font_id.clone());
+            out.push((text.galley.text().to_owned(), text.visual_bounding_rect(), font.unwrap_or_default()));
+        }
         _ => {}
     }
 }
@@ -245,12 +249,10 @@ fn every_page_is_drawn_for_every_kind_of_work_and_says_what_it_is_for() {
             staff.staff.turn_to(page);
             (0..3).for_each(|_| drop(staff.look(Vec::new())));
             assert!(staff.says(words), "{id}, {page:?}: {:?}", staff.said());
-            let unwritten = |text: &&str| {
-                let font = egui::FontId::proportional(14.0);
-                !staff.context.fonts_mut(|fonts| fonts.has_glyphs(&font, text))
-            };
-            let unwritten: Vec<&str> = staff.said().into_iter().filter(unwritten).collect();
-            assert_eq!(unwritten, [""; 0], "{id}, {page:?}: no font can write these");
+            for (text, _, font) in &staff.words {
+                let can = staff.context.fonts_mut(|fonts| fonts.has_glyphs(font, text));
+                assert!(can, "{id}, {page:?}: {font:?} has not all of \"{text}\"");
+            }
         }
     }
 }
@@ -392,7 +394,7 @@ fn the_order_is_changed_by_buttons_and_saved_with_its_comments() {
     staff.staff.turn_to(Page::Exhibits);
     assert_eq!(staff.press("wind-chimes"), [Wish::Show("wind-chimes".into())]);
     staff.press("+ pendulum");
-    staff.press("\u{2b07}");
+    staff.press("\u{2193}");
     staff.press("Save the order");
     assert!(staff.says("Saved in"), "{:?}", staff.said());
     let saved = std::fs::read_to_string(&file).expect("readable");
