@@ -107,6 +107,7 @@ pub fn run(
         overrides,
         site: file.as_deref().map(SiteFile::watch),
         site_says: Vec::new(),
+        work_says: None,
         log,
         house: House::default(),
         shelf: Shelf::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
@@ -175,6 +176,8 @@ struct App<'a> {
     site: Option<SiteFile>,
     /// What staff should know of the configuration: what is wrong with it, what waits for a restart.
     site_says: Vec<String>,
+    /// Why the work on show does not load as its files stand.
+    work_says: Option<String>,
     log: Log,
     house: House,
     instance: wgpu::Instance,
@@ -398,6 +401,7 @@ impl App<'_> {
                 vitals,
                 site: &self.config,
                 site_says: &self.site_says,
+                work_says: self.work_says.as_deref(),
                 file: self.site.as_ref().map(|site| site.path.as_path()),
                 works: &works,
                 house: &self.house,
@@ -461,6 +465,7 @@ impl App<'_> {
         match news {
             News::Show(exhibit) => {
                 self.turning = false;
+                self.work_says = None;
                 self.given.leave();
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
@@ -478,6 +483,10 @@ impl App<'_> {
             }
             News::Falls(id, report) => {
                 self.offer.remove(&id);
+                let shown = self.show.as_ref().map(|show| show.live.frame().exhibit.folder.clone());
+                if shown.is_some_and(|folder| super::shelf::id(&folder) == id) {
+                    self.work_says = Some(report.trim_end().to_owned());
+                }
                 self.say(format!("{}\n{id} is not offered until it is mended.", report.trim_end()));
             }
             News::Gone(id) => self.offer.remove(&id),

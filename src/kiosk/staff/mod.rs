@@ -269,7 +269,6 @@ impl Staff {
                 "No PIN is set: this panel shows and changes nothing. `soffio pin` prints the line for [staff].",
             );
         }
-        let folder = &sight.frame.exhibit.folder;
         let mut said = None;
         let scroll = egui::ScrollArea::vertical().id_salt(self.page.name()).auto_shrink(false);
         let bottom = if self.said.is_some() { 80.0 } else { 0.0 };
@@ -280,7 +279,7 @@ impl Staff {
             Page::Bodies => self.bodies.show(ui, sight),
             Page::Wind => wind::show(ui, sight),
             Page::Sound => self.sound.show(ui, sight, may, wishes),
-            Page::Parameters => self.parameters.show(ui, folder, may, &mut self.changes, &mut said),
+            Page::Parameters => self.parameters.show(ui, sight, may, &mut self.changes, &mut said),
             Page::Microphone => self.microphone.show(ui, sight, may, &mut self.changes, &mut said),
             Page::Test => self.test.show(ui, sight, may, wishes),
             Page::Log => self.log.show(ui, sight.log),

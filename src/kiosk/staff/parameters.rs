@@ -5,9 +5,9 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use egui::{CollapsingHeader, DragValue, TextEdit, Ui};
+use egui::{CollapsingHeader, DragValue, Label, RichText, TextEdit, Ui};
 
-use super::BAD;
+use super::{BAD, Sight};
 use crate::exhibit::SIDECAR;
 use crate::kiosk::edit::{Changes, Number, Step, four_digits, numbers, with_number};
 
@@ -26,10 +26,17 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Draws it, for the exhibit in this folder.
-    pub fn show(&mut self, ui: &mut Ui, folder: &Path, may: bool, changes: &mut Changes, said: &mut Option<String>) {
-        if let Err(error) = self.read(&folder.join(SIDECAR)) {
+    /// Draws it.
+    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, changes: &mut Changes, said: &mut Option<String>) {
+        if let Err(error) = self.read(&sight.frame.exhibit.folder.join(SIDECAR)) {
             ui.colored_label(BAD, error);
+        }
+        if let Some(report) = sight.work_says {
+            ui.colored_label(
+                BAD,
+                "As it is saved it does not load; the last good one is on show. Take the change back, or mend it:",
+            );
+            ui.add(Label::new(RichText::new(report).monospace().color(BAD)).wrap());
         }
         ui.label(format!("{}. Drag a number, or press it and type; it is saved when you let go.", self.file.display()));
         ui.horizontal(|ui| {
@@ -43,8 +50,7 @@ impl Parameters {
         let changed = ui.add_enabled_ui(may, |ui| self.groups(ui)).inner;
         if let Some((place, value)) = changed {
             let made = changes.make(&self.file, |text| with_number(text, &place, value));
-            *said =
-                Some(made.err().unwrap_or_else(|| format!("Saved. Whether it loads, the log says: {}.", shown(value))));
+            *said = Some(made.err().unwrap_or_else(|| format!("Saved: {}.", shown(value))));
             self.written = None;
         }
     }

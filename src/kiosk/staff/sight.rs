@@ -37,6 +37,8 @@ pub struct Sight<'a> {
     pub file: Option<&'a Path>,
     /// What staff should know of it: what is wrong with the file, what waits for a restart.
     pub site_says: &'a [String],
+    /// Why the work on show does not load as its files stand now; the last good one is shown.
+    pub work_says: Option<&'a str>,
     /// Ids of the works that visitors can choose from.
     pub works: &'a [&'a str],
     /// Is it open, is it cleaned?

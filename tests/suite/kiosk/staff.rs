@@ -99,6 +99,7 @@ struct Before {
     time: f64,
     activity: u64,
     on_desk: bool,
+    work_says: Option<String>,
     /// What is written, where, and in which font.
     words: Vec<(String, Rect, FontId)>,
 }
@@ -129,6 +130,7 @@ impl Before {
             time: 1.0,
             activity: 0,
             on_desk: true,
+            work_says: None,
             words: Vec::new(),
         }
     }
@@ -164,6 +166,7 @@ impl Before {
             vitals,
             site: &self.site,
             site_says: &[],
+            work_says: self.work_says.as_deref(),
             file: self.file.as_deref(),
             works: &["steel-fish", "wind-chimes"],
             house: &self.house,
@@ -433,6 +436,9 @@ fn a_number_that_is_dragged_is_saved_when_it_is_let_go_and_taken_back() {
         "{saved}"
     );
     assert_ne!(saved, text);
+    staff.work_says = Some("exhibit.toml:3:9: no such speed".into());
+    staff.look(Vec::new());
+    assert!(staff.says("no such speed") && staff.says("the last good one is on show"), "{:?}", staff.said());
     staff.press("Take back (1)");
     assert_eq!(std::fs::read_to_string(&file).expect("readable"), text);
 }
