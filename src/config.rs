@@ -16,11 +16,15 @@ use crate::sound::{MOST_PARTIALS, RoomSpec, VolumeSettings};
 pub mod chord;
 mod diagnose;
 mod hours;
+mod opening;
+mod pin;
 pub mod remedies;
 
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
 pub use hours::{Hours, TimeOfDay};
+pub use opening::{Day, Holiday, OpenHours, Opening};
+pub use pin::{DIGITS, Pin};
 
 /// Where the file lies, below the working directory or one of its parents.
 pub const FILE: &str = "kiosk-config/kiosk.toml";
@@ -46,6 +50,10 @@ pub struct Config {
     pub volume: Loudness,
     /// When the house is quiet.
     pub night: Hours,
+    /// When the house is open.
+    pub opening: Opening,
+    /// What visitors may do.
+    pub visit: Visit,
     /// Other ways to blow and to aim.
     pub controllers: ControllerSettings,
     /// What happens when nobody is there.
@@ -306,12 +314,33 @@ impl Default for AttractSettings {
     }
 }
 
+/// What visitors may do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Visit {
+    /// May they blow? Where they may not, in times of an outbreak, the microphone is closed, and the invitation says
+    /// that they press and hold.
+    pub breath: bool,
+}
+
+impl Default for Visit {
+    fn default() -> Self {
+        Self { breath: true }
+    }
+}
+
 /// Staff only.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Staff {
     /// Keys that open and close the staff panel.
     pub chord: Chord,
+    /// Hash of the PIN that it asks for (`soffio pin`); without one the panel shows and changes nothing.
+    pub pin: Pin,
+    /// Time without a touch after which it closes, s.
+    pub closes_s: f64,
+    /// Keys that open the kiosk while the house is closed, and close it again.
+    pub open: Chord,
     /// Keys that mute the kiosk, and let it sound again.
     pub mute: Chord,
     /// Keys that go from the configured hours to night, to day, and back.
@@ -323,7 +352,15 @@ pub struct Staff {
 impl Default for Staff {
     fn default() -> Self {
         let chord = |key| Chord::new(true, true, false, key);
-        Self { chord: chord("S"), mute: chord("M"), night: chord("N"), metrics: PathBuf::new() }
+        Self {
+            chord: chord("S"),
+            pin: Pin::default(),
+            closes_s: 120.0,
+            open: chord("O"),
+            mute: chord("M"),
+            night: chord("N"),
+            metrics: PathBuf::new(),
+        }
     }
 }
 
@@ -372,6 +409,7 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "controllers.midi_controller", low: 0.0, high: 127.0, unit: "1" },
     Limit { key: "controllers.serial_baud", low: 300.0, high: 4e6, unit: "1/s" },
     Limit { key: "attract.idle_s", low: 1.0, high: 3600.0, unit: "s" },
+    Limit { key: "staff.closes_s", low: 10.0, high: 3600.0, unit: "s" },
 ];
 
 impl Config {

@@ -72,6 +72,8 @@ pub enum DeviceState {
     },
     /// Does not work, for this reason; it is tried again and again.
     Missing(String),
+    /// The kiosk does not want it now: closed by hours, or by a site where nobody blows.
+    Closed,
 }
 
 impl std::fmt::Display for DeviceState {
@@ -80,6 +82,7 @@ impl std::fmt::Display for DeviceState {
             Self::Starting => f.write_str("starting"),
             Self::Ok { name, sample_rate } => write!(f, "{name}, {sample_rate} Hz"),
             Self::Missing(reason) => write!(f, "missing: {reason}"),
+            Self::Closed => f.write_str("closed"),
         }
     }
 }
@@ -92,6 +95,7 @@ pub struct AudioIo {
     knobs: Arc<Knobs>,
     supervisor: Option<JoinHandle<()>>,
     generation: u64,
+    listens: bool,
     microphone: Option<input::Ears>,
     loudspeaker: Option<output::Voice>,
     tap: ReferenceTap,
@@ -100,12 +104,17 @@ pub struct AudioIo {
 impl AudioIo {
     /// Begins to open the devices and returns at once; `synth` is called for each loudspeaker that is opened.
     pub fn start(settings: &AudioSettings, synth: impl Fn(u32) -> Synth + Send + 'static) -> Self {
+        Self::start_with(settings, true, synth)
+    }
+
+    /// The same, with the microphone (`listens`) or without it.
+    pub fn start_with(settings: &AudioSettings, listens: bool, synth: impl Fn(u32) -> Synth + Send + 'static) -> Self {
         let (requests, inbox) = std::sync::mpsc::channel();
         let (outbox, links) = std::sync::mpsc::channel();
         let status = Arc::new(Mutex::new(AudioStatus::default()));
         let knobs = Arc::new(Knobs::new(from_decibels(settings.volume_db) as f32));
         let supervisor =
-            Supervisor::new(settings.clone(), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
+            Supervisor::new((settings.clone(), listens), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
         let supervisor = std::thread::Builder::new().name("audio".into()).spawn(move || supervisor.run());
         if let Err(error) = &supervisor {
             let missing = DeviceState::Missing(format!("no thread for the devices: {error}"));
@@ -119,6 +128,7 @@ impl AudioIo {
             knobs,
             supervisor: supervisor.ok(),
             generation: 0,
+            listens,
             microphone: None,
             loudspeaker: None,
             tap: ReferenceTap::default(),
@@ -153,6 +163,21 @@ impl AudioIo {
         self.generation += 1;
         // Fails only when the supervisor could not be started, which the status says already.
         let _ = self.requests.send(Request::Instruments { synth: Box::new(synth), generation: self.generation });
+    }
+
+    /// Have the instruments that were asked for last arrived at the loudspeaker? Never without one.
+    pub fn has_instruments(&self) -> bool {
+        let heard = |voice: &output::Voice| voice.shared().generation.load(Ordering::Acquire) == self.generation;
+        self.loudspeaker.as_ref().is_some_and(heard)
+    }
+
+    /// Closes the microphone, or opens it again.
+    pub fn listen(&mut self, listens: bool) {
+        if self.listens != listens {
+            self.listens = listens;
+            // Fails only when the supervisor could not be started, which the status says already.
+            let _ = self.requests.send(Request::Listen(listens));
+        }
     }
 
     /// How the devices are.

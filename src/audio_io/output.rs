@@ -46,6 +46,8 @@ pub struct Shared {
     pub played: AtomicU64,
     /// Length of the last block, frames.
     pub block: AtomicU32,
+    /// Of the instruments that play.
+    pub generation: AtomicU64,
 }
 
 /// The real-time end: everything that the loudspeaker's callback touches.
@@ -158,6 +160,7 @@ impl Player {
         if self.leaving.is_none()
             && let Ok(engine) = self.engines.pop()
         {
+            self.shared.generation.store(engine.generation, Ordering::Release);
             self.leaving = self.engine.replace(engine).map(|mut old| {
                 let sample = old.synth.position();
                 old.synth.command(SoundCommand::Silence { sample });

@@ -36,6 +36,8 @@ const MEASURE: &str = "SOFFIO_MEASURE_CALLBACK";
 pub(super) enum Request {
     /// Other instruments.
     Instruments { synth: SynthFactory, generation: u64 },
+    /// The microphone open, or closed.
+    Listen(bool),
     /// The end.
     Stop,
 }
@@ -185,6 +187,7 @@ impl Line {
 
 pub(super) struct Supervisor {
     settings: AudioSettings,
+    listens: bool,
     synth: SynthFactory,
     generation: u64,
     inbox: Receiver<Request>,
@@ -198,7 +201,7 @@ pub(super) struct Supervisor {
 
 impl Supervisor {
     pub fn new(
-        settings: AudioSettings,
+        (settings, listens): (AudioSettings, bool),
         synth: SynthFactory,
         inbox: Receiver<Request>,
         links: Sender<Link>,
@@ -207,6 +210,7 @@ impl Supervisor {
     ) -> Self {
         Self {
             settings,
+            listens,
             synth,
             generation: 0,
             inbox,
@@ -236,6 +240,7 @@ impl Supervisor {
                     (self.synth, self.generation) = (synth, generation);
                     self.install_synth();
                 }
+                Ok(Request::Listen(listens)) => self.listens = listens,
                 Ok(Request::Stop) | Err(RecvTimeoutError::Disconnected) => break,
                 Err(RecvTimeoutError::Timeout) => {
                     if let Some((workshop, _)) = &mut self.workshop {
@@ -311,6 +316,9 @@ impl Supervisor {
     }
 
     fn tend_microphone(&mut self) {
+        if !self.listens {
+            return self.close_microphone();
+        }
         if let Some(reason) = self.microphone.lost() {
             tracing::warn!("microphone lost: {reason}");
             self.microphone.give_up();
@@ -346,6 +354,19 @@ impl Supervisor {
                 self.tell(|status| status.input = DeviceState::Missing(reason));
             }
         }
+    }
+}
+
+impl Supervisor {
+    /// The stream ends, so that the system shows nobody listening; it is opened at once when it is wanted again.
+    fn close_microphone(&mut self) {
+        if self.microphone.stream.is_some() {
+            tracing::info!("microphone closed");
+            self.microphone.give_up();
+            self.link(Link::Microphone(None));
+        }
+        (self.microphone.retry_at, self.microphone.pause) = (Instant::now(), BACK_OFF.0);
+        self.tell(|status| (status.input, status.capsules) = (DeviceState::Closed, 0));
     }
 }
 

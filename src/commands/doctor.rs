@@ -73,6 +73,7 @@ pub fn run(args: Args) -> Outcome {
         Err(error) => Finding::new("configuration", Health::Bad, error.to_string(), "mend the lines named here"),
     }];
     let config = loaded.map(|(config, _)| config).unwrap_or_default();
+    findings.push(pin(&config));
     findings.extend(exhibits(&config));
     #[cfg(feature = "kiosk")]
     findings.extend(machine::look(&config, args.blow));
@@ -105,6 +106,18 @@ fn print(finding: &Finding) {
     println!("{mark}  {what}: {}", found.replace('\n', "\n        "));
     if !remedy.is_empty() {
         println!("        -> {remedy}");
+    }
+}
+
+/// Whether staff can change anything at the kiosk.
+fn pin(config: &Config) -> Finding {
+    match config.staff.pin.is_set() {
+        true => Finding::new("staff PIN", Health::Ok, "set", ""),
+        false => {
+            let remedy =
+                "`soffio pin` prints the line for [staff]; until then the staff panel shows and changes nothing";
+            Finding::new("staff PIN", Health::Warn, "none is set", remedy)
+        }
     }
 }
 

@@ -5,12 +5,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
+
 use super::{Failure, Outcome};
 use crate::config::{Config, FILE};
 use crate::exhibit::Exhibit;
 use crate::kiosk::live::{Options, Report};
+use crate::kiosk::log::Log;
 use crate::kiosk::shelf::{self, Places};
-use crate::kiosk::window::{self, Ended, Missing};
+use crate::kiosk::site::{Overrides, Site};
+use crate::kiosk::window::{self, Ended, Ground, Missing};
 use crate::offline::feed::WavFeed;
 use crate::offline::{demo, wav};
 use crate::simulation::{STEPS_PER_SECOND, Settings};
@@ -56,41 +61,37 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    log_to_stderr();
+    let log = Log::default();
+    log_to_stderr(&log);
     if let Some(solver) = args.solver.filter(|solver| solver == "procedural") {
         let message = format!("--solver {solver}: this build moves exhibits by dynamics only; leave the option out");
         return Err(Failure { code: 2, message });
     }
-    let (mut config, file) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
-    match file {
+    let (config, file) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
+    match &file {
         Some(file) => tracing::info!("configuration: {}", file.display()),
         None => tracing::info!("configuration: built in"),
     }
-    config.screen.fullscreen &= !args.windowed;
-    config.attract.enabled &= !args.no_attract;
+    let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract };
+    let config = overrides.apply(config);
 
     let (exhibit, places) = choose(&config, args.exhibit.as_deref())?;
     let recording = args.breath.map(wav::read).transpose().map_err(Failure::input)?;
-    let settings = config.simulation_settings(args.seed.unwrap_or(DEFAULT_SEED));
+    let site = Site::new(&config, args.seed.unwrap_or(DEFAULT_SEED));
+    let settings = site.settings;
     let options = Options {
         exhibit: exhibit.clone(),
-        settings,
-        audio: config.audio.clone(),
-        room: config.room.spec(),
-        volume: config.volume_settings(),
-        night: config.night.clone(),
-        silent_attract: config.attract.silent,
-        metrics: config.staff.metrics.clone(),
-        controllers: config.controllers.clone(),
+        site,
+        closed: false,
         recording: recording.as_ref().map(WavFeed::from),
-        idle_s: config.attract.enabled.then_some(config.attract.idle_s),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
         trace: args.trace,
     };
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
 
-    match window::run(config, &places, options, &stop) {
+    let ground = Ground { config, overrides, file, log };
+    match window::run(ground, &places, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
         Ok(Ended::Failed(message)) => Err(Failure::device(message)),
@@ -161,12 +162,13 @@ fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop:
     Ok(())
 }
 
-/// Logs go to stderr; `RUST_LOG` says how much. The sound server's client calls its own orderly end an error.
-fn log_to_stderr() {
+/// Logs go to stderr, and their last lines to the staff panel; `RUST_LOG` says how much. The sound server's client calls
+/// its own orderly end an error.
+fn log_to_stderr(log: &Log) {
     let filter = tracing_subscriber::EnvFilter::try_from_default_env()
         .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info,pulseaudio=off"));
-    // A second call in one process keeps the first log.
     let terminal = std::io::stderr().is_terminal();
-    let _ =
-        tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).with_ansi(terminal).try_init();
+    let lines = tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_ansi(terminal);
+    // A second call in one process keeps the first log.
+    let _ = tracing_subscriber::registry().with(filter).with(lines).with(log.clone()).try_init();
 }

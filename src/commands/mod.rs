@@ -23,6 +23,7 @@ pub mod kiosk;
 pub mod labels;
 pub mod loudness;
 pub mod new;
+pub mod pin;
 pub mod play;
 #[cfg(feature = "kiosk")]
 pub mod render;
@@ -105,6 +106,7 @@ enum Command {
     Schema(schema::Args),
     Devices(devices::Args),
     Doctor(doctor::Args),
+    Pin(pin::Args),
     Bench(bench::Args),
 }
 
@@ -132,6 +134,7 @@ pub fn run() -> ExitCode {
         Some(Command::Schema(args)) => schema::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Doctor(args)) => doctor::run(args),
+        Some(Command::Pin(args)) => pin::run(args),
         Some(Command::Bench(args)) => bench::run(args),
     };
     match outcome {

@@ -113,10 +113,9 @@ fn night(config: &Config) -> Option<(String, String)> {
 /// A chord does one thing.
 fn chords(config: &Config) -> Option<(String, String)> {
     let staff = &config.staff;
-    let twice = [(&staff.chord, &staff.mute), (&staff.chord, &staff.night), (&staff.mute, &staff.night)]
-        .into_iter()
-        .find(|(a, b)| a == b);
-    twice.map(|(chord, _)| (format!("{chord} has two meanings in [staff]"), "give each its own key".into()))
+    let all = [&staff.chord, &staff.open, &staff.mute, &staff.night];
+    let twice = all.iter().enumerate().find(|(i, chord)| all[..*i].contains(chord));
+    twice.map(|(_, chord)| (format!("{chord} has two meanings in [staff]"), "give each its own key".into()))
 }
 
 /// Two capsules are two channels: what is wrong, and what to do.

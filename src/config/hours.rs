@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 const DAY: u16 = 24 * 60;
 
 /// A time of day, `22:30`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TimeOfDay(u16);
 
 impl TimeOfDay {

@@ -558,6 +558,16 @@ impl Dynamics {
         self.system.largest_gap(&self.bodies)
     }
 
+    /// The force that the joint of each constraint carried in the last step, all lengths between its two bodies together,
+    /// N; `None` for what no joint holds, such as couplings.
+    pub fn loads(&self) -> Vec<Option<f64>> {
+        let mut loads = vec![None; self.system.constraints().len()];
+        for (joint, load) in self.system.joints().iter().zip(&self.loads) {
+            joint.constraints.iter().for_each(|&constraint| loads[constraint] = Some(*load));
+        }
+        loads
+    }
+
     /// Kinetic and potential energy, J.
     pub fn energy(&self) -> f64 {
         forces::energy(&self.bodies, self.settings.gravity) + self.springs.energy(&self.bodies, self.time)

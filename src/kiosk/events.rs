@@ -28,6 +28,27 @@ pub fn translate(event: &WindowEvent, size: PhysicalSize<u32>, modifiers: Modifi
     })
 }
 
+/// Is it something that a hand does, or anything the panel library takes for it?
+pub fn is_input(event: &WindowEvent) -> bool {
+    use WindowEvent as E;
+    matches!(
+        event,
+        E::KeyboardInput { .. }
+            | E::Ime(_)
+            | E::CursorMoved { .. }
+            | E::CursorEntered { .. }
+            | E::CursorLeft { .. }
+            | E::MouseInput { .. }
+            | E::MouseWheel { .. }
+            | E::Touch(_)
+            | E::PinchGesture { .. }
+            | E::PanGesture { .. }
+            | E::DoubleTapGesture { .. }
+            | E::RotationGesture { .. }
+            | E::TouchpadPressure { .. }
+    )
+}
+
 /// A key by its place on the keyboard, so that a chord is the same on every layout.
 fn key(event: &KeyEvent, modifiers: ModifiersState) -> Option<Key> {
     let PhysicalKey::Code(code) = event.physical_key else { return None };

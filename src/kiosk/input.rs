@@ -96,6 +96,8 @@ pub enum Request {
     Mute,
     /// Staff go on from the configured hours to night, to day, and back.
     Night,
+    /// Staff open the kiosk while the house is closed, or close it again.
+    Open,
     /// Open or close the staff panel.
     ToggleStaff,
     /// Close a window on somebody's desk. Nothing a visitor can do in the gallery asks for it.
@@ -138,10 +140,27 @@ pub struct Keys<'a> {
     pub mute: &'a Chord,
     /// Changes between day and night.
     pub night: &'a Chord,
+    /// Opens the kiosk while the house is closed.
+    pub open: &'a Chord,
     /// Blows while it is held.
     pub blow: &'a str,
     /// Is the page open? Then arrows choose, and nothing blows.
     pub menu: bool,
+}
+
+impl Keys<'_> {
+    /// What the staff's chords ask for.
+    pub fn chord(&self, key: &Key) -> Option<Request> {
+        let chords = [
+            (self.staff, Request::ToggleStaff),
+            (self.open, Request::Open),
+            (self.mute, Request::Mute),
+            (self.night, Request::Night),
+        ];
+        let pressed = |chord: &Chord| chord.matches(key.ctrl, key.alt, key.shift, &key.name);
+        let new = key.pressed && !key.repeat;
+        chords.into_iter().find(|(chord, _)| new && pressed(chord)).map(|(_, request)| request)
+    }
 }
 
 impl Visitor {
@@ -275,11 +294,10 @@ impl Visitor {
                 return Some(Request::Enter);
             }
         }
-        let pressed = |chord: &Chord| chord.matches(key.ctrl, key.alt, key.shift, &key.name);
+        if let Some(asked) = keys.chord(key) {
+            return Some(asked);
+        }
         match key.name.as_str() {
-            _ if pressed(keys.staff) => Some(Request::ToggleStaff),
-            _ if pressed(keys.mute) => Some(Request::Mute),
-            _ if pressed(keys.night) => Some(Request::Night),
             name if plain && LOUDER.contains(&name) => Some(Request::Louder(1)),
             name if plain && SOFTER.contains(&name) => Some(Request::Louder(-1)),
             "L" if plain => Some(Request::NextLanguage),

@@ -14,13 +14,12 @@ use std::time::Instant;
 use cpu_time::ThreadTime;
 
 use crate::audio_io::{AudioIo, AudioStatus, DeviceState, Heard};
-use crate::config::{AudioSettings, ControllerSettings, Hours};
 use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
-use crate::simulation::{MotionMode, STEPS_PER_SECOND, Settings, Snapshot};
-use crate::sound::{RoomSpec, SoundCommand, Synth, VolumeSettings};
+use crate::simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND, Snapshot};
+use crate::sound::SoundCommand;
 
 use super::breaths::{Breaths, Turn};
 use super::captions::Captions;
@@ -29,32 +28,24 @@ use super::loudness::{Loudness, View, Wishes};
 use super::metrics::Metrics;
 use super::microphone::MicrophoneHealth;
 use super::pace::Pacer;
+use super::site::Site;
 use super::stage::{Controls, Stage};
+use super::voice::{Guest, Trial, Voice};
+
+mod changes;
+
+use changes::voice;
 
 /// What a run is made of.
 pub struct Options {
     /// What is shown first.
     pub exhibit: Arc<Exhibit>,
-    /// Constant over the run.
-    pub settings: Settings,
-    /// Devices.
-    pub audio: AudioSettings,
-    /// What the sounds are heard in; `None` is the open air.
-    pub room: Option<RoomSpec>,
-    /// How loud it may be.
-    pub volume: VolumeSettings,
-    /// When the house is quiet.
-    pub night: Hours,
-    /// Does attract mode play without a sound?
-    pub silent_attract: bool,
-    /// Where the kiosk's numbers go; empty for nowhere.
-    pub metrics: PathBuf,
-    /// Other ways to blow and to aim.
-    pub controllers: ControllerSettings,
+    /// What the site says.
+    pub site: Site,
+    /// Is the house closed when the run begins?
+    pub closed: bool,
     /// A recording in the microphone's place.
     pub recording: Option<WavFeed>,
-    /// Idle time before attract mode, s; `None` without attract mode.
-    pub idle_s: Option<f64>,
     /// End after so many steps.
     pub steps: Option<u64>,
     /// Where the trace goes.
@@ -90,6 +81,8 @@ pub struct Frame {
     pub onset: Option<Onset>,
     /// For staff.
     pub load: Load,
+    /// What staff look at; `None` where nobody does.
+    pub inspection: Option<Arc<Inspection>>,
 }
 
 /// The beginning of a breath, from whatever source.
@@ -129,7 +122,8 @@ impl Frame {
     pub fn is_deaf(&self) -> bool {
         !self.hears
             && !self.deaf
-            && (self.load.microphone.is_silent() || matches!(self.load.audio.input, DeviceState::Missing(_)))
+            && (self.load.microphone.is_silent()
+                || matches!(self.load.audio.input, DeviceState::Missing(_) | DeviceState::Closed))
     }
 
     /// Is it certain that there is no loudspeaker?
@@ -177,7 +171,8 @@ struct Shared {
 impl Live {
     /// Starts the thread, for a picture of this shape (width over height).
     pub fn start(options: Options, aspect: f64) -> Result<Self, String> {
-        let stage = Stage::new(options.exhibit.clone(), options.settings, options.recording.clone(), options.idle_s);
+        let site = &options.site;
+        let stage = Stage::new(options.exhibit.clone(), site.settings, options.recording.clone(), site.idle_s);
         let trace = match &options.trace {
             Some(path) => Some(TraceWriter::create(path, &options.exhibit, DEFAULT_FPS).map_err(trace_error)?),
             None => None,
@@ -196,9 +191,15 @@ impl Live {
             hears: options.recording.is_some(),
             onset: None,
             load: Load::default(),
+            inspection: None,
         };
         let shared = Arc::new(Shared {
-            controls: Mutex::new(Controls { aspect, ..Controls::default() }),
+            controls: Mutex::new(Controls {
+                aspect,
+                closed: options.closed,
+                inert: options.closed,
+                ..Controls::default()
+            }),
             frame: Mutex::new(Arc::new(frame)),
             stop: AtomicBool::new(false),
         });
@@ -254,10 +255,13 @@ struct Thread {
     trace: Option<TraceWriter>,
     audio: AudioIo,
     voice: Voice,
+    /// The timbre that staff try beside the exhibit's own, and what is to be heard when it has come.
+    guest: Option<Guest>,
+    trial: Option<Trial>,
+    site: Site,
     loudness: Loudness,
     metrics: Metrics,
     controllers: Controllers,
-    stick_speed: f64,
     shared: Arc<Shared>,
     limit: u64,
     recorded: bool,
@@ -267,31 +271,33 @@ struct Thread {
     breaths: Breaths,
     captions: Captions,
     deaf: bool,
+    closed: bool,
     onset: Option<Onset>,
     /// The step that was published last.
     published: u64,
     load: Load,
     governor: Governor,
+    inspection: Option<Arc<Inspection>>,
 }
 
 impl Thread {
     fn new(stage: Stage, trace: Option<TraceWriter>, options: Options, shared: Arc<Shared>) -> Self {
-        let voice = Voice {
-            room: options.room,
-            most_partials: options.audio.most_partials as usize,
-            seed: options.settings.seed,
-        };
-        let audio = AudioIo::start(&options.audio, voice.synth(&options.exhibit));
+        let site = options.site;
+        let voice = voice(&site);
+        let audio =
+            AudioIo::start_with(&site.audio, site.breath && !options.closed, voice.synth(&options.exhibit, None));
         Self {
             previous: stage.snapshot().clone(),
             stage,
             trace,
             audio,
             voice,
-            loudness: Loudness::new(options.volume, options.night, options.silent_attract),
-            metrics: Metrics::start(options.metrics),
-            controllers: Controllers::start(&options.controllers),
-            stick_speed: options.controllers.stick_speed,
+            guest: None,
+            trial: None,
+            loudness: Loudness::new(site.volume, site.night.clone(), site.silent_attract),
+            metrics: Metrics::start(site.metrics.clone()),
+            controllers: Controllers::start(&site.controllers),
+            site,
             shared,
             limit: options.steps.unwrap_or(u64::MAX),
             recorded: options.recording.is_some(),
@@ -300,10 +306,12 @@ impl Thread {
             breaths: Breaths::default(),
             captions: Captions::default(),
             deaf: false,
+            closed: options.closed,
             onset: None,
             published: 0,
             load: Load::default(),
             governor: Governor::new(options.exhibit.motion),
+            inspection: None,
         }
     }
 
@@ -340,14 +348,21 @@ impl Thread {
             let taken = shared.clone();
             shared.commands.clear();
             shared.exhibit = None;
+            shared.site = None;
+            shared.trials.clear();
             shared.loudness = Wishes::default();
             taken
         };
+        if let Some(site) = controls.site.take() {
+            self.settle(*site);
+        }
         if let Some(exhibit) = controls.exhibit.take() {
             self.swap(exhibit);
         }
-        add(&mut controls, &self.controllers.reading(), self.stick_speed);
+        add(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
         self.heard.clear();
+        self.closed = controls.closed;
+        self.audio.listen(self.site.breath && !self.closed);
         self.deaf = controls.deaf;
         // What a visitor does not want to be heard is read all the same, so that it is gone.
         let rate = self.audio.read_microphone(&mut self.heard).filter(|_| !self.deaf);
@@ -378,8 +393,10 @@ impl Thread {
         }
         let each = before.elapsed().as_secs_f64() / due as f64;
         self.load.step_s += 0.02 * (each - self.load.step_s);
+        self.try_sounds(controls.trials.pop());
         self.audio.send(self.stage.sample(), &self.sounds);
-        self.loudness.tend(controls.loudness, self.stage.attracts(), self.audio.knobs());
+        self.loudness.tend(controls.loudness, (self.stage.attracts(), controls.closed), self.audio.knobs());
+        self.inspection = (controls.look != Look::Nothing).then(|| Arc::new(self.stage.inspect(controls.look)));
         Ok(rate.is_some() && !self.load.microphone.is_silent() || self.recorded)
     }
 
@@ -390,21 +407,6 @@ impl Thread {
             let mode = self.governor.mode().unwrap_or_default().name();
             let t = self.stage.steps() as f64 / STEPS_PER_SECOND as f64;
             tracing::info!("{t:.3} s: moved by {mode} from here (a step took {:.3} ms)", 1e3 * cost);
-        }
-    }
-
-    /// Another exhibit from its start, with its own sounds. A trace knows one exhibit only and ends.
-    fn swap(&mut self, exhibit: Arc<Exhibit>) {
-        self.audio.set_instruments(self.voice.synth(&exhibit));
-        self.governor = Governor::new(exhibit.motion);
-        self.stage.swap(exhibit);
-        self.captions = Captions::default();
-        self.onset = None;
-        if let Some(trace) = self.trace.take() {
-            match trace.finish() {
-                Ok(_) => tracing::warn!("the trace ends here: the exhibit was loaded anew"),
-                Err(error) => tracing::error!("{error}"),
-            }
         }
     }
 
@@ -443,6 +445,7 @@ impl Thread {
             hears,
             onset: self.onset,
             load: self.load.clone(),
+            inspection: self.inspection.clone(),
         });
         *lock(&self.shared.frame) = frame;
     }
@@ -457,30 +460,6 @@ fn add(controls: &mut Controls, reading: &Reading, stick_speed: f64) {
         *speed += stick_speed * tilt;
     }
     controls.activity += reading.activity;
-}
-
-/// What the site adds to an exhibit's instruments.
-#[derive(Clone, Copy)]
-struct Voice {
-    room: Option<RoomSpec>,
-    most_partials: usize,
-    seed: u64,
-}
-
-impl Voice {
-    /// Builds the voice of an exhibit for a loudspeaker's rate.
-    fn synth(self, exhibit: &Exhibit) -> impl Fn(u32) -> Synth + Send + 'static {
-        let instruments = exhibit.instruments.clone();
-        move |rate| {
-            let mut synth = Synth::new(rate, &instruments, self.seed).unwrap_or_else(|error| {
-                tracing::error!("the exhibit stays silent: {error}");
-                Synth::silent(rate)
-            });
-            synth.set_room(self.room.as_ref());
-            synth.set_most_partials(self.most_partials);
-            synth
-        }
-    }
 }
 
 /// A hash as text: JSON numbers lose bits beyond 2⁵³.

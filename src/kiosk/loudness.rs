@@ -77,6 +77,7 @@ pub struct Loudness {
     night: bool,
     silent_attract: bool,
     attracts: bool,
+    closed: bool,
     looked: Option<Instant>,
     /// Energy and time at the last look.
     before: (f64, f64),
@@ -93,14 +94,23 @@ impl Loudness {
             night: false,
             silent_attract,
             attracts: false,
+            closed: false,
             looked: None,
             before: (0.0, 0.0),
         }
     }
 
-    /// Heeds what is asked for, and turns the knobs.
-    pub fn tend(&mut self, wishes: Wishes, attracts: bool, knobs: &Knobs) {
-        let asked = wishes != Wishes::default() || attracts != self.attracts;
+    /// Takes over changed settings. What was heard counts on; `anew` says that the loudspeaker's own count begins again.
+    pub fn settle(&mut self, volume: VolumeSettings, hours: Hours, silent_attract: bool, anew: bool) {
+        let (by, exposure) = (self.by, std::mem::take(&mut self.exposure));
+        let before = if anew { (0.0, 0.0) } else { self.before };
+        *self = Self { by, exposure, before, ..Self::new(volume, hours, silent_attract) };
+    }
+
+    /// Heeds what is asked for, and turns the knobs; `closed` silences them.
+    pub fn tend(&mut self, wishes: Wishes, (attracts, closed): (bool, bool), knobs: &Knobs) {
+        let asked = wishes != Wishes::default() || attracts != self.attracts || closed != self.closed;
+        self.closed = closed;
         let due = self.looked.is_none_or(|at| at.elapsed() >= LOOK);
         if !(asked || due) {
             return;
@@ -117,7 +127,7 @@ impl Loudness {
         }
         self.attracts = attracts;
         self.look(due, knobs);
-        let silent = self.volume.is_muted() || attracts && self.silent_attract;
+        let silent = closed || self.volume.is_muted() || attracts && self.silent_attract;
         knobs.set_volume(if silent { 0.0 } else { from_decibels(self.volume.db()) as f32 });
         knobs.set_night(self.night);
     }

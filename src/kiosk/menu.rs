@@ -4,11 +4,14 @@
 //! shows the last ten seconds) and by a breath: whoever blows wants the sculpture. Everything on it can be reached by
 //! finger, pointer, or by Tab, arrows and Enter.
 
+use std::path::Path;
+
 use egui::{Align2, Color32, Rect, Stroke, StrokeKind, TextureId, pos2, vec2};
 
 use super::input::Request;
 use super::overlay::Scene;
 use super::page::{INK, PAPER, Page, SMALL, SOFT_INK, VERMILION};
+use super::shelf::Work;
 use super::words::{language_name, words};
 
 /// Without a touch for so long it closes, s (NHM London: 30 s or more, with a countdown).
@@ -257,4 +260,28 @@ fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
         buttons.push((rect, request));
     }
     corner.y - page.button
+}
+
+/// The works as tiles, their pictures taken over by the panel library once.
+pub fn tiles(
+    context: &egui::Context,
+    works: &[Work],
+    pictures: &mut Vec<(String, egui::TextureHandle)>,
+    shown: &Path,
+    language: &str,
+) -> Vec<Tile> {
+    let tile = |work: &Work| {
+        let known = pictures.iter().find(|(id, _)| *id == work.id).map(|(_, texture)| texture.id());
+        let picture = known.or_else(|| {
+            let pixels = work.thumbnail.as_ref()?;
+            let size = [pixels.width() as usize, pixels.height() as usize];
+            let image = egui::ColorImage::from_rgba_unmultiplied(size, pixels);
+            let texture = context.load_texture(&work.id, image, egui::TextureOptions::LINEAR);
+            pictures.push((work.id.clone(), texture));
+            pictures.last().map(|(_, texture)| texture.id())
+        });
+        let title = work.labels.get(language).map_or_else(|| work.id.clone(), |label| label.title.clone());
+        Tile { title, picture, shown: work.folder == shown }
+    };
+    works.iter().map(tile).collect()
 }

@@ -46,6 +46,8 @@ pub struct Scene<'a> {
     pub inviting: &'a str,
     /// Does anything listen to the visitor's breath?
     pub hears: bool,
+    /// Does the site want visitors to blow?
+    pub breath: bool,
     /// Is there a microphone that a visitor can switch, and is it on?
     pub has_ear: bool,
     /// See above.
@@ -114,7 +116,7 @@ impl Overlay {
         invite(&page, &said, opacity);
         let more = page.word(page.picture.right_bottom(), words(code).more, false);
         if let Some(left) = scene.leaves_in {
-            leaving(&page, left, more, words(code).stay);
+            leaving(&page, left, more, if scene.hears { words(code).stay } else { words(code).stay_touch });
         }
         buttons.push((more, Request::Menu));
         buttons
@@ -152,7 +154,11 @@ fn invitation(scene: &Scene) -> String {
     let own = words(scene.inviting);
     let label = scene.exhibit.labels.get(scene.inviting);
     let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
-    let shown = scene.attract_text.and_then(find);
+    if !scene.breath {
+        return own.no_breath.into();
+    }
+    // Nobody is invited to blow where nothing hears it.
+    let shown = scene.attract_text.filter(|key| scene.hears || *key != "invite").and_then(find);
     let (key, fallback) = if scene.hears { ("invite", own.invite) } else { ("hold", own.hold) };
     shown.or_else(|| find(key)).unwrap_or_else(|| fallback.into())
 }

@@ -17,6 +17,10 @@ use crate::simulation::Snapshot;
 
 use super::fonts;
 
+/// Longest press of a staff's finger that is a click, s, and how far it may slide meanwhile, points.
+const LONGEST_CLICK: f64 = 5.0;
+const CLICK_REACH: f32 = 12.0;
+
 /// A window with all that draws into it.
 pub struct Screen {
     /// The window.
@@ -71,6 +75,11 @@ impl Screen {
         let context = egui::Context::default();
         context.set_fonts(fonts::definitions());
         context.set_theme(egui::Theme::Light);
+        // A finger lies longer and less still than a mouse's button.
+        context.options_mut(|options| {
+            options.input_options.max_click_duration = LONGEST_CLICK;
+            options.input_options.max_click_dist = CLICK_REACH;
+        });
         let largest = gpu.device.limits().max_texture_dimension_2d as usize;
         let scale = Some(window.scale_factor() as f32);
         let panel =

@@ -107,6 +107,11 @@ impl Shelf {
         let _ = self.asks.send(Ask::Show(folder.to_path_buf()));
     }
 
+    /// Looks at a folder that was not offered before: [`News::Stands`] or [`News::Falls`] follows.
+    pub fn look(&self, folder: &Path) {
+        let _ = self.asks.send(Ask::Look(folder.to_path_buf()));
+    }
+
     /// What has happened, the oldest first.
     pub fn news(&self) -> Option<News> {
         self.news.try_recv().ok()
@@ -220,6 +225,13 @@ impl Offer {
             let at = self.works.partition_point(|other| key(other) < (Some(rank), work.id.clone()));
             self.works.insert(at, work);
         }
+    }
+
+    /// These ids in this order from now on. What is newly wanted is not there yet: put it.
+    pub fn reorder(&mut self, show: &[String]) {
+        self.show = show.to_vec();
+        let works = std::mem::take(&mut self.works);
+        works.into_iter().for_each(|work| self.put(work));
     }
 
     /// Takes one away.

@@ -8,13 +8,17 @@ use std::sync::Arc;
 
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
-use crate::simulation::{Command, Microphone, MotionMode, SAMPLES_PER_STEP, Settings, Simulation, Snapshot, StepInput};
+use crate::simulation::{
+    Command, Inspection, Look, Microphone, MotionMode, SAMPLES_PER_STEP, Settings, Simulation, Snapshot, StepInput,
+};
 use crate::sound::SoundCommand;
 
 use super::attract::Attract;
 use super::gesture::{Gestures, Press};
 use super::loudness::Wishes;
 use super::pointing::Pointing;
+use super::site::Site;
+use super::voice::Trial;
 
 /// What the visitor does, as the window tells it.
 #[derive(Clone, Debug, Default)]
@@ -45,6 +49,24 @@ pub struct Controls {
     pub commands: Vec<Command>,
     /// A reloaded exhibit that waits for the next step boundary.
     pub exhibit: Option<Arc<Exhibit>>,
+    /// A changed configuration that waits for it too.
+    pub site: Option<Box<Site>>,
+    /// Nobody is heard, whatever they do: the house is closed, or the glass is cleaned.
+    pub inert: bool,
+    /// The house is closed: no sound, and no microphone.
+    pub closed: bool,
+    /// What staff look at.
+    pub look: Look,
+    /// What staff want to hear and have not yet heard.
+    pub trials: Vec<Trial>,
+}
+
+impl Controls {
+    /// The same with nobody there.
+    fn without_visitor(&self) -> Self {
+        let Self { aspect, activity, mode, inert, .. } = *self;
+        Self { aspect, activity, mode, inert, commands: self.commands.clone(), ..Self::default() }
+    }
 }
 
 /// The exhibit on show.
@@ -87,10 +109,13 @@ impl Stage {
 
     /// Advances by one step. `microphone` is what was heard since the last; a recording goes before it.
     pub fn step(&mut self, controls: &Controls, microphone: Option<Microphone>) {
+        let nobody = controls.inert.then(|| controls.without_visitor());
+        let controls = nobody.as_ref().unwrap_or(controls);
         // The detector's word of the step before: a breath is an input like any other.
         let breathing = self.snapshot.breath.estimate.speed > 0.0;
         let pressed = controls.hold || !controls.presses.is_empty();
-        let visitor = breathing || pressed || controls.activity != self.activity;
+        // Whoever cleans is here too, though not to play: attract mode waits.
+        let visitor = breathing || pressed || controls.inert || controls.activity != self.activity;
         self.activity = controls.activity;
         let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
         cue.commands.extend_from_slice(&controls.commands);
@@ -107,7 +132,7 @@ impl Stage {
         }
 
         self.simulation.step(&StepInput {
-            microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
+            microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone).filter(|_| !controls.inert),
             hold: self.holds,
             hands: self.gestures.hands(),
             mode: controls.mode,
@@ -129,6 +154,23 @@ impl Stage {
         });
         self.simulation = Simulation::new(exhibit, *self.simulation.settings());
         self.snapshot = self.simulation.snapshot();
+    }
+
+    /// Takes over changed settings, with which the exhibit begins anew, and another idle time.
+    pub fn settle(&mut self, settings: Settings, idle_s: Option<f64>) {
+        if settings != *self.simulation.settings() {
+            self.simulation = Simulation::new(self.exhibit().clone(), settings);
+            self.snapshot = self.simulation.snapshot();
+        }
+        if idle_s != self.attract.as_ref().map(|_| self.idle_s) {
+            self.attract = idle_s.map(|idle| Attract::new(self.exhibit().attract.clone(), idle));
+            self.idle_s = idle_s.unwrap_or_default();
+        }
+    }
+
+    /// Looks closer at the present moment.
+    pub fn inspect(&mut self, look: Look) -> Inspection {
+        self.simulation.inspect(look)
     }
 
     /// Steps since the kiosk began, over all exhibits.

@@ -4,7 +4,6 @@
 //! only the staff panel leads out, or a signal from the terminal. On somebody's desk (`--windowed`) it closes like
 //! any window.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -16,22 +15,28 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::ModifiersState;
 use winit::window::{Fullscreen, Window, WindowId};
 
+use crate::audio_io::DeviceState;
 use crate::config::Config;
-use crate::exhibit::{Label, Labels};
-use crate::simulation::{Command, Snapshot};
+use crate::simulation::Command;
 
-use super::events::translate;
+use super::events::{is_input, translate};
 use super::given::Given;
+use super::house::{Above, House};
 use super::input::{Keys, Request, Visitor};
-use super::live::{self, Frame, Live, Onset, Report};
+use super::languages::{first, offered};
+use super::live::{self, Frame, Live, Report};
+use super::log::Log;
 use super::loudness::Wishes;
-use super::menu::{Menu, Tile};
+use super::menu::{Menu, tiles};
 use super::overlay::{Overlay, Scene};
 use super::page::Reading;
 use super::screen::{Drawn, Screen};
-use super::shelf::{News, Offer, Places, Shelf, Work, id};
-use super::staff::{Staff, Vitals, Wish};
-use super::words::language_name;
+use super::shelf::{News, Offer, Places, Shelf, id};
+use super::site::{Overrides, SiteFile};
+use super::staff::{Sight, Staff, Vitals};
+use super::timing::{Clock, FirstSight};
+
+mod day;
 
 /// Size of the window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
@@ -43,8 +48,21 @@ const LOST_DEVICES: u32 = 3;
 const INVITES_S: f64 = 6.0;
 /// What one picture may count as given breath, s: after a longer pause nobody knows.
 const LONGEST_GIFT: f64 = 0.5;
-/// Share of the newest picture in the mean time of a picture.
-const FRAME_SMOOTHING: f64 = 0.1;
+
+/// Between two pictures while the house is closed, s.
+const CLOSED_S: f64 = 0.25;
+
+/// What a kiosk runs on, beside its exhibits.
+pub struct Ground {
+    /// The site's configuration as this run has it.
+    pub config: Config,
+    /// What the command line says over its file.
+    pub overrides: Overrides,
+    /// Its file, which is watched; `None` for the one that is built in.
+    pub file: Option<std::path::PathBuf>,
+    /// What is logged.
+    pub log: Log,
+}
 
 /// Why there is no live kiosk.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,7 +87,7 @@ pub enum Ended {
 /// Shows an exhibit, and lets visitors choose among those of `places`, until somebody ends it. `interrupted` is set by a
 /// signal from outside.
 pub fn run(
-    config: Config,
+    ground: Ground,
     places: &Places,
     options: live::Options,
     interrupted: &AtomicBool,
@@ -80,9 +98,18 @@ pub fn run(
         backends: wgpu::Backends::VULKAN,
         ..wgpu::InstanceDescriptor::new_with_display_handle_from_env(display)
     });
+    let Ground { config, overrides, file, log } = ground;
     let mut app = App {
         instance,
         interrupted,
+        seed: options.site.settings.seed,
+        one: matches!(places, Places::One(_)),
+        overrides,
+        site: file.as_deref().map(SiteFile::watch),
+        site_says: Vec::new(),
+        work_says: None,
+        log,
+        house: House::default(),
         shelf: Shelf::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
         offer: Offer::new(places),
         pictures: Vec::new(),
@@ -100,14 +127,15 @@ pub fn run(
         overlay: Overlay::default(),
         buttons: Vec::new(),
         staff: Staff::default(),
+        cursor: false,
         attracts: false,
         deaf: false,
         mute: false,
-        clock: Clock::new(),
+        clock: Clock::default(),
         #[cfg(target_os = "linux")]
         watchdog: super::watchdog::Watchdog::default(),
         pictures_shown: 0,
-        sight: Sight::default(),
+        sight: FirstSight::default(),
         lost: 0,
         missing: None,
         failure: None,
@@ -138,63 +166,20 @@ struct Show {
     live: Live,
 }
 
-/// When pictures are drawn.
-struct Clock {
-    began: Instant,
-    last: Instant,
-    next: Instant,
-    /// Mean time from picture to picture, s.
-    frame_s: f64,
-}
-
-impl Clock {
-    fn new() -> Self {
-        let now = Instant::now();
-        Self { began: now, last: now, next: now, frame_s: 0.0 }
-    }
-
-    /// A picture begins; the next not before `least` seconds.
-    fn tick(&mut self, now: Instant, least: f64) {
-        self.frame_s += FRAME_SMOOTHING * (now.duration_since(self.last).as_secs_f64() - self.frame_s);
-        self.last = now;
-        self.next = now + Duration::from_secs_f64(least);
-    }
-
-    fn seconds(&self, now: Instant) -> f64 {
-        now.duration_since(self.began).as_secs_f64()
-    }
-}
-
-/// From the step with the first wind of a breath to the first picture that shows it.
-#[derive(Default)]
-struct Sight {
-    onset: Option<Onset>,
-    /// Of the last breath, s.
-    seconds: f64,
-    /// When the picture before this one was begun.
-    before: Option<Instant>,
-}
-
-impl Sight {
-    /// A picture of `moment`, begun at `begun`, has just been handed to the display.
-    fn note(&mut self, frame: &Frame, moment: &Snapshot, begun: Instant) {
-        let before = self.before.replace(begun);
-        if let Some(onset) = frame.onset.filter(|&onset| moment.step >= onset.step && self.onset != Some(onset)) {
-            self.onset = Some(onset);
-            self.seconds = onset.at.elapsed().as_secs_f64();
-            let place = if before.is_none_or(|before| before <= onset.at) { "the next picture" } else { "a later one" };
-            tracing::info!(
-                "the breath of step {} is seen {:.1} ms after it, in {place} (step {})",
-                onset.step,
-                1e3 * self.seconds,
-                moment.step
-            );
-        }
-    }
-}
-
 struct App<'a> {
     config: Config,
+    /// Of all that is random.
+    seed: u64,
+    /// Is there one exhibit only?
+    one: bool,
+    overrides: Overrides,
+    site: Option<SiteFile>,
+    /// What staff should know of the configuration: what is wrong with it, what waits for a restart.
+    site_says: Vec<String>,
+    /// Why the work on show does not load as its files stand.
+    work_says: Option<String>,
+    log: Log,
+    house: House,
     instance: wgpu::Instance,
     interrupted: &'a AtomicBool,
     /// The run, until there is a window to show it in.
@@ -217,6 +202,8 @@ struct App<'a> {
     /// Where a press is not a breath, in points.
     buttons: Vec<(egui::Rect, Request)>,
     staff: Staff,
+    /// Is the cursor shown?
+    cursor: bool,
     /// Languages a visitor can choose from, and the one chosen (empty: none yet).
     languages: Vec<String>,
     language: String,
@@ -227,7 +214,7 @@ struct App<'a> {
     #[cfg(target_os = "linux")]
     watchdog: super::watchdog::Watchdog,
     pictures_shown: u64,
-    sight: Sight,
+    sight: FirstSight,
     lost: u32,
     missing: Option<Missing>,
     failure: Option<String>,
@@ -235,7 +222,9 @@ struct App<'a> {
 
 impl ApplicationHandler for App<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        let Some(options) = self.waiting.take() else { return };
+        self.follow_hours();
+        let closed = !self.house.is_open();
+        let Some(options) = self.waiting.take().map(|options| live::Options { closed, ..options }) else { return };
         let screen = open(events, self.on_desk())
             .map_err(Missing::Display)
             .and_then(|w| Screen::new(self.instance.clone(), w, &options.exhibit).map_err(Missing::Graphics));
@@ -257,6 +246,11 @@ impl ApplicationHandler for App<'_> {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let desk = self.on_desk();
+        let time = self.clock.seconds(Instant::now());
+        // Nothing that is wiped over while the glass is cleaned reaches anything.
+        if self.house.cleans(time).is_some() && is_input(&event) {
+            return;
+        }
         let Some(show) = &mut self.show else { return };
         let panel = &mut show.screen.panel;
         let _ = panel.on_window_event(&show.screen.window, &event);
@@ -274,15 +268,16 @@ impl ApplicationHandler for App<'_> {
             }
             _ => {}
         }
-        let over_panel = self.staff.open && panel.egui_ctx().egui_wants_pointer_input();
         let Some(signal) = translate(&event, show.screen.window.inner_size(), self.modifiers) else { return };
         let points = panel.egui_ctx().content_rect();
-        let request = match self.visitor.press_position(&signal) {
-            Some(_) if over_panel => return,
-            Some([x, y]) => self.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32))),
-            None => None,
+        let above = Above { pointer: self.staff.feel(&signal), keys: self.staff.is_open() };
+        let button = match self.visitor.press_position(&signal) {
+            Some([x, y]) if !above.pointer && self.house.hears(time) => {
+                self.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)))
+            }
+            _ => None,
         };
-        let request = match request {
+        let request = match button {
             // A press on a button is an input, but no breath.
             Some(request) => {
                 self.visitor.note();
@@ -290,10 +285,15 @@ impl ApplicationHandler for App<'_> {
             }
             None => {
                 let staff = &self.config.staff;
-                let (mute, night) = (&staff.mute, &staff.night);
-                let blow = &self.config.controllers.key;
-                let keys = Keys { staff: &staff.chord, mute, night, blow, menu: self.menu.open };
-                self.visitor.signal(&signal, keys, desk)
+                let keys = Keys {
+                    staff: &staff.chord,
+                    open: &staff.open,
+                    mute: &staff.mute,
+                    night: &staff.night,
+                    blow: &self.config.controllers.key,
+                    menu: self.menu.open,
+                };
+                self.house.signal(time, &mut self.visitor, &signal, (keys, above), desk)
             }
         };
         if let Some(request) = request {
@@ -310,6 +310,8 @@ impl ApplicationHandler for App<'_> {
         while let Some(news) = self.shelf.news() {
             self.hear(news);
         }
+        self.follow_site();
+        self.follow_hours();
         let now = Instant::now();
         if let Some(show) = &self.show
             && now >= self.clock.next
@@ -333,7 +335,12 @@ impl App<'_> {
         let now = Instant::now();
         let last = self.clock.last;
         let (adapter, software) = show.screen.adapter();
-        self.clock.tick(now, if software { 1.0 / self.config.screen.software_fps } else { 0.0 });
+        let least = match (self.house.is_open() || self.staff.is_open(), software) {
+            (false, _) => CLOSED_S,
+            (true, true) => 1.0 / self.config.screen.software_fps,
+            (true, false) => 0.0,
+        };
+        self.clock.tick(now, least);
         let frame = show.live.frame();
         let moment = frame.moment(now);
         if moment.breath.speed > 0.0 && !frame.attracts {
@@ -350,7 +357,9 @@ impl App<'_> {
             sight_s: self.sight.seconds,
         };
         self.menu.tend(vitals.time, self.visitor.activity(), frame.current.breath.estimate.speed > 0.0);
-        let mut wish = None;
+        let works: Vec<String> = self.offer.works().iter().map(|work| work.id.clone()).collect();
+        let works: Vec<&str> = works.iter().map(String::as_str).collect();
+        let mut wishes = Vec::new();
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
             self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
             if !self.languages.contains(&self.language) {
@@ -366,6 +375,7 @@ impl App<'_> {
                 attract_text: frame.attract_text.as_deref(),
                 inviting: inviting.unwrap_or(&self.language),
                 hears: !frame.is_deaf() && !frame.deaf,
+                breath: self.config.visit.breath,
                 has_ear: !frame.is_deaf(),
                 listens: self.listens,
                 captions: &frame.captions,
@@ -382,7 +392,25 @@ impl App<'_> {
             };
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
             self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
-            wish = self.staff.show(ui, &frame, &vitals, desk).or(wish);
+            if day::cover(&painter, &self.house, &scene) {
+                self.buttons.clear();
+            }
+            let sight = Sight {
+                frame: &frame,
+                view,
+                vitals,
+                site: &self.config,
+                site_says: &self.site_says,
+                work_says: self.work_says.as_deref(),
+                file: self.site.as_ref().map(|site| site.path.as_path()),
+                works: &works,
+                house: &self.house,
+                log: &self.log,
+                activity: self.visitor.activity(),
+                on_desk: desk,
+                points_per_mm: scene.points_per_mm,
+            };
+            wishes.extend(self.staff.show(ui, &sight));
         });
         if drawn == Drawn::Shown {
             self.sight.note(&frame, &moment, now);
@@ -399,13 +427,16 @@ impl App<'_> {
         }
         self.follow_attract(&frame);
         self.follow_devices(&frame);
-        match wish {
-            Some(Wish::Close) => events.exit(),
-            Some(Wish::Reload) => self.shelf.show(&frame.exhibit.folder),
-            Some(Wish::Reset) => self.command(Command::Reset),
-            Some(Wish::Mute) => self.grant(events, Request::Mute),
-            Some(Wish::Night) => self.grant(events, Request::Night),
-            None => {}
+        let (look, open) = (self.staff.look(&self.config), self.staff.is_open());
+        if let Some(show) = &self.show {
+            show.live.controls().look = look;
+            if self.cursor != open {
+                show.screen.window.set_cursor_visible(open);
+            }
+        }
+        self.cursor = open;
+        for wish in wishes {
+            self.fulfil(events, wish, &frame);
         }
         if drawn == Drawn::DeviceLost {
             self.mend(events, &frame);
@@ -434,6 +465,7 @@ impl App<'_> {
         match news {
             News::Show(exhibit) => {
                 self.turning = false;
+                self.work_says = None;
                 self.given.leave();
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
@@ -451,6 +483,10 @@ impl App<'_> {
             }
             News::Falls(id, report) => {
                 self.offer.remove(&id);
+                let shown = self.show.as_ref().map(|show| show.live.frame().exhibit.folder.clone());
+                if shown.is_some_and(|folder| super::shelf::id(&folder) == id) {
+                    self.work_says = Some(report.trim_end().to_owned());
+                }
                 self.say(format!("{}\n{id} is not offered until it is mended.", report.trim_end()));
             }
             News::Gone(id) => self.offer.remove(&id),
@@ -485,6 +521,7 @@ impl App<'_> {
         if frame.is_deaf() != self.deaf {
             self.deaf = frame.is_deaf();
             self.say(match self.deaf {
+                true if frame.load.audio.input == DeviceState::Closed => "the microphone is closed".into(),
                 true if frame.load.microphone.is_silent() => {
                     "the microphone is silent: muted, or its cable is out".into()
                 }
@@ -542,11 +579,10 @@ impl App<'_> {
             Request::Louder(steps) => self.wish(|wishes| wishes.louder += steps),
             Request::Mute => self.wish(|wishes| wishes.mutes += 1),
             Request::Night => self.wish(|wishes| wishes.nights += 1),
+            Request::Open => self.open_early(),
             Request::ToggleStaff => {
-                self.staff.open = !self.staff.open;
-                if let Some(show) = &self.show {
-                    show.screen.window.set_cursor_visible(self.staff.open);
-                }
+                self.staff.toggle();
+                self.visitor.let_go();
             }
         }
     }
@@ -562,6 +598,8 @@ impl App<'_> {
         controls.presses.extend(self.visitor.presses());
         controls.activity = self.visitor.activity();
         controls.deaf = !self.listens;
+        controls.closed = !self.house.is_open();
+        controls.inert = !self.house.hears(self.clock.seconds(Instant::now()));
     }
 
     /// Asks something of the loudness.
@@ -589,30 +627,6 @@ impl App<'_> {
     }
 }
 
-/// The works as tiles, their pictures taken over by the panel library once.
-fn tiles(
-    context: &egui::Context,
-    works: &[Work],
-    pictures: &mut Vec<(String, egui::TextureHandle)>,
-    shown: &Path,
-    language: &str,
-) -> Vec<Tile> {
-    let tile = |work: &Work| {
-        let known = pictures.iter().find(|(id, _)| *id == work.id).map(|(_, texture)| texture.id());
-        let picture = known.or_else(|| {
-            let pixels = work.thumbnail.as_ref()?;
-            let size = [pixels.width() as usize, pixels.height() as usize];
-            let image = egui::ColorImage::from_rgba_unmultiplied(size, pixels);
-            let texture = context.load_texture(&work.id, image, egui::TextureOptions::LINEAR);
-            pictures.push((work.id.clone(), texture));
-            pictures.last().map(|(_, texture)| texture.id())
-        });
-        let title = work.labels.get(language).map_or_else(|| work.id.clone(), |label| label.title.clone());
-        Tile { title, picture, shown: work.folder == shown }
-    };
-    works.iter().map(tile).collect()
-}
-
 /// Opens the window: all of the screen, or part of a desk.
 fn open(events: &ActiveEventLoop, on_desk: bool) -> Result<Arc<Window>, String> {
     let plain = Window::default_attributes().with_title("Soffio").with_inner_size(DESK_SIZE);
@@ -623,22 +637,4 @@ fn open(events: &ActiveEventLoop, on_desk: bool) -> Result<Arc<Window>, String> 
     let window = events.create_window(attributes).map_err(|error| error.to_string())?;
     window.set_cursor_visible(false);
     Ok(Arc::new(window))
-}
-
-/// The languages a visitor can choose from, in the order they are offered: those of the exhibit that the site wants
-/// and the fonts can write.
-fn offered(context: &egui::Context, labels: &Labels, config: &Config) -> Vec<String> {
-    let can_write = |(code, label): &&(String, Label)| {
-        let text = format!("{}{}", language_name(code), label.title);
-        context.fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), &text))
-    };
-    let has: Vec<&String> = labels.languages.iter().filter(can_write).map(|(code, _)| code).collect();
-    let wanted: Vec<String> = config.languages.offered.iter().filter(|code| has.contains(code)).cloned().collect();
-    if wanted.is_empty() { has.into_iter().cloned().collect() } else { wanted }
-}
-
-/// The language that a visitor finds: the site's, else the exhibit's, else whatever there is.
-fn first(offered: &[String], labels: &Labels, config: &Config) -> String {
-    let wanted = [&config.languages.first, &labels.default_language];
-    wanted.into_iter().find(|code| offered.contains(code)).or(offered.first()).cloned().unwrap_or_default()
 }

@@ -36,11 +36,17 @@ pub struct Words {
     pub rest: &'static str,
     /// How to stay when the kiosk takes it that nobody is there.
     pub stay: &'static str,
+    /// The same where nothing hears a breath.
+    pub stay_touch: &'static str,
+    /// Invites where the site does not want visitors to blow.
+    pub no_breath: &'static str,
+    /// While the glass is cleaned.
+    pub cleaning: &'static str,
 }
 
 impl Words {
     /// All of them, for whoever checks that none is missing.
-    pub fn all(&self) -> [&'static str; 16] {
+    pub fn all(&self) -> [&'static str; 19] {
         [
             self.code,
             self.name,
@@ -58,6 +64,9 @@ impl Words {
             self.silent,
             self.rest,
             self.stay,
+            self.stay_touch,
+            self.no_breath,
+            self.cleaning,
         ]
     }
 }
@@ -81,6 +90,9 @@ pub const WORDS: &[Words] = &[
         silent: "The sound is off.",
         rest: "Have a rest and breathe calmly.",
         stay: "Touch or blow to stay",
+        stay_touch: "Touch to stay",
+        no_breath: "Today without breath: press and hold to blow",
+        cleaning: "The glass is being cleaned",
     },
     Words {
         code: "de",
@@ -99,6 +111,9 @@ pub const WORDS: &[Words] = &[
         silent: "Der Ton ist aus.",
         rest: "Mach eine Pause und atme ruhig.",
         stay: "Berühren oder pusten, um zu bleiben",
+        stay_touch: "Berühren, um zu bleiben",
+        no_breath: "Heute ohne Atem: zum Pusten gedrückt halten",
+        cleaning: "Das Glas wird gereinigt",
     },
     Words {
         code: "fr",
@@ -117,6 +132,9 @@ pub const WORDS: &[Words] = &[
         silent: "Le son est coupé.",
         rest: "Faites une pause et respirez calmement.",
         stay: "Touchez ou soufflez pour rester",
+        stay_touch: "Touchez pour rester",
+        no_breath: "Aujourd’hui sans souffle : appuyez et maintenez pour souffler",
+        cleaning: "Nettoyage de l’écran en cours",
     },
     Words {
         code: "it",
@@ -135,6 +153,9 @@ pub const WORDS: &[Words] = &[
         silent: "L’audio è spento.",
         rest: "Fai una pausa e respira con calma.",
         stay: "Tocca o soffia per restare",
+        stay_touch: "Tocca per restare",
+        no_breath: "Oggi senza fiato: tieni premuto per soffiare",
+        cleaning: "Lo schermo viene pulito",
     },
     Words {
         code: "es",
@@ -153,6 +174,9 @@ pub const WORDS: &[Words] = &[
         silent: "El sonido está apagado.",
         rest: "Descansa un poco y respira con calma.",
         stay: "Toca o sopla para quedarte",
+        stay_touch: "Toca para quedarte",
+        no_breath: "Hoy sin soplar: mantén pulsado para mover el aire",
+        cleaning: "Se está limpiando la pantalla",
     },
     Words {
         code: "ko",
@@ -171,6 +195,9 @@ pub const WORDS: &[Words] = &[
         silent: "소리가 꺼져 있습니다.",
         rest: "잠시 쉬면서 편하게 숨을 쉬세요.",
         stay: "계속하려면 만지거나 불어 보세요",
+        stay_touch: "계속하려면 만져 보세요",
+        no_breath: "오늘은 불지 않습니다: 길게 눌러 바람을 보내세요",
+        cleaning: "화면을 닦고 있습니다",
     },
     Words {
         code: "ja",
@@ -189,6 +216,9 @@ pub const WORDS: &[Words] = &[
         silent: "音はオフです。",
         rest: "少し休んで、ゆっくり息をしてください。",
         stay: "続けるには触れるか息を吹いてください",
+        stay_touch: "続けるには触れてください",
+        no_breath: "今日は息を吹きかけず、長押しで風を送ってください",
+        cleaning: "画面を清掃しています",
     },
 ];
 

@@ -540,3 +540,18 @@ fn a_scene_that_is_none_is_refused() {
     desk.soffio(&["bench", "--dt", "0.1"]).refused(2, &["--scene"]);
     desk.soffio(&["bench", "--scene", "words.json", "--dt", "0"]).refused(2, &["--dt"]);
 }
+
+#[test]
+fn a_pin_becomes_the_line_that_the_configuration_takes() {
+    let desk = Desk::new();
+    desk.soffio(&["pin"]).refused(1, &["4 to 12 digits"]);
+    desk.write("digits", "271828\n");
+    let digits = std::fs::File::open(desk.path("digits")).expect("written");
+    let output = Command::new(env!("CARGO_BIN_EXE_soffio")).arg("pin").stdin(digits).output().expect("it starts");
+    let line = String::from_utf8(output.stdout).expect("UTF-8");
+    assert!(output.status.success() && line.starts_with("pin = \"$argon2id$") && !line.contains("271828"), "{line}");
+    desk.write("site.toml", format!("[staff]\n{line}"));
+    desk.soffio(&["check", "site.toml"]).done();
+    let config = soffio::config::Config::load(Some(&desk.path("site.toml"))).expect("good").0;
+    assert!(config.staff.pin.matches("271828"));
+}

@@ -194,9 +194,9 @@ mod live {
 
     /// The keys of a site, with a staff chord and a key to blow of its own.
     fn keys<'a>(staff: &'a Chord, blow: &'a str) -> Keys<'a> {
-        static OTHERS: LazyLock<[Chord; 2]> =
-            LazyLock::new(|| ["M", "N"].map(|key| Chord::new(true, true, false, key)));
-        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], blow, menu: false }
+        static OTHERS: LazyLock<[Chord; 3]> =
+            LazyLock::new(|| ["M", "N", "O"].map(|key| Chord::new(true, true, false, key)));
+        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], open: &OTHERS[2], blow, menu: false }
     }
 
     fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
@@ -223,7 +223,9 @@ mod live {
             assert_eq!(tell(&mut visitor, key(name, true)), asked, "{name}");
             assert_eq!(tell(&mut visitor, key(name, false)), None, "{name}");
         }
-        for (name, asked) in [("M", Request::Mute), ("N", Request::Night), ("S", Request::ToggleStaff)] {
+        for (name, asked) in
+            [("M", Request::Mute), ("N", Request::Night), ("O", Request::Open), ("S", Request::ToggleStaff)]
+        {
             let key = Key { name: name.into(), pressed: true, ctrl: true, alt: true, ..Key::default() };
             assert_eq!(tell(&mut visitor, Signal::Key(key)), Some(asked), "{name}");
         }
@@ -496,9 +498,21 @@ mod live {
 }
 
 #[cfg(feature = "kiosk")]
+mod edit;
+#[cfg(feature = "kiosk")]
+mod house;
+mod opening;
+#[cfg(feature = "kiosk")]
 mod pages;
+mod pin;
+#[cfg(feature = "kiosk")]
+mod site;
+#[cfg(feature = "kiosk")]
+mod staff;
 #[cfg(feature = "kiosk")]
 mod stage;
+#[cfg(feature = "kiosk")]
+mod voice;
 
 mod room {
     use soffio::commands::doctor::{Health, judge_blow, judge_room};

@@ -321,6 +321,34 @@ mod server {
     }
 
     #[test]
+    #[ignore = "needs a PulseAudio with a null sink `speakers`"]
+    fn the_microphone_is_closed_and_opened_again_and_instruments_arrive() {
+        const LONG: Duration = Duration::from_secs(10);
+        let until = |io: &mut AudioIo, what: &str, done: &dyn Fn(&mut AudioIo) -> bool| {
+            let began = Instant::now();
+            while !done(io) {
+                assert!(began.elapsed() < LONG, "{what}: {:?}", io.status());
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        };
+        let hears = |io: &mut AudioIo| io.read_microphone(&mut Heard::default()).is_some();
+        let mut io = AudioIo::start_with(&settings(), false, synth);
+        until(&mut io, "it begins closed", &|io| io.status().input == DeviceState::Closed);
+        assert!(!hears(&mut io));
+        io.listen(true);
+        until(&mut io, "it opens", &hears);
+        io.listen(false);
+        until(&mut io, "it closes", &|io| !hears(io) && io.status().input == DeviceState::Closed);
+        until(&mut io, "the first instruments", &|io| {
+            io.send(0, &[]);
+            io.has_instruments()
+        });
+        io.set_instruments(synth);
+        assert!(!io.has_instruments(), "they are being built");
+        until(&mut io, "the next instruments", &|io| io.has_instruments());
+    }
+
+    #[test]
     #[ignore = "needs a PulseAudio that is ended and started again while it runs"]
     fn a_lost_server_is_found_again() {
         let mut io = AudioIo::start(&settings(), synth);

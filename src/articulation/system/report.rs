@@ -1,10 +1,10 @@
 //! What a figure tells of itself: rows, errors, loads. For breaking, friction, tests and staff.
 
 use super::{Joint, PROJECTION_REACH, RowState, System};
-use crate::articulation::ConstraintKind;
 use crate::articulation::block::{Vec6, angular, linear, vec6};
-use crate::articulation::rows::{Scene, coupling, plane};
+use crate::articulation::rows::{Scene, coupling, orientation, plane};
 use crate::articulation::spatial::matrix;
+use crate::articulation::{Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 
@@ -91,26 +91,40 @@ impl System {
     /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,
     /// slips of couplings.
     pub fn largest_gap(&self, bodies: &[RigidBody]) -> f64 {
+        let lengths = |(index, gap): (usize, f64)| {
+            let angle = matches!(self.constraints[index].kind, ConstraintKind::Orientation { .. });
+            if angle { 0.0 } else { gap }
+        };
+        self.gaps(bodies).into_iter().enumerate().map(lengths).fold(0.0, f64::max)
+    }
+
+    /// The error of each constraint at these bodies' state: m, of an orientation rad. What does not act, or is still being
+    /// drawn together, has none: 0.
+    pub fn gaps(&self, bodies: &[RigidBody]) -> Vec<f64> {
         let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
         let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
-        let mut worst: f64 = 0.0;
-        for (index, constraint) in self.constraints.iter().enumerate() {
+        let gap = |(index, constraint): (usize, &Constraint)| {
             if self.activity.share(index) < 1.0 || self.activity.mends(index) {
-                continue;
+                return 0.0;
             }
-            worst = worst.max(match &constraint.kind {
+            match &constraint.kind {
                 ConstraintKind::PointToPoint { a, b } => scene.point(a).position.distance(scene.point(b).position),
                 ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
                     plane::row(&scene, point, plane, *normal, offset).value.abs()
                 }
-                ConstraintKind::Orientation { .. } | ConstraintKind::Coupling { .. } => 0.0,
-            });
-        }
+                ConstraintKind::Orientation { a, b, angle } => {
+                    orientation::row(&scene, a, b, angle, || None).value.abs()
+                }
+                // Below: a train of wheels stands for those that are not held by themselves.
+                ConstraintKind::Coupling { .. } => 0.0,
+            }
+        };
+        let mut gaps: Vec<f64> = self.constraints.iter().enumerate().map(gap).collect();
         for coupling in self.couplings.iter().filter(|c| self.activity.share(c.constraint) == 1.0) {
             let mut parts = self.outside_rows()[coupling.outside].parts.clone();
-            worst = worst.max(coupling::row(&scene, &coupling.terms, &mut parts).value.abs());
+            gaps[coupling.constraint] = coupling::row(&scene, &coupling.terms, &mut parts).value.abs();
         }
-        worst
+        gaps
     }
 
     /// The force that a joint's length rows carried in the last solve of forces, N.

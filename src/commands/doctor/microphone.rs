@@ -1,8 +1,8 @@
 //! What is heard at a microphone, as findings: the room in silence, and a breath.
 
 use super::{Finding, Health};
-use crate::config::remedies;
-use crate::math::{decibels, log10};
+use crate::config::remedies::{self, NORMAL_M_S};
+use crate::math::decibels;
 use crate::wind::blow::{BlowDetector, BlowEstimate, Reason};
 
 /// What a second of sound of the room says about a microphone.
@@ -59,8 +59,6 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     Finding::new(WHAT, Health::Ok, found, "")
 }
 
-/// Speed at the lips of the breath that a curator is asked for, m/s: a normal one.
-const NORMAL_M_S: f64 = 9.0;
 /// Speeds within this factor of it need no other sensitivity: breaths differ by as much.
 const ALIKE: f64 = 1.35;
 
@@ -103,8 +101,7 @@ pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
         let found = format!("{found}; the room is quieter after a breath than before it");
         return Finding::new(WHAT, Health::Warn, found, remedies::GAIN_CONTROL);
     }
-    // U goes with 10^(dB/40).
-    let wanted = (sensitivity_db + 40.0 * log10(NORMAL_M_S / mean)).clamp(-40.0, 40.0).round();
+    let wanted = remedies::sensitivity(mean, sensitivity_db);
     if rails > 0.5 && mean > NORMAL_M_S {
         return Finding::new(WHAT, Health::Warn, found, RAILED);
     }

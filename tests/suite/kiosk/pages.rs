@@ -46,7 +46,11 @@ struct Before {
     activity: u64,
     works: usize,
     hears: bool,
+    breath: bool,
+    attract: Option<&'static str>,
     captions: Vec<String>,
+    /// What is written on the glass.
+    said: Vec<String>,
 }
 
 impl Before {
@@ -68,7 +72,10 @@ impl Before {
             activity: 0,
             works: 21,
             hears: true,
+            breath: true,
+            attract: None,
             captions: Vec::new(),
+            said: Vec::new(),
         }
     }
 
@@ -89,9 +96,10 @@ impl Before {
             exhibit: &self.exhibit,
             moment: &self.moment,
             view: self.exhibit.view(f64::from(self.glass[0] / self.glass[1])),
-            attract_text: None,
+            attract_text: self.attract,
             inviting: &self.language,
             hears: self.hears,
+            breath: self.breath,
             has_ear: true,
             listens: self.hears,
             captions: &self.captions,
@@ -111,6 +119,11 @@ impl Before {
             buttons = overlay.paint(&painter, picture, menu, &scene);
         });
         laid_out.textures_delta.clear();
+        let text = |clipped: &egui::epaint::ClippedShape| match &clipped.shape {
+            egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
+            _ => None,
+        };
+        self.said = laid_out.shapes.iter().filter_map(text).collect();
         buttons
     }
 
@@ -282,6 +295,32 @@ fn after_much_hard_blowing_a_rest_is_proposed_and_forgotten() {
     assert!(visitor.overlay.proposes_rest());
     blow(&mut visitor, 0.0, 60.0);
     assert!(!visitor.overlay.proposes_rest());
+}
+
+#[test]
+fn where_nobody_blows_nobody_is_invited_to_in_any_language() {
+    let exhibit = load("steel-fish");
+    for own in WORDS {
+        let mut visitor = Before::new(&exhibit, GLASSES[0]);
+        visitor.language = own.code.into();
+        visitor.attract = Some("invite");
+        let invited = |visitor: &mut Before| {
+            (0..20).for_each(|_| {
+                visitor.time += 0.2;
+                visitor.look();
+            });
+            visitor.said.clone()
+        };
+        let label = exhibit.labels.get(own.code).expect("a label");
+        let (_, invite) = label.text.iter().find(|(key, _)| key == "invite").expect("its invitation");
+        assert!(invited(&mut visitor).contains(invite), "{}: {:?}", own.code, visitor.said);
+        visitor.hears = false;
+        let said = invited(&mut visitor);
+        assert!(said.iter().any(|text| text == own.hold) && !said.contains(invite), "{}: {said:?}", own.code);
+        visitor.breath = false;
+        let said = invited(&mut visitor);
+        assert!(said.iter().any(|text| text == own.no_breath) && !said.contains(invite), "{}: {said:?}", own.code);
+    }
 }
 
 #[test]

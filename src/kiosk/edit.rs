@@ -1,0 +1,262 @@
+//! Numbers and lists of a curator's files, changed in their place: comments, order and units stay as they were written.
+
+use std::collections::VecDeque;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
+
+use crate::offline::whole_file::WholeFile;
+
+/// Tables of a sidecar whose numbers are no parameters of the work: words, and what plays when nobody is there.
+const NOT_OFFERED: [&str; 3] = ["label", "attract", "credit"];
+/// Keys whose numbers name things instead of measuring them.
+const NAMES: [&str; 2] = ["seed", "schema"];
+/// Changes that can be taken back.
+const REMEMBERED: usize = 50;
+
+/// One step on the way to a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Into a table.
+    Key(String),
+    /// Into an array of tables.
+    Index(usize),
+}
+
+/// A number of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// The way to it.
+    pub place: Vec<Step>,
+    /// The table it belongs to, as a curator calls it: `material.steel`, `constraint.nail cup-on-point`.
+    pub of: String,
+    /// Its name there: `friction.coefficient`.
+    pub name: String,
+    /// As it stands in the file.
+    pub value: f64,
+    /// The unit it is written with; empty where it is bare.
+    pub unit: String,
+    /// Is it written without a point, as a count is?
+    pub whole: bool,
+}
+
+/// All numbers of a sidecar that a curator may drag, in the order of the file.
+pub fn numbers(text: &str) -> Result<Vec<Number>, String> {
+    let document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
+    let mut found = Vec::new();
+    for (name, item) in document.iter().filter(|(name, _)| !NOT_OFFERED.contains(name)) {
+        item_numbers(item, &mut vec![Step::Key(name.to_owned())], &mut found);
+    }
+    for number in &mut found {
+        (number.of, number.name) = called(&document, &number.place);
+    }
+    Ok(found)
+}
+
+fn item_numbers(item: &Item, place: &mut Vec<Step>, found: &mut Vec<Number>) {
+    if let Some(table) = item.as_table_like() {
+        for (name, item) in table.iter() {
+            place.push(Step::Key(name.to_owned()));
+            item_numbers(item, place, found);
+            place.pop();
+        }
+    } else if let Some(tables) = item.as_array_of_tables() {
+        for (index, table) in tables.iter().enumerate() {
+            place.push(Step::Index(index));
+            for (name, item) in table.iter() {
+                place.push(Step::Key(name.to_owned()));
+                item_numbers(item, place, found);
+                place.pop();
+            }
+            place.pop();
+        }
+    } else if !matches!(place.last(), Some(Step::Key(name)) if NAMES.contains(&name.as_str()))
+        && let Some((value, unit, whole)) = item.as_value().and_then(number)
+    {
+        found.push(Number { place: place.clone(), of: String::new(), name: String::new(), value, unit, whole });
+    }
+}
+
+/// Number, unit, and whether it is whole.
+fn number(value: &Value) -> Option<(f64, String, bool)> {
+    match value {
+        Value::Integer(value) => Some((*value.value() as f64, String::new(), true)),
+        Value::Float(value) => Some((*value.value(), String::new(), false)).filter(|(value, ..)| value.is_finite()),
+        Value::String(text) => {
+            let (number, unit) = text.value().trim().split_once(' ')?;
+            let value: f64 = number.parse().ok().filter(|value: &f64| value.is_finite())?;
+            let known = unit.chars().all(|c| c.is_alphanumeric() || "/% ²³".contains(c));
+            known.then(|| (value, unit.trim().to_owned(), false))
+        }
+        _ => None,
+    }
+}
+
+/// The table and the rest of a place in words: an array's tables are called by their `name` or `node`.
+fn called(document: &Table, place: &[Step]) -> (String, String) {
+    let (mut of, mut table): (String, Option<&dyn TableLike>) = (String::new(), Some(document));
+    let mut cut = place.len().min(2);
+    let mut tables = None;
+    for (depth, step) in place.iter().enumerate() {
+        match step {
+            Step::Key(key) => {
+                let item = table.and_then(|table| table.get(key));
+                (table, tables) = (item.and_then(Item::as_table_like), item.and_then(Item::as_array_of_tables));
+                if depth < cut && depth + 1 < place.len() {
+                    of += if of.is_empty() { "" } else { "." };
+                    of += key;
+                    // An array of tables belongs to its name.
+                    cut += usize::from(tables.is_some() && depth + 1 == cut);
+                }
+            }
+            Step::Index(index) => {
+                let own = tables.and_then(|tables| tables.get(*index));
+                let name = own.and_then(|own| {
+                    ["name", "node", "body"].iter().find_map(|key| own.get(key).and_then(Item::as_str))
+                });
+                of += &name.map_or_else(|| format!(" {}", index + 1), |name| format!(" {name}"));
+                (table, cut) = (own.map(|own| own as &dyn TableLike), depth + 1);
+            }
+        }
+    }
+    let rest = place.iter().skip(cut.min(place.len() - 1)).filter_map(|step| match step {
+        Step::Key(key) => Some(key.as_str()),
+        Step::Index(_) => None,
+    });
+    (of, rest.collect::<Vec<_>>().join("."))
+}
+
+/// The text with another number in this place, rounded to four digits.
+pub fn with_number(text: &str, place: &[Step], value: f64) -> Result<String, String> {
+    let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
+    let old = value_at(document.as_table_mut(), place).ok_or("it is not in the file any more")?;
+    let Some((_, unit, whole)) = number(old) else { return Err("it is no number any more".into()) };
+    let value = four_digits(value);
+    let new = match unit.as_str() {
+        "" if whole => Value::Integer(Formatted::new(value.round() as i64)),
+        "" => Value::Float(Formatted::new(value)),
+        unit => Value::String(Formatted::new(format!("{value} {unit}"))),
+    };
+    replace(old, new);
+    Ok(document.to_string())
+}
+
+/// A number as it is written: four digits are more than a hand can set.
+pub fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// The text with another number at a key of a table; the table and the key are added where they are missing.
+pub fn with_key(text: &str, table: &str, key: &str, value: f64) -> Result<String, String> {
+    with_value(text, table, key, |_| Value::Float(Formatted::new(four_digits(value))))
+}
+
+/// The text with another list of words at a key of a table. Words that stay keep the comments beside them.
+pub fn with_list(text: &str, table: &str, key: &str, words: &[String]) -> Result<String, String> {
+    with_value(text, table, key, |old| {
+        let old = old.and_then(Value::as_array).cloned().unwrap_or_default();
+        let mut new = Array::new();
+        for word in words {
+            match old.iter().find(|value| value.as_str() == Some(word)) {
+                Some(known) => new.push_formatted(known.clone()),
+                None => new.push(word.as_str()),
+            }
+        }
+        new.set_trailing(old.trailing().clone());
+        new.set_trailing_comma(old.trailing_comma());
+        tidy(&mut new);
+        Value::Array(new)
+    })
+}
+
+/// In a list on one line the first word stands at the bracket and the others one space after their comma.
+fn tidy(list: &mut Array) {
+    let text = |value: &Value| {
+        let decor = value.decor();
+        [decor.prefix(), decor.suffix()].map(|raw| raw.and_then(|raw| raw.as_str()).unwrap_or_default().to_owned())
+    };
+    if list.iter().any(|value| text(value).iter().any(|part| part.contains('\n'))) {
+        return;
+    }
+    for (i, value) in list.iter_mut().enumerate() {
+        value.decor_mut().set_prefix(if i == 0 { "" } else { " " });
+        value.decor_mut().set_suffix("");
+    }
+}
+
+fn with_value(text: &str, table: &str, key: &str, new: impl Fn(Option<&Value>) -> Value) -> Result<String, String> {
+    let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
+    let table = document.entry(table).or_insert_with(toml_edit::table);
+    let Some(table) = table.as_table_like_mut() else { return Err(format!("[{key}] is no table")) };
+    match table.get_mut(key).and_then(Item::as_value_mut) {
+        Some(old) => {
+            let new = new(Some(old));
+            replace(old, new);
+        }
+        None => {
+            table.insert(key, Item::Value(new(None)));
+        }
+    }
+    Ok(document.to_string())
+}
+
+/// Puts a value in the place of another, between the same comments.
+fn replace(old: &mut Value, mut new: Value) {
+    *new.decor_mut() = old.decor().clone();
+    *old = new;
+}
+
+fn value_at<'a>(table: &'a mut dyn TableLike, place: &[Step]) -> Option<&'a mut Value> {
+    let (Step::Key(key), rest) = place.split_first()? else { return None };
+    let item = table.get_mut(key)?;
+    match rest {
+        [] => item.as_value_mut(),
+        [Step::Index(index), rest @ ..] => value_at(item.as_array_of_tables_mut()?.get_mut(*index)?, rest),
+        _ => value_at(item.as_table_like_mut()?, rest),
+    }
+}
+
+/// Changes of files that can be taken back, the last one first.
+#[derive(Debug, Default)]
+pub struct Changes {
+    /// File, its text before, and after.
+    done: VecDeque<(PathBuf, String, String)>,
+}
+
+impl Changes {
+    /// Changes a file as it stands now. The error names it and says why.
+    pub fn make(&mut self, file: &Path, change: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
+        let says = |why: String| format!("{}: {why}", file.display());
+        let before = std::fs::read_to_string(file).map_err(|error| says(error.to_string()))?;
+        let after = change(&before).map_err(says)?;
+        if after != before {
+            write(file, &after)?;
+            self.done.push_back((file.to_path_buf(), before, after));
+            if self.done.len() > REMEMBERED {
+                self.done.pop_front();
+            }
+        }
+        Ok(())
+    }
+
+    /// How many can be taken back.
+    pub fn count(&self) -> usize {
+        self.done.len()
+    }
+
+    /// Takes the last one back. A file that somebody else has changed since stays as it is.
+    pub fn undo(&mut self) -> Result<(), String> {
+        let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
+        let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+        if now != after {
+            return Err(format!("{}: changed by somebody else since; it stays as it is", file.display()));
+        }
+        write(&file, &before)
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    let mut file = WholeFile::create(path).map_err(|error| error.to_string())?;
+    file.write_all(text.as_bytes()).and_then(|()| file.finish()).map_err(|error| error.to_string())
+}

@@ -1,0 +1,160 @@
+//! The window's part in a day of the house: opening hours, cleaning, the configuration that changes, what staff ask for.
+
+use std::time::Instant;
+
+use egui::{Align2, Color32, FontId, Painter, vec2};
+use jiff::{ToSpan, Zoned};
+use winit::event_loop::ActiveEventLoop;
+
+use super::App;
+use crate::config::{Day, TimeOfDay};
+use crate::kiosk::house::House;
+use crate::kiosk::input::Request;
+use crate::kiosk::live::Frame;
+use crate::kiosk::overlay::Scene;
+use crate::kiosk::page::{INK, PAPER, Page};
+use crate::kiosk::shelf::{Places, folders, id};
+use crate::kiosk::site::{News, Site, waits_for_restart};
+use crate::kiosk::staff::Wish;
+use crate::kiosk::words::words;
+use crate::simulation::Command;
+
+/// Covers the picture while the house is closed or the glass is cleaned; says whether it did.
+pub(super) fn cover(painter: &Painter, house: &House, scene: &Scene) -> bool {
+    let all = painter.clip_rect();
+    if let Some(left) = house.cleans(scene.time) {
+        painter.rect_filled(all, 0.0, PAPER);
+        let page = Page::new(painter, all, scene.points_per_mm, scene.reading);
+        page.text(all.center(), Align2::CENTER_BOTTOM, words(scene.language).cleaning, 1.8, INK, page.picture.width());
+        let count = FontId::proportional(4.0 * page.em);
+        painter.text(all.center() + vec2(0.0, page.em), Align2::CENTER_TOP, format!("{:.0}", left.ceil()), count, INK);
+        return true;
+    }
+    if !house.is_open() {
+        painter.rect_filled(all, 0.0, Color32::BLACK);
+    }
+    !house.is_open()
+}
+
+impl App<'_> {
+    /// Opens and closes by the hours.
+    pub(super) fn follow_hours(&mut self) {
+        let before = self.house.is_open();
+        let now = Zoned::now();
+        let yesterday = now.date().checked_sub(1.day()).unwrap_or(now.date());
+        let minutes = 60 * u16::from(now.hour().unsigned_abs()) + u16::from(now.minute().unsigned_abs());
+        let time = TimeOfDay::from_minutes(minutes);
+        self.house.look(&self.config.opening, day(now.date()), day(yesterday), time);
+        self.tell_house(before);
+    }
+
+    /// Staff open the kiosk while the house is closed, or close it again.
+    pub(super) fn open_early(&mut self) {
+        let before = self.house.is_open();
+        self.house.open_early();
+        self.tell_house(before);
+    }
+
+    /// The simulation hears of what has changed: the doors, or the end of a cleaning.
+    fn tell_house(&mut self, was_open: bool) {
+        let open = self.house.is_open();
+        if open != was_open {
+            self.visitor.let_go();
+            self.menu = Default::default();
+            self.say(
+                if open { "the house is open" } else { "the house is closed: black, mute, the microphone closed" }
+                    .into(),
+            );
+        }
+        self.tell();
+    }
+
+    /// Takes over a changed configuration; a broken one is refused.
+    pub(super) fn follow_site(&mut self) {
+        while let Some(news) = self.site.as_ref().and_then(|site| site.news()) {
+            let mut config = match news {
+                News::Good(config) => self.overrides.apply(*config),
+                News::Bad(problems) => {
+                    self.say(format!("{problems}\nThe last good configuration stays."));
+                    self.site_says = vec![problems];
+                    continue;
+                }
+            };
+            let mended = !self.site_says.is_empty();
+            self.site_says.clear();
+            let waits = waits_for_restart(&self.config, &config);
+            if !waits.is_empty() {
+                let says = format!("{}: from the next start on", waits.join(", "));
+                tracing::warn!("{says}");
+                self.site_says.push(says);
+            }
+            config.screen.fullscreen = self.config.screen.fullscreen;
+            let (old, new) = (&self.config.exhibits, &mut config.exhibits);
+            (new.folder, new.hot_reload) = (old.folder.clone(), old.hot_reload);
+            if config == self.config {
+                if mended {
+                    self.say("the configuration is good again".into());
+                }
+                continue;
+            }
+            let reordered = config.exhibits.show != self.config.exhibits.show;
+            self.config = config;
+            if reordered && !self.one {
+                self.reorder();
+            }
+            if let Some(show) = &self.show {
+                show.live.controls().site = Some(Box::new(Site::new(&self.config, self.seed)));
+            }
+            self.say("the changed configuration is taken over".into());
+        }
+    }
+
+    /// Offers the works in the configuration's order; those that were not offered are looked at.
+    fn reorder(&mut self) {
+        let site = &self.config.exhibits;
+        self.offer.reorder(&site.show);
+        let places = Places::All { folder: site.folder.clone(), show: site.show.clone() };
+        for folder in folders(&places) {
+            if !self.offer.works().iter().any(|work| work.id == id(&folder)) {
+                self.shelf.look(&folder);
+            }
+        }
+    }
+
+    /// Does what staff ask for.
+    pub(super) fn fulfil(&mut self, events: &ActiveEventLoop, wish: Wish, frame: &Frame) {
+        match wish {
+            Wish::Close => events.exit(),
+            Wish::Reload => self.shelf.show(&frame.exhibit.folder),
+            Wish::Reset => self.command(Command::Reset),
+            Wish::Mute => self.grant(events, Request::Mute),
+            Wish::Night => self.grant(events, Request::Night),
+            Wish::Open => self.open_early(),
+            Wish::Clean => {
+                self.staff.toggle();
+                self.menu = Default::default();
+                self.visitor.let_go();
+                self.house.clean(self.clock.seconds(Instant::now()));
+                tracing::info!("all input is off: the glass is cleaned");
+                self.tell();
+            }
+            Wish::Show(id) => {
+                if let Some(work) = self.offer.works().iter().find(|work| work.id == id) {
+                    self.shelf.show(&work.folder);
+                }
+            }
+            Wish::Try(trial) => {
+                if let Some(show) = &self.show {
+                    show.live.controls().trials.push(trial);
+                }
+            }
+        }
+    }
+}
+
+/// A day as the configuration knows it.
+fn day(date: jiff::civil::Date) -> Day {
+    let part = |number: i8| number.unsigned_abs();
+    let weekday = part(date.weekday().to_monday_zero_offset());
+    Day { year: date.year(), month: part(date.month()), day: part(date.day()), weekday }
+}

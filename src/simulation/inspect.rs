@@ -1,0 +1,112 @@
+//! A closer look at one moment, for whoever mends an exhibit: each joint, each body, each patch that feels the wind.
+//! A step asks for none of it.
+
+use super::{Simulation, blown, breath};
+use crate::articulation::ConstraintKind;
+use crate::math::DVec3;
+
+/// What is looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Look {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Bodies and joints.
+    Bodies,
+    /// Patches that feel the wind.
+    Wind,
+}
+
+/// What was seen; of what was not looked at, nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inspection {
+    /// Steps done.
+    pub step: u64,
+    /// In the order of the exhibit's constraints.
+    pub joints: Vec<JointState>,
+    /// In the order of the exhibit's bodies.
+    pub bodies: Vec<BodyState>,
+    /// Every patch.
+    pub wind: Vec<WindSample>,
+}
+
+/// How a constraint is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointState {
+    /// How far it is from what it holds: m, of an angle rad.
+    pub error: f64,
+    /// Does it hold an angle?
+    pub angle: bool,
+    /// The force that its joint carried in the last step, all lengths between the two bodies together, N; `None` for
+    /// angles and couplings.
+    pub load: Option<f64>,
+}
+
+/// How a body is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyState {
+    /// m/s.
+    pub speed: f64,
+    /// rad/s.
+    pub spin: f64,
+    /// Height of its centre of mass, world, m.
+    pub height: f64,
+}
+
+/// A patch in the wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindSample {
+    /// Index of its surface among the exhibit's.
+    pub surface: usize,
+    /// World, m.
+    pub point: DVec3,
+    /// Does it lie in the cone of the breath as it is aimed now, and see the lips?
+    pub hit: bool,
+    /// Speed of the air there, m/s: what breath and all winds do to a patch that they reach.
+    pub speed: f64,
+}
+
+impl Simulation {
+    /// Looks closer at the present moment. Changes nothing of the run.
+    pub fn inspect(&mut self, look: Look) -> Inspection {
+        let seen = Inspection { step: self.step, ..Inspection::default() };
+        match look {
+            Look::Nothing => seen,
+            Look::Bodies => Inspection { joints: self.joint_states(), bodies: self.body_states(), ..seen },
+            Look::Wind => Inspection { wind: self.wind_samples(), ..seen },
+        }
+    }
+
+    fn joint_states(&self) -> Vec<JointState> {
+        let gaps = self.dynamics.system().gaps(&self.dynamics.bodies);
+        let states = self.dynamics.loads().into_iter().zip(gaps).zip(self.dynamics.system().constraints());
+        states
+            .map(|((load, error), constraint)| {
+                let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });
+                JointState { error, angle, load: load.filter(|_| !angle) }
+            })
+            .collect()
+    }
+
+    fn body_states(&self) -> Vec<BodyState> {
+        let state = |body: &crate::bodies::RigidBody| BodyState {
+            speed: body.velocity.length(),
+            spin: body.angular_velocity.length(),
+            height: body.position.y,
+        };
+        self.dynamics.bodies.iter().map(state).collect()
+    }
+
+    fn wind_samples(&mut self) -> Vec<WindSample> {
+        let aimed = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
+        let samples = self.wind.samples(&self.dynamics.bodies, &aimed);
+        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        let sample = |sample: crate::wind::force::Sample| {
+            let reached = blown.as_ref().filter(|_| sample.seen);
+            let air = self.wind.streams(reached, sample.point) + self.wind.stirs(sample.point);
+            let hit = sample.seen && aimed.share(sample.point).is_some();
+            WindSample { surface: sample.surface, point: sample.point, hit, speed: air.length() }
+        };
+        samples.into_iter().map(sample).collect()
+    }
+}
