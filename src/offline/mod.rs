@@ -6,6 +6,7 @@ pub mod demo;
 pub mod ear;
 pub mod events;
 pub mod feed;
+pub mod frames;
 pub mod loudness;
 #[cfg(feature = "kiosk")]
 pub mod pictures;
@@ -14,5 +15,7 @@ pub mod scene;
 pub mod sound_page;
 pub mod soundtrack;
 pub mod trace;
+#[cfg(feature = "kiosk")]
+pub mod video;
 pub mod wav;
 pub mod whole_file;
