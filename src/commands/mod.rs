@@ -17,6 +17,7 @@ pub mod check;
 pub mod devices;
 pub mod doctor;
 pub mod explain;
+pub mod export;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
 pub mod loudness;
@@ -94,6 +95,7 @@ enum Command {
     Loudness(loudness::Args),
     #[cfg(feature = "kiosk")]
     Render(render::Args),
+    Export(export::Args),
     Check(check::Args),
     Explain(explain::Args),
     Schema(schema::Args),
@@ -118,6 +120,7 @@ pub fn run() -> ExitCode {
         Some(Command::Loudness(args)) => loudness::run(args),
         #[cfg(feature = "kiosk")]
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Export(args)) => export::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),
         Some(Command::Schema(args)) => schema::run(args),

@@ -262,7 +262,7 @@ fn failed(error: PlayError) -> Failure {
 }
 
 /// A bar on a terminal, nothing in a pipe.
-fn progress_bar(steps: u64) -> ProgressBar {
+pub(super) fn progress_bar(steps: u64) -> ProgressBar {
     let style =
         ProgressStyle::with_template("{wide_bar} {percent}% {eta}").unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(steps).with_style(style)

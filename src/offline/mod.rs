@@ -5,6 +5,7 @@ pub mod compare;
 pub mod demo;
 pub mod ear;
 pub mod events;
+pub mod export;
 pub mod feed;
 pub mod frames;
 pub mod loudness;
