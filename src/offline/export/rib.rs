@@ -24,6 +24,8 @@ const SAMPLES: u32 = 6;
 const GAMMA: f64 = 2.2;
 /// More metal than this is drawn as metal.
 const METAL: f32 = 0.5;
+/// The camera sees from here on, m.
+const NEAR: f64 = 0.01;
 /// Faces of the room that the camera can see.
 const WALLS: [Face; 5] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right];
 
@@ -55,7 +57,8 @@ impl<'a> RibWriter<'a> {
                 parts.push((piece.body, format!("{}    ReadArchive \"{archive}\"\n", surface(&look))));
             }
         }
-        let head = room(&Room::around(exhibit)) + &punctual(exhibit, &scenery);
+        let view = exhibit.view(f64::from(size.0) / f64::from(size.1));
+        let head = room(&Room::around(exhibit), &view) + &punctual(exhibit, &scenery);
         Ok(Self { exhibit, folder: folder.into(), size, fps, head, parts, open: None })
     }
 
@@ -85,7 +88,7 @@ impl<'a> RibWriter<'a> {
         let mut out = format!(
             "##RenderMan RIB-Structure 1.1\n##Scene {}\n##Frames 1\nversion 3.03\n\
              FrameBegin {}\n  Display \"frame.{number:06}.tif\" \"file\" \"rgb\"\n  Format {width} {height} 1\n  \
-             ScreenWindow {} {} -1 1\n  Clipping 0.01 1000\n  PixelSamples {SAMPLES} {SAMPLES}\n  \
+             ScreenWindow {} {} -1 1\n  Clipping {NEAR} 1000\n  PixelSamples {SAMPLES} {SAMPLES}\n  \
              PixelFilter \"gaussian\" 2 2\n  ShadingRate 1\n  Exposure 1 {GAMMA}\n  Quantize \"rgb\" 255 0 255 0.5\n  \
              Shutter {opens} {closes}\n  Projection \"perspective\" \"fov\" [{}]\n  ConcatTransform {}\n  WorldBegin\n",
             self.exhibit.id.replace(['\n', '"'], " "),
@@ -190,7 +193,7 @@ fn surface(look: &Appearance) -> String {
 }
 
 /// The gallery: light from all around, its two lamps, its walls.
-fn room(room: &Room) -> String {
+fn room(room: &Room, view: &View) -> String {
     let ambient = WALL_AMBIENT / WALL_ALBEDO.y;
     let mut out = format!("  LightSource \"ambientlight\" 1 \"intensity\" [{ambient}]\n");
     let vector = |v: glam::Vec3| list(v.as_dvec3().to_array());
@@ -212,14 +215,35 @@ fn room(room: &Room) -> String {
         let [a, b, middle] = room.face_axes(face);
         let corners = [middle - a - b, middle + a - b, middle + a + b, middle - a + b];
         let albedo = if face == Face::Floor { FLOOR_ALBEDO } else { WALL_ALBEDO };
-        let points = corners.into_iter().flat_map(|corner| room.to_world(corner).as_dvec3().to_array());
+        let points = in_front(&corners.map(|corner| room.to_world(corner).as_dvec3()), view);
+        if points.is_empty() {
+            continue;
+        }
         let _ = writeln!(
             out,
             "  AttributeBegin\n    Sides 2\n    Color {}\n    Surface \"matte\" \"Ka\" [1] \"Kd\" [1]\n    Polygon \"P\" {}\n  \
              AttributeEnd",
             vector(albedo),
-            list(points)
+            list(points.into_iter().flat_map(|p| p.to_array()))
         );
+    }
+    out
+}
+
+/// The part of a polygon that lies before the eye: renderers that dice surfaces on the screen cannot take the rest.
+fn in_front(corners: &[DVec3], view: &View) -> Vec<DVec3> {
+    let forward = view.axes().2;
+    let depth = |p: DVec3| (p - view.eye).dot(forward) - NEAR;
+    let mut out = Vec::new();
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let (before, after) = (depth(a), depth(b));
+        if before >= 0.0 {
+            out.push(a);
+        }
+        if (before >= 0.0) != (after >= 0.0) {
+            out.push(a.lerp(b, before / (before - after)));
+        }
     }
     out
 }
@@ -257,6 +281,16 @@ fn punctual(exhibit: &Exhibit, scenery: &Scenery) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_wall_that_passes_the_eye_the_part_before_it_is_drawn() {
+        let view = View { eye: DVec3::ZERO, target: DVec3::NEG_Z, up: DVec3::Y, fovy: 0.5 };
+        let wall = [DVec3::new(1.0, -1.0, -3.0), DVec3::new(1.0, -1.0, 3.0), DVec3::new(1.0, 1.0, 3.0), DVec3::new(1.0, 1.0, -3.0)];
+        let seen = in_front(&wall, &view);
+        assert_eq!(seen.len(), 4);
+        assert!(seen.iter().all(|p| p.x == 1.0 && p.z <= -NEAR + 1e-12), "{seen:?}");
+        assert!(in_front(&wall.map(|p| DVec3::new(p.x, p.y, p.z.abs())), &view).is_empty());
+    }
 
     #[test]
     fn what_the_eye_sees_in_the_middle_lies_on_the_cameras_axis() {

@@ -289,6 +289,11 @@ impl Writer<'_> {
         let _ = writeln!(out, "{indent}  <inertial pos=\"{center}\" mass=\"{mass}\" fullinertia=\"{inertia}\"/>");
         let point = numbers(&body.pose.inverse_point(member.joint.point).to_array());
         let damping = self.damping(index);
+        if !member.joint.names.is_empty() {
+            // XML has no two dashes inside a comment.
+            let names = member.joint.names.join(", ").replace("--", "- -");
+            let _ = writeln!(out, "{indent}  <!-- {names} -->");
+        }
         for (k, freedom) in member.joint.freedoms.iter().enumerate() {
             let name = named(&self.joint_name(index, k));
             let axis = |v: &DVec3| numbers(&body.pose.inverse_vector(*v).to_array());
