@@ -14,8 +14,8 @@ use crate::simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// Length of a run without a recording, and after the end of one, s.
 const TAIL: f64 = 5.0;
-/// Longest run whose key frames are told apart by the single precision that glTF has for times, s.
-const LONGEST: f64 = 3600.0;
+/// Longest run: the poses of all its steps are kept until it is over, and glTF's times are single precision, s.
+const LONGEST: f64 = 600.0;
 /// Frames a second of a film.
 #[cfg(feature = "kiosk")]
 const FILM: u32 = 24;

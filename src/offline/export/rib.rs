@@ -285,7 +285,12 @@ mod tests {
     #[test]
     fn of_a_wall_that_passes_the_eye_the_part_before_it_is_drawn() {
         let view = View { eye: DVec3::ZERO, target: DVec3::NEG_Z, up: DVec3::Y, fovy: 0.5 };
-        let wall = [DVec3::new(1.0, -1.0, -3.0), DVec3::new(1.0, -1.0, 3.0), DVec3::new(1.0, 1.0, 3.0), DVec3::new(1.0, 1.0, -3.0)];
+        let wall = [
+            DVec3::new(1.0, -1.0, -3.0),
+            DVec3::new(1.0, -1.0, 3.0),
+            DVec3::new(1.0, 1.0, 3.0),
+            DVec3::new(1.0, 1.0, -3.0),
+        ];
         let seen = in_front(&wall, &view);
         assert_eq!(seen.len(), 4);
         assert!(seen.iter().all(|p| p.x == 1.0 && p.z <= -NEAR + 1e-12), "{seen:?}");
