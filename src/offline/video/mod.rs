@@ -60,7 +60,7 @@ impl Plan {
             "apng" | "png" => Ok(plan(Format::Apng, silent("an animated PNG"))),
             "y4m" => Ok(plan(Format::Y4m, silent("YUV4MPEG2"))),
             "mp4" | "mov" | "mkv" => match usable() {
-                Ok(()) if size.0 % 2 == 0 && size.1 % 2 == 0 => Ok(plan(Format::Film, None)),
+                Ok(()) if size.0.is_multiple_of(2) && size.1.is_multiple_of(2) => Ok(plan(Format::Film, None)),
                 Ok(()) => {
                     let [w, h] = [size.0, size.1].map(|side| side.next_multiple_of(2));
                     Err(format!("H.264 needs even sides: {}x{} pixels cannot be; --size {w}x{h} can", size.0, size.1))

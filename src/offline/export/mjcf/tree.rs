@@ -136,7 +136,9 @@ impl Tree {
         if let Some(first) = rest.first().filter(|_| rigid) {
             return self.closings.push(Closing::Rigid(first.group().to_owned(), ends.0, ends.1));
         }
-        let axis = axis_of(exhibit, rest);
+        // Right angles are a hinge's where a point is held as well.
+        let held = rest.iter().any(|c| matches!(c.kind, ConstraintKind::PointToPoint { .. }));
+        let axis = axis_of(exhibit, rest).filter(|_| held);
         for constraint in rest {
             match &constraint.kind {
                 ConstraintKind::PointToPoint { a, b } => {
