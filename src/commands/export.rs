@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::play::{parse_seconds, parse_size};
 use super::{Failure, Outcome};
-use crate::offline::export::{gltf::Bake, mjcf};
+use crate::offline::export::{key_frames::Bake, mjcf};
 use crate::offline::feed::WavFeed;
 use crate::offline::play::{self, OnFrame, Play, PlayError};
 use crate::offline::wav;

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use soffio::exhibit::model::{self, Model};
 use soffio::exhibit::{self, Exhibit};
 use soffio::math::{DQuat, DVec3, PI, Pose};
-use soffio::offline::export::gltf::Bake;
+use soffio::offline::export::key_frames::Bake;
 use soffio::offline::export::mjcf;
 use soffio::offline::feed::WavFeed;
 use soffio::offline::play::{self, Play};

@@ -1,6 +1,6 @@
 //! A run, or a model of it, for other programs: glTF with key frames, RenderMan scenes, a MuJoCo model.
 
-pub mod gltf;
+pub mod key_frames;
 pub mod mjcf;
 #[cfg(feature = "kiosk")]
 pub mod rib;
