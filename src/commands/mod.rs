@@ -17,6 +17,7 @@ pub mod check;
 pub mod devices;
 pub mod doctor;
 pub mod explain;
+pub mod export;
 pub mod import;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
@@ -98,6 +99,7 @@ enum Command {
     Loudness(loudness::Args),
     #[cfg(feature = "kiosk")]
     Render(render::Args),
+    Export(export::Args),
     Check(check::Args),
     Explain(explain::Args),
     New(new::Args),
@@ -126,6 +128,7 @@ pub fn run() -> ExitCode {
         Some(Command::Loudness(args)) => loudness::run(args),
         #[cfg(feature = "kiosk")]
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Export(args)) => export::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),
         Some(Command::New(args)) => new::run(args),

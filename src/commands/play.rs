@@ -11,10 +11,13 @@ use super::{Failure, Outcome};
 use crate::exhibit::Exhibit;
 use crate::offline::compare;
 use crate::offline::feed::WavFeed;
-use crate::offline::play::{self, OnFrame, Play, PlayError};
+use crate::offline::play::{self, Play, PlayError, Summary};
 use crate::offline::trace::DEFAULT_FPS;
 use crate::offline::wav;
 use crate::simulation::{MotionMode, Profile, STEPS_PER_SECOND, Script, Settings};
+
+#[cfg(feature = "kiosk")]
+mod filming;
 
 /// Seconds of a run without a recording, and after the end of one.
 const TAIL: f64 = 5.0;
@@ -22,6 +25,7 @@ const TAIL: f64 = 5.0;
 /// Runs an exhibit offline, faster than real time, deterministic.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Examples:\n  soffio play steel-fish --breath blow.wav --audio out.wav --trace out.csv\n  \
+                        soffio play wind-chimes --script visit.jsonl --video visit.mp4 --size 640x360 --fps 30\n  \
                         soffio play chains --seconds 20 --compare --plot apart.png")]
 pub struct Args {
     /// Id under `exhibits/`, or a folder.
@@ -62,10 +66,14 @@ pub struct Args {
     /// Events.
     #[arg(long, value_name = "OUT.jsonl")]
     events: Option<PathBuf>,
-    /// Pictures, one PNG a frame.
+    /// Pictures, one PNG a frame, of the poses at its time.
     #[cfg(feature = "kiosk")]
     #[arg(long, value_name = "DIR")]
     frames: Option<PathBuf>,
+    /// Video: .mp4, .mov or .mkv with the sound, by ffmpeg; .apng or .y4m without, by this program alone.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "OUT.mp4")]
+    video: Option<PathBuf>,
     /// Size of the picture.
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
     size: (u32, u32),
@@ -86,7 +94,7 @@ pub struct Args {
 
 /// What one run leaves and two do not.
 #[cfg(feature = "kiosk")]
-const COMPARE_LEAVES: [&str; 5] = ["audio", "dry", "trace", "events", "frames"];
+const COMPARE_LEAVES: [&str; 6] = ["audio", "dry", "trace", "events", "frames", "video"];
 #[cfg(not(feature = "kiosk"))]
 const COMPARE_LEAVES: [&str; 4] = ["audio", "dry", "trace", "events"];
 
@@ -188,17 +196,49 @@ pub fn run(args: Args) -> Outcome {
         progress.finish_and_clear();
         return tell(compared, &args, &exhibit);
     }
-    let mut frames = frame_writer(&args, &exhibit)?;
-    let on_frame = frames.as_mut().map(|f| &mut **f as &mut OnFrame);
-    let summary = play::run(&exhibit, play, &stop, |step| progress.set_position(step), on_frame);
+    let summary = perform(&args, &exhibit, play, &stop, &progress);
     progress.finish_and_clear();
-    match summary {
-        Ok(summary) => {
-            println!("{}", serde_json::to_string(&summary).map_err(Failure::input)?);
-            Ok(())
+    println!("{}", serde_json::to_string(&summary?).map_err(Failure::input)?);
+    Ok(())
+}
+
+/// Runs the exhibit without pictures.
+#[cfg(not(feature = "kiosk"))]
+fn perform(
+    _: &Args,
+    exhibit: &Arc<Exhibit>,
+    play: Play,
+    stop: &AtomicBool,
+    progress: &ProgressBar,
+) -> Result<Summary, Failure> {
+    play::run(exhibit, play, stop, |step| progress.set_position(step), None).map_err(failed)
+}
+
+/// Runs the exhibit, and films it where pictures are wanted.
+#[cfg(feature = "kiosk")]
+fn perform(
+    args: &Args,
+    exhibit: &Arc<Exhibit>,
+    mut play: Play,
+    stop: &AtomicBool,
+    progress: &ProgressBar,
+) -> Result<Summary, Failure> {
+    let on_step = |step| progress.set_position(step);
+    let Some(mut filming) = filming::Filming::new(args, exhibit, play.seconds)? else {
+        return play::run(exhibit, play, stop, on_step, None).map_err(failed);
+    };
+    play.audio = play.audio.or_else(|| filming.sound());
+    let sound = play.audio.clone();
+    let mut on_frame = |number: u64, now: &_| filming.frame(number, now);
+    let summary = play::run(exhibit, play, stop, on_step, Some(&mut on_frame)).map_err(|error| match &args.frames {
+        Some(folder) if matches!(error, PlayError::Interrupted) => {
+            let message = format!("interrupted; the frames so far are in {}, nothing else is", folder.display());
+            Failure { code: 130, message }
         }
-        Err(error) => Err(failed(error)),
-    }
+        _ => failed(error),
+    })?;
+    filming.finish(sound.as_deref()).map_err(Failure::input)?;
+    Ok(summary)
 }
 
 /// Writes a comparison where it was asked for, and its numbers as one line.
@@ -222,7 +262,7 @@ fn failed(error: PlayError) -> Failure {
 }
 
 /// A bar on a terminal, nothing in a pipe.
-fn progress_bar(steps: u64) -> ProgressBar {
+pub(super) fn progress_bar(steps: u64) -> ProgressBar {
     let style =
         ProgressStyle::with_template("{wide_bar} {percent}% {eta}").unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(steps).with_style(style)
@@ -234,21 +274,4 @@ fn read_script(path: &PathBuf, exhibit: &Exhibit) -> Result<Script, Failure> {
         .map_err(|e| Failure::input(format!("cannot read the script {name}: {e}; check the path")))?;
     let script = Script::parse(&text).and_then(|script| script.fits(exhibit).map(|()| script));
     script.map_err(|e| Failure::input(format!("{name}, {e}")))
-}
-
-type FrameWriter = Box<OnFrame<'static>>;
-
-#[cfg(not(feature = "kiosk"))]
-fn frame_writer(_: &Args, _: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
-    Ok(None)
-}
-
-#[cfg(feature = "kiosk")]
-fn frame_writer(args: &Args, exhibit: &Arc<Exhibit>) -> Result<Option<FrameWriter>, Failure> {
-    use crate::offline::pictures::Pictures;
-    let Some(folder) = args.frames.clone() else { return Ok(None) };
-    std::fs::create_dir_all(&folder)
-        .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;
-    let mut pictures = Pictures::new(exhibit, args.size).map_err(Failure::device)?;
-    Ok(Some(Box::new(move |frame, simulation| pictures.save(simulation, &folder.join(format!("{frame:06}.png"))))))
 }

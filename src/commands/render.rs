@@ -8,7 +8,7 @@ use crate::exhibit::{self, Exhibit};
 use crate::offline::pictures::write_png;
 use crate::render::scenario::Scenario;
 use crate::render::{Frame, ImageRenderer, Options, RenderError, Shaders};
-use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// Picture size without `--size` or a scenario's.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);
@@ -58,11 +58,7 @@ pub fn run(args: Args) -> Outcome {
     };
     let exhibit = Arc::new(subject(&args, &scenario)?);
     let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
-    let steps = (args.time * STEPS_PER_SECOND as f64).round() as u64;
-    for _ in 0..steps {
-        simulation.step(&StepInput::default());
-    }
-    let snapshot = simulation.snapshot();
+    let snapshot = at(&mut simulation, args.time * STEPS_PER_SECOND as f64);
     let size =
         args.size.unwrap_or((scenario.width.unwrap_or(DEFAULT_SIZE.0), scenario.height.unwrap_or(DEFAULT_SIZE.1)));
     let look = scenario.look().map_err(Failure::input)?;
@@ -77,6 +73,22 @@ pub fn run(args: Args) -> Outcome {
     let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure };
     let picture = renderer.draw(&frame).map_err(failure)?;
     write_png(&picture, &args.output).map_err(Failure::input)
+}
+
+/// The moment after so many steps, between two of them where they are not whole.
+fn at(simulation: &mut Simulation, steps: f64) -> Snapshot {
+    /// Decimals of a second end somewhere: nearer to a step than this is on it.
+    const SAME: f64 = 1e-3;
+    let whole = (steps + SAME).floor();
+    for _ in 0..whole as u64 {
+        simulation.step(&StepInput::default());
+    }
+    let before = simulation.snapshot();
+    if steps - whole < SAME {
+        return before;
+    }
+    simulation.step(&StepInput::default());
+    before.interpolate(&simulation.snapshot(), steps - whole)
 }
 
 /// The exhibit to draw: by id or folder, or a model alone.
@@ -98,7 +110,7 @@ fn subject(args: &Args, scenario: &Scenario) -> Result<Exhibit, Failure> {
 }
 
 /// A missing driver is not the visitor's input.
-fn failure(error: RenderError) -> Failure {
+pub(super) fn failure(error: RenderError) -> Failure {
     match error {
         RenderError::TooManyBodies { .. } | RenderError::Size { .. } => Failure::input(error),
         _ => Failure::device(error),

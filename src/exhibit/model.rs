@@ -8,9 +8,11 @@ mod deform;
 mod import;
 mod look;
 mod primitive;
+mod write;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use import::{Imported, MAX_FILE_BYTES, import, load};
+pub use write::write;
 
 /// A glTF model.
 #[derive(Clone, Debug, Default)]

@@ -9,7 +9,7 @@ use super::feed::WavFeed;
 use super::play::{self, Play, Summary};
 use super::trace::DEFAULT_FPS;
 use crate::exhibit::{AttractAction, Exhibit};
-use crate::simulation::{Settings, Simulation};
+use crate::simulation::{Settings, Snapshot};
 use crate::sound::RoomSpec;
 
 /// The run goes on after the breath, s.
@@ -50,9 +50,9 @@ pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &Ato
     };
     let mut files = vec![file("wav"), file("csv")];
     let mut no_picture = None;
-    let mut on_frame = |frame: u64, simulation: &Simulation| {
+    let mut on_frame = |frame: u64, now: &Snapshot| {
         if frame == (PICTURE_AT * f64::from(DEFAULT_FPS)) as u64 {
-            match picture(exhibit, simulation, &file("png")) {
+            match picture(exhibit, now, &file("png")) {
                 Ok(()) => files.push(file("png")),
                 Err(why) => no_picture = Some(why),
             }
@@ -64,12 +64,13 @@ pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &Ato
 }
 
 #[cfg(not(feature = "kiosk"))]
-fn picture(_: &Arc<Exhibit>, _: &Simulation, _: &Path) -> Result<(), String> {
+fn picture(_: &Arc<Exhibit>, _: &Snapshot, _: &Path) -> Result<(), String> {
     Err("this build has no renderer".into())
 }
 
 #[cfg(feature = "kiosk")]
-fn picture(exhibit: &Arc<Exhibit>, simulation: &Simulation, path: &Path) -> Result<(), String> {
-    use super::pictures::Pictures;
-    Pictures::new(exhibit, PICTURE_SIZE).map_err(|e| e.to_string())?.save(simulation, path)
+fn picture(exhibit: &Arc<Exhibit>, now: &Snapshot, path: &Path) -> Result<(), String> {
+    use super::pictures::{Pictures, write_png};
+    let drawn = Pictures::new(exhibit, PICTURE_SIZE).and_then(|mut pictures| pictures.draw(now));
+    write_png(&drawn.map_err(|e| e.to_string())?, path).map_err(|e| e.to_string())
 }

@@ -5,7 +5,9 @@ pub mod compare;
 pub mod demo;
 pub mod ear;
 pub mod events;
+pub mod export;
 pub mod feed;
+pub mod frames;
 pub mod loudness;
 #[cfg(feature = "kiosk")]
 pub mod pictures;
@@ -14,6 +16,8 @@ pub mod scene;
 pub mod sound_page;
 pub mod soundtrack;
 pub mod trace;
+#[cfg(feature = "kiosk")]
+pub mod video;
 pub mod wav;
 pub mod whole_file;
 pub mod whole_folder;

@@ -10,10 +10,11 @@ use serde::Serialize;
 
 use super::events::EventWriter;
 use super::feed::WavFeed;
+use super::frames::Frames;
 use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
 use crate::exhibit::Exhibit;
-use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
 use crate::sound::RoomSpec;
 
 /// What to run and what to keep of it.
@@ -97,8 +98,8 @@ impl From<std::io::Error> for PlayError {
     }
 }
 
-/// Called with every frame that is due: its number and the simulation at (or just after) its time.
-pub type OnFrame<'a> = dyn FnMut(u64, &Simulation) -> Result<(), String> + 'a;
+/// Called with every frame that is due: its number and the moment that is seen in it.
+pub type OnFrame<'a> = dyn FnMut(u64, &Snapshot) -> Result<(), String> + 'a;
 
 /// Runs an exhibit. `on_step` hears the number of each step done (progress); `on_frame` sees each frame.
 pub fn run(
@@ -119,17 +120,16 @@ pub fn run(
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
     let (mut commands, mut hands) = (Vec::new(), Vec::new());
     let mut worst: f64 = 0.0;
-    let mut frame = 0;
+    let mut frames = Frames::new(fps);
     let (mut before, mut switches) = (mode, 0);
     for step in 0..=steps {
         if let Some(trace) = &mut trace {
             trace.push_simulation(&simulation)?;
         }
-        while frame * STEPS_PER_SECOND <= step * u64::from(fps.max(1)) {
-            if let Some(on_frame) = &mut on_frame {
-                on_frame(frame, &simulation).map_err(PlayError::Output)?;
-            }
-            frame += 1;
+        if let Some(on_frame) = &mut on_frame {
+            frames
+                .push(step, || simulation.snapshot(), |frame, now| on_frame(frame, now))
+                .map_err(PlayError::Output)?;
         }
         if step == steps {
             break;

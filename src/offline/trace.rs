@@ -7,10 +7,11 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::frames::Frames;
 use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::Pose;
-use crate::simulation::{STEPS_PER_SECOND, Simulation, Snapshot};
+use crate::simulation::{Simulation, Snapshot};
 
 /// Frames per second of a trace nobody asked otherwise of.
 pub const DEFAULT_FPS: u32 = 60;
@@ -19,9 +20,8 @@ pub const DEFAULT_FPS: u32 = 60;
 pub struct TraceWriter {
     file: WholeFile,
     names: Vec<String>,
-    fps: u64,
-    frame: u64,
-    before: Option<(u64, Vec<Pose>)>,
+    fps: u32,
+    frames: Frames<Vec<Pose>>,
 }
 
 impl TraceWriter {
@@ -30,7 +30,7 @@ impl TraceWriter {
         let mut file = WholeFile::create(path)?;
         writeln!(file, "t,body,x,y,z,qw,qx,qy,qz")?;
         let names = exhibit.bodies.iter().map(|body| body.name.clone()).collect();
-        Ok(Self { file, names, fps: u64::from(fps.max(1)), frame: 0, before: None })
+        Ok(Self { file, names, fps: fps.max(1), frames: Frames::new(fps) })
     }
 
     /// Takes notice of a moment; moments come in order, each step once, from the start.
@@ -44,31 +44,15 @@ impl TraceWriter {
     }
 
     fn push_poses(&mut self, step: u64, poses: impl FnOnce() -> Vec<Pose>) -> io::Result<()> {
-        // Frame k lies at step 240 k / fps; only its neighbours matter.
-        let due = |frame: u64, step: u64| frame * STEPS_PER_SECOND <= step * self.fps;
-        let next_matters = due(self.frame, step + 1);
-        if !next_matters && !due(self.frame, step) {
-            return Ok(());
-        }
-        let poses = poses();
-        while self.frame * STEPS_PER_SECOND <= step * self.fps {
-            let at = self.frame as f64 * STEPS_PER_SECOND as f64 / self.fps as f64;
-            let t = self.frame as f64 / self.fps as f64;
-            for (index, name) in self.names.iter().enumerate() {
-                let pose = match &self.before {
-                    Some((earlier, old)) if *earlier < step => {
-                        let alpha = (at - *earlier as f64) / (step - earlier) as f64;
-                        if alpha >= 1.0 { poses[index] } else { old[index].interpolate(&poses[index], alpha) }
-                    }
-                    _ => poses[index],
-                };
+        let Self { file, names, fps, frames } = self;
+        frames.push(step, poses, |frame, poses| {
+            let t = frame as f64 / f64::from(*fps);
+            for (name, pose) in names.iter().zip(poses) {
                 let (p, q) = (pose.position, pose.rotation);
-                writeln!(self.file, "{t},{name},{},{},{},{},{},{},{}", p.x, p.y, p.z, q.w, q.x, q.y, q.z)?;
+                writeln!(file, "{t},{name},{},{},{},{},{},{},{}", p.x, p.y, p.z, q.w, q.x, q.y, q.z)?;
             }
-            self.frame += 1;
-        }
-        self.before = Some((step, poses));
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Puts the file in its place.

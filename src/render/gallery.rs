@@ -28,7 +28,7 @@ const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
 /// Radiance of the window: cooler.
 const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
 /// Radiance of the wall behind the work by the fields and what the room sends back, relative to exposure 1.
-pub(super) const WALL_AMBIENT: f32 = 0.30;
+pub const WALL_AMBIENT: f32 = 0.30;
 /// Radiance that the lamps add there; the key's is the greater.
 const WALL_LAMPS: [f32; 2] = [0.37, 0.12];
 
@@ -163,7 +163,7 @@ impl Room {
     }
 
     /// Half-size vectors (m, room frame) along a face's two coordinates and its centre.
-    pub(super) fn face_axes(&self, face: Face) -> [Vec3; 3] {
+    pub fn face_axes(&self, face: Face) -> [Vec3; 3] {
         let h = self.half;
         let (x, y, z) = (Vec3::X * h.x, Vec3::Y * h.y, Vec3::Z * h.z);
         match face {

@@ -555,3 +555,22 @@ fn a_pin_becomes_the_line_that_the_configuration_takes() {
     let config = soffio::config::Config::load(Some(&desk.path("site.toml"))).expect("good").0;
     assert!(config.staff.pin.matches("271828"));
 }
+
+#[test]
+fn exports_are_written_whole_and_name_what_they_leave_out() {
+    let desk = Desk::new();
+    let exhibit = fish();
+    desk.soffio(&["export", text(&exhibit)]).refused(2, &["--gltf", "--mjcf"]);
+    desk.soffio(&["export", text(&exhibit), "--gltf", "a.glb", "--mjcf", "a.xml"]).refused(2, &["cannot be used with"]);
+    desk.soffio(&["export", text(&exhibit), "--gltf", "no/a.glb", "--seconds", "0.1"]).refused(1, &["no folder no"]);
+    desk.soffio(&["export", text(&exhibit), "--gltf", "a.glb", "--seconds", "1e5"]).refused(2, &["600"]);
+    assert!(desk.files().is_empty());
+    let model = desk.soffio(&["export", text(&exhibit), "--mjcf", "a.xml"]);
+    model.done();
+    for words in ["left out: cup-on-point: ", "left out: air: ", "left out: red-on-b2: friction"] {
+        assert!(model.err.contains(words), "no \"{words}\" in {}", model.err);
+    }
+    desk.soffio(&["export", text(&exhibit), "--gltf", "a.glb", "--seconds", "0.2"]).done();
+    assert_eq!(desk.files(), ["a.glb", "a.xml"]);
+    desk.soffio(&["check", "a.glb"]).done();
+}

@@ -15,6 +15,7 @@ mod escapement;
 mod exhibit;
 mod exhibits_in_motion;
 mod expected;
+mod exports;
 mod forge;
 mod gather;
 mod hands;

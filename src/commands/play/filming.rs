@@ -1,0 +1,63 @@
+//! Pictures of a run as `soffio play` was asked for them: a folder of frames, a video, or both.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Args;
+use crate::commands::{Failure, render};
+use crate::exhibit::Exhibit;
+use crate::offline::pictures::{Pictures, write_png};
+use crate::offline::video::{Plan, Video};
+use crate::simulation::Snapshot;
+
+/// Pictures on their way.
+pub(super) struct Filming {
+    pictures: Pictures,
+    folder: Option<PathBuf>,
+    video: Option<Video>,
+}
+
+impl Filming {
+    /// What the command line asks for, if anything, of a run of so many seconds.
+    pub fn new(args: &Args, exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Option<Self>, Failure> {
+        if args.frames.is_none() && args.video.is_none() {
+            return Ok(None);
+        }
+        let plan = args.video.as_deref().map(|path| Plan::new(path, args.size)).transpose();
+        let plan = plan.map_err(|message| Failure { code: 2, message })?;
+        let pictures = Pictures::new(exhibit, args.size).map_err(render::failure)?;
+        if let Some(folder) = &args.frames {
+            std::fs::create_dir_all(folder)
+                .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;
+        }
+        let video = plan.map(|plan| {
+            if let Some(note) = &plan.note {
+                eprintln!("soffio: {note}");
+            }
+            // The frame at the very end would be shown when the sound is over.
+            let frames = (seconds * f64::from(args.fps)).round() as u32;
+            Video::create(&plan, args.size, args.fps, frames)
+        });
+        let video = video.transpose().map_err(Failure::input)?;
+        Ok(Some(Self { pictures, folder: args.frames.clone(), video }))
+    }
+
+    /// Where the video wants the run's sound.
+    pub fn sound(&self) -> Option<PathBuf> {
+        self.video.as_ref().and_then(Video::sound)
+    }
+
+    /// Draws a frame.
+    pub fn frame(&mut self, number: u64, now: &Snapshot) -> Result<(), String> {
+        let picture = self.pictures.draw(now).map_err(|e| e.to_string())?;
+        if let Some(folder) = &self.folder {
+            write_png(&picture, &folder.join(format!("{number:06}.png"))).map_err(|e| e.to_string())?;
+        }
+        self.video.as_mut().map_or(Ok(()), |video| video.push(&picture))
+    }
+
+    /// Ends the video with the run's sound.
+    pub fn finish(self, sound: Option<&Path>) -> Result<(), String> {
+        self.video.map_or(Ok(()), |video| video.finish(sound))
+    }
+}

@@ -1,0 +1,121 @@
+//! Films by the machine's `ffmpeg`: raw frames go to it through a pipe, the sound is added when the run is over.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+use image::RgbaImage;
+use tempfile::TempDir;
+
+/// How to get it.
+const REMEDY: &str = "install it (Debian: apt-get install ffmpeg)";
+/// Quality of the picture, 0 … 51, less is better: this one shows no difference on a screen.
+const RATE_FACTOR: &str = "18";
+
+/// Is there an `ffmpeg` that writes H.264 and AAC? Otherwise why not, and what to do.
+pub(super) fn usable() -> Result<(), String> {
+    let listed = Command::new("ffmpeg").args(["-hide_banner", "-loglevel", "error", "-encoders"]).output();
+    let text = match listed {
+        Ok(output) => String::from_utf8_lossy(&output.stdout).into_owned(),
+        Err(_) => return Err(format!("there is no ffmpeg on this machine; {REMEDY}")),
+    };
+    match [" libx264 ", " aac "].iter().find(|name| !text.contains(**name)) {
+        Some(name) => Err(format!("the ffmpeg of this machine has no encoder {}; {REMEDY}", name.trim())),
+        None => Ok(()),
+    }
+}
+
+/// A film on its way: all that is unfinished lies in a folder of its own beside the film's place.
+pub(super) struct Film {
+    child: Child,
+    folder: TempDir,
+    path: PathBuf,
+}
+
+impl Film {
+    pub fn create(path: &Path, size: (u32, u32), fps: u32) -> Result<Self, String> {
+        let place = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = tempfile::Builder::new()
+            .prefix(".video-")
+            .tempdir_in(place)
+            .map_err(|e| format!("cannot write {}: {e}; check the folder", path.display()))?;
+        let mut command = ffmpeg(folder.path())?;
+        command.args(["-f", "rawvideo", "-pixel_format", "rgba", "-video_size", &format!("{}x{}", size.0, size.1)]);
+        command.args(["-framerate", &fps.to_string(), "-i", "pipe:0", "-an"]);
+        // Broadcast's colours, told in the file: without that, players guess by the picture's height.
+        command.args(["-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"]);
+        command.args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"]);
+        command.args(["-c:v", "libx264", "-preset", "medium", "-crf", RATE_FACTOR]);
+        command.args(["-flags:v", "+bitexact", "-fflags", "+bitexact"]);
+        command.arg(folder.path().join("picture.mkv")).stdin(Stdio::piped());
+        let child = command.spawn().map_err(|e| format!("ffmpeg cannot be started: {e}; {REMEDY}"))?;
+        Ok(Self { child, folder, path: path.into() })
+    }
+
+    /// Where the run's sound is kept until the end.
+    pub fn sound(&self) -> PathBuf {
+        self.folder.path().join("sound.wav")
+    }
+
+    pub fn push(&mut self, picture: &RgbaImage) -> Result<(), String> {
+        let written = self.child.stdin.as_mut().map(|pipe| pipe.write_all(picture.as_raw()));
+        match written {
+            Some(Ok(())) => Ok(()),
+            _ => Err(self.ended()),
+        }
+    }
+
+    pub fn finish(mut self, sound: Option<&Path>) -> Result<(), String> {
+        // The end of the pipe is the end of the film.
+        drop(self.child.stdin.take());
+        if !self.child.wait().is_ok_and(|status| status.success()) {
+            return Err(self.ended());
+        }
+        let name = self.path.file_name().unwrap_or_default();
+        let whole = self.folder.path().join(name);
+        let mut command = ffmpeg(self.folder.path())?;
+        command.arg("-i").arg(self.folder.path().join("picture.mkv"));
+        if let Some(sound) = sound {
+            command.arg("-i").arg(sound).args(["-map", "0:v", "-map", "1:a", "-c:a", "aac", "-b:a", "160k"]);
+        }
+        // What a player needs first stands first in the file, so that it plays while it still comes over the network.
+        command.args(["-c:v", "copy", "-map_metadata", "-1", "-fflags", "+bitexact", "-movflags", "+faststart"]);
+        let status = command.arg(&whole).stdin(Stdio::null()).status();
+        if !status.is_ok_and(|status| status.success()) {
+            return Err(self.ended());
+        }
+        std::fs::rename(&whole, &self.path).map_err(|e| format!("cannot write {}: {e}", self.path.display()))
+    }
+
+    /// What `ffmpeg` said when it gave up.
+    fn ended(&self) -> String {
+        let said = std::fs::read_to_string(log(self.folder.path())).unwrap_or_default();
+        let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
+        format!("cannot write {}: ffmpeg gave up: {last}", self.path.display())
+    }
+}
+
+impl Drop for Film {
+    fn drop(&mut self) {
+        // A run that ended early has no use for the rest; one that is over is not there to be stopped.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn log(folder: &Path) -> PathBuf {
+    folder.join("ffmpeg.log")
+}
+
+/// `ffmpeg` with what all uses of it share; what it says goes to a file in `folder`.
+fn ffmpeg(folder: &Path) -> Result<Command, String> {
+    let log = File::options().create(true).append(true).open(log(folder));
+    let log = log.map_err(|e| format!("cannot write in {}: {e}", folder.display()))?;
+    let mut command = Command::new("ffmpeg");
+    command.args(["-hide_banner", "-loglevel", "error", "-y"]).stdout(Stdio::null()).stderr(log);
+    // Ctrl-C is the run's affair: it ends `ffmpeg` itself, and tidies up.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    Ok(command)
+}
