@@ -1,5 +1,5 @@
 //! Physics that a glTF model carries, as our sidecar says it: `KHR_physics_rigid_bodies` with `KHR_implicit_shapes` (drafts
-//! of the Khronos Group, 2024 to 2026; https://github.com/eoineoineoin/glTF_Physics).
+//! of the Khronos Group, 2024 to 2026; <https://github.com/eoineoineoin/glTF_Physics>).
 //!
 //! Motions become bodies, shapes colliders, materials materials (with a pair for each combine rule), joints constraints:
 //! limits that leave no way lock their axes, and what is locked names the joint. Frames are nodes there and here, so

@@ -1,4 +1,4 @@
-//! [`Model`] to a binary glTF 2.0 file: the inverse of [`super::import`].
+//! [`Model`] to a binary glTF 2.0 file: the inverse of [`super::import()`].
 //!
 //! Written is what is drawn: visible nodes that carry something, or lead to what does, or move; meshes as triangles of
 //! 32-bit floats, images as PNG. Writing is deterministic: the same model gives the same bytes. Layout as in the glTF
