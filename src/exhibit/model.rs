@@ -12,7 +12,7 @@ mod write;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use import::{Imported, MAX_FILE_BYTES, import, load};
-pub use write::write;
+pub use write::{container, write};
 
 /// A glTF model.
 #[derive(Clone, Debug, Default)]

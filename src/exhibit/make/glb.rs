@@ -4,10 +4,11 @@
 //! as 32-bit floats, so the same scene gives the same bytes on any machine. Layout as in the glTF 2.0
 //! specification, section 4.4: a 12-byte header, the JSON chunk padded with spaces, the binary chunk with zeros.
 
-use crate::math::{DQuat, DVec3};
 use serde_json::{Value, json};
 
 use super::solid::Solid;
+use crate::exhibit::model::container;
+use crate::math::{DQuat, DVec3};
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
@@ -186,23 +187,7 @@ impl Scene {
         if !used.is_empty() {
             document["extensionsUsed"] = json!(used);
         }
-        let mut text = document.to_string().into_bytes();
-        text.resize(text.len().next_multiple_of(4), b' ');
-        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
-
-        let length = 12 + 8 + text.len() + 8 + self.binary.len();
-        let mut file = Vec::with_capacity(length);
-        let word = |file: &mut Vec<u8>, value: usize| file.extend_from_slice(&(value as u32).to_le_bytes());
-        file.extend_from_slice(b"glTF");
-        word(&mut file, 2);
-        word(&mut file, length);
-        word(&mut file, text.len());
-        file.extend_from_slice(b"JSON");
-        file.extend_from_slice(&text);
-        word(&mut file, self.binary.len());
-        file.extend_from_slice(b"BIN\0");
-        file.extend_from_slice(&self.binary);
-        file
+        container(document.to_string().into_bytes(), &self.binary)
     }
 }
 

@@ -64,11 +64,11 @@ pub fn write(model: &Model, copyright: &str) -> Vec<u8> {
     if !used.is_empty() {
         document["extensionsUsed"] = json!(used);
     }
-    glb(document.to_string().into_bytes(), &binary)
+    container(document.to_string().into_bytes(), &binary)
 }
 
-/// Both chunks in their container.
-fn glb(mut text: Vec<u8>, binary: &[u8]) -> Vec<u8> {
+/// A document and its buffer (whole words long; may be empty) as one binary file: glTF 2.0, section 4.4.
+pub fn container(mut text: Vec<u8>, binary: &[u8]) -> Vec<u8> {
     text.resize(text.len().next_multiple_of(4), b' ');
     let length = 12 + 8 + text.len() + if binary.is_empty() { 0 } else { 8 + binary.len() };
     let mut file = Vec::with_capacity(length);
