@@ -223,7 +223,9 @@ impl BlowDetector {
         let settling = self.front.listener.age() < SETTLING_S;
         let log_odds = self.settings.model.log_odds(&frame.features) + self.front.coherence.log_odds(levels.rise_db);
         self.log_odds = log_odds;
-        self.decision.push(&self.settings.rules, (!settling).then_some(log_odds), levels);
+        // Who blows already may go on blowing.
+        let first = self.decision.phase == Phase::Quiet && self.front.own_voice.is_first();
+        self.decision.push(&self.settings.rules, (!settling && !first).then_some(log_odds), levels);
         self.gain.push(self.decision.phase == Phase::Blow, levels);
         self.estimate.gain_control = self.gain.seen();
         for (intensity, now) in self.intensity_dbfs.iter_mut().zip([levels.excess_dbfs, levels.hiss_dbfs]) {
@@ -235,6 +237,7 @@ impl BlowDetector {
             Phase::Waiting => self.conclude(Reason::Waiting, 0.0),
             Phase::Latched => self.conclude(Reason::Latched, 0.0),
             Phase::Quiet if settling => self.conclude(Reason::Settling, 0.0),
+            Phase::Quiet if first => self.conclude(Reason::OwnVoice, 0.0),
             Phase::Quiet => self.conclude(self.why_not(levels), 0.0),
         }
     }

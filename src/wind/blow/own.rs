@@ -16,6 +16,9 @@
 //! How the room rings is heard: where a band falls steadily, by its mean over 30 ms beside that over 120 ms, what was
 //! predicted falls as the band does, and rings for 0.6 to 2.5 s.
 //!
+//! Until the first second of sound has been heard nothing is known, and a loudspeaker may be far louder than is guessed: no
+//! breath begins in it.
+//!
 //! Three rules keep a breath from being mistaken for the kiosk's answer to it, which follows it and looks like it:
 //! nothing is learnt while somebody blows; a loudspeaker is never credited with coupling better below 200 Hz than
 //! above; and sustained output that is *not* heard lowers the gain (c ≤ heard / least played over all lags).
@@ -49,6 +52,8 @@ const LAG_MEMORY_S: f64 = 15.0;
 const LIKELY: f64 = 0.93;
 /// Output below this power (−70 dBFS) cannot be told from silence.
 const AUDIBLE: f64 = 1e-7;
+/// The kiosk's first sound, s: twice the time in which the coupling is learnt.
+const FIRST_S: f64 = 1.0;
 /// Highest coupling: the microphone may be this much more sensitive than full scale out suggests (12 dB).
 const LOUDEST: f64 = 16.0;
 
@@ -85,6 +90,8 @@ pub struct OwnVoice {
     pub predicted: Power,
     /// Frames until the last output has left the window: 0 means that the kiosk has long been silent.
     audible: usize,
+    /// Frames in which there was output to be heard, since the beginning.
+    sounded: usize,
 }
 
 impl OwnVoice {
@@ -105,6 +112,7 @@ impl OwnVoice {
             correlated: 0.0,
             predicted: [0.0; BINS],
             audible: 0,
+            sounded: 0,
         }
     }
 
@@ -116,6 +124,7 @@ impl OwnVoice {
             self.predicted = [0.0; BINS];
             return;
         }
+        self.sounded = self.sounded.saturating_add(1);
         self.next = (self.next + 1) % LAGS;
         for (s, x) in self.smooth.iter_mut().zip(own) {
             *s += blend(SMOOTHING_S) * (x - *s);
@@ -131,6 +140,11 @@ impl OwnVoice {
         }
         self.ring();
         self.predict();
+    }
+
+    /// Is this the kiosk's first sound, of which nobody can know yet how loud it comes back?
+    pub fn is_first(&self) -> bool {
+        self.audible > 0 && (self.sounded as f64) * FRAME_S < FIRST_S
     }
 
     /// Does the prediction cover a part of the low band that would spoil the picture of the room?

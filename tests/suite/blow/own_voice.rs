@@ -108,8 +108,8 @@ fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
 #[test]
 fn the_kiosk_alone_never_makes_wind() {
     let seconds = 8.0;
-    // Gusts of its own wind sound, as if a breath had been.
-    for gain in [0.3, 1.0] {
+    // Gusts of its own wind sound, as if a breath had been; and four times as loud as may be guessed before it is heard.
+    for gain in [0.3, 1.0, 4.0] {
         let mut sound = WindSound::new(5);
         let gusts = |t: f64| if t % 2.0 > 0.8 { 14.0 } else { 0.0 };
         let wind = run(&quiet_room(seconds), gain, |i, _| sound.next(gusts(i as f64 / f64::from(RATE))));
