@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
 
+use super::play::SolverArg;
 use super::{Failure, Outcome};
 use crate::config::{Config, FILE};
 use crate::exhibit::Exhibit;
@@ -51,22 +52,21 @@ pub struct Args {
     /// Seed of all that is random [default: 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// How the motion is solved [default: dynamics]
-    #[arg(long, value_name = "KIND", value_parser = ["dynamics", "procedural", "auto"])]
-    solver: Option<String>,
+    /// What moves the exhibits: the laws, places joint by joint, all joints at once, or their own choice
+    #[arg(long, value_enum, default_value_t)]
+    solver: SolverArg,
     /// Writes the poses of all moving bodies, 60 rows a second
     #[arg(long, value_name = "CSV")]
     trace: Option<PathBuf>,
+    /// Writes what the simulation is told, for `soffio replay`; never a sound
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let log = Log::default();
     log_to_stderr(&log);
-    if let Some(solver) = args.solver.filter(|solver| solver == "procedural") {
-        let message = format!("--solver {solver}: this build moves exhibits by dynamics only; leave the option out");
-        return Err(Failure { code: 2, message });
-    }
     let (config, file) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
     match &file {
         Some(file) => tracing::info!("configuration: {}", file.display()),
@@ -86,6 +86,8 @@ pub fn run(args: Args) -> Outcome {
         recording: recording.as_ref().map(WavFeed::from),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
         trace: args.trace,
+        record: args.record,
+        mode: args.solver.mode(),
     };
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);

@@ -28,6 +28,7 @@ pub mod pin;
 pub mod play;
 #[cfg(feature = "kiosk")]
 pub mod render;
+pub mod replay;
 pub mod schema;
 pub mod sound;
 
@@ -94,6 +95,7 @@ enum Command {
     #[cfg(feature = "kiosk")]
     Kiosk(kiosk::Args),
     Play(play::Args),
+    Replay(replay::Args),
     Breath(breath::Args),
     Sound(sound::Args),
     Loudness(loudness::Args),
@@ -123,6 +125,7 @@ pub fn run() -> ExitCode {
         #[cfg(feature = "kiosk")]
         Some(Command::Kiosk(args)) => kiosk::run(args),
         Some(Command::Play(args)) => play::run(args),
+        Some(Command::Replay(args)) => replay::run(args),
         Some(Command::Breath(args)) => breath::run(args),
         Some(Command::Sound(args)) => sound::run(args),
         Some(Command::Loudness(args)) => loudness::run(args),

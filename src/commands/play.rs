@@ -11,13 +11,15 @@ use super::{Failure, Outcome};
 use crate::exhibit::Exhibit;
 use crate::offline::compare;
 use crate::offline::feed::WavFeed;
-use crate::offline::play::{self, Play, PlayError, Summary};
-use crate::offline::trace::DEFAULT_FPS;
+use crate::offline::play::{Play, PlayError};
 use crate::offline::wav;
 use crate::simulation::{MotionMode, Profile, STEPS_PER_SECOND, Script, Settings};
 
 #[cfg(feature = "kiosk")]
 mod filming;
+pub mod outputs;
+
+use outputs::Outputs;
 
 /// Seconds of a run without a recording, and after the end of one.
 const TAIL: f64 = 5.0;
@@ -49,34 +51,13 @@ pub struct Args {
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
     /// How motion is solved.
-    #[arg(long, value_enum, default_value_t = SolverArg::Auto)]
+    #[arg(long, value_enum, default_value_t)]
     solver: SolverArg,
     /// Seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Sound of the run, stereo 48 kHz float.
-    #[arg(long, value_name = "OUT.wav")]
-    audio: Option<PathBuf>,
-    /// Sound without room and limiter.
-    #[arg(long)]
-    dry: bool,
-    /// Poses of the moving bodies.
-    #[arg(long, value_name = "OUT.csv")]
-    trace: Option<PathBuf>,
-    /// Events.
-    #[arg(long, value_name = "OUT.jsonl")]
-    events: Option<PathBuf>,
-    /// Pictures, one PNG a frame, of the poses at its time.
-    #[cfg(feature = "kiosk")]
-    #[arg(long, value_name = "DIR")]
-    frames: Option<PathBuf>,
-    /// Video: .mp4, .mov or .mkv with the sound, by ffmpeg; .apng or .y4m without, by this program alone.
-    #[cfg(feature = "kiosk")]
-    #[arg(long, value_name = "OUT.mp4")]
-    video: Option<PathBuf>,
-    /// Size of the picture.
-    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
-    size: (u32, u32),
+    #[command(flatten)]
+    outputs: Outputs,
     /// Moves the exhibit by the laws and by places (`--solver procedural` or `position-based`, the default here) from the
     /// same input, and tells how far the two come apart.
     #[arg(long, conflicts_with_all = COMPARE_LEAVES)]
@@ -87,9 +68,6 @@ pub struct Args {
     /// The same drawn over time.
     #[arg(long, value_name = "OUT.png", requires = "compare")]
     plot: Option<PathBuf>,
-    /// Frames per second of trace, comparison and pictures.
-    #[arg(long, default_value_t = DEFAULT_FPS, value_parser = clap::value_parser!(u32).range(1..=240))]
-    fps: u32,
 }
 
 /// What one run leaves and two do not.
@@ -108,8 +86,8 @@ enum ProfileArg {
 }
 
 /// Solver on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum SolverArg {
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum SolverArg {
     /// Constrained dynamics.
     Dynamics,
     /// Procedural motion, joint by joint.
@@ -117,7 +95,20 @@ enum SolverArg {
     /// Places first, all joints at once.
     PositionBased,
     /// The exhibit's own choice.
+    #[default]
     Auto,
+}
+
+impl SolverArg {
+    /// `None` is the exhibit's own choice.
+    pub fn mode(self) -> Option<MotionMode> {
+        match self {
+            Self::Auto => None,
+            Self::Dynamics => Some(MotionMode::Dynamic),
+            Self::Procedural => Some(MotionMode::Procedural),
+            Self::PositionBased => Some(MotionMode::PositionBased),
+        }
+    }
 }
 
 /// Reads `x,y`.
@@ -159,19 +150,13 @@ pub fn run(args: Args) -> Outcome {
         wind: !args.no_wind,
         ..super::settings()?
     };
-    let mode = match args.solver {
-        SolverArg::Auto => None,
-        SolverArg::Dynamics => Some(MotionMode::Dynamic),
-        SolverArg::Procedural => Some(MotionMode::Procedural),
-        SolverArg::PositionBased => Some(MotionMode::PositionBased),
-    };
     let mode = match (args.compare, args.solver) {
         (true, SolverArg::Auto) => Some(MotionMode::PositionBased),
         (true, SolverArg::Dynamics) => {
             let message = "--compare sets the laws beside --solver procedural or position-based".into();
             return Err(Failure { code: 2, message });
         }
-        _ => mode,
+        _ => args.solver.mode(),
     };
     let play = Play {
         settings,
@@ -180,13 +165,10 @@ pub fn run(args: Args) -> Outcome {
         aim: args.aim,
         script,
         seconds,
-        aspect: f64::from(args.size.0) / f64::from(args.size.1),
-        audio: args.audio.clone(),
+        aspect: args.outputs.aspect(),
         room: super::room()?,
-        dry: args.dry,
-        trace: args.trace.clone(),
-        events: args.events.clone(),
-        fps: args.fps,
+        fps: args.outputs.fps,
+        ..Play::default()
     };
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
@@ -196,49 +178,10 @@ pub fn run(args: Args) -> Outcome {
         progress.finish_and_clear();
         return tell(compared, &args, &exhibit);
     }
-    let summary = perform(&args, &exhibit, play, &stop, &progress);
+    let summary = args.outputs.perform(&exhibit, play, &stop, &progress);
     progress.finish_and_clear();
     println!("{}", serde_json::to_string(&summary?).map_err(Failure::input)?);
     Ok(())
-}
-
-/// Runs the exhibit without pictures.
-#[cfg(not(feature = "kiosk"))]
-fn perform(
-    _: &Args,
-    exhibit: &Arc<Exhibit>,
-    play: Play,
-    stop: &AtomicBool,
-    progress: &ProgressBar,
-) -> Result<Summary, Failure> {
-    play::run(exhibit, play, stop, |step| progress.set_position(step), None).map_err(failed)
-}
-
-/// Runs the exhibit, and films it where pictures are wanted.
-#[cfg(feature = "kiosk")]
-fn perform(
-    args: &Args,
-    exhibit: &Arc<Exhibit>,
-    mut play: Play,
-    stop: &AtomicBool,
-    progress: &ProgressBar,
-) -> Result<Summary, Failure> {
-    let on_step = |step| progress.set_position(step);
-    let Some(mut filming) = filming::Filming::new(args, exhibit, play.seconds)? else {
-        return play::run(exhibit, play, stop, on_step, None).map_err(failed);
-    };
-    play.audio = play.audio.or_else(|| filming.sound());
-    let sound = play.audio.clone();
-    let mut on_frame = |number: u64, now: &_| filming.frame(number, now);
-    let summary = play::run(exhibit, play, stop, on_step, Some(&mut on_frame)).map_err(|error| match &args.frames {
-        Some(folder) if matches!(error, PlayError::Interrupted) => {
-            let message = format!("interrupted; the frames so far are in {}, nothing else is", folder.display());
-            Failure { code: 130, message }
-        }
-        _ => failed(error),
-    })?;
-    filming.finish(sound.as_deref()).map_err(Failure::input)?;
-    Ok(summary)
 }
 
 /// Writes a comparison where it was asked for, and its numbers as one line.
@@ -254,7 +197,7 @@ fn tell(compared: Result<compare::Comparison, PlayError>, args: &Args, exhibit: 
     Ok(())
 }
 
-fn failed(error: PlayError) -> Failure {
+pub(super) fn failed(error: PlayError) -> Failure {
     match error {
         PlayError::Interrupted => Failure { code: 130, message: "interrupted; nothing was written".into() },
         error => Failure::input(error),

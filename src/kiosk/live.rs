@@ -28,6 +28,7 @@ use super::loudness::{Loudness, View, Wishes};
 use super::metrics::Metrics;
 use super::microphone::MicrophoneHealth;
 use super::pace::Pacer;
+use super::recording::Recording;
 use super::site::Site;
 use super::stage::{Controls, Stage};
 use super::voice::{Guest, Trial, Voice};
@@ -50,6 +51,10 @@ pub struct Options {
     pub steps: Option<u64>,
     /// Where the trace goes.
     pub trace: Option<PathBuf>,
+    /// Where the record goes.
+    pub record: Option<PathBuf>,
+    /// What moves the exhibits; `None` is their own choice.
+    pub mode: Option<MotionMode>,
 }
 
 /// What the window sees of the simulation.
@@ -177,6 +182,10 @@ impl Live {
             Some(path) => Some(TraceWriter::create(path, &options.exhibit, DEFAULT_FPS).map_err(trace_error)?),
             None => None,
         };
+        let mut record = options.record.as_deref().map(Recording::create).transpose()?;
+        if let Some(record) = &mut record {
+            record.begin(&options.exhibit, site.settings);
+        }
         let frame = Frame {
             exhibit: options.exhibit.clone(),
             previous: stage.snapshot().clone(),
@@ -206,7 +215,7 @@ impl Live {
         let theirs = shared.clone();
         let thread = std::thread::Builder::new()
             .name("simulation".into())
-            .spawn(move || Thread::new(stage, trace, options, theirs).run())
+            .spawn(move || Thread::new(stage, (trace, record), options, theirs).run())
             .map_err(|error| format!("the simulation thread does not start: {error}"))?;
         Ok(Self { shared, thread: Some(thread) })
     }
@@ -253,6 +262,8 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 struct Thread {
     stage: Stage,
     trace: Option<TraceWriter>,
+    record: Option<Recording>,
+    mode: Option<MotionMode>,
     audio: AudioIo,
     voice: Voice,
     /// The timbre that staff try beside the exhibit's own, and what is to be heard when it has come.
@@ -281,7 +292,12 @@ struct Thread {
 }
 
 impl Thread {
-    fn new(stage: Stage, trace: Option<TraceWriter>, options: Options, shared: Arc<Shared>) -> Self {
+    fn new(
+        stage: Stage,
+        (trace, record): (Option<TraceWriter>, Option<Recording>),
+        options: Options,
+        shared: Arc<Shared>,
+    ) -> Self {
         let site = options.site;
         let voice = voice(&site);
         let audio =
@@ -290,6 +306,8 @@ impl Thread {
             previous: stage.snapshot().clone(),
             stage,
             trace,
+            record,
+            mode: options.mode,
             audio,
             voice,
             guest: None,
@@ -331,6 +349,10 @@ impl Thread {
         if let Some(trace) = self.trace.take() {
             trace.finish().map_err(trace_error)?;
         }
+        if let Some(mut record) = self.record.take() {
+            record.end(&self.stage);
+            record.finish();
+        }
         Ok(Report {
             steps: self.stage.steps(),
             dropped: pacer.dropped(),
@@ -371,11 +393,14 @@ impl Thread {
         for i in 0..due {
             self.previous.clone_from(self.stage.snapshot());
             let microphone = rate.map(|sample_rate| self.heard.share(i, due, sample_rate));
-            controls.mode = self.governor.mode();
+            controls.mode = self.mode.or(self.governor.mode());
             let worked = ThreadTime::now();
             self.stage.step(&controls, microphone);
             self.govern(worked.elapsed().as_secs_f64());
             controls.commands.clear();
+            if let Some(record) = &mut self.record {
+                record.note(&self.stage);
+            }
             self.sounds.extend_from_slice(self.stage.sounds());
             self.captions.note(self.stage.exhibit(), self.stage.sounds(), self.stage.steps());
             self.write_trace()?;
@@ -402,7 +427,7 @@ impl Thread {
 
     /// Looks whether the laws can go on.
     fn govern(&mut self, cost: f64) {
-        if self.governor.note(cost) {
+        if self.mode.is_none() && self.governor.note(cost) {
             self.load.mode_changes += 1;
             let mode = self.governor.mode().unwrap_or_default().name();
             let t = self.stage.steps() as f64 / STEPS_PER_SECOND as f64;

@@ -26,6 +26,7 @@ pub mod overlay;
 pub mod pace;
 pub mod page;
 pub mod pointing;
+pub mod recording;
 pub mod screen;
 pub mod shelf;
 pub mod site;

@@ -69,6 +69,15 @@ impl Controls {
     }
 }
 
+/// What a step was told, but for breath and hands.
+#[derive(Clone, Debug, Default)]
+struct Told {
+    pointer: Option<[f64; 2]>,
+    aspect: f64,
+    mode: Option<MotionMode>,
+    commands: Vec<Command>,
+}
+
 /// The exhibit on show.
 pub struct Stage {
     simulation: Simulation,
@@ -80,6 +89,8 @@ pub struct Stage {
     pointing: Pointing,
     gestures: Gestures,
     holds: bool,
+    /// What the last step was told beside breath and hands.
+    told: Told,
     /// What the next step begins with: another exhibit gathers its parts.
     called: Option<Command>,
     snapshot: Snapshot,
@@ -102,6 +113,7 @@ impl Stage {
             pointing: Pointing::default(),
             gestures: Gestures::default(),
             holds: false,
+            told: Told::default(),
             called: None,
             snapshot,
         }
@@ -131,15 +143,22 @@ impl Stage {
             self.pointing.forget();
         }
 
+        self.told = Told {
+            pointer: if cue.active { cue.aim } else { blows.or(aim) },
+            aspect: controls.aspect,
+            mode: controls.mode,
+            commands: cue.commands,
+        };
+        let Told { pointer, aspect, mode, ref commands } = self.told;
         self.simulation.step(&StepInput {
             microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone).filter(|_| !controls.inert),
             hold: self.holds,
             hands: self.gestures.hands(),
-            mode: controls.mode,
             strength: controls.strength,
-            pointer: if cue.active { cue.aim } else { blows.or(aim) },
-            aspect: controls.aspect,
-            commands: &cue.commands,
+            pointer,
+            aspect,
+            mode,
+            commands,
         });
         self.steps += 1;
         self.snapshot = self.simulation.snapshot();
@@ -186,6 +205,12 @@ impl Stage {
     /// The exhibit on show.
     pub fn exhibit(&self) -> &Arc<Exhibit> {
         self.simulation.exhibit()
+    }
+
+    /// What the last step was told; the breath is in the snapshot's speed.
+    pub fn told(&self) -> StepInput<'_> {
+        let Told { pointer, aspect, mode, ref commands } = self.told;
+        StepInput { pointer, aspect, mode, commands, hands: self.gestures.hands(), ..StepInput::default() }
     }
 
     /// Did a press, a key or a switch blow in the last step?

@@ -14,6 +14,7 @@ use super::frames::Frames;
 use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
 use crate::exhibit::Exhibit;
+use crate::simulation::record::Part;
 use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
 use crate::sound::RoomSpec;
 
@@ -28,6 +29,8 @@ pub struct Play {
     pub aim: Option<[f64; 2]>,
     /// What a visitor does over time.
     pub script: Option<Script>,
+    /// What a recorded run was told, in place of breath, aim, script and picture shape.
+    pub told: Option<Part>,
     /// What moves the figure where the script says nothing.
     pub mode: Option<MotionMode>,
     /// Length, s.
@@ -109,15 +112,29 @@ pub fn run(
     mut on_step: impl FnMut(u64),
     mut on_frame: Option<&mut OnFrame>,
 ) -> Result<Summary, PlayError> {
-    let Play { settings, mut breath, aim, mut script, mode, seconds, aspect, audio, room, dry, trace, events, fps } =
-        play;
+    let Play {
+        settings,
+        mut breath,
+        aim,
+        mut script,
+        mut told,
+        mode,
+        seconds,
+        aspect,
+        audio,
+        room,
+        dry,
+        trace,
+        events,
+        fps,
+    } = play;
     let (wall, cpu) = (Instant::now(), ProcessTime::now());
     let mut simulation = Simulation::new(exhibit.clone(), settings);
     let mut soundtrack =
         Soundtrack::new(exhibit, settings.seed, room.as_ref(), dry, audio.as_deref()).map_err(PlayError::Output)?;
     let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;
     let mut events = events.map(|path| EventWriter::create(&path, exhibit)).transpose()?;
-    let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
+    let steps = told.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, Part::steps);
     let (mut commands, mut hands) = (Vec::new(), Vec::new());
     let mut worst: f64 = 0.0;
     let mut frames = Frames::new(fps);
@@ -139,18 +156,21 @@ pub fn run(
             script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
             script.hands(&simulation, aspect, &mut hands);
         }
-        let now = script.as_ref().and_then(Script::mode).or(mode);
-        switches += u64::from(step > 0 && now != before);
-        before = now;
-        simulation.step(&StepInput {
-            mode: now,
-            hands: &hands,
-            microphone: breath.as_mut().map(WavFeed::microphone),
-            pointer: script.as_ref().and_then(Script::aim).or(aim),
-            aspect,
-            commands: &commands,
-            ..StepInput::default()
-        });
+        let input = match &mut told {
+            Some(told) => told.input(step),
+            None => StepInput {
+                mode: script.as_ref().and_then(Script::mode).or(mode),
+                hands: &hands,
+                microphone: breath.as_mut().map(WavFeed::microphone),
+                pointer: script.as_ref().and_then(Script::aim).or(aim),
+                aspect,
+                commands: &commands,
+                ..StepInput::default()
+            },
+        };
+        switches += u64::from(step > 0 && input.mode != before);
+        before = input.mode;
+        simulation.step(&input);
         soundtrack.step(simulation.sounds()).map_err(PlayError::Output)?;
         if let Some(events) = &mut events {
             events.push(simulation.events())?;

@@ -22,6 +22,8 @@
 //! 1986) keeps a hand from straining where a joint gives no way. There is no spring that could be too stiff, so nothing
 //! explodes whatever is taken; what is let go keeps its speed, so it can be thrown.
 
+use serde::{Deserialize, Serialize};
+
 use crate::articulation::block::{Vec6, add_wrench};
 use crate::bodies::RigidBody;
 use crate::dynamics::Dynamics;
@@ -31,13 +33,15 @@ use crate::procedural::{Grip, MOST_GRIPS};
 use crate::wind::force::WindField;
 
 /// A pointer or finger that is down on the sculpture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Hand {
     /// Which; the same from coming to going.
     pub id: u64,
     /// Picture coordinates.
     pub at: [f64; 2],
     /// The body that it takes by its centre of mass; `None` takes what lies under it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<usize>,
 }
 

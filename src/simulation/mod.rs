@@ -12,12 +12,15 @@ mod hands;
 mod inspect;
 mod merge;
 mod motes;
+pub mod record;
 mod script;
 mod snapshot;
 mod sonify;
 mod source;
 
 use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
@@ -68,7 +71,8 @@ const FULL_METER: f64 = 16.0;
 const LISTED: usize = 256;
 
 /// How a breath becomes wind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Profile {
     /// No travelling front; gain such that a child's gentle breath visibly moves a sculpture within a second.
     #[default]
@@ -104,7 +108,8 @@ impl Profile {
 }
 
 /// What is constant over a run, besides the exhibit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Settings {
     /// How a breath becomes wind.
     pub profile: Profile,
@@ -153,7 +158,8 @@ pub struct Microphone<'a> {
 }
 
 /// A command of a visitor, a script, or staff.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Command {
     /// Puts everything back to where it started.
     Reset,

@@ -278,7 +278,7 @@ impl Script {
 }
 
 /// What serde has to say, with the column alone: the line is that of the script.
-fn reason(error: &serde_json::Error) -> String {
+pub(super) fn reason(error: &serde_json::Error) -> String {
     let said = error.to_string();
     let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
     format!("column {}: {what}", error.column())

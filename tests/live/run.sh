@@ -45,10 +45,17 @@ changed() { # changed BEFORE DURING GEOMETRY
 # A breath as the capsule hears it, at the sound server's own rate.
 breath() { sox "$recordings/$1.wav" -r 48000 -e float -b 32 "$room/$1.wav"; }
 
+# Does the record of a run come to the state in which the kiosk ended?
+replays() { # replays RUN
+    (cd "$root" && "$soffio" replay "$room/$1.jsonl") >"$room/replay.out" 2>&1 || true
+    [ -n "$(hash_in "$room/$1.out")" ] && [ "$(hash_in "$room/replay.out")" = "$(hash_in "$room/$1.out")" ] && echo 1 || echo 0
+}
+hash_in() { sed -n 's/.*"state_hash":"\([0-9a-f]*\)".*/\1/p' "$1"; }
+
 # ---- a breath moves the sculpture and sounds; speech does neither ----------------------------------------------
 a_visitor() {
     local before during speech t_on t_off at differ
-    start_kiosk visitor --no-attract --trace "$room/visitor.csv" --for 26
+    start_kiosk visitor --no-attract --trace "$room/visitor.csv" --record "$room/visitor.jsonl" --for 26
     within 10 grep -q 'supervisor: microphone: ' "$room/visitor.err"
     start speakers parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 \
         --raw
@@ -69,6 +76,7 @@ a_visitor() {
     end_kiosk visitor
     kill "$recorder"
     wait "$recorder" 2>/dev/null || true
+    bar "replayed to the bit" "$(replays visitor) == 1" "the record of this run, run again: $(hash_in "$room/replay.out")"
 
     at=$(breaths visitor microphone begins | head -1)
     bar "breath heard" "${at:-0} > 8 && $(breaths visitor microphone begins | wc -l) == 1" \
@@ -272,7 +280,7 @@ exec strace -f --seccomp-bpf -qq -s 1048576 -xx -o $room/kiosk.strace \
 TRACED
     chmod +x "$room/traced"
     touch "$room/before"
-    DISPLAY=$address soffio=$room/traced start_kiosk privacy --no-attract --for 16
+    DISPLAY=$address soffio=$room/traced start_kiosk privacy --no-attract --record "$room/privacy.jsonl" --for 16
     within 20 grep -q 'supervisor: microphone: ' "$room/privacy.err"
     sleep 2
     before_microphone "$room/known.wav"
@@ -285,7 +293,7 @@ TRACED
     local heard
     heard=$(grep -c . "$room/kiosk.strace")
     planted=$("$correlate" "$room/known.f32" "$room"/planted.* | grep -c FOUND || true)
-    "$correlate" "$room/known.f32" "$room/kiosk.strace" "$room/kiosk.mapped" "$room/privacy.err" "${left[@]}" \
+    "$correlate" "$room/known.f32" "$room/kiosk.strace" "$room/kiosk.mapped" "$room/privacy.err" "$room/privacy.jsonl" "${left[@]}" \
         >"$room/privacy.correlate" || found=1
     bar "privacy" "$found == 0 && $planted == 3 && $heard > 1000" \
         "$planted of 3 planted copies found; $heard writes and sends, ${#left[@]} files: at most $(awk '$2 > m { m = $2 } END { print m }' "$room/privacy.correlate")"

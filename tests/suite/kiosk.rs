@@ -506,6 +506,8 @@ mod opening;
 mod pages;
 mod pin;
 #[cfg(feature = "kiosk")]
+mod record;
+#[cfg(feature = "kiosk")]
 mod site;
 #[cfg(feature = "kiosk")]
 mod staff;

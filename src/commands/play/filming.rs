@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Args;
+use super::outputs::Outputs;
 use crate::commands::{Failure, render};
 use crate::exhibit::Exhibit;
 use crate::offline::pictures::{Pictures, write_png};
@@ -19,14 +19,14 @@ pub(super) struct Filming {
 
 impl Filming {
     /// What the command line asks for, if anything, of a run of so many seconds.
-    pub fn new(args: &Args, exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Option<Self>, Failure> {
-        if args.frames.is_none() && args.video.is_none() {
+    pub fn new(wanted: &Outputs, exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Option<Self>, Failure> {
+        if wanted.frames.is_none() && wanted.video.is_none() {
             return Ok(None);
         }
-        let plan = args.video.as_deref().map(|path| Plan::new(path, args.size)).transpose();
+        let plan = wanted.video.as_deref().map(|path| Plan::new(path, wanted.size)).transpose();
         let plan = plan.map_err(|message| Failure { code: 2, message })?;
-        let pictures = Pictures::new(exhibit, args.size).map_err(render::failure)?;
-        if let Some(folder) = &args.frames {
+        let pictures = Pictures::new(exhibit, wanted.size).map_err(render::failure)?;
+        if let Some(folder) = &wanted.frames {
             std::fs::create_dir_all(folder)
                 .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;
         }
@@ -35,11 +35,11 @@ impl Filming {
                 eprintln!("soffio: {note}");
             }
             // The frame at the very end would be shown when the sound is over.
-            let frames = (seconds * f64::from(args.fps)).round() as u32;
-            Video::create(&plan, args.size, args.fps, frames)
+            let frames = (seconds * f64::from(wanted.fps)).round() as u32;
+            Video::create(&plan, wanted.size, wanted.fps, frames)
         });
         let video = video.transpose().map_err(Failure::input)?;
-        Ok(Some(Self { pictures, folder: args.frames.clone(), video }))
+        Ok(Some(Self { pictures, folder: wanted.frames.clone(), video }))
     }
 
     /// Where the video wants the run's sound.

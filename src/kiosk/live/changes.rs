@@ -37,14 +37,28 @@ impl Thread {
         if before.controllers != site.controllers {
             self.controllers = Controllers::start(&site.controllers);
         }
-        self.stage.settle(site.settings, site.idle_s);
-        if before.settings != self.site.settings {
+        let anew = before.settings != site.settings;
+        if anew {
+            self.end();
+        }
+        self.stage.settle(self.site.settings, self.site.idle_s);
+        if anew {
             self.begin_anew();
+        }
+    }
+
+    /// The run of the exhibit on show is over.
+    fn end(&mut self) {
+        if let Some(record) = &mut self.record {
+            record.end(&self.stage);
         }
     }
 
     /// The exhibit begins at its start: what was told of it is over. A trace knows one run only and ends.
     fn begin_anew(&mut self) {
+        if let Some(record) = &mut self.record {
+            record.begin(self.stage.exhibit(), self.site.settings);
+        }
         self.captions = Captions::default();
         self.onset = None;
         if let Some(trace) = self.trace.take() {
@@ -86,6 +100,7 @@ impl Thread {
         (self.guest, self.trial) = (None, None);
         self.audio.set_instruments(self.voice.synth(&exhibit, None));
         self.governor = Governor::new(exhibit.motion);
+        self.end();
         self.stage.swap(exhibit);
         self.begin_anew();
     }

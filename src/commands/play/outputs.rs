@@ -1,0 +1,108 @@
+//! What a run leaves: sound, traces, events, pictures, as `soffio play` and `soffio replay` are asked for them.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use indicatif::ProgressBar;
+
+use super::{failed, parse_size};
+use crate::commands::Failure;
+use crate::exhibit::Exhibit;
+use crate::offline::play::{self, Play, Summary};
+use crate::offline::trace::DEFAULT_FPS;
+
+/// Files and pictures of a run.
+#[derive(clap::Args, Debug)]
+pub struct Outputs {
+    /// Sound of the run, stereo 48 kHz float.
+    #[arg(long, value_name = "OUT.wav")]
+    pub audio: Option<PathBuf>,
+    /// Sound without room and limiter.
+    #[arg(long)]
+    pub dry: bool,
+    /// Poses of the moving bodies.
+    #[arg(long, value_name = "OUT.csv")]
+    pub trace: Option<PathBuf>,
+    /// Events.
+    #[arg(long, value_name = "OUT.jsonl")]
+    pub events: Option<PathBuf>,
+    /// Pictures, one PNG a frame, of the poses at its time.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "DIR")]
+    pub frames: Option<PathBuf>,
+    /// Video: .mp4, .mov or .mkv with the sound, by ffmpeg; .apng or .y4m without, by this program alone.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "OUT.mp4")]
+    pub video: Option<PathBuf>,
+    /// Size of the picture.
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
+    pub size: (u32, u32),
+    /// Frames per second of trace, comparison and pictures.
+    #[arg(long, default_value_t = DEFAULT_FPS, value_parser = clap::value_parser!(u32).range(1..=240))]
+    pub fps: u32,
+}
+
+impl Outputs {
+    /// Is anything wanted that knows one run only?
+    pub fn wants_files(&self) -> bool {
+        let files = [&self.audio, &self.trace, &self.events];
+        #[cfg(feature = "kiosk")]
+        let pictures = self.frames.is_some() || self.video.is_some();
+        #[cfg(not(feature = "kiosk"))]
+        let pictures = false;
+        pictures || files.iter().any(|file| file.is_some())
+    }
+
+    /// The run, leaving all this.
+    pub fn of(&self, play: Play) -> Play {
+        let Self { audio, dry, trace, events, fps, .. } = self;
+        Play { audio: audio.clone(), dry: *dry, trace: trace.clone(), events: events.clone(), fps: *fps, ..play }
+    }
+
+    /// Width over height of the picture.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.size.0) / f64::from(self.size.1)
+    }
+
+    /// Runs the exhibit without pictures.
+    #[cfg(not(feature = "kiosk"))]
+    pub fn perform(
+        &self,
+        exhibit: &Arc<Exhibit>,
+        play: Play,
+        stop: &AtomicBool,
+        progress: &ProgressBar,
+    ) -> Result<Summary, Failure> {
+        play::run(exhibit, self.of(play), stop, |step| progress.set_position(step), None).map_err(failed)
+    }
+
+    /// Runs the exhibit, and films it where pictures are wanted.
+    #[cfg(feature = "kiosk")]
+    pub fn perform(
+        &self,
+        exhibit: &Arc<Exhibit>,
+        play: Play,
+        stop: &AtomicBool,
+        progress: &ProgressBar,
+    ) -> Result<Summary, Failure> {
+        let mut play = self.of(play);
+        let on_step = |step| progress.set_position(step);
+        let Some(mut filming) = super::filming::Filming::new(self, exhibit, play.seconds)? else {
+            return play::run(exhibit, play, stop, on_step, None).map_err(failed);
+        };
+        play.audio = play.audio.or_else(|| filming.sound());
+        let sound = play.audio.clone();
+        let mut on_frame = |number: u64, now: &_| filming.frame(number, now);
+        let run = play::run(exhibit, play, stop, on_step, Some(&mut on_frame));
+        let summary = run.map_err(|error| match &self.frames {
+            Some(folder) if matches!(error, play::PlayError::Interrupted) => {
+                let message = format!("interrupted; the frames so far are in {}, nothing else is", folder.display());
+                Failure { code: 130, message }
+            }
+            _ => failed(error),
+        })?;
+        filming.finish(sound.as_deref()).map_err(Failure::input)?;
+        Ok(summary)
+    }
+}
