@@ -17,6 +17,8 @@ struct Member {
     broken: Option<f64>,
     /// Closed again, but not yet drawn together.
     mends: bool,
+    /// A clutch that gives way now; `None`: not a clutch.
+    slips: Option<bool>,
     share: f64,
 }
 
@@ -51,7 +53,13 @@ impl Activity {
     pub fn new(constraints: &[Constraint]) -> Self {
         let group =
             |c: &Constraint| constraints.iter().position(|other| other.group() == c.group()).unwrap_or_default();
-        Self::of(constraints.iter().map(|c| (c.schedule.clone(), c.breaking, group(c))))
+        let mut activity = Self::of(constraints.iter().map(|c| (c.schedule.clone(), c.breaking, group(c))));
+        for (index, _) in constraints.iter().enumerate().filter(|(_, c)| c.slips.is_some()) {
+            activity.members[index].slips = Some(false);
+            activity.changing.retain(|&other| other != index);
+            activity.changing.push(index);
+        }
+        activity
     }
 
     /// Of springs.
@@ -68,6 +76,7 @@ impl Activity {
                 triggered: None,
                 broken: None,
                 mends: false,
+                slips: None,
                 share: 1.0,
             })
             .collect();
@@ -111,7 +120,8 @@ impl Activity {
                 member.mends = true;
             }
             let whole = member.schedule.share(t, member.triggered);
-            let share = if member.broken.is_some() { 0.0 } else { whole };
+            let loose = member.broken.is_some() || member.slips == Some(true);
+            let share = if loose { 0.0 } else { whole };
             changed |= share != member.share;
             self.partial |= share > 0.0 && share < 1.0;
             member.share = share;
@@ -177,6 +187,12 @@ impl Activity {
     /// Has it closed again, and is still being drawn together?
     pub fn mends(&self, index: usize) -> bool {
         self.members[index].mends
+    }
+
+    /// Lets a clutch slip, or hold again. It has no windows: it acts wholly or not at all.
+    pub fn slip(&mut self, index: usize, slips: bool) {
+        let member = &mut self.members[index];
+        (member.slips, member.share) = (Some(slips), if slips { 0.0 } else { 1.0 });
     }
 
     /// Does this load break it? `load` is (of lengths, of angles): N and N m, or with `impulse` N s and N m s.

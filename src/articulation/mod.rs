@@ -78,7 +78,7 @@ pub enum ConstraintKind {
     /// Turns and ways stay in proportion (1 row): Σ coefficient · q = const. Gears, drums and cords, racks, screws,
     /// differentials.
     Coupling {
-        /// What is coupled; two at least.
+        /// What is coupled: two at least, or one turn against another body, which a clutch holds.
         terms: Vec<Term>,
     },
 }
@@ -133,6 +133,8 @@ pub struct Constraint {
     pub breaking: Option<Breaking>,
     /// Friction of the pivot; `None` turns freely.
     pub friction: Option<PivotFriction>,
+    /// A coupling that gives way where it carries more than this, N m, and holds again where it comes to rest.
+    pub slips: Option<f64>,
     /// 1/ω₀ of its own stabiliser, s; `None` has the figure's.
     pub stabilization_time: Option<f64>,
 }
@@ -146,6 +148,7 @@ impl Constraint {
             schedule: Schedule::default(),
             breaking: None,
             friction: None,
+            slips: None,
             stabilization_time: None,
         }
     }

@@ -425,7 +425,8 @@ impl Wheel {
 
 /// Does it always act, whatever it carries, without friction?
 fn always(constraint: &Constraint) -> bool {
-    constraint.schedule.is_always() && constraint.breaking.is_none() && constraint.friction.is_none()
+    let Constraint { schedule, breaking, friction, slips, .. } = constraint;
+    schedule.is_always() && breaking.is_none() && friction.is_none() && slips.is_none()
 }
 
 /// The one twist that these constraints leave a body on the world: those of a hinge, or of a slider.

@@ -53,6 +53,9 @@ pub struct Args {
     /// How motion is solved.
     #[arg(long, value_enum, default_value_t)]
     solver: SolverArg,
+    /// Time of day at the start, to which a clock sets its hands, such as 14:35.
+    #[arg(long, value_name = "H:MM", value_parser = crate::exhibit::clock::time_of_day)]
+    clock: Option<f64>,
     /// Seed of all that is random.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -148,6 +151,7 @@ pub fn run(args: Args) -> Outcome {
         },
         seed: args.seed,
         wind: !args.no_wind,
+        clock: args.clock,
         ..super::settings()?
     };
     let mode = match (args.compare, args.solver) {

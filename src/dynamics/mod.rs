@@ -12,6 +12,7 @@
 //! The last two terms (Baumgarte 1972, critically damped) draw a scattered figure together and vanish once it is;
 //! from then on projection keeps the joints closed to rounding.
 
+mod clutches;
 mod contacts;
 mod course;
 mod drive;
@@ -32,6 +33,7 @@ use crate::collision::Collider;
 use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
+use clutches::Clutches;
 use contacts::Verdict;
 pub use contacts::{
     Contacts, ENDS, Impact, ImpactKind, Met, Resistance, Strike, Struck, SurfacePair, Touching, couple_rows, strike,
@@ -122,6 +124,7 @@ pub struct Dynamics {
     /// Is there friction in any pivot?
     rubs: bool,
     springs: Springs,
+    clutches: Clutches,
     drives: Vec<Drive>,
     /// Body and acceleration of each drive at the time last asked for.
     driven_accelerations: Vec<(usize, Vec6)>,
@@ -198,6 +201,7 @@ impl Dynamics {
             before_step: vec![State::default(); n],
             before: bodies.clone(),
             springs: Springs::new(figure.springs, &bodies),
+            clutches: Clutches::new(figure.constraints),
             drives: figure.drives.to_vec(),
             driven_accelerations: figure.drives.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
             settings,
@@ -267,6 +271,9 @@ impl Dynamics {
     /// Integrates `h` or less (where the error asks for it) or up to the first impact, resolves it, and returns the
     /// time used.
     fn substep(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
+        if self.clutches.slipping() > 0 {
+            self.rub_clutches(self.time + done, h);
+        }
         self.by_quads(Begin);
         let collides = !self.contacts.is_empty();
         if collides {
@@ -305,7 +312,20 @@ impl Dynamics {
         }
         self.weigh();
         self.break_overloaded(now + used);
+        if self.clutches.give_way(&mut self.system) {
+            self.fresh = false;
+        }
         used
+    }
+
+    /// Rubs what slips at the time `t`, for a substep of `h`; what takes hold comes to rest.
+    fn rub_clutches(&mut self, t: f64, h: f64) {
+        self.press();
+        self.ensure_rates(t);
+        if self.clutches.rub(h, &mut self.system, &self.bodies) {
+            self.project();
+        }
+        self.fresh = false;
     }
 
     /// Notes what the joints carry.
@@ -343,6 +363,7 @@ impl Dynamics {
     fn press(&mut self) {
         self.pressed.copy_from_slice(&self.given);
         self.contacts.press(&mut self.pressed);
+        self.clutches.press(&self.system, &mut self.pressed);
         if self.pressed != self.external {
             std::mem::swap(&mut self.pressed, &mut self.external);
             self.fresh = false;
@@ -518,6 +539,20 @@ impl Dynamics {
                 }
             }
         }
+    }
+
+    /// Does a clutch of this body slip?
+    pub fn slips(&self, body: usize) -> bool {
+        self.clutches.slips(&self.system, body)
+    }
+
+    /// How a body answers a unit of angular impulse about a world axis, joints held: rad/s about it, 1/(kg m²).
+    pub fn turns(&mut self, body: usize, axis: DVec3) -> f64 {
+        self.prepare_impulses();
+        self.system.b.fill([0.0; 6]);
+        self.system.b[body] = vec6(DVec3::ZERO, axis);
+        self.system.solve_impulse();
+        angular(&self.system.a[body]).dot(axis)
     }
 
     /// Puts the figure back to where the last step began if a body has bad numbers; says which one was the first. A step

@@ -16,6 +16,7 @@ use crate::wind::breath::Law;
 use crate::wind::weather::Wind;
 use crate::wind::{Shelter, Surface};
 
+pub mod clock;
 pub mod codes;
 pub mod diagnostic;
 mod fit;
@@ -76,6 +77,8 @@ pub struct Exhibit {
     pub motion: Motion,
     /// What hands may do to it.
     pub touch: Touch,
+    /// Its hands, where it tells the time.
+    pub clock: Option<clock::Clock>,
     /// How time is advanced.
     pub integrator: Integrator,
     /// Which linear solver finds the multipliers.

@@ -53,6 +53,8 @@ pub struct Sidecar {
     /// What hands may do to it.
     #[serde(default)]
     pub touch: Touch,
+    /// Its hands, where it tells the time.
+    pub clock: Option<Clock>,
     /// Physical materials by name. A built-in name (steel, aluminium, lead, brass, copper, glass, beech, cherry, oak …)
     /// changes only the keys that stand here.
     #[serde(default)]
@@ -153,6 +155,38 @@ pub struct Touch {
     pub permitted: bool,
     /// How strong a hand is; by default twice the weight of all that moves.
     pub force: Option<Force>,
+}
+
+/// The hands of a clock: the kiosk sets them to the local time, by hand and through the clock's own works.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Clock {
+    /// Body of the minute hand; a clutch holds it on its arbor.
+    pub hand: String,
+    /// Axis about which it turns with the sun, in its node space.
+    pub axis: [f64; 3],
+    /// What the hands of the model show, as "10:50".
+    pub shows: String,
+    /// What stands otherwise at another hour: so much an hour.
+    #[serde(default)]
+    pub by_hour: Vec<Turning>,
+    /// What stands otherwise when hours have been struck: so much a blow.
+    #[serde(default)]
+    pub by_blow: Vec<Turning>,
+    /// Body that runs while it strikes; whoever sets the hands waits for it.
+    pub strikes: Option<String>,
+}
+
+/// A body that is turned about an axis through its origin.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Turning {
+    /// Which body.
+    pub body: String,
+    /// Axis, in its node space.
+    pub axis: [f64; 3],
+    /// By how much.
+    pub turn: Angle,
 }
 
 impl Default for Touch {

@@ -18,7 +18,7 @@ use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
-use crate::simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND, Snapshot};
+use crate::simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::SoundCommand;
 
 use super::breaths::{Breaths, Turn};
@@ -177,14 +177,15 @@ impl Live {
     /// Starts the thread, for a picture of this shape (width over height).
     pub fn start(options: Options, aspect: f64) -> Result<Self, String> {
         let site = &options.site;
-        let stage = Stage::new(options.exhibit.clone(), site.settings, options.recording.clone(), site.idle_s);
+        let settings = Settings { clock: local_time(), ..site.settings };
+        let stage = Stage::new(options.exhibit.clone(), settings, options.recording.clone(), site.idle_s);
         let trace = match &options.trace {
             Some(path) => Some(TraceWriter::create(path, &options.exhibit, DEFAULT_FPS).map_err(trace_error)?),
             None => None,
         };
         let mut record = options.record.as_deref().map(Recording::create).transpose()?;
         if let Some(record) = &mut record {
-            record.begin(&options.exhibit, site.settings);
+            record.begin(&options.exhibit, settings);
         }
         let frame = Frame {
             exhibit: options.exhibit.clone(),
@@ -485,6 +486,12 @@ fn add(controls: &mut Controls, reading: &Reading, stick_speed: f64) {
         *speed += stick_speed * tilt;
     }
     controls.activity += reading.activity;
+}
+
+/// Seconds after midnight, by the clock on the wall.
+fn local_time() -> Option<f64> {
+    let now = jiff::Zoned::now();
+    Some(f64::from(3600 * i32::from(now.hour()) + 60 * i32::from(now.minute()) + i32::from(now.second())))
 }
 
 /// A hash as text: JSON numbers lose bits beyond 2⁵³.

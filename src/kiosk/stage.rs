@@ -164,20 +164,22 @@ impl Stage {
         self.snapshot = self.simulation.snapshot();
     }
 
-    /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start.
-    pub fn swap(&mut self, exhibit: Arc<Exhibit>) {
+    /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start. `clock` is the time of
+    /// day now, s after midnight, to which it sets its hands where it has any.
+    pub fn swap(&mut self, exhibit: Arc<Exhibit>, clock: Option<f64>) {
         self.called = (exhibit.id != self.exhibit().id).then_some(Command::Gather(self.steps));
         self.attract = self.attract.take().map(|before| {
             let next = Attract::new(exhibit.attract.clone(), self.idle_s);
             if before.is_active() { next.go_on() } else { next }
         });
-        self.simulation = Simulation::new(exhibit, *self.simulation.settings());
+        self.simulation = Simulation::new(exhibit, Settings { clock, ..*self.simulation.settings() });
         self.snapshot = self.simulation.snapshot();
     }
 
     /// Takes over changed settings, with which the exhibit begins anew, and another idle time.
     pub fn settle(&mut self, settings: Settings, idle_s: Option<f64>) {
-        if settings != *self.simulation.settings() {
+        let before = Settings { clock: settings.clock, ..*self.simulation.settings() };
+        if settings != before {
             self.simulation = Simulation::new(self.exhibit().clone(), settings);
             self.snapshot = self.simulation.snapshot();
         }
@@ -200,6 +202,11 @@ impl Stage {
     /// The present moment.
     pub fn snapshot(&self) -> &Snapshot {
         &self.snapshot
+    }
+
+    /// Constants of the run.
+    pub fn settings(&self) -> &Settings {
+        self.simulation.settings()
     }
 
     /// The exhibit on show.

@@ -14,7 +14,7 @@
 //! Nothing else acts meanwhile: no weight or wind, no springs, stops, gears or touches, and drives stand where they start.
 //! After [`LASTS`] what is left of Δ is below a micrometre, and the exhibit begins.
 
-use super::start;
+use super::{Settings, start};
 use crate::articulation::block::{Vec6, add_wrench};
 use crate::articulation::{Constraint, ConstraintKind, Interpolation, Schedule};
 use crate::bodies::RigidBody;
@@ -44,8 +44,8 @@ pub struct Gathering {
 
 impl Gathering {
     /// The exhibit scattered, and what calls it together.
-    pub fn new(exhibit: &Exhibit, seed: u64) -> (Self, Dynamics) {
-        let mut bodies = start(exhibit);
+    pub fn new(exhibit: &Exhibit, settings: &Settings, seed: u64) -> (Self, Dynamics) {
+        let mut bodies = start(exhibit, settings);
         let mut driven = vec![false; bodies.len()];
         exhibit.drives.iter().for_each(|drive| driven[drive.body] = true);
         let homes: Vec<(DVec3, DQuat)> = bodies.iter().map(|body| (body.position, body.rotation)).collect();
@@ -58,6 +58,7 @@ impl Gathering {
             schedule: Schedule::default(),
             breaking: None,
             friction: None,
+            slips: None,
             stabilization_time: None,
             ..constraint.clone()
         };

@@ -5,6 +5,7 @@
 //! offline one with the same inputs are the same run, bit for bit.
 
 mod aim;
+mod carrying;
 mod contact_sound;
 mod event;
 mod gather;
@@ -37,6 +38,7 @@ use crate::wind::force::{Blown, WindField, WindReport};
 use crate::wind::front::Front;
 
 use aim::{Aim, AimTarget};
+use carrying::Carrying;
 use contact_sound::{ContactSound, Scene};
 pub use event::{Event, EventKind, Part};
 use gather::Gathering;
@@ -127,6 +129,9 @@ pub struct Settings {
     pub wind: bool,
     /// false: pivots without friction and bodies without damping.
     pub friction: bool,
+    /// The time of day when the run begins, s after midnight, to which the hands of a clock are set; `None` leaves them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock: Option<f64>,
 }
 
 impl Default for Settings {
@@ -140,6 +145,7 @@ impl Default for Settings {
             seed: 1,
             wind: true,
             friction: true,
+            clock: None,
         }
     }
 }
@@ -251,6 +257,8 @@ pub struct Simulation {
     mode: MotionMode,
     /// While the parts gather: what calls them, and the steps that are left.
     gathering: Option<(Gathering, u64)>,
+    /// While the hands of a clock are carried to the time.
+    carrying: Option<Carrying>,
     motes: Motes,
     wrenches: Vec<Vec6>,
     impacts: Vec<Impact>,
@@ -272,6 +280,7 @@ impl Simulation {
         let view = exhibit.view(DEFAULT_ASPECT);
         let dynamics = start_dynamics(&exhibit, &settings);
         Self {
+            carrying: carrying(&exhibit, &settings, &dynamics.bodies),
             procedural: Procedural::new(&dynamics, procedural::Settings::default()),
             dynamics,
             wind: WindField::new(
@@ -347,6 +356,7 @@ impl Simulation {
         let method = match self.mode {
             MotionMode::Dynamic => {
                 self.hands.pull(&mut self.dynamics, DT, &mut self.wrenches);
+                self.carry();
                 self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
                 return;
             }
@@ -356,6 +366,21 @@ impl Simulation {
         self.procedural.settings_mut().method = method;
         let grips = self.hands.grips(&self.dynamics.bodies, DT);
         self.procedural.step(&mut self.dynamics, DT, &self.wrenches, grips, &mut self.impacts);
+    }
+
+    /// Carries the hands of a clock on.
+    fn carry(&mut self) {
+        let elapsed = (self.step - self.start_step) as f64 * DT;
+        if let (Some(carrying), Some(clock)) = (&mut self.carrying, &self.exhibit.clock)
+            && !carrying.carry(clock, (elapsed, DT), &mut self.dynamics, &mut self.wrenches)
+        {
+            self.carrying = None;
+        }
+    }
+
+    /// Are the hands of a clock being carried to the time?
+    pub fn is_set(&self) -> bool {
+        self.carrying.is_none()
     }
 
     /// How the last step that moved the figure by places ended.
@@ -370,7 +395,7 @@ impl Simulation {
                 Command::Gather(seed) => {
                     self.reset();
                     if self.exhibit.gathers {
-                        let (gathering, scattered) = Gathering::new(&self.exhibit, seed);
+                        let (gathering, scattered) = Gathering::new(&self.exhibit, &self.settings_now(), seed);
                         self.dynamics = scattered;
                         self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
                     }
@@ -393,9 +418,17 @@ impl Simulation {
     /// Puts the figure where it starts; its time begins.
     fn begin_anew(&mut self) {
         self.gathering = None;
-        self.dynamics = start_dynamics(&self.exhibit, &self.settings);
+        let settings = self.settings_now();
+        self.dynamics = start_dynamics(&self.exhibit, &settings);
+        self.carrying = carrying(&self.exhibit, &settings, &self.dynamics.bodies);
         self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
         self.start_step = self.step;
+    }
+
+    /// The settings of a run that begins now: the day has gone on.
+    fn settings_now(&self) -> Settings {
+        let now = |midnight: f64| midnight + self.step as f64 * DT;
+        Settings { clock: self.settings.clock.map(now), ..self.settings }
     }
 
     /// While its parts gather: how far the farthest is from its place, m.
@@ -622,20 +655,30 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
-/// The exhibit's bodies as they start.
-fn start(exhibit: &Exhibit) -> Vec<RigidBody> {
+/// The exhibit's bodies as they start, a clock's at the hour.
+fn start(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidBody> {
     let body = |body: &crate::exhibit::Body| RigidBody {
         velocity: body.velocity,
         angular_velocity: body.angular_velocity,
         ..RigidBody::at_rest(body.properties, body.pose)
     };
-    exhibit.bodies.iter().map(body).collect()
+    let mut bodies: Vec<RigidBody> = exhibit.bodies.iter().map(body).collect();
+    if let (Some(clock), Some(time)) = (&exhibit.clock, settings.clock) {
+        clock.set(time, &mut bodies);
+    }
+    bodies
+}
+
+/// Whoever carries the hands of a clock to the time, where there is one to be set.
+fn carrying(exhibit: &Exhibit, settings: &Settings, bodies: &[RigidBody]) -> Option<Carrying> {
+    let (clock, time) = exhibit.clock.as_ref().zip(settings.clock)?;
+    Some(Carrying::new(clock, bodies, time))
 }
 
 /// The exhibit's figure at its start, to be moved by itself: without air, hands and sound.
 pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
     let figure = Figure {
-        bodies: start(exhibit),
+        bodies: start(exhibit, settings),
         damping: exhibit
             .bodies
             .iter()

@@ -30,13 +30,13 @@ struct Clock {
     /// Largest swing between them, rad.
     swings: Vec<f64>,
     largest: f64,
-    /// Turns of wheels since the start, rad: escape wheel, minute arbor, hour wheel.
+    /// Turns of wheels since the start, rad: escape wheel, minute hand, hour wheel.
     turns: [f64; 3],
     /// What damping took, J.
     damped: f64,
 }
 
-const WHEELS: [&str; 3] = ["EscapeWheel", "MinuteArbor", "HourWheel"];
+const WHEELS: [&str; 3] = ["EscapeWheel", "Cannon", "HourWheel"];
 
 impl Clock {
     fn new() -> Self {
@@ -441,4 +441,53 @@ fn two_minutes_of_beats_fall_where_a_finer_step_has_them() {
     const APART: f64 = 5e-2;
     let worst = against_fine_steps(120.0, 16.0);
     assert!(worst < APART, "{worst} s apart");
+}
+
+/// Where the hands point, s after twelve: the minute hand's part of an hour, and the hour hand's of its round.
+fn shown(simulation: &Simulation, hand: &str, round: f64, turns_at_start: f64) -> f64 {
+    let index = simulation.exhibit().bodies.iter().position(|body| body.name == hand).expect("a hand");
+    let turned = simulation.bodies()[index].rotation;
+    // The model's own turn is that at the start; with the sun is against z.
+    (turns_at_start - atan2(turned.z, turned.w) / PI).rem_euclid(1.0) * round
+}
+
+#[test]
+fn its_hands_are_carried_to_the_time_and_it_strikes_the_hour_that_is_passed() {
+    /// s: the hand is let go within a second, and the escapement has its tooth.
+    const ON_TIME: f64 = 3.0;
+    const CLOSED: f64 = 1e-9;
+    // From, to, and the blows on the way: the hands start at ten minutes to the hour.
+    for (time, blows) in [("14:35", 2), ("14:52", 0), ("0:20", 12)] {
+        let clock = soffio::exhibit::clock::time_of_day(time).expect("a time");
+        let settings = Settings { clock: Some(clock), ..Settings::default() };
+        let mut simulation = Simulation::new(shipped(), settings);
+        let hammer = simulation.exhibit().bodies.iter().position(|body| body.name == "Hammer").expect("a hammer");
+        let (mut struck, mut beats) = (0, 0);
+        let anchor = simulation.exhibit().bodies.iter().position(|body| body.name == "Anchor").expect("an anchor");
+        let mut set = None;
+        for step in 0..45 * STEPS_PER_SECOND {
+            simulation.step(&StepInput::default());
+            let hits = || simulation.events().iter().filter(|e| e.kind == EventKind::Impact);
+            struck += hits().filter(|e| e.bodies == [Some(hammer), None]).count();
+            beats += hits().filter(|e| e.bodies.contains(&Some(anchor))).count();
+            if simulation.is_set() && set.is_none() {
+                set = Some(step as f64 * DT);
+            }
+        }
+        let now = clock + 45.0;
+        let minute = shown(&simulation, "Cannon", 3600.0, 50.0 / 60.0);
+        let hour = shown(&simulation, "HourWheel", 43_200.0, (10.0 + 50.0 / 60.0) / 12.0);
+        let off = |shown: f64, round: f64| (shown - now + 0.5 * round).rem_euclid(round) - 0.5 * round;
+        println!(
+            "{time}: set after {set:?} s, {struck} blows, {beats} beats, off by {:.2} and {:.1} s",
+            off(minute, 3600.0),
+            off(hour, 43_200.0)
+        );
+        assert!(set.is_some_and(|t| t < 40.0), "{time}: set after {set:?} s");
+        assert_eq!(struck, blows, "{time}");
+        assert!(off(minute, 3600.0).abs() < ON_TIME, "{time}: {minute} s after the hour");
+        assert!(off(hour, 43_200.0).abs() < 2.0 * ON_TIME, "{time}: {hour} s after twelve");
+        assert!(beats > 70, "{time}: {beats} beats in 45 s");
+        assert!(simulation.joint_error() < CLOSED, "{time}: {} m", simulation.joint_error());
+    }
 }

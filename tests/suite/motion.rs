@@ -1,6 +1,7 @@
 //! Motion against the laws: every joint, gear, spring, window and drive against its formula, through `Dynamics::step`
 //! and by both integrators that exhibits use.
 
+mod clutches;
 mod gears;
 mod joints;
 mod loops;

@@ -11,7 +11,7 @@ mod solve;
 use fearless_simd::Level;
 
 use super::activity::Activity;
-use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled};
+use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear};
 use super::dense::Dense;
 use super::hung::Hung;
 use super::loops::{LoopRow, Loops};
@@ -49,8 +49,35 @@ struct Coupling {
     constraint: usize,
     at: usize,
     terms: Vec<(Gauge, f64)>,
+    /// Subtracted from the value: where a clutch holds.
+    offset: f64,
     /// Index among the loops' rows.
     outside: usize,
+}
+
+/// A coupling's row, as a clutch asks for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled<'a> {
+    /// λ: 0 where it does not act.
+    pub multiplier: f64,
+    /// J by bodies.
+    pub parts: &'a [(usize, Vec6)],
+}
+
+impl Coupled<'_> {
+    /// Ċ, rad/s or m/s.
+    pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
+        let rate = |(body, block): &(usize, Vec6)| {
+            let body = &bodies[*body];
+            linear(block).dot(body.velocity) + angular(block).dot(body.angular_velocity)
+        };
+        self.parts.iter().map(rate).sum()
+    }
+
+    /// J a of such accelerations (or velocity changes).
+    pub fn acceleration(&self, a: &[Vec6]) -> f64 {
+        self.parts.iter().map(|(body, block)| dot(block, &a[*body])).sum()
+    }
 }
 
 /// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
@@ -165,7 +192,7 @@ impl System {
                     parts.push(body);
                 }
             }
-            couplings.push(Coupling { constraint: index, at: count, terms, outside: outside.len() });
+            couplings.push(Coupling { constraint: index, at: count, terms, offset: 0.0, outside: outside.len() });
             outside.push(blank_row(count, 0, &parts, trains.owns(index)));
             count += 1;
         }
@@ -311,7 +338,8 @@ impl System {
             }
             slot.active = share > 0.0 && !slot.held;
             slot.compliance[0] = 0.0;
-            let row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
+            let mut row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
+            row.value -= coupling.offset;
             self.states[coupling.at].set(&row, coupling.constraint, share);
         }
         // Whoever draws open joints together, or lets them yield, asks how far they are open.
@@ -420,6 +448,42 @@ impl System {
         std::mem::swap(&mut self.activity, &mut other.activity);
         for (own, others) in self.couplings.iter_mut().zip(&mut other.couplings) {
             std::mem::swap(&mut own.terms, &mut others.terms);
+            std::mem::swap(&mut own.offset, &mut others.offset);
+        }
+    }
+
+    /// What a coupling was found to be at the last evaluation, and carried in the last solve.
+    ///
+    /// # Panics
+    /// Where the constraint is no coupling.
+    pub fn coupling(&self, constraint: usize) -> Coupled<'_> {
+        let found = self.couplings.iter().find(|coupling| coupling.constraint == constraint);
+        let Some(coupling) = found else { panic!("constraint {constraint} is no coupling") };
+        let multiplier = if self.activity.share(constraint) > 0.0 { self.lambda[coupling.at] } else { 0.0 };
+        Coupled { multiplier, parts: &self.outside_rows()[coupling.outside].parts }
+    }
+
+    /// How a coupling that does not act answers a unit of its own impulse, joints held, by the factor at hand: J M⁻¹ Jᵀ.
+    pub fn answer_along(&mut self, constraint: usize) -> f64 {
+        self.b.fill([0.0; 6]);
+        for part in 0..self.coupling(constraint).parts.len() {
+            let (body, block) = self.coupling(constraint).parts[part];
+            self.push_impulse(body, &block, 1.0);
+        }
+        self.solve_impulse();
+        self.coupling(constraint).acceleration(&self.a)
+    }
+
+    /// Lets a clutch slip.
+    pub fn let_slip(&mut self, constraint: usize) {
+        self.activity.slip(constraint, true);
+    }
+
+    /// Lets a clutch hold where the bodies are.
+    pub fn take_hold(&mut self, constraint: usize, bodies: &[RigidBody]) {
+        self.activity.slip(constraint, false);
+        for coupling in self.couplings.iter_mut().filter(|coupling| coupling.constraint == constraint) {
+            coupling.offset = coupling.terms.iter().map(|(gauge, c)| c * gauge.total(bodies)).sum();
         }
     }
 

@@ -122,7 +122,8 @@ impl System {
         let mut gaps: Vec<f64> = self.constraints.iter().enumerate().map(gap).collect();
         for coupling in self.couplings.iter().filter(|c| self.activity.share(c.constraint) == 1.0) {
             let mut parts = self.outside_rows()[coupling.outside].parts.clone();
-            gaps[coupling.constraint] = coupling::row(&scene, &coupling.terms, &mut parts).value.abs();
+            let value = coupling::row(&scene, &coupling.terms, &mut parts).value - coupling.offset;
+            gaps[coupling.constraint] = value.abs();
         }
         gaps
     }

@@ -5,6 +5,7 @@
 //! bodies (who belongs to whom), wires, masses, joints, colliders, wind and sound, words.
 
 mod bodies;
+mod clock;
 mod colliders;
 mod joints;
 mod materials;
@@ -140,6 +141,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         gathers: false,
         motion: Motion::Laws,
         touch: Touch { permitted: false, force: 0.0 },
+        clock: None,
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
         stabilization_time: STABILIZATION_TIME,
@@ -263,6 +265,7 @@ impl<'a> Context<'a> {
         let (instruments, sounds) = self.sounds(&bodies, &colliders, &wires);
         let (integrator, solver, stabilization_time) = self.solver();
         let touch = self.touch(&bodies);
+        let clock = self.clock(&constraints);
         let labels = self.labels();
         let attract = self.attract(&labels);
         Exhibit {
@@ -280,6 +283,7 @@ impl<'a> Context<'a> {
             gathers: self.sidecar.scene.gathers.unwrap_or(true),
             motion: self.motion(),
             touch,
+            clock,
             integrator,
             solver,
             stabilization_time,

@@ -128,6 +128,21 @@ pub struct Ratchet {
     pub enabled: Option<bool>,
 }
 
+/// Two bodies turn as one until their friction gives way: a minute hand on its arbor. It holds again where it comes to rest.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Clutch {
+    /// Unique name.
+    pub name: Name,
+    /// What turns about an axis of which body.
+    #[serde(flatten)]
+    pub axle: Axle,
+    /// Friction: what it carries at the most, and what it carries while it slips.
+    pub torque: Torque,
+    /// Does it act at all? By default true.
+    pub enabled: Option<bool>,
+}
+
 /// Stops. Give `of`; or `a`, `b` and an `axis` or `direction`; or `a` and `b` alone for their distance.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]

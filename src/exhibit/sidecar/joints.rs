@@ -25,6 +25,8 @@ pub struct Constraints {
     pub gear_weight: Vec<GearWeight>,
     /// A wheel turns one way only.
     pub ratchet: Vec<Ratchet>,
+    /// Turns with another body until it slips.
+    pub clutch: Vec<Clutch>,
     /// Adds one degree of freedom to what is held, or takes one away.
     pub element: Vec<Element>,
     /// A spring and damper between two points.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Thread;
+use super::{Thread, local_time};
 use crate::audio_io::AudioIo;
 use crate::config::AudioSettings;
 use crate::controllers::Controllers;
@@ -12,6 +12,7 @@ use crate::kiosk::governor::Governor;
 use crate::kiosk::metrics::Metrics;
 use crate::kiosk::site::Site;
 use crate::kiosk::voice::{Guest, Trial, Tried, Voice, hit};
+use crate::simulation::Settings;
 
 impl Thread {
     /// Takes over a changed configuration: of the devices and threads only what differs begins anew.
@@ -41,7 +42,7 @@ impl Thread {
         if anew {
             self.end();
         }
-        self.stage.settle(self.site.settings, self.site.idle_s);
+        self.stage.settle(Settings { clock: local_time(), ..self.site.settings }, self.site.idle_s);
         if anew {
             self.begin_anew();
         }
@@ -57,7 +58,7 @@ impl Thread {
     /// The exhibit begins at its start: what was told of it is over. A trace knows one run only and ends.
     fn begin_anew(&mut self) {
         if let Some(record) = &mut self.record {
-            record.begin(self.stage.exhibit(), self.site.settings);
+            record.begin(self.stage.exhibit(), *self.stage.settings());
         }
         self.captions = Captions::default();
         self.onset = None;
@@ -101,7 +102,7 @@ impl Thread {
         self.audio.set_instruments(self.voice.synth(&exhibit, None));
         self.governor = Governor::new(exhibit.motion);
         self.end();
-        self.stage.swap(exhibit);
+        self.stage.swap(exhibit, local_time());
         self.begin_anew();
     }
 }

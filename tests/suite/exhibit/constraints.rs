@@ -366,6 +366,10 @@ fn limits_bound_turns_ways_tilts_and_distances() {
     assert!(matches!(limit("cord").kind, LimitKind::Distance { min: 0.0, max: 2.0, .. }));
     let LimitKind::Tilt { b, max, .. } = limit("lean").kind else { panic!("not a tilt") };
     assert!(b.direction.distance(DVec3::Y) < SINGLE && (max - PI / 15.0).abs() < SINGLE);
+    let slips =
+        load(&text.replace("teeth = 30\nreverse = true\n", "torque = \"3 mN m\"\n").replace("ratchet", "clutch"));
+    let clutch = slips.constraints.iter().find(|c| c.name == "click").expect("a clutch");
+    assert!(clutch.slips.is_some_and(|torque| (torque - 3e-3).abs() < SINGLE), "{clutch:?}");
     let LimitKind::Ratchet { measure: Measure::Angle { axis: other, .. }, pitch } = limit("click").kind else {
         panic!("not a ratchet")
     };

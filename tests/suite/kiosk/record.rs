@@ -32,7 +32,7 @@ fn day(path: &Path) -> [String; 2] {
         if step == 6 * 240 {
             hashes.push(format!("{:016x}", stage.state_hash()));
             recording.end(&stage);
-            stage.swap(chimes.clone());
+            stage.swap(chimes.clone(), None);
             recording.begin(&chimes, settings);
         }
         let t = f64::from(step) / 240.0;

@@ -235,7 +235,7 @@ fn a_reloaded_exhibit_starts_anew_and_the_run_counts_on() {
     let mut stage = Stage::new(steel_fish(), Settings::default(), Some(breath()), None);
     let controls = Controls::default();
     (0..480).for_each(|_| stage.step(&controls, None));
-    stage.swap(steel_fish());
+    stage.swap(steel_fish(), None);
     assert_eq!((stage.steps(), stage.sample(), stage.snapshot().step), (480, 0, 0));
     stage.step(&controls, None);
     assert_eq!((stage.steps(), stage.sample()), (481, 200));
@@ -253,7 +253,7 @@ fn another_exhibit_gathers_its_parts_and_a_press_ends_the_waiting() {
         far.fold(0.0, f64::max)
     };
     stage.step(&still, None);
-    stage.swap(chimes.clone());
+    stage.swap(chimes.clone(), None);
     stage.step(&still, None);
     assert!(away(&stage, &chimes) > 0.1, "its parts are scattered");
     for _ in 0..5 * 240 {
@@ -261,12 +261,12 @@ fn another_exhibit_gathers_its_parts_and_a_press_ends_the_waiting() {
     }
     assert!(away(&stage, &chimes) < 0.01, "they have gathered");
     // The same one, saved anew by a curator, is there at once.
-    stage.swap(chimes.clone());
+    stage.swap(chimes.clone(), None);
     stage.step(&still, None);
     assert!(away(&stage, &chimes) < 0.01);
     // Who presses does not wait.
     let fish = steel_fish();
-    stage.swap(fish.clone());
+    stage.swap(fish.clone(), None);
     for _ in 0..60 {
         stage.step(&still, None);
     }

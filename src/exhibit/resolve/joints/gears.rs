@@ -121,6 +121,21 @@ impl Context<'_> {
         }
     }
 
+    pub(super) fn clutch(&mut self, given: &sidecar::Clutch, at: &str, out: &mut Joints) {
+        self.name(&given.name, at, out);
+        self.enable(&given.name, given.enabled, at, out);
+        let Some(measure) = self.turn(&given.axle, &given.name, at, out) else { return };
+        let torque = self.positive(given.torque.0, &format!("{at}/torque"));
+        if matches!(measure, Measure::Way { .. }) {
+            let problem = Diagnostic::new(codes::WRONG_SHAPE, format!("clutch \"{}\" slides", given.name));
+            self.report(at, problem.help("name a hinge, or a body, an axis and the frame it turns with"));
+            return;
+        }
+        self.trace(&format!("constraint {}", given.name), "slips", format!("beyond {torque} N m"), at, "");
+        let kind = ConstraintKind::Coupling { terms: vec![Term { measure, coefficient: 1.0 }] };
+        out.constraints.push(Constraint { slips: Some(torque), ..Constraint::new(&given.name, kind) });
+    }
+
     pub(super) fn gear_weight(&mut self, given: &sidecar::GearWeight, at: &str, out: &mut Joints) {
         let header = self.header(&given.name, &given.timing, at, out);
         let frame = self.carrier(given.frame.as_ref(), at, &given.name);

@@ -71,6 +71,7 @@ impl Context<'_> {
         self.each("windmill", &given.windmill, &mut out, |this, hinge, at, out| this.hinge(hinge, "point", at, out));
         self.each("gear", &given.gear, &mut out, Self::gear);
         self.each("gear-weight", &given.gear_weight, &mut out, Self::gear_weight);
+        self.each("clutch", &given.clutch, &mut out, Self::clutch);
         self.each("element", &given.element, &mut out, Self::element);
         self.each("ratchet", &given.ratchet, &mut out, Self::ratchet);
         self.each("limit", &given.limit, &mut out, Self::bounds);
@@ -160,6 +161,7 @@ impl Context<'_> {
             schedule: header.schedule.clone(),
             breaking: header.breaking,
             friction,
+            slips: None,
             stabilization_time: header.stabilization_time,
         });
     }

@@ -135,7 +135,7 @@ impl Context<'_> {
         }
     }
 
-    pub(super) fn body_axis(
+    pub(in super::super) fn body_axis(
         &mut self,
         body: &str,
         axis: [f64; 3],

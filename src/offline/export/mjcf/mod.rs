@@ -181,6 +181,10 @@ impl Writer<'_> {
     fn couplings(&mut self) {
         for constraint in &self.exhibit.constraints {
             let ConstraintKind::Coupling { terms } = &constraint.kind else { continue };
+            if constraint.slips.is_some() {
+                self.leave_out(&constraint.name, "slips");
+                continue;
+            }
             if !constraint.schedule.is_always() || constraint.breaking.is_some() {
                 // Told with the others that come and go.
                 if constraint.schedule.is_always() {

@@ -1,0 +1,98 @@
+//! Slip clutches: couplings that carry so much torque and then give way, as a minute hand on its arbor.
+//!
+//! Dry friction between two bodies about one axis has two states (D. Karnopp, "Computer simulation of stick-slip friction
+//! in mechanical dynamic systems", ASME J. Dynamic Systems, Measurement, and Control 107, 1985):
+//!
+//! ```text
+//! holds    C = q − q₀ = 0     a row like any other, multiplier λ         until |λ| > τ
+//! slips    torque f = −(q̇/h + a₀)/W, |f| ≤ τ                             until |f| < τ; then q₀ = q
+//! ```
+//!
+//! a₀ is what q̈ would be without friction and W its answer to a unit of torque, joints held: f is the torque that would
+//! bring q̇ to rest within the time h of a step, as far as friction can; where it can, the row takes over. So what is light
+//! does not swing about its rest. The state is looked at between substeps, so that a row is there for all of their stages
+//! or for none; what is left of q̇ goes with the projection.
+//!
+//! | symbol | here | unit |
+//! |---|---|---|
+//! | q, q₀ | value of the coupling, its offset | rad |
+//! | τ | `torque` | N m |
+//! | f | `rubs` | N m |
+
+use crate::articulation::block::{Vec6, add_scaled};
+use crate::articulation::{Constraint, System};
+use crate::bodies::RigidBody;
+
+/// One clutch.
+#[derive(Clone, Copy, Debug)]
+struct Clutch {
+    constraint: usize,
+    /// τ.
+    torque: f64,
+    /// Torque on its first body while it slips, with its sign; 0 while it holds.
+    rubs: f64,
+}
+
+/// All clutches of a figure.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Clutches(Vec<Clutch>);
+
+impl Clutches {
+    /// All of them hold.
+    pub fn new(constraints: &[Constraint]) -> Self {
+        let clutch =
+            |(constraint, c): (usize, &Constraint)| c.slips.map(|torque| Clutch { constraint, torque, rubs: 0.0 });
+        Self(constraints.iter().enumerate().filter_map(clutch).collect())
+    }
+
+    /// Adds the torques of what slips.
+    pub fn press(&self, system: &System, out: &mut [Vec6]) {
+        for clutch in self.0.iter().filter(|clutch| clutch.rubs != 0.0) {
+            for (body, block) in system.coupling(clutch.constraint).parts {
+                add_scaled(&mut out[*body], clutch.rubs, block);
+            }
+        }
+    }
+
+    /// Lets slip what carries too much, by the last solve of forces. Did anything?
+    pub fn give_way(&mut self, system: &mut System) -> bool {
+        let mut changed = false;
+        for clutch in self.0.iter_mut().filter(|clutch| clutch.rubs == 0.0) {
+            let load = system.coupling(clutch.constraint).multiplier;
+            if load.abs() > clutch.torque {
+                clutch.rubs = clutch.torque.copysign(load);
+                system.let_slip(clutch.constraint);
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    /// Finds the torques of what slips for a substep of `h` seconds, by the accelerations at its start, which are none
+    /// afterwards. Did anything take hold? Then its row acts, and what is left of its rate is to go.
+    pub fn rub(&mut self, h: f64, system: &mut System, bodies: &[RigidBody]) -> bool {
+        let mut held = false;
+        for clutch in self.0.iter_mut().filter(|clutch| clutch.rubs != 0.0) {
+            let now = system.coupling(clutch.constraint);
+            let (rate, acceleration) = (now.rate(bodies), now.acceleration(&system.a));
+            let stops = clutch.rubs - (rate / h + acceleration) / system.answer_along(clutch.constraint);
+            clutch.rubs = if stops.abs() < clutch.torque { 0.0 } else { clutch.torque.copysign(stops) };
+            if clutch.rubs == 0.0 {
+                system.take_hold(clutch.constraint, bodies);
+                held = true;
+            }
+        }
+        held
+    }
+
+    /// How many slip now.
+    pub fn slipping(&self) -> usize {
+        self.0.iter().filter(|clutch| clutch.rubs != 0.0).count()
+    }
+
+    /// Does a clutch slip that touches this body?
+    pub fn slips(&self, system: &System, body: usize) -> bool {
+        let touches = |clutch: &Clutch| system.coupling(clutch.constraint).parts.iter().any(|part| part.0 == body);
+        self.0.iter().any(|clutch| clutch.rubs != 0.0 && touches(clutch))
+    }
+}

@@ -1,0 +1,59 @@
+//! The hands of a clock.
+
+use super::super::clock::{Clock, ROUND, Turning, time_of_day};
+use super::super::codes;
+use super::super::diagnostic::Diagnostic;
+use super::super::sidecar;
+use super::Context;
+use crate::articulation::{Axis, Constraint};
+
+impl Context<'_> {
+    /// What tells the time, among these constraints; `None` where nothing does, or a problem was reported.
+    pub(super) fn clock(&mut self, constraints: &[Constraint]) -> Option<Clock> {
+        let sidecar = self.sidecar;
+        let given = sidecar.clock.as_ref()?;
+        let (hand, axis) = self.clock_wheel(&given.hand, given.axis, "/clock", "/clock/hand")?;
+        let shows = match time_of_day(&given.shows) {
+            Ok(time) => time % ROUND,
+            Err(message) => {
+                self.report("/clock/shows", Diagnostic::new(codes::WRONG_SHAPE, message).help("as the model shows it"));
+                return None;
+            }
+        };
+        let held = |c: &Constraint| c.slips.filter(|_| c.kind.touches(hand));
+        let Some(friction) = constraints.iter().find_map(held) else {
+            let message = format!("the hand \"{}\" is held by no clutch, so nobody can set it", given.hand);
+            let help = "join it to its arbor by a [[constraint.clutch]] with a torque";
+            self.report("/clock/hand", Diagnostic::new(codes::NOT_FOUND, message).help(help));
+            return None;
+        };
+        let strikes = match &given.strikes {
+            Some(name) => Some(self.clock_wheel(name, given.axis, "/clock", "/clock/strikes")?.0),
+            None => None,
+        };
+        self.trace("clock", "shows", given.shows.clone(), "/clock/shows", "");
+        let by_hour = self.turnings(&given.by_hour, "/clock/by_hour")?;
+        let by_blow = self.turnings(&given.by_blow, "/clock/by_blow")?;
+        Some(Clock { hand, axis: axis.direction, friction, shows, by_hour, by_blow, strikes })
+    }
+
+    fn turnings(&mut self, given: &[sidecar::Turning], at: &str) -> Option<Vec<Turning>> {
+        let one = |(index, turning): (usize, &sidecar::Turning)| {
+            let at = format!("{at}/{index}");
+            let (body, axis) = self.clock_wheel(&turning.body, turning.axis, &at, &format!("{at}/body"))?;
+            Some(Turning { body, axis: axis.direction, angle: turning.turn.0 })
+        };
+        given.iter().enumerate().map(one).collect()
+    }
+
+    /// A moving body and an axis of it.
+    fn clock_wheel(&mut self, name: &str, axis: [f64; 3], at: &str, at_body: &str) -> Option<(usize, Axis)> {
+        let axis = self.body_axis(name, axis, at_body, &format!("{at}/axis"), "clock")?;
+        let Some(body) = axis.body else {
+            let message = format!("\"{name}\" is no body that moves");
+            self.report(at_body, Diagnostic::new(codes::NOT_FOUND, message).help("add a [[body]] with this node"));
+            return None;
+        };
+        Some((body, axis))
+    }
+}

@@ -1,0 +1,89 @@
+//! Slip clutches: what they carry, what they carry while they slip, and where they hold again.
+
+use soffio::articulation::{Axis, Constraint, ConstraintKind, Measure, Term};
+use soffio::dynamics::{Dynamics, Integrator};
+use soffio::math::{DVec3, atan2};
+
+use super::{DT, ROUNDING, World, step, wheel};
+
+/// Moments of inertia of the two discs, kg m², and the clutch's torque, N m.
+const I: [f64; 2] = [3e-4, 8e-4];
+const TORQUE: f64 = 0.01;
+
+/// Two discs on one axle, the first held on the second by a clutch.
+fn discs(integrator: Integrator) -> Dynamics {
+    let bodies = [0.0, 0.1].map(|z| (z, I[usize::from(z > 0.0)])).map(|(z, i)| wheel(0.2, i, DVec3::Z * z));
+    let mut world = World::new(bodies.to_vec());
+    world.gravity = DVec3::ZERO;
+    for i in 0..2 {
+        world.hinge(&format!("axle-{i}"), i, None, world.bodies[i].position, DVec3::Z);
+    }
+    let measure = Measure::Angle { axis: Axis { body: Some(0), direction: DVec3::Z }, frame: Some(1) };
+    let kind = ConstraintKind::Coupling { terms: vec![Term { measure, coefficient: 1.0 }] };
+    world.constraints.push(Constraint { slips: Some(TORQUE), ..Constraint::new("clutch", kind) });
+    world.start(integrator)
+}
+
+/// Rates after so many steps under a torque on the first disc, rad/s.
+fn turn(dynamics: &mut Dynamics, torque: f64, steps: usize) -> [f64; 2] {
+    for _ in 0..steps {
+        step(dynamics, DT, &[[0.0, 0.0, 0.0, 0.0, 0.0, torque], [0.0; 6]]);
+    }
+    [0, 1].map(|disc| dynamics.bodies[disc].angular_velocity.z)
+}
+
+/// How far the first disc is turned against the second, rad.
+fn apart(dynamics: &Dynamics) -> f64 {
+    let [a, b] = [0, 1].map(|disc| dynamics.bodies[disc].rotation);
+    let d = b.conjugate() * a;
+    2.0 * atan2(d.z, d.w)
+}
+
+#[test]
+fn below_its_torque_two_discs_are_one_and_above_it_each_goes_its_own_way() {
+    for integrator in [Integrator::RungeKutta, Integrator::Fast] {
+        // Held, the second disc asks for T I₂/(I₁ + I₂) through the clutch.
+        let most = TORQUE * (I[0] + I[1]) / I[1];
+        let mut held = discs(integrator);
+        for rate in turn(&mut held, 0.99 * most, 240) {
+            assert!((rate - 0.99 * most / (I[0] + I[1])).abs() < ROUNDING, "{rate} rad/s");
+        }
+        assert!(apart(&held).abs() < ROUNDING);
+        let mut slips = discs(integrator);
+        let torque = 1.5 * most;
+        let before = turn(&mut slips, torque, 1);
+        let after = turn(&mut slips, torque, 240);
+        let expected = [(torque - TORQUE) / I[0], TORQUE / I[1]];
+        for disc in 0..2 {
+            let gained = after[disc] - before[disc];
+            assert!((gained - expected[disc]).abs() < ROUNDING, "disc {disc}: {gained} rad/s in a second");
+        }
+        assert!(apart(&slips).abs() > 0.1);
+    }
+}
+
+#[test]
+fn what_slips_comes_to_rest_when_friction_has_used_up_its_rate_and_is_held_there() {
+    /// Held from one step to the next, s.
+    const LATE: f64 = 2.0 * DT;
+    let (torque, push) = (4.0 * TORQUE, 120);
+    let mut dynamics = discs(Integrator::RungeKutta);
+    let [first, second] = turn(&mut dynamics, torque, push);
+    let stops = (first - second) / (TORQUE * (I[0].recip() + I[1].recip()));
+    let mut waited = 0.0;
+    while dynamics.bodies[0].angular_velocity.z - dynamics.bodies[1].angular_velocity.z > ROUNDING {
+        turn(&mut dynamics, 0.0, 1);
+        waited += DT;
+        assert!(waited < 2.0 * stops, "it still slips after {waited} s");
+    }
+    assert!((waited - stops).abs() < LATE, "at rest after {waited} s, by its friction after {stops} s");
+    // What was pushed in is there, shared by both.
+    let [first, second] = turn(&mut dynamics, 0.0, 1);
+    let momentum = torque * push as f64 * DT;
+    assert!((first - second).abs() < ROUNDING);
+    assert!((I[0] * first + I[1] * second - momentum).abs() < ROUNDING, "{first} rad/s");
+    let there = apart(&dynamics);
+    turn(&mut dynamics, 0.5 * TORQUE, 240);
+    assert!((apart(&dynamics) - there).abs() < ROUNDING, "it is held where it came to rest");
+    assert!(dynamics.joint_error() < ROUNDING);
+}
