@@ -111,6 +111,17 @@ crash_loop() {
     bar "crash loop: safe mode" "$saw == 1 && \"$(state on_show)\" == \"pendulum\" && $(state deaths) == 3" \
         "$(state deaths) deaths, $(state on_show) on show, staff told $saw times"
     end_launcher || true
+    # Where nothing can be kept the launcher has counted.
+    XDG_STATE_HOME=/dev/null launch_kiosk unkept --exhibit "$exhibit" --no-attract
+    for i in 1 2 3; do
+        within 20 pixels unkept "$i" || true
+        kill -9 "$(child)"
+    done
+    within 20 pixels unkept 4 || true
+    saw=$(grep -c 'safe mode: the kiosk died' "$room/unkept.err" || true)
+    bar "crash loop: without a disk" "$saw == 1 && $(grep -c 'nothing outlives this run' "$room/unkept.err") == 4" \
+        "staff told $saw times"
+    end_launcher || true
 }
 pixels() { [ "$(grep -c 'pixels on' "$room/$1.err")" -ge "$2" ]; }
 
@@ -269,20 +280,26 @@ broker() {
         return
     fi
     while (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; do port=$((port + 1)); done
-    printf 'listener %s 127.0.0.1\nallow_anonymous true\n' "$port" >"$room/mosquitto.conf"
-    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[mqtt]\nbroker = "127.0.0.1:%s"\ntopic = "%s"\n' \
+    # Whoever has no password is not heard.
+    touch "$room/mosquitto.passwords"
+    mosquitto_passwd -b "$room/mosquitto.passwords" hall secret 2>/dev/null
+    printf 'listener %s 127.0.0.1\nallow_anonymous false\npassword_file %s\n' "$port" "$room/mosquitto.passwords" >"$room/mosquitto.conf"
+    chmod 755 "$room"
+    chmod 644 "$room/mosquitto.passwords"
+    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[mqtt]\nbroker = "127.0.0.1:%s"\ntopic = "%s"\nuser = "hall"\npassword = "secret"\n' \
         "$root/exhibits" "$port" "$topic" >"$toml"
     # The kiosk is first, and the broker comes later.
     launch_kiosk broker --config "$toml" --no-attract
     start mosquitto mosquitto -c "$room/mosquitto.conf"
     local server=$last
-    within 10 mosquitto_pub -p "$port" -t x -m x || true
-    start heard mosquitto_sub -p "$port" -t "$topic/#" -F '%t %r %p'
+    local at=(-p "$port" -u hall -P secret)
+    within 10 mosquitto_pub "${at[@]}" -t x -m x || true
+    start heard mosquitto_sub "${at[@]}" -t "$topic/#" -F '%t %r %p'
     within 15 said_by_kiosk "$topic/status . online" || true
     within 15 said_by_kiosk "\"exhibit\":\"pendulum\"" || true
     bar "broker: status and state" "$(grep -c "$topic/status . online" "$room/heard.out") >= 1 && $(grep -c '"exhibit":"pendulum"' "$room/heard.out") >= 1" \
         "$(head -c 300 "$room/heard.out" | tr '\n' ' ' | cut -c1-120)"
-    local tell=(mosquitto_pub -p "$port" -t "$topic/cmd" -q 1)
+    local tell=(mosquitto_pub "${at[@]}" -t "$topic/cmd" -q 1)
     "${tell[@]}" -m 'exhibit steel-fish'
     within 10 said_by_kiosk '"exhibit":"steel-fish"' || true
     "${tell[@]}" -m 'mute on'
