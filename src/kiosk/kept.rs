@@ -241,8 +241,6 @@ mod tests {
         keeper.tend(now, &kept);
         kept.wrong_pins = 3;
         keeper.tend(now, &kept);
-        drop(keeper);
-        let (mut keeper, _) = Keeper::open(Some(path.clone()));
         keeper.end(kept.clone());
         let (_, read) = Keeper::open(Some(path.clone()));
         let given = read.given.of("clock");
