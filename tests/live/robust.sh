@@ -146,6 +146,32 @@ gaps() {
     awk -F, 'FNR > 2 && $1 - t > 0.018 { gaps++ } FNR > 1 { t = $1; times[$1] } END { print length(times), gaps + 0 }' "$1"
 }
 
+# ---- microphone and loudspeaker are out for long, and come back: heard and sounding within three seconds ----------------
+devices_out() {
+    local t ears voice rows gaps code=0
+    # By its name, or another loudspeaker takes its place.
+    printf '[audio]\nloudspeaker = "speakers"\n' >"$room/out.toml"
+    start_kiosk out --no-attract --config "$room/out.toml" --trace "$room/out.csv" --for 34
+    within 10 grep -q 'supervisor: microphone: ' "$room/out.err" || true
+    within 10 grep -q 'supervisor: loudspeaker: ' "$room/out.err" || true
+    pull_microphone
+    pull_loudspeaker
+    # Longer than the growing pauses between two tries need to be at their longest.
+    sleep 12
+    t=$(now)
+    plug_loudspeaker
+    plug_microphone
+    within 10 spoken out 'supervisor: microphone: ' 2 || true
+    within 10 spoken out 'supervisor: loudspeaker: ' 2 || true
+    end_kiosk out || code=$?
+    ears=$(awk "BEGIN { printf \"%.1f\", $(log_times out 'supervisor: microphone: ' | tail -1) - $t }")
+    voice=$(awk "BEGIN { printf \"%.1f\", $(log_times out 'supervisor: loudspeaker: ' | tail -1) - $t }")
+    bar "devices out: back" "$code == 0 && $ears > 0 && $ears < 3 && $voice > 0 && $voice < 3" \
+        "the microphone after $ears s, the loudspeaker after $voice s"
+    read -r rows gaps < <(gaps "$room/out.csv")
+    bar "devices out: motion" "$rows >= 2030 && $gaps == 0" "$rows moments in 34 s, $gaps gaps"
+}
+
 # ---- the disk is full: said once, and the kiosk goes on ----------------------------------------------------------------
 # No file may grow beyond nothing (RLIMIT_FSIZE), which is what a full disk does to a write; the log is a pipe.
 disk_full() {

@@ -69,11 +69,10 @@ soak() {
     printf '[exhibits]\nfolder = "%s"\nshow = ["steel-fish", "wind-chimes"]\n[audio]\nvolume_db = 0.0\n[attract]\nidle_s = 15.0\n[staff]\nmetrics = "%s"\n' \
         "$root/exhibits" "$room/soak.prom" >"$room/soak.toml"
     close_the_loop 0
-    start soak timeout --kill-after=5 "$(($1 + 120))" "$soffio" kiosk --config "$room/soak.toml" --for "$1"
+    start soak "$root/kiosk-config/launch" "$soffio" kiosk --config "$room/soak.toml" --for "$1"
     kiosk=$last
     within 30 grep -q 'pixels on' "$room/soak.err"
-    # Of `timeout` the kiosk is the only child.
-    pid=$(tr -d " " <"/proc/$kiosk/task/$kiosk/children")
+    pid=$(child)
     local began=$SECONDS end=$((SECONDS + $1 - 25))
     sleep 5
     : >"$room/soak.memory"
