@@ -16,6 +16,7 @@ use crate::sound::{MOST_PARTIALS, RoomSpec, VolumeSettings};
 pub mod chord;
 mod diagnose;
 mod hours;
+mod mqtt;
 mod opening;
 mod pin;
 pub mod remedies;
@@ -23,6 +24,7 @@ pub mod remedies;
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
 pub use hours::{Hours, TimeOfDay};
+pub use mqtt::{MqttOrder, MqttSettings};
 pub use opening::{Day, Holiday, OpenHours, Opening};
 pub use pin::{DIGITS, Pin};
 
@@ -60,6 +62,8 @@ pub struct Config {
     pub attract: AttractSettings,
     /// Staff only.
     pub staff: Staff,
+    /// Whoever looks after many kiosks.
+    pub mqtt: MqttSettings,
     /// Words.
     pub languages: Languages,
 }
@@ -347,6 +351,8 @@ pub struct Staff {
     pub night: Chord,
     /// File that gets the kiosk's numbers every 15 s, in the text format of Prometheus; empty for none.
     pub metrics: PathBuf,
+    /// Folder for what outlives a restart; empty for the system's own place.
+    pub state: PathBuf,
 }
 
 impl Default for Staff {
@@ -360,6 +366,7 @@ impl Default for Staff {
             mute: chord("M"),
             night: chord("N"),
             metrics: PathBuf::new(),
+            state: PathBuf::new(),
         }
     }
 }
@@ -413,8 +420,8 @@ pub const LIMITS: &[Limit] = &[
 ];
 
 impl Config {
-    /// The configuration of this site: the file at `path`, or [`FILE`] in the working directory or above it, or the
-    /// built-in default. Says which file it was.
+    /// The configuration of this site: the file at `path`, or [`FILE`] in the working directory or above it, or
+    /// `/etc/soffio/kiosk.toml` of an installed program, or the built-in default. Says which file it was.
     pub fn load(path: Option<&Path>) -> Result<(Self, Option<PathBuf>), ConfigError> {
         let found = path.map(Path::to_path_buf).or_else(find);
         let Some(file) = found else { return Ok((Self::default(), None)) };
@@ -466,8 +473,16 @@ pub fn schema() -> serde_json::Value {
     schema
 }
 
-/// The first [`FILE`] from the working directory upwards.
+/// The first [`FILE`] from the working directory upwards, else the one that is installed with the program.
 fn find() -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
-    here.ancestors().map(|folder| folder.join(FILE)).find(|file| file.is_file())
+    let own = here.ancestors().map(|folder| folder.join(FILE)).find(|file| file.is_file());
+    own.or_else(installed)
+}
+
+/// `/etc/soffio/kiosk.toml` for a program in `/usr/bin`, wherever the root is.
+fn installed() -> Option<PathBuf> {
+    let program = std::env::current_exe().ok()?;
+    let prefix = program.parent()?.parent().filter(|prefix| prefix.ends_with("usr"))?;
+    Some(prefix.parent()?.join("etc/soffio/kiosk.toml")).filter(|file| file.is_file())
 }

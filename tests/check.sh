@@ -25,6 +25,8 @@ exhibits() { cargo run --locked --quiet -- check exhibits kiosk-config/kiosk.tom
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
 live()     { cargo build --locked --quiet --bins --example correlate && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
 
+deb()      { tests/package.sh; }
+
 # One test of the suite that is too long for every day; it must be there.
 ignored() {
     cargo test --release --locked --quiet --no-default-features --test suite -- --ignored --exact --nocapture "$1" |
@@ -37,7 +39,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live hands million-hits clock-hour half-day turning-gears visits blown cabinet wind; do
+    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue
@@ -56,6 +58,7 @@ long() {
             soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh "$built/soffio" ;;
             stream-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_STREAM=600 tests/live/run.sh "$built/soffio" ;;
             loaded-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_LOAD=600 tests/live/run.sh "$built/soffio" ;;
+            deb)        deb ;;
             million-hits)  ignored hits::a_million_hits_keep_joints_energy_cone_and_momentum ;;
             turning-gears) ignored motion::gears::gears_keep_their_phase_over_a_hundred_thousand_turns ;;
             half-day)      ignored clock::in_half_a_day_it_strikes_seventy_eight_blows ;;

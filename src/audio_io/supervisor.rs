@@ -26,8 +26,9 @@ const STALLED: Duration = Duration::from_secs(3);
 const ROLL_CALL: Duration = Duration::from_secs(1);
 /// From so many blocks on their length is judged.
 const ENOUGH_BLOCKS: u64 = 50;
-/// The first pause before a device is tried again, and the longest.
-const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(10));
+/// The first pause before a device is tried again, and the longest: whoever plugs it in again waits for three seconds at
+/// most.
+const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(2));
 
 /// Where this is set, the loudspeaker's callback measures its processor time, for the log's last line.
 const MEASURE: &str = "SOFFIO_MEASURE_CALLBACK";

@@ -1,6 +1,6 @@
 //! `soffio kiosk`.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,6 +12,7 @@ use super::play::SolverArg;
 use super::{Failure, Outcome};
 use crate::config::{Config, FILE};
 use crate::exhibit::Exhibit;
+use crate::kiosk::fleet::Fleet;
 use crate::kiosk::live::{Options, Report};
 use crate::kiosk::log::Log;
 use crate::kiosk::shelf::{self, Places};
@@ -20,6 +21,8 @@ use crate::kiosk::window::{self, Ended, Ground, Missing};
 use crate::offline::feed::WavFeed;
 use crate::offline::{demo, wav};
 use crate::simulation::{STEPS_PER_SECOND, Settings};
+
+mod supervised;
 
 /// Where a run without a window leaves its files.
 const OUT: &str = "out";
@@ -61,21 +64,42 @@ pub struct Args {
     /// Writes what the simulation is told, for `soffio replay`; never a sound
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+    /// Safe mode: one built-in work, no controllers, no orders from afar; by itself after three deaths in the first minute
+    #[arg(long)]
+    safe: bool,
+    /// Destroys the graphics device after so much time, to rehearse its loss
+    #[arg(long, value_name = "SECONDS", hide = true)]
+    lose_device_at: Option<f64>,
 }
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let log = Log::default();
     log_to_stderr(&log);
-    let (config, file) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
+    let (config, file, problem) = match Config::load(args.config.as_deref()) {
+        Ok((config, file)) => (config, file, None),
+        Err(error) => {
+            let config = supervised::config_in_need(&error).ok_or_else(|| Failure::input(&error))?;
+            (config, Some(error.file.clone()), Some(error.to_string()))
+        }
+    };
     match &file {
         Some(file) => tracing::info!("configuration: {}", file.display()),
         None => tracing::info!("configuration: built in"),
     }
-    let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract };
+    let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract, safe: false };
+    let begun = supervised::begin(&overrides.apply(config.clone()), args.safe);
+    if let Some(file) = file.as_ref().filter(|_| problem.is_none()) {
+        begun.keeper.keep_good(file);
+    }
+    let overrides = Overrides { safe: begun.safe, ..overrides };
     let config = overrides.apply(config);
 
-    let (exhibit, places) = choose(&config, args.exhibit.as_deref())?;
+    let built_in = if begun.safe { supervised::built_in() } else { None };
+    let (exhibit, places) = match &built_in {
+        Some(built_in) => (built_in.exhibit.clone(), Places::One(built_in.exhibit.folder.clone())),
+        None => choose(&config, args.exhibit.as_deref(), begun.goes_on_with())?,
+    };
     let recording = args.breath.map(wav::read).transpose().map_err(Failure::input)?;
     let site = Site::new(&config, args.seed.unwrap_or(DEFAULT_SEED));
     let settings = site.settings;
@@ -92,18 +116,21 @@ pub fn run(args: Args) -> Outcome {
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
 
-    let ground = Ground { config, overrides, file, log };
+    let fleet = Fleet::start(begun.keeper, begun.kept, begun.safe, &config);
+    let ground = Ground { config, overrides, file, problem, log, fleet, lose_device_at: args.lose_device_at };
     match window::run(ground, &places, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
         Ok(Ended::Failed(message)) => Err(Failure::device(message)),
+        // Whoever started it again waits for the display to come back, not for a demonstration.
+        Err(Missing::Display(why) | Missing::Graphics(why)) if supervised::is_restart() => Err(Failure::device(why)),
         Err(missing) => headless(&missing, &exhibit, settings, &stop),
     }
 }
 
-/// What is shown first, and where the others are: one exhibit alone, or the first of those configured that loads. What
-/// does not load is said, and the next one tried.
-fn choose(config: &Config, only: Option<&str>) -> Result<(Arc<Exhibit>, Places), Failure> {
+/// What is shown first, and where the others are: one exhibit alone, or the first of those configured that loads, before
+/// them the one that a run that died had on show. What does not load is said, and the next one tried.
+fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Arc<Exhibit>, Places), Failure> {
     if let Some(only) = only {
         let exhibit = super::open(only)?;
         let places = Places::One(exhibit.folder.clone());
@@ -111,7 +138,9 @@ fn choose(config: &Config, only: Option<&str>) -> Result<(Arc<Exhibit>, Places),
     }
     let places = Places::All { folder: config.exhibits.folder.clone(), show: config.exhibits.show.clone() };
     let mut failure = None;
-    for folder in shelf::folders(&places) {
+    let mut folders = shelf::folders(&places);
+    folders.sort_by_key(|folder| Some(shelf::id(folder).as_str()) != last);
+    for folder in folders {
         match super::open(&folder.to_string_lossy()) {
             Ok(exhibit) => return Ok((exhibit, places)),
             Err(error) => {
@@ -132,7 +161,8 @@ fn choose(config: &Config, only: Option<&str>) -> Result<(Arc<Exhibit>, Places),
 /// What a run with a planned end has to say on stdout, for whoever planned it.
 fn summarize(report: &Report, planned: bool) -> Outcome {
     if planned {
-        println!("{}", serde_json::json!(report));
+        let said = writeln!(std::io::stdout(), "{}", serde_json::json!(report));
+        said.map_err(|error| Failure::input(format!("the summary cannot be written to stdout: {error}")))?;
     }
     Ok(())
 }

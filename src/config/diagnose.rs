@@ -84,7 +84,8 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
     let one_end = if config.night.from.is_some() { "from" } else { "to" };
     let together = [("audio", "second_capsule_channel", capsules(&config)), ("room", "t60_s", room(&config))]
         .into_iter()
-        .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))]);
+        .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))])
+        .chain([("mqtt", "broker", config.mqtt.broker_problem()), ("mqtt", "topic", config.mqtt.topic_problem())]);
     let problems: Vec<Problem> = together
         .filter_map(|(table, key, problem)| {
             let item = document.get(table).and_then(|table| table.get(key));

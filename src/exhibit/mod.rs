@@ -35,7 +35,7 @@ pub mod view;
 
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use model::Model;
-pub use paths::{ids, resolve};
+pub use paths::{ids, resolve, shelf};
 pub use resolve::{load, plain};
 pub use view::View;
 

@@ -65,7 +65,20 @@ pub fn percent_decoded(uri: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// Folders that hold exhibits: `exhibits/` here or above, beside the program, or in the source tree of a debug build.
+/// The exhibits that are installed with the program: `../share/soffio/exhibits` beside its own folder.
+fn installed() -> Option<PathBuf> {
+    let program = std::env::current_exe().ok()?;
+    Some(program.parent()?.parent()?.join("share/soffio/exhibits")).filter(|folder| folder.is_dir())
+}
+
+/// A folder of exhibits as a site names it; where there is none of that name, the one that is installed with the program.
+pub fn shelf(folder: &Path) -> PathBuf {
+    let missing = folder.is_relative() && !folder.is_dir();
+    installed().filter(|_| missing).unwrap_or_else(|| folder.to_path_buf())
+}
+
+/// Folders that hold exhibits: `exhibits/` here or above, beside the program, installed with it, or in the source tree
+/// of a debug build.
 fn shelves() -> Vec<PathBuf> {
     let mut shelves = Vec::new();
     let mut from = |start: Option<PathBuf>| {
@@ -78,6 +91,7 @@ fn shelves() -> Vec<PathBuf> {
     if cfg!(debug_assertions) {
         from(Some(PathBuf::from(env!("CARGO_MANIFEST_DIR"))));
     }
+    shelves.extend(installed());
     shelves
 }
 

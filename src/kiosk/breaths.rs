@@ -38,6 +38,25 @@ pub enum Turn {
     },
 }
 
+/// How many breaths began, by their source.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Blows([u64; SOURCES.len()]);
+
+impl Blows {
+    /// Counts a breath that begins.
+    pub fn note(&mut self, turn: &Turn) {
+        if let Turn::Begins(begun, _) = turn {
+            let counted = self.0.iter_mut().zip(SOURCES).find(|(_, source)| source == begun);
+            counted.into_iter().for_each(|(count, _)| *count += 1);
+        }
+    }
+
+    /// Each source with its count.
+    pub fn iter(&self) -> impl Iterator<Item = (Source, u64)> {
+        SOURCES.into_iter().zip(self.0)
+    }
+}
+
 /// Tells from step to step where a breath begins and ends.
 #[derive(Clone, Debug, Default)]
 pub struct Breaths {

@@ -1,6 +1,7 @@
 //! How long visitors have blown at a work: in this visit, and today. A number of seconds; nothing about anybody.
 
 use jiff::civil::Date;
+use serde::{Deserialize, Serialize};
 
 use crate::exhibit::Label;
 
@@ -8,8 +9,10 @@ use crate::exhibit::Label;
 pub const KEY: &str = "given";
 
 /// What was given.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Given {
+    #[serde(skip)]
     visit: f64,
     /// By exhibit.
     day: Vec<(String, f64)>,
@@ -17,11 +20,13 @@ pub struct Given {
 }
 
 impl Given {
-    /// Adds seconds that were blown at an exhibit on a day.
+    /// Adds seconds that were blown at an exhibit on a day. A day before the last one is a clock that was set: the sum
+    /// stays.
     pub fn note(&mut self, exhibit: &str, date: Date, seconds: f64) {
-        if self.date != Some(date) {
-            (self.date, self.day) = (Some(date), Vec::new());
+        if self.date.is_none_or(|last| last < date) {
+            self.day.clear();
         }
+        self.date = Some(date);
         self.visit += seconds;
         match self.day.iter_mut().find(|(id, _)| id == exhibit) {
             Some((_, sum)) => *sum += seconds,
@@ -67,6 +72,8 @@ mod tests {
         assert_eq!((given.of("clock"), given.of("fish")), ([53.0, 70.0], [53.0, 3.0]));
         given.note("clock", tuesday, 2.0);
         assert_eq!(given.of("clock")[1], 2.0);
+        given.note("clock", monday, 1.0);
+        assert_eq!(given.of("clock")[1], 3.0, "a clock that is set back takes nothing away");
         let text = vec![(KEY.to_owned(), "You: {visit}. All: {day}.".to_owned())];
         let label = Label { text, ..Label::default() };
         assert_eq!(said(&label, [20.9, 65.0]).as_deref(), Some("You: 20. All: 1:05."));

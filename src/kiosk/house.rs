@@ -25,12 +25,14 @@ pub struct House {
     scheduled: bool,
     /// Staff opened it before its time.
     early: bool,
+    /// Made black from afar, whatever the hours say.
+    blank: bool,
     cleaned_until: f64,
 }
 
 impl Default for House {
     fn default() -> Self {
-        Self { scheduled: true, early: false, cleaned_until: f64::NEG_INFINITY }
+        Self { scheduled: true, early: false, blank: false, cleaned_until: f64::NEG_INFINITY }
     }
 }
 
@@ -41,14 +43,26 @@ impl House {
         self.early &= !self.scheduled;
     }
 
-    /// Staff open it before its time, or close it again. While it is open by the hours this does nothing.
+    /// Staff open it before its time, or close it again; whatever was made black is seen again. While it is open by the
+    /// hours this does nothing.
     pub fn open_early(&mut self) {
-        self.early = !self.early && !self.scheduled;
+        self.early = !self.is_open() && !self.scheduled;
+        self.blank = false;
+    }
+
+    /// Makes it black from afar, until it is woken.
+    pub fn make_blank(&mut self, blank: bool) {
+        self.blank = blank;
+    }
+
+    /// Was it made black from afar?
+    pub fn is_blank(&self) -> bool {
+        self.blank
     }
 
     /// Is it open?
     pub fn is_open(&self) -> bool {
-        self.scheduled || self.early
+        (self.scheduled || self.early) && !self.blank
     }
 
     /// Was it opened before its time?

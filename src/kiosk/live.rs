@@ -21,11 +21,10 @@ use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND, Settings, Snapshot};
 use crate::sound::SoundCommand;
 
-use super::breaths::{Breaths, Turn};
+use super::breaths::{Blows, Breaths, Turn};
 use super::captions::Captions;
 use super::governor::Governor;
 use super::loudness::{Loudness, View, Wishes};
-use super::metrics::Metrics;
 use super::microphone::MicrophoneHealth;
 use super::pace::Pacer;
 use super::recording::Recording;
@@ -118,6 +117,8 @@ pub struct Load {
     pub mode: MotionMode,
     /// Changes between motion by the laws and by places so far.
     pub mode_changes: u64,
+    /// Breaths that began so far.
+    pub blows: Blows,
     /// What the controllers say, by kind.
     pub controllers: Vec<(&'static str, State)>,
 }
@@ -272,7 +273,6 @@ struct Thread {
     trial: Option<Trial>,
     site: Site,
     loudness: Loudness,
-    metrics: Metrics,
     controllers: Controllers,
     shared: Arc<Shared>,
     limit: u64,
@@ -314,7 +314,6 @@ impl Thread {
             guest: None,
             trial: None,
             loudness: Loudness::new(site.volume, site.night.clone(), site.silent_attract),
-            metrics: Metrics::start(site.metrics.clone()),
             controllers: Controllers::start(&site.controllers),
             site,
             shared,
@@ -411,6 +410,7 @@ impl Thread {
             let (step, breath) = (self.stage.steps(), &self.stage.snapshot().breath);
             for turn in self.breaths.note(step, breath, (self.stage.holds(), controls.strength), self.stage.attracts())
             {
+                self.load.blows.note(&turn);
                 if matches!(turn, Turn::Begins(..)) {
                     self.onset = Some(Onset { step: self.stage.snapshot().step, at: Instant::now() });
                 }
@@ -448,7 +448,6 @@ impl Thread {
         self.load.played = self.audio.played();
         self.load.loudness = self.loudness.view();
         self.load.mode = self.stage.snapshot().diagnostics.mode;
-        self.metrics.tend(&self.load);
         self.load.controllers.clear();
         self.load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));
         if let Some(onset) = &mut self.onset

@@ -15,7 +15,8 @@ use crate::sound::{Exposure, Volume, VolumeSettings};
 const LOOK: Duration = Duration::from_secs(1);
 
 /// Who says whether it is night.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum NightBy {
     /// The configured hours.
     #[default]
@@ -32,6 +33,17 @@ impl NightBy {
             Self::Hours => Self::Night,
             Self::Night => Self::Day,
             Self::Day => Self::Hours,
+        }
+    }
+}
+
+impl NightBy {
+    /// Presses of the night key that lead here from the configured hours.
+    pub fn presses(self) -> u32 {
+        match self {
+            Self::Hours => 0,
+            Self::Night => 1,
+            Self::Day => 2,
         }
     }
 }

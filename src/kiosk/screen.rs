@@ -103,6 +103,11 @@ impl Screen {
         (self.gpu.name(), self.gpu.is_software())
     }
 
+    /// Destroys the graphics device, as a driver that dies would: the next picture finds it gone.
+    pub fn destroy_device(&self) {
+        self.gpu.device.destroy();
+    }
+
     /// Follows the window's size.
     pub fn resize(&mut self, size: PhysicalSize<u32>) {
         if size.width > 0 && size.height > 0 {
@@ -140,7 +145,11 @@ impl Screen {
                 self.gpu.queue.present(frame);
                 Drawn::Shown
             }
-            None => Drawn::Skipped,
+            None => {
+                // A device that is gone says so only when it is asked.
+                let _ = self.gpu.device.poll(wgpu::PollType::Poll);
+                Drawn::Skipped
+            }
         };
         for id in laid_out.textures_delta.free.drain() {
             self.type_setter.free_texture(&id);

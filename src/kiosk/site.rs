@@ -10,6 +10,7 @@ use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, ne
 
 use super::shelf::{QUIET, is_change};
 use crate::config::{AudioSettings, Config, ControllerSettings, Hours};
+use crate::exhibit;
 use crate::simulation::Settings;
 use crate::sound::{RoomSpec, VolumeSettings};
 
@@ -28,8 +29,6 @@ pub struct Site {
     pub night: Hours,
     /// Does attract mode play without a sound?
     pub silent_attract: bool,
-    /// Where the kiosk's numbers go; empty for nowhere.
-    pub metrics: PathBuf,
     /// Other ways to blow and to aim.
     pub controllers: ControllerSettings,
     /// Idle time before attract mode, s; `None` without attract mode.
@@ -48,7 +47,6 @@ impl Site {
             volume: config.volume_settings(),
             night: config.night.clone(),
             silent_attract: config.attract.silent,
-            metrics: config.staff.metrics.clone(),
             controllers: config.controllers.clone(),
             idle_s: config.attract.enabled.then_some(config.attract.idle_s),
             breath: config.visit.breath,
@@ -63,13 +61,20 @@ pub struct Overrides {
     pub windowed: bool,
     /// Never attract mode.
     pub no_attract: bool,
+    /// Safe mode: nothing from outside but the visitor's breath and hand.
+    pub safe: bool,
 }
 
 impl Overrides {
     /// The configuration as the run has it.
     pub fn apply(self, mut config: Config) -> Config {
+        config.exhibits.folder = exhibit::shelf(&config.exhibits.folder);
         config.screen.fullscreen &= !self.windowed;
         config.attract.enabled &= !self.no_attract;
+        if self.safe {
+            config.controllers.listen.clear();
+            config.mqtt.broker.clear();
+        }
         config
     }
 }
@@ -129,6 +134,7 @@ pub fn waits_for_restart(old: &Config, new: &Config) -> Vec<&'static str> {
         ("screen.fullscreen", old.screen.fullscreen != new.screen.fullscreen),
         ("exhibits.folder", old.exhibits.folder != new.exhibits.folder),
         ("exhibits.hot_reload", old.exhibits.hot_reload != new.exhibits.hot_reload),
+        ("staff.state", old.staff.state != new.staff.state),
     ];
     keys.into_iter().filter(|(_, differ)| *differ).map(|(key, _)| key).collect()
 }

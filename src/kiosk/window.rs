@@ -20,6 +20,7 @@ use crate::config::Config;
 use crate::simulation::Command;
 
 use super::events::{is_input, translate};
+use super::fleet::Fleet;
 use super::given::Given;
 use super::house::{Above, House};
 use super::input::{Keys, Request, Visitor};
@@ -37,6 +38,7 @@ use super::staff::{Sight, Staff, Vitals};
 use super::timing::{Clock, FirstSight};
 
 mod day;
+mod fleet;
 
 /// Size of the window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
@@ -60,8 +62,14 @@ pub struct Ground {
     pub overrides: Overrides,
     /// Its file, which is watched; `None` for the one that is built in.
     pub file: Option<std::path::PathBuf>,
+    /// What is wrong with that file, where the run has the last good configuration instead.
+    pub problem: Option<String>,
     /// What is logged.
     pub log: Log,
+    /// What is counted, kept and told.
+    pub fleet: Fleet,
+    /// The graphics device is destroyed once, after so many seconds: a rehearsal of its loss.
+    pub lose_device_at: Option<f64>,
 }
 
 /// Why there is no live kiosk.
@@ -98,7 +106,8 @@ pub fn run(
         backends: wgpu::Backends::VULKAN,
         ..wgpu::InstanceDescriptor::new_with_display_handle_from_env(display)
     });
-    let Ground { config, overrides, file, log } = ground;
+    let Ground { config, overrides, file, problem, log, fleet, lose_device_at } = ground;
+    let given = fleet.kept().given.clone();
     let mut app = App {
         instance,
         interrupted,
@@ -106,8 +115,10 @@ pub fn run(
         one: matches!(places, Places::One(_)),
         overrides,
         site: file.as_deref().map(SiteFile::watch),
-        site_says: Vec::new(),
+        site_says: problem.into_iter().collect(),
         work_says: None,
+        fleet,
+        lose_device_at,
         log,
         house: House::default(),
         shelf: Shelf::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
@@ -117,7 +128,7 @@ pub fn run(
         menu: Menu::default(),
         reading: Reading::default(),
         listens: true,
-        given: Given::default(),
+        given,
         languages: Vec::new(),
         language: String::new(),
         waiting: Some(options),
@@ -141,17 +152,22 @@ pub fn run(
         failure: None,
         config,
     };
+    app.go_on();
     let looped = events.run_app(&mut app).map_err(|error| error.to_string());
     #[cfg(target_os = "linux")]
     app.watchdog.end();
     if let Some(missing) = app.missing {
+        app.fleet.end();
         return Err(missing);
     }
     let report = app.show.map_or_else(|| Ok(Report::default()), |show| show.live.finish());
+    // A run that failed has not ended in order: what is kept says that it died.
     Ok(match (app.failure, looped.and(report)) {
         (Some(failure), _) | (None, Err(failure)) => Ended::Failed(failure),
-        _ if interrupted.load(Ordering::Relaxed) => Ended::Interrupted,
-        (None, Ok(report)) => Ended::Done(report),
+        (None, Ok(report)) => {
+            app.fleet.end();
+            if interrupted.load(Ordering::Relaxed) { Ended::Interrupted } else { Ended::Done(report) }
+        }
     })
 }
 
@@ -179,6 +195,8 @@ struct App<'a> {
     /// Why the work on show does not load as its files stand.
     work_says: Option<String>,
     log: Log,
+    fleet: Fleet,
+    lose_device_at: Option<f64>,
     house: House,
     instance: wgpu::Instance,
     interrupted: &'a AtomicBool,
@@ -233,6 +251,7 @@ impl ApplicationHandler for App<'_> {
             Ok(screen) => match Live::start(options, screen.aspect()) {
                 Ok(live) => {
                     tracing::info!("{:?} pixels on {}", screen.size(), screen.adapter().0);
+                    live.controls().loudness = self.fleet.wishes();
                     self.show = Some(Show { screen, live });
                 }
                 Err(error) => self.fail(events, error),
@@ -312,6 +331,7 @@ impl ApplicationHandler for App<'_> {
         }
         self.follow_site();
         self.follow_hours();
+        self.follow_fleet();
         let now = Instant::now();
         if let Some(show) = &self.show
             && now >= self.clock.next
@@ -415,6 +435,9 @@ impl App<'_> {
         if drawn == Drawn::Shown {
             self.sight.note(&frame, &moment, now);
             self.pictures_shown += 1;
+            if self.house.is_open() {
+                self.fleet.picture(now.duration_since(last).as_secs_f64());
+            }
             #[cfg(target_os = "linux")]
             self.watchdog.tend(
                 now,
@@ -455,7 +478,10 @@ impl App<'_> {
             return self.fail(events, format!("the graphics device was lost {} times", self.lost));
         }
         match Screen::new(self.instance.clone(), window, &frame.exhibit) {
-            Ok(screen) => self.show = Some(Show { screen, live }),
+            Ok(screen) => {
+                tracing::info!("a new graphics device draws in the old window: {}", screen.adapter().0);
+                self.show = Some(Show { screen, live });
+            }
             Err(error) => self.fail(events, error),
         }
     }
@@ -466,6 +492,7 @@ impl App<'_> {
             News::Show(exhibit) => {
                 self.turning = false;
                 self.work_says = None;
+                self.fleet.read_anew(true, None);
                 self.given.leave();
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
@@ -475,6 +502,7 @@ impl App<'_> {
             }
             News::Failed(report) => {
                 self.turning = false;
+                self.fleet.read_anew(false, None);
                 self.say(format!("{}\nThe last good exhibit stays on show.", report.trim_end()));
             }
             News::Stands(work) => {
@@ -485,6 +513,7 @@ impl App<'_> {
                 self.offer.remove(&id);
                 let shown = self.show.as_ref().map(|show| show.live.frame().exhibit.folder.clone());
                 if shown.is_some_and(|folder| super::shelf::id(&folder) == id) {
+                    self.fleet.read_anew(false, None);
                     self.work_says = Some(report.trim_end().to_owned());
                 }
                 self.say(format!("{}\n{id} is not offered until it is mended.", report.trim_end()));

@@ -57,7 +57,7 @@ enter_room() {
     chmod 700 "$room/run"
     export HOME=$room/home XDG_RUNTIME_DIR=$room/run PULSE_SERVER=unix:$room/run/pulse/native
     export XDG_CONFIG_HOME=$room/home/.config XDG_CACHE_HOME=$room/home/.cache
-    unset WAYLAND_DISPLAY RUST_LOG PULSE_SINK PULSE_SOURCE
+    unset WAYLAND_DISPLAY RUST_LOG PULSE_SINK PULSE_SOURCE XDG_STATE_HOME STATE_DIRECTORY
     cat >"$room/room.pa" <<'PA'
 load-module module-native-protocol-unix auth-anonymous=1
 load-module module-null-sink sink_name=air rate=48000 channels=3 channel_map=aux0,aux1,aux2 format=float32le norewinds=1

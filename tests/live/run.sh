@@ -3,7 +3,8 @@
 #
 #   tests/live/run.sh target/debug/soffio
 #
-# SOFFIO_LIVE_SECONDS=1800 adds a soak of that length, SOFFIO_LIVE_STREAM=600 a stream of breaths whose delays are measured,
+# SOFFIO_LIVE_SECONDS=1800 adds a soak of that length with the visitors of SOFFIO_LIVE_SEED (soak.sh),
+# SOFFIO_LIVE_STREAM=600 a stream of breaths whose delays are measured,
 # SOFFIO_LIVE_LOAD=600 sound under a load of one process more than there are processors;
 # SOFFIO_LIVE_PARTS names the parts to run; SOFFIO_LIVE_KEEP=FOLDER keeps pictures, logs, traces and sounds.
 # One line per bar; every threshold says why it is what it is. Nothing here depends on how fast the machine draws.
@@ -18,6 +19,8 @@ for tool in strace Xvfb openbox xdotool import compare pulseaudio pactl paplay p
     command -v "$tool" >/dev/null || { echo "live: $tool is missing; ./check installs it" >&2; exit 3; }
 done
 . "$here/room.sh"
+. "$here/robust.sh"
+. "$here/soak.sh"
 
 failed=0
 bar() { # bar NAME "CONDITION in awk's arithmetic" "what was measured"
@@ -433,32 +436,6 @@ no_display() {
     bar "no display: runs on" "$code == 0 && \"$files\" ~ /csv/ && \"$files\" ~ /wav/" "exit code $code, left $files"
 }
 
-# ---- hours of visitors and of nobody, beside its own loudspeaker ------------------------------------------------
-# Rounds of 40 s: a breath, then 20 s of rest, then attract mode with its own breaths and sounds.
-soak() {
-    local blown=0 heard first_kb=0 last_kb code=0
-    printf '[audio]\nvolume_db = 0.0\n[attract]\nidle_s = 20.0\n' >"$room/soak.toml"
-    close_the_loop 0
-    limit=$(($1 + 120)) start_kiosk soak --config "$room/soak.toml" --for "$1"
-    local end=$((SECONDS + $1 - 15))
-    sleep 5
-    while [ "$SECONDS" -lt "$end" ] && kill -0 "$kiosk" 2>/dev/null; do
-        before_microphone "$room/normal.wav"
-        blown=$((blown + 1))
-        # Of `timeout` the kiosk is the only child. Its memory is full after the first rounds of attract mode.
-        last_kb=$(awk '/VmRSS/ { print $2 }' "/proc/$(tr -d " " <"/proc/$kiosk/task/$kiosk/children")/status")
-        [ "$blown" -gt 5 ] || first_kb=$last_kb
-        sleep $((end - SECONDS < 40 ? 5 : 40))
-    done
-    end_kiosk soak || code=$?
-    open_the_loop
-    heard=$(breaths soak microphone begins | wc -l)
-    bar "soak: ends by itself" "$code == 0" "exit code $code after $1 s"
-    bar "soak: breaths alone" "$heard == $blown" "$heard of $blown breaths heard, $(breaths soak script begins | wc -l) scripted ones not"
-    # It breathes by 10 MB; one picture leaked a minute (3.7 MB) would show within a quarter of an hour.
-    bar "soak: memory" "$last_kb < $first_kb + 49152" "$first_kb kB after the first rounds, $last_kb kB in the end"
-}
-
 enter_room
 breath normal
 breath strong
@@ -470,7 +447,8 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice one_run doctor_blow no_devices no_display}; do
+for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice one_run doctor_blow no_devices no_display \
+    killed crash_loop gpu_lost devices_out disk_full config_broken clock_set monitor_off broker}; do
     "$part"
 done
 if [ -n "${SOFFIO_LIVE_STREAM:-}" ]; then

@@ -40,6 +40,9 @@ impl Desk {
             .env("RUST_BACKTRACE", "1")
             .env("VK_ICD_FILENAMES", "/nonexistent")
             .env("VK_DRIVER_FILES", "/nonexistent")
+            // Nothing outlives a run at a desk; that the folder cannot be made stops nothing.
+            .env("XDG_STATE_HOME", "/dev/null")
+            .env_remove("STATE_DIRECTORY")
             .env_remove("RUST_LOG")
             .env_remove("DISPLAY")
             .env_remove("WAYLAND_DISPLAY")

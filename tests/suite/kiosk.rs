@@ -500,6 +500,8 @@ mod live {
 #[cfg(feature = "kiosk")]
 mod edit;
 #[cfg(feature = "kiosk")]
+mod fleet;
+#[cfg(feature = "kiosk")]
 mod house;
 mod opening;
 #[cfg(feature = "kiosk")]

@@ -9,7 +9,6 @@ use crate::controllers::Controllers;
 use crate::exhibit::Exhibit;
 use crate::kiosk::captions::Captions;
 use crate::kiosk::governor::Governor;
-use crate::kiosk::metrics::Metrics;
 use crate::kiosk::site::Site;
 use crate::kiosk::voice::{Guest, Trial, Tried, Voice, hit};
 use crate::simulation::Settings;
@@ -31,9 +30,6 @@ impl Thread {
         let loud = |site: &Site| (site.volume, site.night.clone(), site.silent_attract);
         if reopens || loud(&before) != loud(site) {
             self.loudness.settle(site.volume, site.night.clone(), site.silent_attract, reopens);
-        }
-        if before.metrics != site.metrics {
-            self.metrics = Metrics::start(site.metrics.clone());
         }
         if before.controllers != site.controllers {
             self.controllers = Controllers::start(&site.controllers);

@@ -65,6 +65,14 @@ impl Gate {
         self.wrong
     }
 
+    /// Wrong PINs from before a restart are not forgotten: their last pause begins again, whole, at `time`, s.
+    pub fn remember(&mut self, wrong: i32, time: f64) {
+        if wrong > 0 {
+            self.wrong = wrong;
+            self.shut_until = time + pause(wrong);
+        }
+    }
+
     /// What is left of the pause at `time`, s; `None` where a PIN is taken.
     pub fn pause(&self, time: f64) -> Option<f64> {
         Some(self.shut_until - time).filter(|left| *left > 0.0)
@@ -117,9 +125,14 @@ impl Gate {
         self.open = right;
         self.wrong = if right { 0 } else { self.wrong.saturating_add(1) };
         if !right {
-            let pause = f64::from(1 << self.wrong.clamp(0, 20)).min(LONGEST_S);
+            let pause = pause(self.wrong);
             self.shut_until = time + pause;
             tracing::warn!("a wrong PIN, {} in a row; the next is taken in {pause} s", self.wrong);
         }
     }
+}
+
+/// Pause after so many wrong PINs in a row, s.
+fn pause(wrong: i32) -> f64 {
+    f64::from(1 << wrong.clamp(0, 20)).min(LONGEST_S)
 }

@@ -8,6 +8,7 @@ use winit::event_loop::ActiveEventLoop;
 
 use super::App;
 use crate::config::{Day, TimeOfDay};
+use crate::kiosk::fleet::SAFE_MODE;
 use crate::kiosk::house::House;
 use crate::kiosk::input::Request;
 use crate::kiosk::live::Frame;
@@ -56,7 +57,7 @@ impl App<'_> {
     }
 
     /// The simulation hears of what has changed: the doors, or the end of a cleaning.
-    fn tell_house(&mut self, was_open: bool) {
+    pub(super) fn tell_house(&mut self, was_open: bool) {
         let open = self.house.is_open();
         if open != was_open {
             self.visitor.let_go();
@@ -75,13 +76,16 @@ impl App<'_> {
             let mut config = match news {
                 News::Good(config) => self.overrides.apply(*config),
                 News::Bad(problems) => {
+                    self.fleet.read_anew(false, None);
                     self.say(format!("{problems}\nThe last good configuration stays."));
                     self.site_says = vec![problems];
                     continue;
                 }
             };
+            self.fleet.read_anew(true, self.site.as_ref().map(|site| site.path.as_path()));
             let mended = !self.site_says.is_empty();
             self.site_says.clear();
+            self.site_says.extend(self.fleet.is_safe().then(|| SAFE_MODE.into()));
             let waits = waits_for_restart(&self.config, &config);
             if !waits.is_empty() {
                 let says = format!("{}: from the next start on", waits.join(", "));
@@ -98,6 +102,7 @@ impl App<'_> {
                 continue;
             }
             let reordered = config.exhibits.show != self.config.exhibits.show;
+            self.fleet.settle(&self.config, &config);
             self.config = config;
             if reordered && !self.one {
                 self.reorder();

@@ -50,7 +50,7 @@ fn what_cannot_change_while_running_is_named_and_nothing_else() {
     new.screen.fullscreen = false;
     new.exhibits.folder = "elsewhere".into();
     assert_eq!(waits_for_restart(&old, &new), ["screen.fullscreen", "exhibits.folder"]);
-    let desk = Overrides { windowed: true, no_attract: true }.apply(old);
+    let desk = Overrides { windowed: true, no_attract: true, safe: false }.apply(old);
     assert!(!desk.screen.fullscreen && !desk.attract.enabled);
     assert_eq!(Site::new(&desk, 1).idle_s, None, "what the command line says stays over a changed file");
 }

@@ -1,0 +1,76 @@
+//! The line to a broker in the house.
+
+use serde::{Deserialize, Serialize};
+
+/// Port of a broker that names none.
+const PORT: u16 = 1883;
+
+/// Where the kiosk tells how it is, and takes orders.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MqttSettings {
+    /// Host or host:port; empty for none.
+    pub broker: String,
+    /// What its topics begin with, another for each kiosk.
+    pub topic: String,
+    /// Name at the broker; empty where none is asked for.
+    pub user: String,
+    /// Its password, which goes over the wire in the clear.
+    pub password: String,
+    /// Orders that are obeyed.
+    pub obeys: Vec<MqttOrder>,
+}
+
+/// What a broker's message may order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MqttOrder {
+    /// The work on show from its files again.
+    Reload,
+    /// Black, mute, the microphone closed.
+    Blank,
+    /// An end of that.
+    Wake,
+    /// Silence, or an end of it.
+    Mute,
+    /// Another work.
+    Exhibit,
+}
+
+impl Default for MqttSettings {
+    fn default() -> Self {
+        use MqttOrder::{Blank, Exhibit, Mute, Reload, Wake};
+        Self {
+            broker: String::new(),
+            topic: "soffio".into(),
+            user: String::new(),
+            password: String::new(),
+            obeys: vec![Reload, Blank, Wake, Mute, Exhibit],
+        }
+    }
+}
+
+impl MqttSettings {
+    /// Host and port; `None` where there is no broker.
+    pub fn address(&self) -> Option<(&str, u16)> {
+        let (host, port) = match self.broker.rsplit_once(':') {
+            Some((host, port)) => (host, port.parse().ok()?),
+            None => (self.broker.as_str(), PORT),
+        };
+        (!host.is_empty()).then_some((host, port))
+    }
+
+    /// What is wrong with the broker's address, and what to do.
+    pub(super) fn broker_problem(&self) -> Option<(String, String)> {
+        let bad = !self.broker.is_empty() && self.address().is_none() || self.broker.contains(['/', ' ']);
+        let help = "give a host such as \"broker.museum\", with its port after a colon where it is not 1883, or leave it empty";
+        bad.then(|| (format!("\"{}\" is no host and port", self.broker), help.into()))
+    }
+
+    /// What is wrong with the topic, and what to do.
+    pub(super) fn topic_problem(&self) -> Option<(String, String)> {
+        let bad = self.topic.is_empty() || self.topic.starts_with('$') || self.topic.contains(['+', '#', '\0']);
+        let help = "give a name such as \"museum/hall-2/soffio\", without +, # or a $ before it";
+        bad.then(|| (format!("\"{}\" is no topic", self.topic), help.into()))
+    }
+}

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# The Debian package: made, installed into an empty root, used there, updated with a changed configuration, removed, purged.
+# Nothing of this machine is changed.
+#   tests/package.sh [PACKAGE.deb]     without one it is made, by cargo-deb
+set -euo pipefail
+root=$(readlink -f "$(dirname "$(readlink -f "$0")")/..")
+cd "$root"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() {
+    echo "package: BAD   $*" >&2
+    exit 1
+}
+
+package=${1:-}
+if [ -z "$package" ]; then
+    # Into a folder of its own: whoever has cargo-deb already keeps it.
+    tools=${CARGO_TARGET_DIR:-target}/tools
+    command -v cargo-deb >/dev/null || [ -x "$tools/bin/cargo-deb" ] || cargo install --locked --quiet --root "$tools" cargo-deb
+    PATH=$PATH:$tools/bin
+    cargo build --release --locked --quiet
+    cargo-deb deb --no-build --output "$work/soffio.deb" >/dev/null
+    package=$work/soffio.deb
+fi
+echo "package: $(dpkg-deb -f "$package" Package Version Architecture | xargs), $(($(stat -c %s "$package") / 1024)) KiB"
+
+# An empty root with a package database; dependencies are another test's affair.
+scratch=$work/root
+mkdir -p "$scratch/var/lib/dpkg/updates" "$scratch/var/lib/dpkg/info"
+touch "$scratch/var/lib/dpkg/status"
+everything() { (cd "$scratch" && find . -path ./var/lib/dpkg -prune -o -path ./var/log -prune -o -print | sort); }
+package_manager() {
+    dpkg --root="$scratch" --log="$work/dpkg.log" --force-not-root --force-script-chrootless --force-depends --force-confold "$@" >>"$work/out" 2>&1 ||
+        { tail -5 "$work/out" >&2; fail "dpkg $*"; }
+}
+everything >"$work/before"
+
+package_manager --install "$package"
+for file in usr/bin/soffio usr/lib/soffio/launch usr/lib/systemd/system/soffio.service etc/soffio/kiosk.toml \
+    usr/share/soffio/exhibits/steel-fish/exhibit.toml usr/share/soffio/exhibits/steel-fish/breaths/normal.wav \
+    usr/share/doc/soffio/README.md; do
+    [ -f "$scratch/$file" ] || fail "$file is not installed"
+done
+[ -z "$(cd "$scratch" && find usr etc -type f -perm /022)" ] || fail "files that others may write"
+soffio=$scratch/usr/bin/soffio
+cmp "$scratch/etc/soffio/kiosk.toml" kiosk-config/kiosk.toml || fail "the installed configuration is not the shipped one"
+
+# The installed program finds its exhibits and its configuration from anywhere.
+mkdir "$work/elsewhere"
+cd "$work/elsewhere"
+"$soffio" check "$scratch"/usr/share/soffio/exhibits/* "$scratch/etc/soffio/kiosk.toml" 2>"$work/check" || { tail -20 "$work/check"; fail "an installed exhibit"; }
+"$soffio" play terry-clock --seconds 1 | grep -q '"state_hash"' || fail "play does not find an exhibit"
+env -u DISPLAY -u WAYLAND_DISPLAY "$soffio" doctor >"$work/doctor" 2>/dev/null || true
+grep -q "configuration: $scratch/etc/soffio/kiosk.toml" "$work/doctor" || fail "doctor does not find the configuration"
+grep -q 'exhibit terry-clock: valid' "$work/doctor" || fail "doctor does not find the exhibits"
+"$scratch/usr/lib/soffio/launch" "$soffio" kiosk --help >/dev/null || fail "the launcher does not start the program"
+cd "$root"
+
+# An update keeps what the house has changed; its removal keeps it too, a purge does not.
+echo '# of the house' >>"$scratch/etc/soffio/kiosk.toml"
+package_manager --install "$package"
+grep -q '^# of the house' "$scratch/etc/soffio/kiosk.toml" || fail "an update has overwritten the configuration"
+mkdir -p "$scratch/var/lib/soffio/exhibits/own"
+touch "$scratch/var/lib/soffio/state.json"
+package_manager --remove soffio
+[ ! -e "$scratch/usr/bin/soffio" ] && [ -f "$scratch/etc/soffio/kiosk.toml" ] || fail "removal"
+package_manager --purge soffio
+[ -d "$scratch/var/lib/soffio/exhibits/own" ] && [ ! -e "$scratch/var/lib/soffio/state.json" ] || fail "purge and /var/lib/soffio"
+rm -r "$scratch/var"/lib/soffio
+everything >"$work/after"
+diff "$work/before" "$work/after" || fail "something is left"
+echo "package: good  installed, used, updated, removed and purged: nothing is left"

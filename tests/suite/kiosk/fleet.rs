@@ -1,0 +1,198 @@
+//! One kiosk among many: the numbers, and how one goes on where the last one was.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use soffio::config::Config;
+use soffio::exhibit;
+use soffio::kiosk::breaths::{Blows, Source, Turn};
+use soffio::kiosk::house::House;
+use soffio::kiosk::kept::Kept;
+use soffio::kiosk::live::{Frame, Load};
+use soffio::kiosk::loudness::{NightBy, Wishes};
+use soffio::kiosk::metrics::{Numbers, text};
+use soffio::kiosk::site::Overrides;
+use soffio::kiosk::staff::gate::{Gate, LONGEST_S};
+use soffio::kiosk::stage::Stage;
+use soffio::kiosk::visits::{DWELL_S, FRAME_S, Histogram};
+use soffio::simulation::Settings;
+
+fn frame(load: Load) -> Frame {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/pendulum");
+    let exhibit = Arc::new(exhibit::load(&folder).expect("the shipped exhibit is valid"));
+    let stage = Stage::new(exhibit.clone(), Settings::default(), None, None);
+    Frame {
+        exhibit,
+        previous: stage.snapshot().clone(),
+        current: stage.snapshot().clone(),
+        due: Instant::now(),
+        attracts: false,
+        attract_text: None,
+        attract_rounds: 0,
+        leaves_in: None,
+        captions: Vec::new(),
+        deaf: false,
+        hears: true,
+        onset: None,
+        load,
+        inspection: None,
+    }
+}
+
+#[test]
+fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
+    let mut load = Load::default();
+    load.loudness.level_db = [f64::NEG_INFINITY, -31.5];
+    load.audio.xruns = 3;
+    let mut kept = Kept { starts: 7, ..Kept::default() };
+    kept.tally.visits = 2;
+    [4.0, 70.0].into_iter().for_each(|seconds| kept.tally.dwell.note(DWELL_S, seconds));
+    kept.tally.blows.insert("microphone".into(), 5);
+    kept.tally.languages.insert("a\"b\\".into(), 1);
+    let mut frames = Histogram::default();
+    (0..10).for_each(|_| frames.note(FRAME_S, 0.016));
+    let content = ("pendulum", "00ff");
+    let text = text(&frame(load), &Numbers { kept: &kept, frames: &frames, safe: true, reloads: false, content });
+    for line in [
+        "soffio_up 1",
+        "soffio_starts_total 7",
+        "soffio_safe_mode 1",
+        "soffio_last_reload_success 0",
+        "soffio_content_info{exhibit=\"pendulum\",version=\"00ff\"} 1",
+        "soffio_audio_xruns_total 3",
+        "soffio_level_day_db -31.5",
+        "soffio_sessions_total 2",
+        "soffio_dwell_seconds_bucket{le=\"5\"} 1",
+        "soffio_dwell_seconds_bucket{le=\"120\"} 2",
+        "soffio_dwell_seconds_bucket{le=\"+Inf\"} 2",
+        "soffio_dwell_seconds_sum 74",
+        "soffio_blows_total{source=\"microphone\"} 5",
+        "soffio_language_total{lang=\"a\\\"b\\\\\"} 1",
+        "soffio_frame_seconds_bucket{le=\"0.012\"} 0",
+        "soffio_frame_seconds_bucket{le=\"0.017\"} 10",
+        "soffio_solver_mode{mode=\"dynamics\"} 1",
+    ] {
+        assert!(text.lines().any(|other| other == line), "{line} is not in\n{text}");
+    }
+    assert!(!text.contains("soffio_level_minute_db") && !text.contains("laeq"), "{text}");
+    // Every sample follows the one HELP and the one TYPE of its name, and is a number.
+    let mut names = Vec::new();
+    for line in text.lines() {
+        match line.strip_prefix("# ") {
+            Some(head) => {
+                let mut words = head.split(' ');
+                let (word, name) = (words.next().expect("HELP or TYPE"), words.next().expect("a name"));
+                if word == "HELP" {
+                    assert!(!names.contains(&name), "{name} is told twice");
+                    names.push(name);
+                }
+            }
+            None => {
+                let (name, value) = line.rsplit_once(' ').expect("a name and a number");
+                let told = names.last().expect("a head before the first sample");
+                assert!(name.starts_with(told) && value.parse::<f64>().is_ok(), "{line}");
+                assert!(!value.contains("inf") && !value.contains("NaN"), "{line}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
+    let numbers = Numbers {
+        kept: &Kept::default(),
+        frames: &Histogram::default(),
+        safe: false,
+        reloads: true,
+        content: ("pendulum", ""),
+    };
+    let mut told = text(&frame(Load::default()), &numbers);
+    // Told only once there is something to tell.
+    told += "soffio_blows_total\nsoffio_language_total\nsoffio_laeq_minute_db\nsoffio_level_minute_db\n";
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
+    let mut asked = 0;
+    for file in ["soffio.rules.yml", "soffio.grafana.json"] {
+        let text = std::fs::read_to_string(folder.join(file)).expect(file);
+        for (at, _) in text.match_indices("soffio_") {
+            let name: String = text[at..].chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect();
+            assert!(told.contains(&name), "{file} asks for {name}");
+            asked += 1;
+        }
+    }
+    assert!(asked > 15, "{asked}");
+    let board = std::fs::read_to_string(folder.join("soffio.grafana.json")).expect("the board");
+    let board: serde_json::Value = serde_json::from_str(&board).expect("JSON");
+    assert!(board["panels"].as_array().is_some_and(|panels| panels.len() >= 8));
+}
+
+#[test]
+fn breaths_are_counted_by_their_source_when_they_begin() {
+    let mut blows = Blows::default();
+    blows.note(&Turn::Begins(Source::Hold, 3.0));
+    blows.note(&Turn::Ends { source: Source::Hold, seconds: 1.0, peak: 3.0 });
+    blows.note(&Turn::Begins(Source::Hold, 3.0));
+    blows.note(&Turn::Begins(Source::Script, 3.0));
+    let counts: Vec<u64> = blows.iter().map(|(_, count)| count).collect();
+    assert_eq!(counts, [0, 2, 0, 1]);
+}
+
+#[test]
+fn the_night_key_leads_from_the_hours_to_what_staff_had_chosen() {
+    // As the loudness counts presses: the hours, night, day, and round again.
+    for (by, presses) in [(NightBy::Hours, 0), (NightBy::Night, 1), (NightBy::Day, 2)] {
+        assert_eq!(by.presses(), presses);
+    }
+    assert_eq!(Wishes::default().nights, NightBy::default().presses());
+}
+
+#[test]
+fn wrong_pins_are_not_forgotten_at_a_restart() {
+    for (wrong, pause) in [(0, None), (1, Some(2.0)), (5, Some(32.0)), (40, Some(LONGEST_S))] {
+        let mut gate = Gate::default();
+        gate.remember(wrong, 100.0);
+        assert_eq!((gate.pause(100.0), gate.wrong()), (pause, wrong));
+    }
+}
+
+#[test]
+fn what_is_made_black_from_afar_stays_black_until_it_is_woken_there_or_here() {
+    let mut house = House::default();
+    house.make_blank(true);
+    assert!(!house.is_open() && !house.hears(0.0));
+    house.open_early();
+    assert!(house.is_open() && !house.is_blank() && !house.is_early(), "staff open it by their key");
+    house.make_blank(true);
+    house.make_blank(false);
+    assert!(house.is_open());
+}
+
+#[test]
+fn safe_mode_leaves_out_what_comes_from_outside() {
+    let mut config = Config::default();
+    config.mqtt.broker = "broker.museum".into();
+    let safe = Overrides { safe: true, ..Overrides::default() }.apply(config.clone());
+    assert!(safe.controllers.listen.is_empty() && safe.mqtt.address().is_none());
+    assert_eq!(Overrides::default().apply(config.clone()), config);
+}
+
+#[test]
+fn a_broker_has_a_host_a_port_and_a_topic_of_its_own() {
+    let mqtt = |broker: &str, topic: &str| {
+        Config::parse(&format!("[mqtt]\nbroker = {broker:?}\ntopic = {topic:?}\n"), Path::new("kiosk.toml"))
+    };
+    for (broker, address) in [("", None), ("10.0.0.5", Some(("10.0.0.5", 1883))), ("hub:8883", Some(("hub", 8883)))] {
+        assert_eq!(mqtt(broker, "museum/hall-2").expect("good").mqtt.address(), address, "{broker}");
+    }
+    for (broker, topic, place) in [
+        ("hub:port", "a", (2, 10)),
+        (":1883", "a", (2, 10)),
+        ("tcp://hub", "a", (2, 10)),
+        ("hub", "", (3, 9)),
+        ("hub", "a/#", (3, 9)),
+    ] {
+        let error = mqtt(broker, topic).expect_err("refused");
+        assert_eq!(error.problems.len(), 1, "{error}");
+        assert_eq!((error.problems[0].line, error.problems[0].column), place, "{error}");
+    }
+}
