@@ -4,6 +4,7 @@
 //! ([`window`]) draws the latest two moments and passes on what the visitor does. What a step does is in [`stage`],
 //! which knows no clock and no device, so that tests and recordings run exactly what visitors see.
 
+pub mod aloud;
 pub mod attract;
 pub mod breaths;
 pub mod captions;
@@ -13,6 +14,7 @@ pub mod fonts;
 pub mod gesture;
 pub mod given;
 pub mod governor;
+pub mod groups;
 pub mod house;
 pub mod input;
 pub mod languages;
@@ -22,6 +24,7 @@ pub mod loudness;
 pub mod menu;
 pub mod metrics;
 pub mod microphone;
+pub mod needs;
 pub mod overlay;
 pub mod pace;
 pub mod page;
@@ -29,6 +32,8 @@ pub mod pointing;
 pub mod screen;
 pub mod shelf;
 pub mod site;
+pub mod speech;
+pub mod spoken;
 pub mod staff;
 pub mod stage;
 pub mod timing;
