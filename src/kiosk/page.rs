@@ -80,7 +80,9 @@ impl<'a> Page<'a> {
         let rect = anchor.anchor_size(at, galley.size());
         let opacity = f32::from(color.a()) / 255.0;
         if self.reading.contrast {
-            self.painter.rect_filled(rect.expand(0.3 * self.em), 0.2 * self.em, Color32::WHITE.gamma_multiply(opacity));
+            // No higher than the gap to the next line: paper must not lie on what was put down before.
+            let paper = rect.expand2(vec2(0.3, 0.05) * self.em);
+            self.painter.rect_filled(paper, 0.2 * self.em, Color32::WHITE.gamma_multiply(opacity));
         } else {
             let halo = HALO.gamma_multiply(0.5 * opacity);
             for (dx, dy) in AROUND {
