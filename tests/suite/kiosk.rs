@@ -515,8 +515,15 @@ mod live {
 
 #[cfg(feature = "kiosk")]
 mod aloud;
+mod captions;
+#[cfg(feature = "kiosk")]
+mod contrast;
 #[cfg(feature = "kiosk")]
 mod edit;
+#[cfg(feature = "kiosk")]
+mod flashes;
+#[cfg(feature = "kiosk")]
+mod glass;
 #[cfg(feature = "kiosk")]
 mod house;
 #[cfg(feature = "kiosk")]
@@ -525,6 +532,8 @@ mod opening;
 #[cfg(feature = "kiosk")]
 mod pages;
 mod pin;
+#[cfg(feature = "kiosk")]
+mod screens;
 #[cfg(feature = "kiosk")]
 mod site;
 #[cfg(feature = "kiosk")]
