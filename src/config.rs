@@ -15,6 +15,7 @@ use crate::sound::{MOST_PARTIALS, RoomSpec, VolumeSettings};
 
 pub mod chord;
 mod diagnose;
+mod groups;
 mod hours;
 mod mqtt;
 mod opening;
@@ -23,6 +24,7 @@ pub mod remedies;
 
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
+pub use groups::Group;
 pub use hours::{Hours, TimeOfDay};
 pub use mqtt::{MqttOrder, MqttSettings};
 pub use opening::{Day, Holiday, OpenHours, Opening};
@@ -96,12 +98,19 @@ pub struct Exhibits {
     pub folder: PathBuf,
     /// Load an exhibit anew when a file in its folder changes, and notice folders that come and go.
     pub hot_reload: bool,
+    /// How the works are grouped on the page of works, in this order.
+    pub groups: Vec<Group>,
 }
 
 impl Default for Exhibits {
     fn default() -> Self {
         let first = ["steel-fish", "wind-chimes", "twelve-moons", "noise-mobile", "terry-clock", "*"];
-        Self { show: first.map(str::to_owned).into(), folder: "exhibits".into(), hot_reload: true }
+        Self {
+            show: first.map(str::to_owned).into(),
+            folder: "exhibits".into(),
+            hot_reload: true,
+            groups: Group::shipped(),
+        }
     }
 }
 
@@ -245,6 +254,8 @@ pub struct ControllerSettings {
     pub listen: Vec<ControllerKind>,
     /// Key, or switch that acts as one, that blows while it is held, as it is called on a US keyboard.
     pub key: String,
+    /// Key, or button with a raised mark, that reads aloud what is written, and hushes.
+    pub read_key: String,
     /// How fast a stick at its end or an arrow key moves the aim, heights of the picture a second.
     pub stick_speed: f64,
     /// Any part of the name of the MIDI port; empty takes the first instrument there is.
@@ -264,6 +275,7 @@ impl Default for ControllerSettings {
         Self {
             listen: vec![ControllerKind::Gamepad, ControllerKind::Midi],
             key: "Space".into(),
+            read_key: "R".into(),
             stick_speed: 0.7,
             midi: String::new(),
             midi_controller: 2,
@@ -319,17 +331,24 @@ impl Default for AttractSettings {
 }
 
 /// What visitors may do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Visit {
     /// May they blow? Where they may not, in times of an outbreak, the microphone is closed, and the invitation says
     /// that they press and hold.
     pub breath: bool,
+    /// A press begins the breath and the next one ends it, so that nobody must hold; visitors can choose it too.
+    pub press_once: bool,
+    /// Less motion: a work is there at once instead of gathering its parts, no dust in the air, gentler attract mode;
+    /// visitors can choose it too.
+    pub calm: bool,
+    /// Program that reads aloud: `espeak-ng`, or one that takes its arguments; empty: nothing is read.
+    pub reads_aloud: String,
 }
 
 impl Default for Visit {
     fn default() -> Self {
-        Self { breath: true }
+        Self { breath: true, press_once: false, calm: false, reads_aloud: "espeak-ng".into() }
     }
 }
 

@@ -39,7 +39,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind; do
+    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind contrast flashes; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue
@@ -49,6 +49,9 @@ long() {
             soak-blow)  "$built/soffio" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
             soak-still) "$built/soffio" play steel-fish --seconds 7200 ;;
             visits)     cargo test --locked --quiet --no-default-features --test suite two_hundred_visits -- --ignored --nocapture ;;
+            # Every shipped work and language, on whatever Vulkan driver there is.
+            contrast)   cargo test --release --locked --quiet --test suite kiosk::contrast -- --include-ignored --nocapture ;;
+            flashes)    cargo test --release --locked --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
             hands)      ignored hands::no_handling_breaks_anything_in_twenty_seconds ;;
             blown)      ignored mobiles::ten_minutes_of_hard_breath_tangle_nothing ;;
             cabinet)    ignored cabinet::ten_minutes_of_hard_breath_break_nothing_in_the_cabinet ;;

@@ -6,6 +6,7 @@
 //! AudioIo::read_microphone ←── reference ring ───────────────── Player: what was played, mono
 //!                          ←── microphone ring ──────────────── Recorder ← microphone
 //! AudioIo::set_instruments ──→ builds the Synth ── synth ring → Player; the old one ── retired ring ─→ dropped here
+//! AudioIo::say ────── words ring ─────────────────────────────→ Player: over the work, and into the reference
 //! AudioIo::knobs ←──────────── volume, night, energy ───────────→ Player
 //! AudioIo::status ←──────────── opens, watches, reopens
 //! ```
@@ -20,6 +21,7 @@ mod clock;
 pub mod devices;
 pub mod input;
 mod knobs;
+mod mouth;
 pub mod output;
 mod reference;
 mod supervisor;
@@ -33,6 +35,7 @@ pub use crate::config::AudioSettings;
 pub use clock::ClockMap;
 pub use input::Heard;
 pub use knobs::Knobs;
+pub use mouth::{LOUDEST, Words};
 pub use reference::ReferenceTap;
 use supervisor::{Link, Request, Supervisor};
 
@@ -178,6 +181,20 @@ impl AudioIo {
             // Fails only when the supervisor could not be started, which the status says already.
             let _ = self.requests.send(Request::Listen(listens));
         }
+    }
+
+    /// Has words said instead of those that are being said; none hush. They are mixed into what the loudspeaker plays, so
+    /// the microphone's reference holds them. Without a loudspeaker, or at another rate than its own, nothing is said.
+    pub fn say(&mut self, words: &Words) {
+        self.take_links();
+        if let Some(voice) = &mut self.loudspeaker {
+            voice.say(words);
+        }
+    }
+
+    /// Is the loudspeaker saying words?
+    pub fn speaks(&self) -> bool {
+        self.loudspeaker.as_ref().is_some_and(|voice| voice.shared().speaks.load(Ordering::Relaxed))
     }
 
     /// How the devices are.

@@ -1,13 +1,14 @@
 //! The loudspeaker: a real-time thread that owns the synth.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 use cpal::{FromSample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::clock::ClockMap;
 use super::knobs::Knobs;
+use super::mouth::{self, Mouth, Prompter, Words};
 use crate::math::exp;
 use crate::sound::{AWeighting, SoundCommand, Synth};
 
@@ -48,6 +49,8 @@ pub struct Shared {
     pub block: AtomicU32,
     /// Of the instruments that play.
     pub generation: AtomicU64,
+    /// Are words being said?
+    pub speaks: AtomicBool,
 }
 
 /// The real-time end: everything that the loudspeaker's callback touches.
@@ -60,6 +63,7 @@ pub struct Player {
     commands: Consumer<Timed>,
     engines: Consumer<Engine>,
     retired: Producer<Engine>,
+    mouth: Mouth,
     reference: Producer<f32>,
     shared: Arc<Shared>,
     knobs: Arc<Knobs>,
@@ -75,6 +79,7 @@ pub struct Player {
 /// The kiosk's end.
 pub struct Voice {
     commands: Producer<Timed>,
+    prompter: Prompter,
     reference: Consumer<f32>,
     shared: Arc<Shared>,
     clock: ClockMap,
@@ -93,6 +98,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
     let (reference, from_player) = RingBuffer::new((REFERENCE * sample_rate) as usize);
     let (new_engines, engines) = RingBuffer::new(4);
     let (retired, old_engines) = RingBuffer::new(8);
+    let (mouth, prompter) = mouth::open(sample_rate);
     let shared = Arc::new(Shared::default());
     let player = Player {
         engine: None,
@@ -101,6 +107,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         commands,
         engines,
         retired,
+        mouth,
         reference,
         shared: shared.clone(),
         channels: channels.max(1),
@@ -114,7 +121,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         frame: 0,
     };
     let clock = ClockMap::new(sample_rate);
-    let voice = Voice { commands: to_player, reference: from_player, shared, clock, sample_rate };
+    let voice = Voice { commands: to_player, prompter, reference: from_player, shared, clock, sample_rate };
     (player, voice, Workshop { engines: new_engines, retired: old_engines })
 }
 
@@ -148,6 +155,7 @@ impl Player {
         self.frame += frames as u64;
         self.shared.played.store(self.frame, Ordering::Release);
         self.shared.block.store(frames as u32, Ordering::Relaxed);
+        self.shared.speaks.store(self.mouth.speaks(), Ordering::Relaxed);
     }
 
     /// Frees nothing: what is over goes back through a ring. Without room there, everything stays as it is.
@@ -183,6 +191,7 @@ impl Player {
             stereo.iter_mut().zip(old).for_each(|(s, o)| *s = (*s + *o).clamp(-1.0, 1.0));
             *left = left.saturating_sub(stereo.len() / 2);
         }
+        self.mouth.speak(stereo);
         let volume = self.knobs.volume();
         for frame in stereo.as_chunks_mut::<2>().0 {
             let off = volume - self.gain;
@@ -218,6 +227,13 @@ impl Voice {
     /// What the real-time thread shows.
     pub fn shared(&self) -> &Shared {
         &self.shared
+    }
+
+    /// Has words said instead of those that are being said; none hush. Words at another rate are not said.
+    pub fn say(&mut self, words: &Words) {
+        if words.samples.is_empty() || words.sample_rate == self.sample_rate {
+            self.prompter.say(words.samples.clone());
+        }
     }
 
     /// Sends commands with sample times of the simulation, whose present is `now`.

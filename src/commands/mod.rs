@@ -26,6 +26,7 @@ pub mod loudness;
 pub mod new;
 pub mod pin;
 pub mod play;
+pub mod privacy;
 #[cfg(feature = "kiosk")]
 pub mod render;
 pub mod replay;
@@ -111,6 +112,7 @@ enum Command {
     Devices(devices::Args),
     Doctor(doctor::Args),
     Pin(pin::Args),
+    Privacy(privacy::Args),
     Bench(bench::Args),
 }
 
@@ -141,6 +143,7 @@ pub fn run() -> ExitCode {
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Doctor(args)) => doctor::run(args),
         Some(Command::Pin(args)) => pin::run(args),
+        Some(Command::Privacy(args)) => privacy::run(args),
         Some(Command::Bench(args)) => bench::run(args),
     };
     match outcome {

@@ -84,6 +84,7 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
     let one_end = if config.night.from.is_some() { "from" } else { "to" };
     let together = [("audio", "second_capsule_channel", capsules(&config)), ("room", "t60_s", room(&config))]
         .into_iter()
+        .chain([("exhibits", "groups", groups(&config))])
         .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))])
         .chain([("mqtt", "broker", config.mqtt.broker_problem()), ("mqtt", "topic", config.mqtt.topic_problem())]);
     let problems: Vec<Problem> = together
@@ -93,6 +94,18 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
         })
         .collect();
     if problems.is_empty() { Ok(config) } else { fail(problems) }
+}
+
+/// A work stands in one place, and a group has a heading.
+fn groups(config: &Config) -> Option<(String, String)> {
+    let groups = &config.exhibits.groups;
+    let all: Vec<&String> = groups.iter().flat_map(|group| &group.works).collect();
+    if let Some((_, id)) = all.iter().enumerate().find(|(i, id)| all[..*i].contains(id)) {
+        return Some((format!("\"{id}\" stands twice in exhibits.groups"), "name each work in one group".into()));
+    }
+    let bare = groups.iter().find(|group| group.heading.values().all(|text| text.trim().is_empty()))?;
+    let help = "give it one for each language, as in heading = { en = \"Mobiles\" }";
+    Some((format!("a group of {} works has no heading", bare.works.len()), help.into()))
 }
 
 /// Seven decays, or none.

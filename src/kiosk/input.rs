@@ -6,7 +6,7 @@
 //!
 //! Invariant: whatever is held is let go at the latest when the window loses the focus.
 
-use super::gesture::Press;
+use super::gesture::{Lift, Press};
 use crate::config::Chord;
 
 /// How far a pointer must move before it aims, in picture heights or widths.
@@ -86,6 +86,12 @@ pub enum Request {
     Contrast,
     /// The microphone off, or on again.
     Listen,
+    /// A press begins the breath and the next one ends it, or: it is held.
+    PressOnce,
+    /// Less motion, or as much as there is.
+    Calm,
+    /// Read aloud what is written, or hush.
+    Speak,
     /// Mark the next button that way, right and down.
     Look([i32; 2]),
     /// Press the marked button.
@@ -114,11 +120,15 @@ pub struct Visitor {
     resting: Option<[f64; 2]>,
     /// The finger that aims.
     finger: Option<u64>,
-    /// What is down: by finger, or by the pointer's button.
-    presses: Vec<(Option<u64>, Press)>,
+    /// What is down, by finger or by the pointer's button, and where it came down.
+    presses: Vec<(Option<u64>, Press, [f64; 2])>,
+    /// What has come up and was not told yet.
+    lifts: Vec<Lift>,
     /// Presses so far.
     pressed: u64,
     key: bool,
+    /// Times that the key went down.
+    keyed: u64,
     /// Arrow keys held: left, right, up, down.
     arrows: [bool; 4],
     activity: u64,
@@ -144,6 +154,8 @@ pub struct Keys<'a> {
     pub open: &'a Chord,
     /// Blows while it is held.
     pub blow: &'a str,
+    /// Reads aloud.
+    pub read: &'a str,
     /// Is the page open? Then arrows choose, and nothing blows.
     pub menu: bool,
 }
@@ -194,7 +206,17 @@ impl Visitor {
 
     /// The button and the fingers that are down, in the order in which they came.
     pub fn presses(&self) -> impl Iterator<Item = Press> {
-        self.presses.iter().map(|(_, press)| *press)
+        self.presses.iter().map(|(_, press, _)| *press)
+    }
+
+    /// What has come up since this was asked last: however short a press was, it is told.
+    pub fn lifts(&mut self) -> Vec<Lift> {
+        std::mem::take(&mut self.lifts)
+    }
+
+    /// Times that the key that blows went down.
+    pub fn keyed(&self) -> u64 {
+        self.keyed
     }
 
     /// Where the arrow keys push the aim, right and down, −1, 0 or 1 each.
@@ -226,25 +248,31 @@ impl Visitor {
     pub fn let_go(&mut self) {
         (self.finger, self.key, self.arrows) = (None, false, [false; 4]);
         self.presses.clear();
+        self.lifts.clear();
     }
 
     /// Nobody is there any more: the next visitor starts from the centre.
     pub fn leave(&mut self) {
-        let (lies, activity, pressed) = (self.lies, self.activity, self.pressed);
-        *self = Self { lies, resting: lies, activity, pressed, ..Self::default() };
+        let (lies, activity, pressed, keyed) = (self.lies, self.activity, self.pressed, self.keyed);
+        *self = Self { lies, resting: lies, activity, pressed, keyed, ..Self::default() };
     }
 
     /// A button (`None`) or finger goes down or up.
     fn press(&mut self, by: Option<u64>, at: [f64; 2], down: bool) {
-        self.presses.retain(|(other, _)| *other != by);
+        if let Some(index) = self.presses.iter().position(|(other, ..)| *other == by) {
+            let (_, press, from) = self.presses.remove(index);
+            if !down {
+                self.lifts.push(Lift { id: press.id, from, at: clamp(at) });
+            }
+        }
         if down {
             self.pressed += 1;
-            self.presses.push((by, Press { id: self.pressed, at: clamp(at) }));
+            self.presses.push((by, Press { id: self.pressed, at: clamp(at) }, clamp(at)));
         }
     }
 
     fn slide(&mut self, by: Option<u64>, at: [f64; 2]) {
-        self.presses.iter_mut().filter(|(other, _)| *other == by).for_each(|(_, press)| press.at = clamp(at));
+        self.presses.iter_mut().filter(|(other, ..)| *other == by).for_each(|(_, press, _)| press.at = clamp(at));
     }
 
     fn pointer(&mut self, at: [f64; 2]) {
@@ -278,6 +306,7 @@ impl Visitor {
         // A key that comes up lets go of the blow whatever is held with it by now.
         if key.name == keys.blow && (plain || !key.pressed) {
             self.key = key.pressed && !keys.menu;
+            self.keyed += u64::from(self.key && !key.repeat);
         }
         if let Some(arrow) = ARROWS.iter().position(|name| *name == key.name) {
             self.arrows[arrow] = key.pressed && plain && !keys.menu;
@@ -300,6 +329,7 @@ impl Visitor {
         match key.name.as_str() {
             name if plain && LOUDER.contains(&name) => Some(Request::Louder(1)),
             name if plain && SOFTER.contains(&name) => Some(Request::Louder(-1)),
+            name if plain && name == keys.read => Some(Request::Speak),
             "L" if plain => Some(Request::NextLanguage),
             "Tab" if !key.ctrl && !key.alt => Some(Request::Menu),
             "PageDown" if plain => Some(Request::Leaf(1)),

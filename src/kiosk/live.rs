@@ -77,6 +77,10 @@ pub struct Frame {
     pub leaves_in: Option<f64>,
     /// Keys of the captions of what can be heard.
     pub captions: Vec<String>,
+    /// Works that visitors have swiped on so far, less those that they have swiped back.
+    pub turned: i64,
+    /// Is the loudspeaker saying words?
+    pub speaks: bool,
     /// Has the visitor switched the microphone off?
     pub deaf: bool,
     /// Is there a microphone, or a recording in its place?
@@ -198,6 +202,8 @@ impl Live {
             attract_rounds: 0,
             leaves_in: None,
             captions: Vec::new(),
+            turned: 0,
+            speaks: false,
             deaf: false,
             hears: options.recording.is_some(),
             onset: None,
@@ -372,6 +378,8 @@ impl Thread {
             shared.exhibit = None;
             shared.site = None;
             shared.trials.clear();
+            shared.lifts.clear();
+            shared.words = None;
             shared.loudness = Wishes::default();
             taken
         };
@@ -401,6 +409,7 @@ impl Thread {
             if let Some(record) = &mut self.record {
                 record.note(&self.stage);
             }
+            controls.lifts.clear();
             self.sounds.extend_from_slice(self.stage.sounds());
             self.captions.note(self.stage.exhibit(), self.stage.sounds(), self.stage.steps());
             self.write_trace()?;
@@ -421,6 +430,9 @@ impl Thread {
         self.load.step_s += 0.02 * (each - self.load.step_s);
         self.try_sounds(controls.trials.pop());
         self.audio.send(self.stage.sample(), &self.sounds);
+        if let Some(words) = controls.words.take() {
+            self.audio.say(&words);
+        }
         self.loudness.tend(controls.loudness, (self.stage.attracts(), controls.closed), self.audio.knobs());
         self.inspection = (controls.look != Look::Nothing).then(|| Arc::new(self.stage.inspect(controls.look)));
         Ok(rate.is_some() && !self.load.microphone.is_silent() || self.recorded)
@@ -466,6 +478,8 @@ impl Thread {
             attract_rounds: self.stage.attract_course().0,
             leaves_in: self.stage.attract_course().1,
             captions: self.captions.shown(self.stage.exhibit(), self.stage.steps()),
+            turned: self.stage.turned(),
+            speaks: self.audio.speaks(),
             deaf: self.deaf,
             hears,
             onset: self.onset,

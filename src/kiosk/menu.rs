@@ -8,6 +8,7 @@ use std::path::Path;
 
 use egui::{Align2, Color32, Rect, Stroke, StrokeKind, TextureId, pos2, vec2};
 
+use super::groups::{Row, heading, leaves, rows};
 use super::input::Request;
 use super::overlay::Scene;
 use super::page::{INK, PAPER, Page, SMALL, SOFT_INK, VERMILION};
@@ -22,11 +23,15 @@ const COUNTDOWN: f64 = 10.0;
 const COLUMNS: (usize, usize) = (3, 2);
 /// Height of a tile's picture over its width.
 const SHAPE: f32 = 9.0 / 16.0;
+/// Height of a group's heading, em.
+const HEADING: f32 = 2.2;
 /// The label's part of a wide page, of its width, and of a tall one, of its height.
 const LABEL: f32 = 0.36;
 
 /// A work to choose.
 pub struct Tile {
+    /// Name of its folder.
+    pub id: String,
     /// Its title in the language shown.
     pub title: String,
     /// Its picture.
@@ -135,37 +140,36 @@ impl Menu {
         whole
     }
 
-    /// The works, in tiles.
+    /// The works, in tiles under the headings of their groups.
     fn works(&mut self, page: &Page, scene: &Scene, room: Rect, buttons: &mut Vec<(Rect, Request)>) {
         let columns = if page.is_tall() { COLUMNS.1 } else { COLUMNS.0 };
         let gap = page.em;
         let width = (room.width() - gap * (columns - 1) as f32) / columns as f32;
         let size = vec2(width, SHAPE * width + 2.2 * page.em);
         let turning = page.button + gap;
-        let rows = (((room.height() - turning + gap) / (size.y + gap)) as usize).max(1);
-        let leaf = columns * rows;
-        self.leaves = scene.tiles.len().div_ceil(leaf);
+        let ids: Vec<&str> = scene.tiles.iter().map(|tile| tile.id.as_str()).collect();
+        let all = rows(&ids, scene.groups, columns);
+        let all = leaves(all, room.height() - turning + gap, HEADING * page.em, size.y + gap);
+        self.leaves = all.len();
         self.leaf = self.leaf.min(self.leaves.saturating_sub(1));
-        for (place, (index, tile)) in scene.tiles.iter().enumerate().skip(self.leaf * leaf).take(leaf).enumerate() {
-            let (column, row) = ((place % columns) as f32, (place / columns) as f32);
-            let at = room.min + vec2(column * (size.x + gap), row * (size.y + gap));
-            let picture = Rect::from_min_size(at, vec2(width, SHAPE * width));
-            match tile.picture {
-                Some(texture) => {
-                    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                    page.painter.image(texture, picture, whole, Color32::WHITE);
+        let mut y = room.top();
+        for row in all.get(self.leaf).into_iter().flatten() {
+            match row {
+                Row::Heading(group) => {
+                    let text = heading(&scene.groups[*group], scene.language);
+                    let at = pos2(room.left(), y + (HEADING - 0.5) * page.em);
+                    page.text(at, Align2::LEFT_BOTTOM, text, 1.0, INK, room.width());
+                    y += HEADING * page.em;
                 }
-                None => {
-                    page.painter.rect_filled(picture, 0.0, SOFT_INK.gamma_multiply(0.15));
+                Row::Works(works) => {
+                    for (column, &index) in works.iter().enumerate() {
+                        let at = pos2(room.left() + column as f32 * (size.x + gap), y);
+                        tile(page, &scene.tiles[index], Rect::from_min_size(at, size));
+                        buttons.push((Rect::from_min_size(at, size), Request::Work(index)));
+                    }
+                    y += size.y + gap;
                 }
             }
-            if tile.shown {
-                let stroke = Stroke::new(0.2 * page.em, VERMILION);
-                page.painter.rect_stroke(picture, 0.0, stroke, StrokeKind::Outside);
-            }
-            let title = page.set(&tile.title, 0.85, INK, width);
-            page.painter.galley(picture.left_bottom() + vec2(0.0, 0.3 * page.em), title, INK);
-            buttons.push((Rect::from_min_size(at, size), Request::Work(index)));
         }
         if self.leaves > 1 {
             let corner = pos2(room.right(), room.bottom());
@@ -180,11 +184,32 @@ impl Menu {
     }
 }
 
+/// A work's picture and, below it, its title; the one on show is framed.
+fn tile(page: &Page, tile: &Tile, room: Rect) {
+    let picture = room.with_max_y(room.top() + SHAPE * room.width());
+    match tile.picture {
+        Some(texture) => {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            page.painter.image(texture, picture, whole, Color32::WHITE);
+        }
+        None => {
+            page.painter.rect_filled(picture, 0.0, SOFT_INK.gamma_multiply(0.15));
+        }
+    }
+    if tile.shown {
+        page.painter.rect_stroke(picture, 0.0, Stroke::new(0.2 * page.em, VERMILION), StrokeKind::Outside);
+    }
+    let title = page.set(&tile.title, 0.85, INK, room.width());
+    page.painter.galley(picture.left_bottom() + vec2(0.0, 0.3 * page.em), title, INK);
+}
+
 /// Title, maker, the wall text, and how the work is played: as large as there is room for.
 fn wall_text(page: &Page, scene: &Scene, room: Rect) {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return };
-    let play = if scene.hears { [own.invite, own.aim, own.hold, own.take] } else { ["", own.aim, own.hold, own.take] };
+    let invite = if scene.hears { own.invite } else { "" };
+    let hold = if scene.needs.press_once { own.press } else { own.hold };
+    let play = [invite, own.aim, hold, own.take];
     let parts: Vec<(&str, f32, f32)> = [(label.title.as_str(), 1.5, 0.2), (label.maker.as_str(), 0.8, 1.0)]
         .into_iter()
         .chain([(label.body.trim(), 0.95, 1.2)])
@@ -228,11 +253,16 @@ enum Item<'a> {
 fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     let own = words(scene.language);
     let mut items: Vec<(Item, Request)> = Vec::new();
+    if let Some(speaks) = scene.speech {
+        items.push((Item::Word(own.speak, speaks), Request::Speak));
+    }
     if scene.has_ear {
         items.push((Item::Word(own.ear, scene.listens), Request::Listen));
     }
-    items.push((Item::Word(own.large, scene.reading.large), Request::Large));
-    items.push((Item::Word(own.contrast, scene.reading.contrast), Request::Contrast));
+    items.push((Item::Word(own.large, scene.needs.reading.large), Request::Large));
+    items.push((Item::Word(own.contrast, scene.needs.reading.contrast), Request::Contrast));
+    items.push((Item::Word(own.press_once, scene.needs.press_once), Request::PressOnce));
+    items.push((Item::Word(own.calm, scene.needs.calm), Request::Calm));
     if scene.volume {
         items.push((Item::Sign("\u{2212}"), Request::Louder(-1)));
         items.push((Item::Sign("+"), Request::Louder(1)));
@@ -281,7 +311,7 @@ pub fn tiles(
             pictures.last().map(|(_, texture)| texture.id())
         });
         let title = work.labels.get(language).map_or_else(|| work.id.clone(), |label| label.title.clone());
-        Tile { title, picture, shown: work.folder == shown }
+        Tile { id: work.id.clone(), title, picture, shown: work.folder == shown }
     };
     works.iter().map(tile).collect()
 }

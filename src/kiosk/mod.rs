@@ -4,6 +4,7 @@
 //! ([`window`]) draws the latest two moments and passes on what the visitor does. What a step does is in [`stage`],
 //! which knows no clock and no device, so that tests and recordings run exactly what visitors see.
 
+pub mod aloud;
 pub mod attract;
 pub mod breaths;
 pub mod captions;
@@ -14,6 +15,7 @@ pub mod fonts;
 pub mod gesture;
 pub mod given;
 pub mod governor;
+pub mod groups;
 pub mod house;
 pub mod input;
 pub mod kept;
@@ -25,6 +27,7 @@ pub mod menu;
 pub mod metrics;
 pub mod microphone;
 pub mod mqtt;
+pub mod needs;
 pub mod overlay;
 pub mod pace;
 pub mod page;
@@ -33,6 +36,8 @@ pub mod recording;
 pub mod screen;
 pub mod shelf;
 pub mod site;
+pub mod speech;
+pub mod spoken;
 pub mod staff;
 pub mod stage;
 pub mod timing;

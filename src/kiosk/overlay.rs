@@ -6,6 +6,7 @@
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, pos2, vec2};
 
+use crate::config::Group;
 use crate::exhibit::{Exhibit, Label, View};
 use crate::math::{PI, tangents};
 use crate::simulation::{BreathView, Snapshot};
@@ -13,7 +14,8 @@ use crate::simulation::{BreathView, Snapshot};
 use super::given;
 use super::input::Request;
 use super::menu::{Menu, Tile};
-use super::page::{HALO, INK, Page, Reading, SMALL, SOFT_INK, VERMILION};
+use super::needs::Needs;
+use super::page::{HALO, INK, Page, SMALL, SOFT_INK, VERMILION};
 use super::words::words;
 
 /// Quiet time after which the invitation comes back, s.
@@ -60,10 +62,14 @@ pub struct Scene<'a> {
     pub silent: bool,
     /// What is left of the time after which the kiosk takes it that nobody is there, s, where that is near.
     pub leaves_in: Option<f64>,
-    /// How the visitor wants to read.
-    pub reading: Reading,
+    /// What the visitor needs otherwise.
+    pub needs: Needs,
+    /// Is something being read aloud? `None` where nothing can read the language shown.
+    pub speech: Option<bool>,
     /// The works to choose from.
     pub tiles: &'a [Tile],
+    /// How they are grouped.
+    pub groups: &'a [Group],
     /// Languages offered.
     pub languages: &'a [String],
     /// Code of the language shown.
@@ -99,7 +105,7 @@ impl Overlay {
         self.advance(scene);
         let code = scene.language;
         let Some(label) = scene.exhibit.labels.get(code) else { return Vec::new() };
-        let page = Page::new(painter, picture, scene.points_per_mm, scene.reading);
+        let page = Page::new(painter, picture, scene.points_per_mm, scene.needs.reading);
         let mut buttons = Vec::new();
         if menu.open {
             menu.paint(&page, scene, &mut buttons);
@@ -154,6 +160,10 @@ fn invitation(scene: &Scene) -> String {
     let own = words(scene.inviting);
     let label = scene.exhibit.labels.get(scene.inviting);
     let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
+    // Whoever need not hold is not told to.
+    if scene.needs.press_once && !(scene.hears && scene.breath) {
+        return own.press.into();
+    }
     if !scene.breath {
         return own.no_breath.into();
     }
@@ -184,7 +194,12 @@ fn wall_label(page: &Page, label: &Label, scene: &Scene) {
     };
     put(scene.exhibit.credit.notice.trim(), SMALL, SOFT_INK, 0.2);
     put(ear, SMALL, SOFT_INK, 0.3);
-    put(if scene.silent { own.silent } else { "" }, SMALL, SOFT_INK, 0.6);
+    let sound = match (scene.exhibit.sounds.is_empty(), scene.silent) {
+        (true, _) => own.no_sound,
+        (false, true) => own.silent,
+        (false, false) => "",
+    };
+    put(sound, SMALL, SOFT_INK, 0.6);
     put(&label.maker, 0.85, SOFT_INK, 0.1);
     put(&label.title, 1.4, INK, 0.0);
 }
@@ -195,7 +210,8 @@ fn captions(page: &Page, label: &Label, scene: &Scene) {
     let all: Vec<&str> = scene.captions.iter().filter_map(said).collect();
     if !all.is_empty() && !scene.silent {
         let at = page.picture.center_bottom();
-        page.text(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, INK, 0.9 * line(page));
+        // The foot of many works stands there.
+        page.strip(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, 0.9 * line(page));
     }
 }
 

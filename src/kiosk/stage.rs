@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use crate::audio_io::Words;
 use crate::exhibit::Exhibit;
 use crate::offline::feed::WavFeed;
 use crate::simulation::{
@@ -14,7 +15,7 @@ use crate::simulation::{
 use crate::sound::SoundCommand;
 
 use super::attract::Attract;
-use super::gesture::{Gestures, Press};
+use super::gesture::{Gestures, Lift, Press, Touch};
 use super::loudness::Wishes;
 use super::pointing::Pointing;
 use super::site::Site;
@@ -33,6 +34,14 @@ pub struct Controls {
     pub hold: bool,
     /// The pointer's button and the fingers that are down: each of them blows, or takes the sculpture by the hand.
     pub presses: Vec<Press>,
+    /// Those that have come up and are not yet taken in.
+    pub lifts: Vec<Lift>,
+    /// Times that the key that blows went down.
+    pub keyed: u64,
+    /// Does a press begin the breath and the next one end it?
+    pub press_once: bool,
+    /// Less motion: no change of scene in which parts fly together, gentler attract mode.
+    pub calm: bool,
     /// How hard a breath controller is blown, 0 … 1.
     pub strength: f64,
     /// Has the visitor switched the microphone off?
@@ -59,13 +68,15 @@ pub struct Controls {
     pub look: Look,
     /// What staff want to hear and have not yet heard.
     pub trials: Vec<Trial>,
+    /// What is to be said next, and not yet sent.
+    pub words: Option<Words>,
 }
 
 impl Controls {
     /// The same with nobody there.
     fn without_visitor(&self) -> Self {
-        let Self { aspect, activity, mode, inert, .. } = *self;
-        Self { aspect, activity, mode, inert, commands: self.commands.clone(), ..Self::default() }
+        let Self { aspect, activity, mode, inert, calm, keyed, .. } = *self;
+        Self { aspect, activity, mode, inert, calm, keyed, commands: self.commands.clone(), ..Self::default() }
     }
 }
 
@@ -77,6 +88,9 @@ struct Told {
     mode: Option<MotionMode>,
     commands: Vec<Command>,
 }
+
+/// How much slower the breaths of the attract script are where less motion is wanted.
+const GENTLER: f64 = 0.5;
 
 /// The exhibit on show.
 pub struct Stage {
@@ -91,6 +105,7 @@ pub struct Stage {
     holds: bool,
     /// What the last step was told beside breath and hands.
     told: Told,
+    calm: bool,
     /// What the next step begins with: another exhibit gathers its parts.
     called: Option<Command>,
     snapshot: Snapshot,
@@ -114,6 +129,7 @@ impl Stage {
             gestures: Gestures::default(),
             holds: false,
             told: Told::default(),
+            calm: false,
             called: None,
             snapshot,
         }
@@ -125,23 +141,36 @@ impl Stage {
         let controls = nobody.as_ref().unwrap_or(controls);
         // The detector's word of the step before: a breath is an input like any other.
         let breathing = self.snapshot.breath.estimate.speed > 0.0;
-        let pressed = controls.hold || !controls.presses.is_empty();
+        let pressed = controls.hold || !controls.presses.is_empty() || !controls.lifts.is_empty();
+        self.calm = controls.calm;
         // Whoever cleans is here too, though not to play: attract mode waits.
         let visitor = breathing || pressed || controls.inert || controls.activity != self.activity;
         self.activity = controls.activity;
         let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
+        if self.calm {
+            cue.commands.iter_mut().for_each(gentler);
+        }
         cue.commands.extend_from_slice(&controls.commands);
-        // Whoever blows or presses does not wait until the parts have gathered.
-        let impatient = (breathing || pressed) && self.simulation.gathers_from().is_some();
+        // Whoever blows or presses does not wait until the parts have gathered, and whoever wants less motion does not see it.
+        let impatient = (breathing || pressed || self.calm) && self.simulation.gathers_from().is_some();
         cue.commands.extend(self.called.take().or(impatient.then_some(Command::Reset)));
         let simulation = &mut self.simulation;
         let takeable = |at| simulation.can_be_taken(at, controls.aspect);
-        let blows = self.gestures.step(&controls.presses, controls.aspect, takeable);
-        self.holds = controls.hold || blows.is_some();
+        let touch = Touch {
+            presses: &controls.presses,
+            lifts: &controls.lifts,
+            hold: controls.hold,
+            keyed: controls.keyed,
+            once: controls.press_once,
+            aspect: controls.aspect,
+        };
+        let blows = self.gestures.step(&touch, takeable);
         let aim = self.pointing.step(controls);
         if cue.active {
             self.pointing.forget();
+            self.gestures.unlatch();
         }
+        self.holds = controls.hold && !controls.press_once || blows.is_some() || self.gestures.latched();
 
         self.told = Told {
             pointer: if cue.active { cue.aim } else { blows.or(aim) },
@@ -167,7 +196,9 @@ impl Stage {
     /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start. `clock` is the time of
     /// day now, s after midnight, to which it sets its hands where it has any.
     pub fn swap(&mut self, exhibit: Arc<Exhibit>, clock: Option<f64>) {
-        self.called = (exhibit.id != self.exhibit().id).then_some(Command::Gather(self.steps));
+        let another = exhibit.id != self.exhibit().id;
+        self.called = (another && !self.calm).then_some(Command::Gather(self.steps));
+        self.gestures.unlatch();
         self.attract = self.attract.take().map(|before| {
             let next = Attract::new(exhibit.attract.clone(), self.idle_s);
             if before.is_active() { next.go_on() } else { next }
@@ -225,6 +256,11 @@ impl Stage {
         self.holds
     }
 
+    /// Works that visitors have swiped on so far, less those that they have swiped back.
+    pub fn turned(&self) -> i64 {
+        self.gestures.turned()
+    }
+
     /// Sounds of the last step.
     pub fn sounds(&self) -> &[SoundCommand] {
         self.simulation.sounds()
@@ -253,5 +289,12 @@ impl Stage {
     /// One word that says whether two runs are the same run.
     pub fn state_hash(&self) -> u64 {
         self.simulation.state_hash()
+    }
+}
+
+/// A breath of the attract script, slower.
+fn gentler(command: &mut Command) {
+    if let Command::Blow(Some(speed)) = command {
+        *speed *= GENTLER;
     }
 }

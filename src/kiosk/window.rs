@@ -19,6 +19,7 @@ use crate::audio_io::DeviceState;
 use crate::config::Config;
 use crate::simulation::Command;
 
+use super::aloud::Aloud;
 use super::events::{is_input, translate};
 use super::fleet::Fleet;
 use super::given::Given;
@@ -29,8 +30,8 @@ use super::live::{self, Frame, Live, Report};
 use super::log::Log;
 use super::loudness::Wishes;
 use super::menu::{Menu, tiles};
+use super::needs::Needs;
 use super::overlay::{Overlay, Scene};
-use super::page::Reading;
 use super::screen::{Drawn, Screen};
 use super::shelf::{News, Offer, Places, Shelf, id};
 use super::site::{Overrides, SiteFile};
@@ -39,6 +40,7 @@ use super::timing::{Clock, FirstSight};
 
 mod day;
 mod fleet;
+mod visit;
 
 /// Size of the window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
@@ -126,7 +128,9 @@ pub fn run(
         pictures: Vec::new(),
         turning: false,
         menu: Menu::default(),
-        reading: Reading::default(),
+        needs: Needs::of(&config.visit),
+        aloud: Aloud::default(),
+        turned: 0,
         listens: true,
         given,
         languages: Vec::new(),
@@ -210,7 +214,10 @@ struct App<'a> {
     /// Is attract mode's next work being fetched?
     turning: bool,
     menu: Menu,
-    reading: Reading,
+    needs: Needs,
+    aloud: Aloud,
+    /// Works swiped on so far that were heeded.
+    turned: i64,
     /// Has no visitor switched the microphone off?
     listens: bool,
     given: Given,
@@ -310,11 +317,13 @@ impl ApplicationHandler for App<'_> {
                     mute: &staff.mute,
                     night: &staff.night,
                     blow: &self.config.controllers.key,
+                    read: &self.config.controllers.read_key,
                     menu: self.menu.open,
                 };
                 self.house.signal(time, &mut self.visitor, &signal, (keys, above), desk)
             }
         };
+        self.hush_at(&signal, request);
         if let Some(request) = request {
             self.grant(events, request);
         }
@@ -362,7 +371,10 @@ impl App<'_> {
         };
         self.clock.tick(now, least);
         let frame = show.live.frame();
-        let moment = frame.moment(now);
+        let mut moment = frame.moment(now);
+        if self.needs.calm {
+            moment.motes.clear();
+        }
         if moment.breath.speed > 0.0 && !frame.attracts {
             let seconds = now.duration_since(last).as_secs_f64().min(LONGEST_GIFT);
             self.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
@@ -380,6 +392,7 @@ impl App<'_> {
         let works: Vec<String> = self.offer.works().iter().map(|work| work.id.clone()).collect();
         let works: Vec<&str> = works.iter().map(String::as_str).collect();
         let mut wishes = Vec::new();
+        let silent = frame.load.loudness.muted || frame.is_mute();
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
             self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
             if !self.languages.contains(&self.language) {
@@ -400,16 +413,21 @@ impl App<'_> {
                 listens: self.listens,
                 captions: &frame.captions,
                 given: self.given.of(&frame.exhibit.id),
-                silent: frame.load.loudness.muted || frame.is_mute(),
+                silent,
                 leaves_in: frame.leaves_in,
-                reading: self.reading,
+                needs: self.needs,
+                speech: self.aloud.can_speak(&self.language).then_some(self.aloud.is_on()).filter(|_| !silent),
                 tiles: &tiles,
+                groups: &self.config.exhibits.groups,
                 languages: &self.languages,
                 language: &self.language,
                 volume: self.config.volume.steps > 0 && !frame.load.loudness.muted,
                 time: vitals.time,
                 points_per_mm: 1.0 / (self.config.screen.mm_per_px as f32 * ui.ctx().pixels_per_point()),
             };
+            if let Some(rate) = visit::rate(&frame).filter(|_| scene.speech.is_some()) {
+                self.aloud.follow(&scene, rate);
+            }
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
             self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
             if day::cover(&painter, &self.house, &scene) {
@@ -450,6 +468,7 @@ impl App<'_> {
         }
         self.follow_attract(&frame);
         self.follow_devices(&frame);
+        self.follow_visit(&frame);
         let (look, open) = (self.staff.look(&self.config), self.staff.is_open());
         if let Some(show) = &self.show {
             show.live.controls().look = look;
@@ -535,7 +554,8 @@ impl App<'_> {
         if frame.attracts && !self.attracts {
             self.visitor.leave();
             self.language.clear();
-            (self.menu, self.reading, self.listens) = (Menu::default(), Reading::default(), true);
+            (self.menu, self.listens) = (Menu::default(), true);
+            self.forget_needs();
             self.given.leave();
             self.tell();
         }
@@ -595,10 +615,14 @@ impl App<'_> {
             Request::Leaf(by) => {
                 self.leaf(by);
             }
-            Request::Large => self.reading.large = !self.reading.large,
-            Request::Contrast => self.reading.contrast = !self.reading.contrast,
+            Request::Large => self.needs.reading.large ^= true,
+            Request::Contrast => self.needs.reading.contrast ^= true,
             Request::Listen => self.listens = !self.listens,
-            Request::Look(way) => self.menu.look(way, &self.buttons),
+            Request::PressOnce | Request::Calm | Request::Speak => self.choose(request),
+            Request::Look(way) => {
+                self.menu.look(way, &self.buttons);
+                self.aloud.reach(self.menu.marked(&self.buttons));
+            }
             Request::Enter => {
                 if let Some(marked) = self.menu.marked(&self.buttons).filter(|request| *request != Request::Enter) {
                     self.grant(events, marked);
@@ -617,7 +641,8 @@ impl App<'_> {
     }
 
     /// Tells the simulation what the visitor does.
-    fn tell(&self) {
+    fn tell(&mut self) {
+        let lifts = self.visitor.lifts();
         let Some(show) = &self.show else { return };
         let mut controls = show.live.controls();
         controls.aim = self.visitor.aim();
@@ -625,6 +650,10 @@ impl App<'_> {
         controls.hold = self.visitor.holds_key();
         controls.presses.clear();
         controls.presses.extend(self.visitor.presses());
+        controls.lifts.extend(lifts);
+        controls.keyed = self.visitor.keyed();
+        controls.press_once = self.needs.press_once && !self.menu.open;
+        controls.calm = self.needs.calm;
         controls.activity = self.visitor.activity();
         controls.deaf = !self.listens;
         controls.closed = !self.house.is_open();

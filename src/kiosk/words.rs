@@ -42,11 +42,33 @@ pub struct Words {
     pub no_breath: &'static str,
     /// While the glass is cleaned.
     pub cleaning: &'static str,
+    /// How to blow where nobody need hold: press, and press again.
+    pub press: &'static str,
+    /// That choice, as what is switched.
+    pub press_once: &'static str,
+    /// Less motion, as what is switched.
+    pub calm: &'static str,
+    /// Reads aloud.
+    pub speak: &'static str,
+    /// The work makes no sound.
+    pub no_sound: &'static str,
+    /// Turns the volume up, as it is read aloud.
+    pub louder: &'static str,
+    /// Turns it down.
+    pub softer: &'static str,
+    /// Turns to the next leaf of works, as it is read aloud.
+    pub next: &'static str,
+    /// Turns to the leaf before.
+    pub previous: &'static str,
+    /// What is switched is on, as it is read aloud.
+    pub on: &'static str,
+    /// It is off.
+    pub off: &'static str,
 }
 
 impl Words {
     /// All of them, for whoever checks that none is missing.
-    pub fn all(&self) -> [&'static str; 19] {
+    pub fn all(&self) -> [&'static str; 30] {
         [
             self.code,
             self.name,
@@ -67,6 +89,17 @@ impl Words {
             self.stay_touch,
             self.no_breath,
             self.cleaning,
+            self.press,
+            self.press_once,
+            self.calm,
+            self.speak,
+            self.no_sound,
+            self.louder,
+            self.softer,
+            self.next,
+            self.previous,
+            self.on,
+            self.off,
         ]
     }
 }
@@ -93,6 +126,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "Touch to stay",
         no_breath: "Today without breath: press and hold to blow",
         cleaning: "The glass is being cleaned",
+        press: "Press to blow, press again to stop",
+        press_once: "Press once",
+        calm: "Less motion",
+        speak: "Read aloud",
+        no_sound: "This work makes no sound.",
+        louder: "Louder",
+        softer: "Softer",
+        next: "More works",
+        previous: "Works before these",
+        on: "on",
+        off: "off",
     },
     Words {
         code: "de",
@@ -114,6 +158,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "Berühren, um zu bleiben",
         no_breath: "Heute ohne Atem: zum Pusten gedrückt halten",
         cleaning: "Das Glas wird gereinigt",
+        press: "Zum Pusten drücken, zum Beenden noch einmal",
+        press_once: "Einmal drücken",
+        calm: "Weniger Bewegung",
+        speak: "Vorlesen",
+        no_sound: "Dieses Werk macht keinen Ton.",
+        louder: "Lauter",
+        softer: "Leiser",
+        next: "Weitere Werke",
+        previous: "Werke davor",
+        on: "ein",
+        off: "aus",
     },
     Words {
         code: "fr",
@@ -135,6 +190,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "Touchez pour rester",
         no_breath: "Aujourd’hui sans souffle : appuyez et maintenez pour souffler",
         cleaning: "Nettoyage de l’écran en cours",
+        press: "Appuyez pour souffler, appuyez encore pour arrêter",
+        press_once: "Un seul appui",
+        calm: "Moins de mouvement",
+        speak: "Lire à voix haute",
+        no_sound: "Cette œuvre ne fait aucun son.",
+        louder: "Plus fort",
+        softer: "Moins fort",
+        next: "Œuvres suivantes",
+        previous: "Œuvres précédentes",
+        on: "activé",
+        off: "désactivé",
     },
     Words {
         code: "it",
@@ -156,6 +222,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "Tocca per restare",
         no_breath: "Oggi senza fiato: tieni premuto per soffiare",
         cleaning: "Lo schermo viene pulito",
+        press: "Premi per soffiare, premi ancora per smettere",
+        press_once: "Un solo tocco",
+        calm: "Meno movimento",
+        speak: "Leggi ad alta voce",
+        no_sound: "Quest’opera non fa suoni.",
+        louder: "Più forte",
+        softer: "Più piano",
+        next: "Opere successive",
+        previous: "Opere precedenti",
+        on: "acceso",
+        off: "spento",
     },
     Words {
         code: "es",
@@ -177,6 +254,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "Toca para quedarte",
         no_breath: "Hoy sin soplar: mantén pulsado para mover el aire",
         cleaning: "Se está limpiando la pantalla",
+        press: "Pulsa para soplar, pulsa otra vez para parar",
+        press_once: "Pulsar una vez",
+        calm: "Menos movimiento",
+        speak: "Leer en voz alta",
+        no_sound: "Esta obra no suena.",
+        louder: "Más alto",
+        softer: "Más bajo",
+        next: "Obras siguientes",
+        previous: "Obras anteriores",
+        on: "activado",
+        off: "desactivado",
     },
     Words {
         code: "ko",
@@ -198,6 +286,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "계속하려면 만져 보세요",
         no_breath: "오늘은 불지 않습니다: 길게 눌러 바람을 보내세요",
         cleaning: "화면을 닦고 있습니다",
+        press: "누르면 바람이 불고 다시 누르면 멈춥니다",
+        press_once: "한 번 누르기",
+        calm: "움직임 줄이기",
+        speak: "소리 내어 읽기",
+        no_sound: "이 작품은 소리가 나지 않습니다.",
+        louder: "소리 크게",
+        softer: "소리 작게",
+        next: "다음 작품들",
+        previous: "이전 작품들",
+        on: "켜짐",
+        off: "꺼짐",
     },
     Words {
         code: "ja",
@@ -219,6 +318,17 @@ pub const WORDS: &[Words] = &[
         stay_touch: "続けるには触れてください",
         no_breath: "今日は息を吹きかけず、長押しで風を送ってください",
         cleaning: "画面を清掃しています",
+        press: "押すと風が吹き、もう一度押すと止まります",
+        press_once: "一度押し",
+        calm: "動きを減らす",
+        speak: "読み上げ",
+        no_sound: "この作品は音が出ません。",
+        louder: "音を大きく",
+        softer: "音を小さく",
+        next: "次の作品",
+        previous: "前の作品",
+        on: "オン",
+        off: "オフ",
     },
 ];
 

@@ -256,6 +256,45 @@ own_voice() {
     open_the_loop
 }
 
+# ---- labels are read aloud through the kiosk's own sound, which the ear knows ------------------------------------------
+# One key begins, the same key or a touch ends; the voice comes back to the microphone as loud as it was played, and is no
+# breath.
+reads_aloud() {
+    local before during hushed again touched t_rec at
+    close_the_loop 0
+    limit=300 start_kiosk aloud --no-attract --for 45
+    within 10 grep -q 'supervisor: microphone: ' "$room/aloud.err"
+    start voice parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 --raw
+    local recorder=$last
+    within 5 test -s "$room/voice.out"
+    t_rec=$(now)
+    sleep 3
+    local times=("$(now)")
+    for press in key key key click; do
+        if [ "$press" = key ]; then xdotool key r; else xdotool mousemove 640 200 mousedown 1 sleep 0.1 mouseup 1; fi
+        sleep 6
+        times+=("$(now)")
+    done
+    kill "$recorder"
+    wait "$recorder" 2>/dev/null || true
+    end_kiosk aloud
+    open_the_loop
+    # Seconds of the recording at the end of each part; of each its last two are judged.
+    at=()
+    for t in "${times[@]}"; do at+=("$(awk "BEGIN { print $t - $t_rec - 2.2 }")"); done
+    before=$(level "$room/voice.out" "${at[0]}" 2)
+    during=$(level "$room/voice.out" "${at[1]}" 2)
+    hushed=$(level "$room/voice.out" "${at[2]}" 2)
+    again=$(level "$room/voice.out" "${at[3]}" 2)
+    touched=$(level "$room/voice.out" "${at[4]}" 2)
+    # Speech at −20 LUFS and −6 dB of volume; a silent work is 40 dB below, and the touch may have moved the work.
+    bar "a key reads aloud" "$during > -40 && $again > -40 && $during > $before + 15" "$before, then $during and $again dBFS"
+    bar "a second press hushes" "$hushed < $during - 15" "$hushed dBFS"
+    bar "a touch hushes" "$touched < $again - 10" "$touched dBFS"
+    bar "the voice is no breath" "$(breaths aloud microphone begins | wc -l) == 0" \
+        "$(breaths aloud microphone begins | wc -l) breaths in a minute with the voice at the microphone"
+}
+
 # ---- no sample of the microphone is ever written, sent, or mapped where others read it -----------------------------
 # A known noise is played at the microphone of a kiosk whose every write and send is traced; its shared memory is read
 # while it runs, and every file that it leaves afterwards. Nothing of it may resemble the noise; planted copies must.
@@ -447,7 +486,7 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice one_run doctor_blow no_devices no_display \
+for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice reads_aloud one_run doctor_blow no_devices no_display \
     killed crash_loop gpu_lost devices_out disk_full config_broken clock_set monitor_off broker}; do
     "$part"
 done

@@ -75,6 +75,22 @@ fn two_capsules_are_two_channels() {
 }
 
 #[test]
+fn a_work_is_in_one_group_and_a_group_has_a_heading() {
+    let group = |heading: &str, works: &str| format!("[[exhibits.groups]]\nheading = {heading}\nworks = {works}\n");
+    let mobiles = group("{ en = \"Mobiles\" }", "[\"steel-fish\"]");
+    assert_eq!(problems(&format!("{mobiles}{}", group("{ it = \"Altre\" }", "[\"*\"]"))), [""; 0]);
+    for (text, message) in [
+        (group("{ en = \"All\" }", "[\"*\", \"steel-fish\"]"), "\"steel-fish\" stands twice"),
+        (group("{}", "[]"), "has no heading"),
+        (group("{ en = 3 }", "[]"), "expected a string"),
+        (group("{ en = \"A\" }", "[]\nwork = []"), "unknown field `work`"),
+    ] {
+        let found = problems(&format!("{mobiles}{text}"));
+        assert!(found.len() == 1 && found[0].contains(message) && !found[0].starts_with('0'), "{text}: {found:?}");
+    }
+}
+
+#[test]
 fn everything_wrong_with_a_configuration_is_said_at_once_and_located() {
     let found = problems("[breath]\ngian = 2\ndistance_m = 30.0\n\n[screens]\n");
     assert_eq!(
@@ -196,7 +212,7 @@ mod live {
     fn keys<'a>(staff: &'a Chord, blow: &'a str) -> Keys<'a> {
         static OTHERS: LazyLock<[Chord; 3]> =
             LazyLock::new(|| ["M", "N", "O"].map(|key| Chord::new(true, true, false, key)));
-        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], open: &OTHERS[2], blow, menu: false }
+        Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], open: &OTHERS[2], blow, read: "R", menu: false }
     }
 
     fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
@@ -498,17 +514,30 @@ mod live {
 }
 
 #[cfg(feature = "kiosk")]
+mod aloud;
+mod captions;
+#[cfg(feature = "kiosk")]
+mod contrast;
+#[cfg(feature = "kiosk")]
 mod edit;
+#[cfg(feature = "kiosk")]
+mod flashes;
 #[cfg(feature = "kiosk")]
 mod fleet;
 #[cfg(feature = "kiosk")]
+mod glass;
+#[cfg(feature = "kiosk")]
 mod house;
+#[cfg(feature = "kiosk")]
+mod needs;
 mod opening;
 #[cfg(feature = "kiosk")]
 mod pages;
 mod pin;
 #[cfg(feature = "kiosk")]
 mod record;
+#[cfg(feature = "kiosk")]
+mod screens;
 #[cfg(feature = "kiosk")]
 mod site;
 #[cfg(feature = "kiosk")]

@@ -30,6 +30,7 @@ mod motion;
 mod picture_bars;
 #[cfg(feature = "kiosk")]
 mod pictures;
+mod privacy;
 mod procedural;
 mod realtime;
 mod repeatable;

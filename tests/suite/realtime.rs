@@ -70,7 +70,7 @@ fn the_synth_never_allocates() {
 mod callback {
     use super::*;
     use soffio::audio_io::output::{Engine, open};
-    use soffio::audio_io::{ClockMap, Heard, Knobs, input};
+    use soffio::audio_io::{ClockMap, Heard, Knobs, LOUDEST, Words, input};
     use std::sync::Arc;
 
     fn engine(rate: u32, generation: u64) -> Engine {
@@ -143,6 +143,60 @@ mod callback {
         }
         let (energy, seconds) = knobs.played();
         assert!((seconds - 1.5).abs() < 1e-9 && energy > 0.0, "{energy}, {seconds}");
+    }
+
+    #[test]
+    fn words_are_said_over_a_softer_work_and_the_ear_gets_both() {
+        /// The reference is their mean; both sides get the same words.
+        const SAME: f32 = 1e-6;
+        let (mut player, mut voice, mut workshop) = open(48_000, 2, Arc::new(Knobs::new(1.0)));
+        workshop.exchange(Some(engine(48_000, 0)));
+        let tone = |hz: f32, frames: usize| Words {
+            samples: (0..frames).map(|i| LOUDEST * (std::f32::consts::TAU * hz * i as f32 / 48_000.0).sin()).collect(),
+            sample_rate: 48_000,
+        };
+        let (first, second, none) = (tone(500.0, 96_000), tone(900.0, 24_000), tone(1.0, 0));
+        let other_rate = Words { sample_rate: 44_100, ..second.clone() };
+        // How much of a tone is in stereo frames, 0 to 1, from whole periods of both tones.
+        let part = |stereo: &[f32], hz: f32| {
+            let sum = stereo.chunks_exact(2).enumerate().fold((0.0_f64, 0.0_f64), |(c, s), (i, frame)| {
+                let turn = std::f64::consts::TAU * f64::from(hz) * i as f64 / 48_000.0;
+                (c + f64::from(frame[0]) * turn.cos(), s + f64::from(frame[0]) * turn.sin())
+            });
+            sum.0.hypot(sum.1) * 4.0 / stereo.len() as f64
+        };
+        let mut block = vec![0.0f32; 2 * 480];
+        let mut spoken = Vec::new();
+        for step in 0..250u64 {
+            voice.send(step * 480, &[strike(step * 480, 0)], 0);
+            match step {
+                50 => voice.say(&first),
+                100 => voice.say(&second),
+                // More than there is room for: the newest that has room is said, and hushed all the same.
+                160 => (0..40).for_each(|_| voice.say(&first)),
+                180 => voice.say(&none),
+                210 => voice.say(&other_rate),
+                _ => {}
+            }
+            assert_no_alloc(|| player.play(&mut block));
+            assert!(block.iter().all(|sample| sample.abs() <= 1.0), "step {step}");
+            let reference: Vec<f32> = std::iter::from_fn(|| voice.reference().pop().ok()).collect();
+            for (heard, frame) in reference.iter().zip(block.chunks_exact(2)) {
+                assert!((heard - 0.5 * (frame[0] + frame[1])).abs() < SAME, "step {step}");
+            }
+            let speaks = voice.shared().speaks.load(std::sync::atomic::Ordering::Relaxed);
+            spoken.push((speaks, part(&block, 500.0), part(&block, 900.0)));
+        }
+        let full = f64::from(LOUDEST);
+        let loud = |part: f64| (part / full - 1.0).abs() < 0.1;
+        assert!(!spoken[40].0 && spoken[40].1 < 0.1 * full, "{:?}", spoken[40]);
+        assert!(spoken[70].0 && loud(spoken[70].1) && spoken[70].2 < 0.1 * full, "the first: {:?}", spoken[70]);
+        // Half a second is 50 steps; the first took 0.1 s or so to fade.
+        assert!(spoken[125].0 && loud(spoken[125].2) && spoken[125].1 < 0.1 * full, "the second: {:?}", spoken[125]);
+        assert!(spoken[..100].iter().skip(60).all(|(speaks, ..)| *speaks));
+        for (step, words) in spoken.iter().enumerate().skip(225) {
+            assert!(!words.0 && words.1 < 0.1 * full && words.2 < 0.1 * full, "hushed, step {step}: {words:?}");
+        }
     }
 
     #[test]

@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 use super::{Finding, Health, judge_blow, judge_room};
 use crate::audio_io::{AudioIo, DeviceState, Heard};
 use crate::config::{Config, remedies};
+use crate::kiosk::speech::Speaker;
+use crate::kiosk::words::WORDS;
 use crate::kiosk::{fonts, window};
 use crate::render::Gpu;
 use crate::sound::Synth;
@@ -27,7 +29,7 @@ const OPENING: Duration = Duration::from_secs(3);
 
 /// All that can be found out without a visitor, or with the help of one who blows.
 pub fn look(config: &Config, blow: bool) -> Vec<Finding> {
-    let mut findings = vec![display(), graphics(), east_asian()];
+    let mut findings = vec![display(), graphics(), east_asian(), reading(config)];
     findings.extend(sound(config, blow));
     findings
 }
@@ -66,6 +68,30 @@ fn east_asian() -> Finding {
         None => {
             let remedy = "install fonts-noto-cjk or fonts-nanum; until then these languages are not offered";
             Finding::new(what, Health::Warn, "none found", remedy)
+        }
+    }
+}
+
+/// Whether labels can be read aloud, in each language that the kiosk speaks.
+fn reading(config: &Config) -> Finding {
+    let what = "reading aloud";
+    if config.visit.reads_aloud.is_empty() {
+        return Finding::new(what, Health::Ok, "visit.reads_aloud is empty: nothing is read", "");
+    }
+    match Speaker::find(&config.visit.reads_aloud) {
+        Ok(speaker) => {
+            let can = |can: bool| {
+                let codes = WORDS.iter().map(|words| words.code).filter(|code| speaker.can_speak(code) == can);
+                codes.collect::<Vec<_>>().join(", ")
+            };
+            let (reads, not) = (can(true), can(false));
+            let not = if not.is_empty() { not } else { format!("; not {not}, which has no button to press") };
+            Finding::new(what, Health::Ok, format!("{}: {reads}{not}", config.visit.reads_aloud), "")
+        }
+        Err(error) => {
+            let remedy = "install espeak-ng, or name another program in visit.reads_aloud; until then there is no \
+                          button \"Read aloud\"";
+            Finding::new(what, Health::Warn, error, remedy)
         }
     }
 }

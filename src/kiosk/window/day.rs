@@ -25,7 +25,7 @@ pub(super) fn cover(painter: &Painter, house: &House, scene: &Scene) -> bool {
     let all = painter.clip_rect();
     if let Some(left) = house.cleans(scene.time) {
         painter.rect_filled(all, 0.0, PAPER);
-        let page = Page::new(painter, all, scene.points_per_mm, scene.reading);
+        let page = Page::new(painter, all, scene.points_per_mm, scene.needs.reading);
         page.text(all.center(), Align2::CENTER_BOTTOM, words(scene.language).cleaning, 1.8, INK, page.picture.width());
         let count = FontId::proportional(4.0 * page.em);
         painter.text(all.center() + vec2(0.0, page.em), Align2::CENTER_TOP, format!("{:.0}", left.ceil()), count, INK);
@@ -103,7 +103,11 @@ impl App<'_> {
             }
             let reordered = config.exhibits.show != self.config.exhibits.show;
             self.fleet.settle(&self.config, &config);
+            let visit = config.visit != self.config.visit;
             self.config = config;
+            if visit {
+                self.forget_needs();
+            }
             if reordered && !self.one {
                 self.reorder();
             }

@@ -32,6 +32,8 @@ fn frame(load: Load) -> Frame {
         attract_rounds: 0,
         leaves_in: None,
         captions: Vec::new(),
+        turned: 0,
+        speaks: false,
         deaf: false,
         hears: true,
         onset: None,

@@ -23,7 +23,7 @@ impl Chords {
 
     fn keys(&self) -> Keys<'_> {
         let [staff, open, mute, night] = &self.0;
-        Keys { staff, open, mute, night, blow: "Space", menu: false }
+        Keys { staff, open, mute, night, blow: "Space", read: "R", menu: false }
     }
 }
 

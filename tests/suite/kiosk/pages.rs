@@ -5,13 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Rect, pos2};
+use soffio::config::Group;
 use soffio::exhibit::{self, Exhibit};
 use soffio::kiosk::captions::Captions;
 use soffio::kiosk::fonts;
 use soffio::kiosk::input::Request;
-use soffio::kiosk::menu::{Menu, Tile};
+use soffio::kiosk::menu::{Menu, Tile, tiles};
+use soffio::kiosk::needs::Needs;
 use soffio::kiosk::overlay::{Overlay, Scene};
 use soffio::kiosk::page::{BUTTON_MM, Reading};
+use soffio::kiosk::shelf::Work;
 use soffio::kiosk::words::{WORDS, words};
 use soffio::simulation::{Command, Settings, Simulation, Snapshot, StepInput};
 use soffio::sound::SoundCommand;
@@ -19,42 +22,47 @@ use soffio::sound::SoundCommand;
 /// Points a millimetre of a 43-inch glass with a picture of full HD.
 const POINTS_PER_MM: f32 = 2.0;
 /// Shapes of glass, points.
-const GLASSES: [[f32; 2]; 4] = [[1920.0, 1080.0], [1280.0, 720.0], [1080.0, 1920.0], [2560.0, 1080.0]];
+pub const GLASSES: [[f32; 2]; 4] = [[1920.0, 1080.0], [1280.0, 720.0], [1080.0, 1920.0], [2560.0, 1080.0]];
 const READINGS: [Reading; 3] = [
     Reading { large: false, contrast: false },
     Reading { large: true, contrast: false },
     Reading { large: true, contrast: true },
 ];
 
-fn load(id: &str) -> Arc<Exhibit> {
+pub fn load(id: &str) -> Arc<Exhibit> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id);
     Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}")))
 }
 
 /// A visitor before the glass.
-struct Before {
-    context: egui::Context,
-    exhibit: Arc<Exhibit>,
-    moment: Snapshot,
-    glass: [f32; 2],
-    languages: Vec<String>,
-    language: String,
-    reading: Reading,
-    overlay: Overlay,
-    menu: Menu,
-    time: f64,
-    activity: u64,
-    works: usize,
-    hears: bool,
-    breath: bool,
-    attract: Option<&'static str>,
-    captions: Vec<String>,
+pub struct Before {
+    pub context: egui::Context,
+    pub exhibit: Arc<Exhibit>,
+    pub moment: Snapshot,
+    pub glass: [f32; 2],
+    pub languages: Vec<String>,
+    pub language: String,
+    pub needs: Needs,
+    pub speech: Option<bool>,
+    pub overlay: Overlay,
+    pub menu: Menu,
+    pub time: f64,
+    pub activity: u64,
+    pub works: usize,
+    pub groups: Vec<Group>,
+    /// Real works with their pictures, where there are any.
+    pub shelf: Vec<Work>,
+    pub thumbnails: Vec<(String, egui::TextureHandle)>,
+    pub hears: bool,
+    pub breath: bool,
+    pub attract: Option<&'static str>,
+    pub captions: Vec<String>,
     /// What is written on the glass.
-    said: Vec<String>,
+    pub said: Vec<String>,
 }
 
 impl Before {
-    fn new(exhibit: &Arc<Exhibit>, glass: [f32; 2]) -> Self {
+    pub fn new(exhibit: &Arc<Exhibit>, glass: [f32; 2]) -> Self {
         let context = egui::Context::default();
         context.set_fonts(fonts::definitions());
         let languages: Vec<String> = exhibit.labels.languages.iter().map(|(code, _)| code.clone()).collect();
@@ -65,12 +73,16 @@ impl Before {
             glass,
             language: languages[0].clone(),
             languages,
-            reading: Reading::default(),
+            needs: Needs::default(),
+            speech: Some(false),
             overlay: Overlay::default(),
             menu: Menu::default(),
             time: 1.0,
             activity: 0,
             works: 21,
+            groups: Group::shipped(),
+            shelf: Vec::new(),
+            thumbnails: Vec::new(),
             hears: true,
             breath: true,
             attract: None,
@@ -79,17 +91,37 @@ impl Before {
         }
     }
 
-    fn picture(&self) -> Rect {
+    pub fn picture(&self) -> Rect {
         Rect::from_min_size(pos2(0.0, 0.0), self.glass.into())
     }
 
     /// Looks: what can be pressed.
-    fn look(&mut self) -> Vec<(Rect, Request)> {
+    pub fn look(&mut self) -> Vec<(Rect, Request)> {
+        self.look_with(|_| ())
+    }
+
+    /// Looks, and does something with what the picture is made from.
+    pub fn look_with(&mut self, with: impl FnOnce(&Scene)) -> Vec<(Rect, Request)> {
+        let (buttons, mut laid_out) = self.lay_out_with(with);
+        laid_out.textures_delta.clear();
+        buttons
+    }
+
+    /// All that is drawn over the picture.
+    pub fn lay_out(&mut self) -> egui::FullOutput {
+        self.lay_out_with(|_| ()).1
+    }
+
+    fn lay_out_with(&mut self, with: impl FnOnce(&Scene)) -> (Vec<(Rect, Request)>, egui::FullOutput) {
         let picture = self.picture();
         let input = egui::RawInput { screen_rect: Some(picture), ..egui::RawInput::default() };
         self.menu.tend(self.time, self.activity, self.moment.breath.estimate.speed > 0.0);
-        let tiles: Vec<Tile> =
-            (0..self.works).map(|i| Tile { title: format!("Work {i}"), picture: None, shown: i == 0 }).collect();
+        let tiles: Vec<Tile> = match self.shelf.is_empty() {
+            true => (0..self.works)
+                .map(|i| Tile { id: format!("work-{i}"), title: format!("Work {i}"), picture: None, shown: i == 0 })
+                .collect(),
+            false => tiles(&self.context, &self.shelf, &mut self.thumbnails, &self.exhibit.folder, &self.language),
+        };
         let mut buttons = Vec::new();
         let (context, overlay, menu) = (self.context.clone(), &mut self.overlay, &mut self.menu);
         let scene = Scene {
@@ -110,25 +142,27 @@ impl Before {
             language: &self.language,
             volume: true,
             time: self.time,
-            reading: self.reading,
+            needs: self.needs,
+            speech: self.speech,
             tiles: &tiles,
+            groups: &self.groups,
             points_per_mm: POINTS_PER_MM,
         };
-        let mut laid_out = context.run_ui(input, |ui| {
+        with(&scene);
+        let laid_out = context.run_ui(input, |ui| {
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
             buttons = overlay.paint(&painter, picture, menu, &scene);
         });
-        laid_out.textures_delta.clear();
         let text = |clipped: &egui::epaint::ClippedShape| match &clipped.shape {
             egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
             _ => None,
         };
         self.said = laid_out.shapes.iter().filter_map(text).collect();
-        buttons
+        (buttons, laid_out)
     }
 
     /// Presses a point; what that asks for.
-    fn press(&mut self, at: egui::Pos2) -> Option<Request> {
+    pub fn press(&mut self, at: egui::Pos2) -> Option<Request> {
         self.activity += 1;
         let request = self.look().into_iter().find(|(rect, _)| rect.contains(at)).map(|(_, request)| request);
         match request {
@@ -166,7 +200,7 @@ fn every_button_is_large_enough_apart_and_on_the_glass_in_every_language() {
         for glass in GLASSES {
             for reading in READINGS {
                 let mut visitor = Before::new(&exhibit, glass);
-                visitor.reading = reading;
+                visitor.needs.reading = reading;
                 for language in visitor.languages.clone() {
                     visitor.language = language.clone();
                     for open in [false, true] {
@@ -209,6 +243,7 @@ fn the_page_is_reached_and_left_by_finger_and_everything_on_it_is_found() {
         }
         let languages = (0..visitor.languages.len()).map(Request::Language);
         let rest = [Request::Louder(1), Request::Louder(-1), Request::Large, Request::Contrast, Request::Listen];
+        let rest = rest.into_iter().chain([Request::PressOnce, Request::Calm, Request::Speak]);
         for wanted in (0..visitor.works).map(Request::Work).chain(languages).chain(rest).chain([Request::Menu]) {
             assert!(found.contains(&wanted), "{glass:?}: {wanted:?} is nowhere");
         }
@@ -320,6 +355,62 @@ fn where_nobody_blows_nobody_is_invited_to_in_any_language() {
         visitor.breath = false;
         let said = invited(&mut visitor);
         assert!(said.iter().any(|text| text == own.no_breath) && !said.contains(invite), "{}: {said:?}", own.code);
+    }
+}
+
+#[test]
+fn works_stand_under_the_headings_of_their_groups_in_every_language() {
+    let exhibit = load("steel-fish");
+    for glass in GLASSES {
+        for own in WORDS {
+            let mut visitor = Before::new(&exhibit, glass);
+            visitor.language = own.code.into();
+            visitor.menu.toggle();
+            visitor.groups = Group::shipped();
+            visitor.groups[0].works = (0..21).step_by(2).map(|i| format!("work-{i}")).collect();
+            let (mut found, mut said) = (Vec::new(), Vec::new());
+            for _ in 0..visitor.works {
+                let buttons = visitor.look();
+                said.extend(visitor.said.clone());
+                found.extend(buttons.iter().filter_map(|(_, request)| match request {
+                    Request::Work(index) => Some(*index),
+                    _ => None,
+                }));
+                let Some((rect, _)) = buttons.iter().find(|(_, request)| *request == Request::Leaf(1)) else { break };
+                if found.len() >= visitor.works {
+                    break;
+                }
+                let at = rect.center();
+                visitor.press(at);
+            }
+            // Those of the first group, in their order, then the rest.
+            let expected: Vec<usize> = (0..21).step_by(2).chain((1..21).step_by(2)).collect();
+            assert_eq!(found, expected, "{glass:?}");
+            for (group, there) in [(0, true), (1, false), (2, false), (3, true)] {
+                let heading = &visitor.groups[group].heading[own.code];
+                assert_eq!(said.contains(heading), there, "{}, {glass:?}: {heading}", own.code);
+            }
+        }
+    }
+}
+
+#[test]
+fn whoever_need_not_hold_is_not_told_to_in_any_language() {
+    let exhibit = load("steel-fish");
+    for own in WORDS {
+        let mut visitor = Before::new(&exhibit, GLASSES[0]);
+        visitor.language = own.code.into();
+        visitor.needs.press_once = true;
+        for (hears, breath, open) in [(false, true, false), (false, false, false), (true, true, true)] {
+            (visitor.hears, visitor.breath, visitor.menu.open) = (hears, breath, open);
+            (0..20).for_each(|_| {
+                visitor.time += 0.2;
+                visitor.look();
+            });
+            let said = &visitor.said;
+            assert!(said.iter().any(|text| text == own.press), "{}: {said:?}", own.code);
+            assert!(!said.iter().any(|text| text == own.hold || text == own.no_breath), "{}: {said:?}", own.code);
+        }
     }
 }
 

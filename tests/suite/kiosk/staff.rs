@@ -153,6 +153,8 @@ impl Before {
             attract_rounds: 0,
             leaves_in: None,
             captions: Vec::new(),
+            turned: 0,
+            speaks: false,
             deaf: false,
             hears: true,
             onset: None,

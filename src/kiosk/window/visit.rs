@@ -1,0 +1,82 @@
+//! The window's part in what a visitor needs otherwise: reading aloud, choices for this visit, works that are swiped to.
+
+use super::App;
+use crate::audio_io::{DeviceState, Words};
+use crate::kiosk::aloud::goes_on;
+use crate::kiosk::input::{Request, Signal};
+use crate::kiosk::live::Frame;
+use crate::kiosk::needs::Needs;
+
+impl App<'_> {
+    /// Looks on, once a picture.
+    pub(super) fn follow_visit(&mut self, frame: &Frame) {
+        self.aloud.settle(&self.config.visit.reads_aloud);
+        let made = self.aloud.tend(frame.speaks);
+        self.utter(made);
+        // Whoever listens is there.
+        if frame.speaks {
+            self.visitor.note();
+            self.tell();
+        }
+        // Whoever blows wants the sculpture.
+        if frame.current.breath.estimate.speed > 0.0 {
+            let hush = self.aloud.end();
+            self.utter(hush);
+        }
+        if frame.attracts || !self.house.is_open() {
+            let hush = self.aloud.leave();
+            self.utter(hush);
+        }
+        if frame.turned != self.turned {
+            self.leaf((frame.turned - self.turned) as i32);
+            self.turned = frame.turned;
+        }
+    }
+
+    /// The next visitor finds what the site says.
+    pub(super) fn forget_needs(&mut self) {
+        self.needs = Needs::of(&self.config.visit);
+    }
+
+    /// A touch or a key ends the reading, unless it is about the reading itself.
+    pub(super) fn hush_at(&mut self, signal: &Signal, request: Option<Request>) {
+        let touches = self.visitor.press_position(signal).is_some();
+        let types = matches!(signal, Signal::Key(key) if key.pressed && !key.repeat);
+        // Enter is whatever the marked button is.
+        let means = match request {
+            Some(Request::Enter) => self.menu.marked(&self.buttons),
+            request => request,
+        };
+        if (touches || types) && !goes_on(means) {
+            let hush = self.aloud.end();
+            self.utter(hush);
+        }
+    }
+
+    /// What a visitor chooses for this visit.
+    pub(super) fn choose(&mut self, request: Request) {
+        match request {
+            Request::PressOnce => self.needs.press_once ^= true,
+            Request::Calm => self.needs.calm ^= true,
+            Request::Speak => {
+                let hush = self.aloud.press();
+                self.utter(hush);
+            }
+            _ => {}
+        }
+    }
+
+    fn utter(&self, words: Option<Words>) {
+        if let (Some(words), Some(show)) = (words, &self.show) {
+            show.live.controls().words = Some(words);
+        }
+    }
+}
+
+/// Rate of the loudspeaker, Hz; `None` without one.
+pub(super) fn rate(frame: &Frame) -> Option<u32> {
+    match frame.load.audio.output {
+        DeviceState::Ok { sample_rate, .. } => Some(sample_rate),
+        _ => None,
+    }
+}
