@@ -32,6 +32,8 @@ mod picture_bars;
 mod pictures;
 mod procedural;
 mod realtime;
+#[cfg(feature = "kiosk")]
+mod rehearsal;
 mod repeatable;
 mod robust;
 mod scene;
