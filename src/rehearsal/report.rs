@@ -28,6 +28,9 @@ pub struct Judged {
     pub seen_after_s: Option<f64>,
     /// Motion energy of the second after over that of the second before.
     pub contingency: Option<f64>,
+    /// From the onset to the first wind inside the kiosk, s; null where there is none within a second. Told, not judged: it says
+    /// whether a visit that was not answered was not heard, or not seen.
+    pub heard_after_s: Option<f64>,
     /// Answers to nobody in the ten seconds before.
     pub phantoms: usize,
     /// Was it answered as it should be?

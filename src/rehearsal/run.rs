@@ -78,6 +78,8 @@ struct Course<'a> {
     /// Did the entry's onset end attract mode?
     woke: Vec<usize>,
     answers: Vec<(usize, Option<judge::Answer>)>,
+    /// Entries whose doing made wind, and after how long, s.
+    heard: Vec<(usize, f64)>,
     shuffled: Vec<(f64, bool)>,
     winds: Vec<f64>,
     phantoms: Vec<f64>,
@@ -109,6 +111,7 @@ impl<'a> Course<'a> {
             waiting: Vec::new(),
             woke: Vec::new(),
             answers: Vec::new(),
+            heard: Vec::new(),
             shuffled: Vec::new(),
             winds: Vec::new(),
             phantoms: Vec::new(),
@@ -134,6 +137,7 @@ impl<'a> Course<'a> {
         if self.machine.stage.attracts() {
             self.attracted = now;
         }
+        self.note_heard(now);
         self.watch_staff(now);
         self.eyes.look(step + 1, self.work, &self.machine.stage.snapshot().poses);
         self.judge((step + 1) * FPS / STEPS_PER_SECOND)
@@ -212,6 +216,17 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// Does the kiosk blow within a second of what the visitor does?
+    fn note_heard(&mut self, now: f64) {
+        let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
+        if let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now))
+            && self.machine.stage.snapshot().breath.speed > 0.0
+            && self.heard.last().is_none_or(|(entry, _)| *entry != self.current)
+        {
+            self.heard.push((self.current, now - onset));
+        }
+    }
+
     /// Staff's doing is kept: silence while it is mute, no wind at all while it is deaf.
     fn watch_staff(&mut self, now: f64) {
         let speed = self.machine.stage.snapshot().breath.speed;
@@ -269,6 +284,7 @@ impl<'a> Course<'a> {
                 work: rehearsal.works[entry.work].id.clone(),
                 seen_after_s: answer.and_then(|a| a.seen).map(|k| (middle + k as f64) / FPS as f64 - onset),
                 contingency: answer.map(|answer| answer.contingency),
+                heard_after_s: self.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
                 phantoms,
                 good: answer.is_some_and(|answer| answer.is_answer()) && phantoms == 0,
                 groups,
