@@ -151,6 +151,7 @@ fn rehearsed(rehearsal: Rehearsal) -> Report {
 }
 
 #[test]
+#[ignore = "draws hundreds of pictures, minutes in software"]
 fn some_minutes_are_answered_and_the_same_the_second_time() {
     const HOURS: f64 = 0.05;
     let [report, again] = [(); 2].map(|()| rehearsed(rehearsal(HOURS, 1, Crowd::Made)));
@@ -162,6 +163,7 @@ fn some_minutes_are_answered_and_the_same_the_second_time() {
 }
 
 #[test]
+#[ignore = "draws hundreds of pictures, minutes in software"]
 fn a_crowd_with_a_breath_in_it_is_answered_to_nobody_and_misses_the_bar() {
     // Whoever is in the recording is no visitor: what the kiosk does for them it does for nobody.
     let shape = BreathShape { lead_in: 3.0, strength: 13.0, lead_out: 25.0, ..BreathShape::default() };
