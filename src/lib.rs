@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! math, noise → geometry → bodies → collision, articulation → dynamics | wind | sound → procedural → exhibit → simulation
-//!             → config → audio_io | controllers | render → offline, kiosk → commands
+//!             → config → audio_io | controllers | render → offline → kiosk → rehearsal → commands
 //! ```
 //!
 //! Everything down to `simulation` is pure and deterministic: no clock, file (but `exhibit`'s loader), device,
@@ -33,5 +33,7 @@ pub mod audio_io;
 pub mod controllers;
 #[cfg(feature = "kiosk")]
 pub mod kiosk;
+#[cfg(feature = "kiosk")]
+pub mod rehearsal;
 #[cfg(feature = "kiosk")]
 pub mod render;

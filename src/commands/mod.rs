@@ -28,6 +28,8 @@ pub mod pin;
 pub mod play;
 pub mod privacy;
 #[cfg(feature = "kiosk")]
+pub mod rehearse;
+#[cfg(feature = "kiosk")]
 pub mod render;
 pub mod replay;
 pub mod schema;
@@ -102,6 +104,8 @@ enum Command {
     Loudness(loudness::Args),
     #[cfg(feature = "kiosk")]
     Render(render::Args),
+    #[cfg(feature = "kiosk")]
+    Rehearse(rehearse::Args),
     Export(export::Args),
     Check(check::Args),
     Explain(explain::Args),
@@ -133,6 +137,8 @@ pub fn run() -> ExitCode {
         Some(Command::Loudness(args)) => loudness::run(args),
         #[cfg(feature = "kiosk")]
         Some(Command::Render(args)) => render::run(args),
+        #[cfg(feature = "kiosk")]
+        Some(Command::Rehearse(args)) => rehearse::run(args),
         Some(Command::Export(args)) => export::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Explain(args)) => explain::run(args),

@@ -18,6 +18,7 @@ const LAYERS: &[&[&str]] = &[
     &["audio_io", "controllers", "render"],
     &["offline"],
     &["kiosk"],
+    &["rehearsal"],
     &["commands"],
 ];
 

@@ -33,6 +33,8 @@ mod pictures;
 mod privacy;
 mod procedural;
 mod realtime;
+#[cfg(feature = "kiosk")]
+mod rehearsal;
 mod repeatable;
 mod robust;
 mod scene;

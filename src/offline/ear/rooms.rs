@@ -43,6 +43,11 @@ impl Room {
     pub fn random(random: &mut Random) -> Self {
         let size = DVec3::new(random.range(5.0, 25.0), random.range(4.0, 18.0), random.range(2.8, 6.0));
         let absorption = random.range(0.1, 0.45);
+        Self::new(size, absorption, random)
+    }
+
+    /// A room of this size (m) and mean absorption, with a kiosk somewhere near one of its walls.
+    pub fn new(size: DVec3, absorption: f64, random: &mut Random) -> Self {
         let surface = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
         let microphone = size * DVec3::new(random.range(0.2, 0.8), random.range(0.1, 0.4), 0.0)
             + DVec3::new(0.0, 0.0, random.range(0.9, 1.4));

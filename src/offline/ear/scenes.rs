@@ -5,6 +5,7 @@
 //! each capsule, adds breath, the bump that comes through the table, and the microphone: corner, noise, gain, rails.
 
 mod bystanders;
+mod lips;
 
 use crate::math::{exp, from_decibels, tanh};
 use crate::noise::{Random, hash_words};
@@ -14,6 +15,7 @@ use crate::wind::generate::{self, BreathShape};
 use super::rooms::{Room, convolved};
 use super::voices::{self, Voice, add};
 use super::{Breath, Event, Kind, RATE, Take, noises, own};
+pub use lips::Lips;
 
 const R: f64 = RATE as f64;
 /// Voices of a world, and how long each one's speech is before it repeats, s.
@@ -92,33 +94,48 @@ impl World {
     /// The world of a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(hash_words(&[seed, 0x0076_6f69]));
-        let voices = (0..VOICES)
-            .map(|_| {
-                let voice = Voice::random(&mut random);
-                let voice = if random.unit() < 0.15 { voice.shouting() } else { voice };
-                (voice, voices::speech(&voice, SPEECH_S, &mut random))
-            })
-            .collect();
-        let room = |random: &mut Random| {
-            let room = Room::random(random);
-            // The last place is a visitor's before the kiosk.
-            let response = |place: usize, random: &mut Random| {
-                let at =
-                    if place + 1 < PLACES { room.place(random) } else { room.near(random.range(0.3, 1.0), random) };
-                let seed = random.word();
-                [room.response(at, 0, seed), room.response(at, 1, seed)]
-            };
-            let responses = (0..PLACES).map(|place| response(place, random)).collect();
-            (room, responses)
-        };
-        let rooms = (0..ROOMS).map(|_| room(&mut random)).collect();
+        let voices = Self::speakers(&mut random);
+        let rooms = (0..ROOMS).map(|_| Self::heard_in(Room::random(&mut random), &mut random)).collect();
         Self { seed, voices, rooms, recorded: Vec::new() }
+    }
+
+    /// The speakers of a seed, all in one room.
+    pub fn in_room(seed: u64, room: Room) -> Self {
+        let mut random = Random::new(hash_words(&[seed, 0x0076_6f69]));
+        let voices = Self::speakers(&mut random);
+        let rooms = vec![Self::heard_in(room, &mut random)];
+        Self { seed, voices, rooms, recorded: Vec::new() }
+    }
+
+    fn speakers(random: &mut Random) -> Vec<(Voice, Vec<f64>)> {
+        let speaker = |_| {
+            let voice = Voice::random(random);
+            let voice = if random.unit() < 0.15 { voice.shouting() } else { voice };
+            (voice, voices::speech(&voice, SPEECH_S, random))
+        };
+        (0..VOICES).map(speaker).collect()
+    }
+
+    /// A room with its responses from some places; the last one is a visitor's before the kiosk.
+    fn heard_in(room: Room, random: &mut Random) -> (Room, Vec<[Vec<f64>; 2]>) {
+        let response = |place: usize| {
+            let at = if place + 1 < PLACES { room.place(random) } else { room.near(random.range(0.3, 1.0), random) };
+            let seed = random.word();
+            [room.response(at, 0, seed), room.response(at, 1, seed)]
+        };
+        let responses = (0..PLACES).map(response).collect();
+        (room, responses)
     }
 
     /// The same with recorded noises, which then take part in scenes of museums.
     pub fn with_recordings<'a>(mut self, takes: impl IntoIterator<Item = &'a Take>) -> Self {
         let noises = takes.into_iter().filter(|take| take.kind == Kind::Noise && take.duration() > 2.0);
-        self.recorded.extend(noises.map(resampled).filter(|sound| power(sound) > 0.0).map(normalised));
+        self.recorded.extend(
+            noises
+                .map(|take| resampled(&take.left, take.sample_rate))
+                .filter(|sound| power(sound) > 0.0)
+                .map(normalised),
+        );
         self
     }
 
@@ -148,19 +165,20 @@ impl World {
     }
 
     /// A stretch of one of the voices.
-    fn speech(&self, seconds: f64, random: &mut Random) -> Vec<f64> {
+    pub fn speech(&self, seconds: f64, random: &mut Random) -> Vec<f64> {
         let track = &self.voices[(random.unit() * VOICES as f64) as usize].1;
         let from = (random.unit() * track.len() as f64) as usize;
         track.iter().cycle().skip(from).take((seconds * R) as usize).copied().collect()
     }
 
-    fn voice(&self, random: &mut Random) -> Voice {
+    /// One of the speakers.
+    pub fn voice(&self, random: &mut Random) -> Voice {
         self.voices[(random.unit() * VOICES as f64) as usize].0
     }
 
     /// What both capsules hear of the dry sounds.
     fn heard(&self, dry: &Dry, stereo: bool, random: &mut Random) -> Vec<Vec<f64>> {
-        let (_, responses) = &self.rooms[(random.unit() * ROOMS as f64) as usize];
+        let (_, responses) = &self.rooms[(random.unit() * self.rooms.len() as f64) as usize];
         let capsule = |capsule: usize| {
             let mut out = dry.places[PLACES].clone();
             for (sound, response) in dry.places.iter().zip(responses) {
@@ -209,21 +227,12 @@ impl World {
         let (shapes, breaths) = Self::row_of_breaths(&first, random);
         let seconds = shapes.iter().map(BreathShape::duration).sum::<f64>();
         let seed = random.word();
-        // Straight at a capsule behind a thick grille, there may be hardly any hiss.
-        let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
-        let (rumble, hiss) = (random.range(-3.0, 3.0), random.range(least, 6.0));
-        let tilt = if random.unit() < 0.4 { random.range(-0.4, 2.5) } else { 0.0 };
+        let lips = Lips::random(angle_deg, random);
         let capsules = 1 + u64::from(hearing.stereo);
         let streams: Vec<Vec<f64>> = (0..capsules)
             .map(|capsule| {
-                // Rumble and hiss each louder or softer than the formula: capsules, lips.
                 let air = (0..).zip(&shapes).map(|(i, s)| generate::stream(RATE, hash_words(&[seed, i]), s, capsule));
-                let air = air.collect::<Vec<_>>().concat();
-                let low = low_passed(air.clone(), R, 350.0, 2);
-                let upper = high_passed(low.clone(), R, 160.0, 1);
-                let (g, h) = (from_decibels(rumble), from_decibels(hiss));
-                let parts = air.iter().zip(low.iter().zip(&upper));
-                parts.map(|(x, (l, u))| g * (l + tilt * u) + h * (x - l)).collect()
+                lips.heard(air.collect::<Vec<_>>().concat())
             })
             .collect();
         let noisy = matches!(condition, Condition::Noisy(_));
@@ -292,7 +301,7 @@ impl World {
 
     /// Adds what the microphone hears of what the kiosk plays.
     fn hear_itself(&self, played: &[f64], room: u32, channels: &mut [Vec<f64>], random: &mut Random) {
-        let (_, responses) = &self.rooms[room as usize % ROOMS];
+        let (_, responses) = &self.rooms[room as usize % self.rooms.len()];
         // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
         let late = (0.02 + 0.035 * f64::from(room)) * R;
         let mut delayed = vec![0.0; late as usize];
@@ -355,9 +364,9 @@ impl World {
 }
 
 /// A recording at [`RATE`], by straight lines between samples that are low-passed first: good enough for a noise.
-fn resampled(take: &Take) -> Vec<f64> {
-    let from = f64::from(take.sample_rate);
-    let samples = take.left.iter().map(|x| f64::from(*x)).collect();
+pub fn resampled(samples: &[f32], sample_rate: u32) -> Vec<f64> {
+    let from = f64::from(sample_rate);
+    let samples: Vec<f64> = samples.iter().map(|x| f64::from(*x)).collect();
     let samples = if from > R { low_passed(samples, from, 0.4 * R, 2) } else { samples };
     let at = |i: usize| {
         let t = i as f64 * from / R;

@@ -5,6 +5,7 @@ use crate::math::from_decibels;
 use crate::noise::Random;
 use crate::wind::generate::filter::{normalised, peaked};
 
+use super::super::rooms::convolved;
 use super::super::voices;
 use super::super::{Kind, Take, noises};
 use super::{Condition, Dry, Hearing, PLACES, R, World};
@@ -110,6 +111,17 @@ impl World {
         let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
         dry.put(what, at, 0.0, &even, gain);
         dry
+    }
+
+    /// What the first capsule hears of a museum, before the microphone's own part: full scale ±1 at [`RATE`](super::super::RATE).
+    pub fn crowd(&self, seconds: f64, busy: f64, random: &mut Random) -> Vec<f64> {
+        let dry = self.museum_sounds(seconds, busy, random);
+        self.heard(&dry, false, random).swap_remove(0)
+    }
+
+    /// A sound from right before the kiosk, as it arrives at the first capsule.
+    pub fn before_the_kiosk(&self, sound: &[f64]) -> Vec<f64> {
+        convolved(sound, &self.rooms[0].1[PLACES - 1][0])
     }
 
     pub(super) fn museum(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {

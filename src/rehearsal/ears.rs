@@ -1,0 +1,133 @@
+//! What an onlooker hears of an answer: the rushing of wind, in what leaves the loudspeaker.
+//!
+//! A breath that is answered is heard as wind: noise, where strikes and chimes are tones, and lasting, where a hit's click is
+//! over at once. The median of a band's power spectrum knows no tones, since they fill few of its bins. Noise of mean power
+//! p a bin has the median p ln 2 (its powers are exponentially distributed), so
+//!
+//! ```text
+//! noise = median / ln 2 · bins                 wind = noise above −60 dB of full scale in 6 of 7 frames in a row
+//! ```
+//!
+//! with frames of 43 ms, half of each new. A gentle breath's wind lies at −50 dB, a strong one's at −30 dB; what rings after it
+//! stays below −60 dB but for single frames, in which something is hit.
+
+use std::sync::Arc;
+
+use realfft::{RealFftPlanner, RealToComplex};
+
+use super::SAMPLE_RATE_HZ;
+use crate::math::{PI, cos, from_decibels};
+
+/// Samples of a frame, and how many are new.
+const FRAME: usize = 2048;
+const HOP: usize = 1024;
+/// The band in which wind rushes most, Hz.
+const BAND_HZ: (f64, f64) = (150.0, 800.0);
+/// Noise from here on is heard as wind, dB of full scale.
+const WIND_DBFS: f64 = -60.0;
+/// So many frames in a row, of which one may be otherwise.
+const LASTS: u32 = 7;
+const OTHERWISE: u32 = 1;
+/// A Hann window keeps this part of the power.
+const HANN: f64 = 0.375;
+
+/// The onlooker's ears.
+pub struct Ears {
+    transform: Arc<dyn RealToComplex<f64>>,
+    window: Vec<f64>,
+    waiting: Vec<f64>,
+    /// The last frames, the newest in the lowest bit: was it wind?
+    frames: u32,
+    rushes: bool,
+    /// Samples heard.
+    sample: u64,
+}
+
+impl Ears {
+    /// In silence.
+    pub fn new() -> Self {
+        let hann = |i: usize| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / FRAME as f64);
+        Self {
+            transform: RealFftPlanner::new().plan_fft_forward(FRAME),
+            window: (0..FRAME).map(hann).collect(),
+            waiting: vec![0.0; FRAME - HOP],
+            frames: 0,
+            rushes: false,
+            sample: 0,
+        }
+    }
+
+    /// Hears a block (stereo). The times at which wind begins to rush, s.
+    pub fn hear(&mut self, played: &[f32]) -> Vec<f64> {
+        let mut begins = Vec::new();
+        for [left, right] in played.as_chunks::<2>().0 {
+            self.waiting.push(0.5 * f64::from(left + right));
+            self.sample += 1;
+            if self.waiting.len() == FRAME {
+                let loud = from_decibels(WIND_DBFS);
+                self.frames = self.frames << 1 | u32::from(self.noise() > loud * loud);
+                self.waiting.drain(..HOP);
+                let last = self.frames & ((1 << LASTS) - 1);
+                let rushes = last.count_ones() + OTHERWISE >= LASTS || self.rushes && last != 0;
+                if rushes && !self.rushes {
+                    let frames = (32 - last.leading_zeros()).saturating_sub(1) as usize;
+                    let began = self.sample.saturating_sub((FRAME + frames * HOP) as u64);
+                    begins.push(began as f64 / f64::from(SAMPLE_RATE_HZ));
+                }
+                self.rushes = rushes;
+            }
+        }
+        begins
+    }
+
+    /// Power of the noise in the band, full scale 1.
+    fn noise(&self) -> f64 {
+        let mut frame: Vec<f64> = self.waiting.iter().zip(&self.window).map(|(x, w)| x * w).collect();
+        let mut spectrum = self.transform.make_output_vec();
+        // Lengths agree by construction.
+        if self.transform.process(&mut frame, &mut spectrum).is_err() {
+            return 0.0;
+        }
+        let bin = |hz: f64| (hz * FRAME as f64 / f64::from(SAMPLE_RATE_HZ)).round() as usize;
+        let mut band: Vec<f64> = spectrum[bin(BAND_HZ.0)..bin(BAND_HZ.1)].iter().map(|z| z.norm_sqr()).collect();
+        band.sort_by(f64::total_cmp);
+        let mean = band[band.len() / 2] / std::f64::consts::LN_2;
+        // Parseval; half of the power lies at negative frequencies.
+        2.0 * mean * band.len() as f64 / (HANN * FRAME as f64 * FRAME as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{exp, sin};
+    use crate::noise::Random;
+    use crate::wind::generate::filter::{gaussian, low_passed, normalised};
+
+    const RATE: f64 = SAMPLE_RATE_HZ as f64;
+
+    fn begins(sound: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        let noise = normalised(low_passed(gaussian(8 * SAMPLE_RATE_HZ as usize, &mut Random::new(2)), RATE, 400.0, 1));
+        let mut ears = Ears::new();
+        let samples = noise.iter().enumerate().map(|(i, n)| sound(i as f64 / RATE, *n) as f32);
+        let stereo: Vec<f32> = samples.flat_map(|x| [x, x]).collect();
+        stereo.chunks(960).flat_map(|block| ears.hear(block)).collect()
+    }
+
+    #[test]
+    fn wind_is_heard_when_it_begins_and_chimes_and_clicks_are_not() {
+        /// A frame before, a frame after.
+        const ABOUT: f64 = 0.05;
+        let chime = |t: f64| [523.0, 1444.0, 2830.0].iter().map(|f| 0.1 * sin(2.0 * PI * f * t)).sum::<f64>();
+        assert!(begins(|t, _| chime(t)).is_empty(), "a chime");
+        let click = |t: f64, n: f64| 0.3 * n * exp(-(t % 1.0) / 0.01);
+        assert!(begins(click).is_empty(), "clicks");
+        let gust = |t: f64| if (2.0..3.0).contains(&t) || (5.0..5.4).contains(&t) { 0.004 } else { 0.0 };
+        for (name, heard) in
+            [("alone", begins(|t, n| gust(t) * n)), ("in a chime", begins(|t, n| gust(t) * n + chime(t)))]
+        {
+            assert_eq!(heard.len(), 2, "{name}: {heard:?}");
+            assert!((heard[0] - 2.0).abs() < ABOUT && (heard[1] - 5.0).abs() < ABOUT, "{name}: {heard:?}");
+        }
+    }
+}

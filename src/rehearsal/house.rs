@@ -1,0 +1,170 @@
+//! The house as the microphone hears it: the crowd of the day, the air, visitors before the kiosk, and the kiosk itself.
+//!
+//! Time goes in blocks of 10 ms, as a sound card's does. Everything is summed as sound; last comes the microphone: its
+//! corner, its own noise, its rails.
+
+use std::collections::VecDeque;
+
+use super::BLOCK;
+use super::day::busyness;
+use super::rate::Finer;
+use super::room::Echo;
+use crate::math::{PI, exp, from_decibels};
+use crate::noise::{Random, hash_words};
+use crate::offline::ear::scenes::{World, resampled};
+use crate::offline::ear::{RATE, noises};
+use crate::offline::wav::Recording;
+use crate::wind::generate::filter::white;
+
+const R: f64 = RATE as f64;
+/// The crowd comes in pieces of this length, which fade into each other, s.
+const PIECE_S: f64 = 60.0;
+const FADE_S: f64 = 2.0;
+/// A recording must be so long, s: the fades at its ends and as much between them.
+const SHORTEST_S: f64 = 3.0 * FADE_S;
+/// Ventilation and street, dB of full scale: from a quiet house to a busy one.
+const AIR_DBFS: (f64, f64) = (-62.0, -50.0);
+/// Noise of the microphone, dB of full scale.
+const HISS_DBFS: f64 = -76.0;
+/// Corners of a bare capsule, a gooseneck on a sound card, a cheap one, Hz.
+const CORNERS_HZ: [f64; 3] = [20.0, 60.0, 80.0];
+
+/// Where the crowd comes from.
+pub enum Crowd {
+    /// Made, by the day's seed.
+    Made,
+    /// Recordings at 16 kHz, one after another, round after round.
+    Recorded(Vec<Vec<f64>>),
+}
+
+/// A crowd of recordings, each long enough to fade into the next.
+pub fn recorded(recordings: &[Recording]) -> Result<Crowd, String> {
+    let long = recordings.iter().filter(|recording| recording.duration() >= SHORTEST_S);
+    let sounds: Vec<_> = long.map(|recording| resampled(&recording.samples, recording.sample_rate)).collect();
+    if sounds.is_empty() {
+        return Err(format!("no WAV of {SHORTEST_S} s or more is there; record your gallery for some minutes"));
+    }
+    Ok(Crowd::Recorded(sounds))
+}
+
+/// Everything that the microphone hears.
+pub struct House {
+    world: World,
+    seed: u64,
+    crowd: Crowd,
+    /// Length of the day, s.
+    day_s: f64,
+    pieces: u64,
+    /// Made and not yet heard.
+    ahead: VecDeque<f64>,
+    /// The end of the last piece, which fades into the next.
+    fading: Vec<f64>,
+    /// Sounds with the sample at which each begins.
+    sounds: Vec<(u64, Vec<f64>)>,
+    echo: Echo,
+    microphone: Capsule,
+    /// Samples heard.
+    sample: u64,
+}
+
+impl House {
+    /// A day of so many seconds in a world of one room.
+    pub fn new(world: World, echo: Echo, crowd: Crowd, seed: u64, day_s: f64) -> Self {
+        let mut random = Random::new(hash_words(&[seed, 0x686f_7573]));
+        let corner = CORNERS_HZ[(random.unit() * CORNERS_HZ.len() as f64) as usize];
+        Self {
+            world,
+            seed,
+            crowd,
+            day_s,
+            pieces: 0,
+            ahead: VecDeque::new(),
+            fading: Vec::new(),
+            sounds: Vec::new(),
+            echo,
+            microphone: Capsule::new(corner, random.word()),
+            sample: 0,
+        }
+    }
+
+    /// Its speakers and its room.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Lets a sound begin at a time of the day, s; full scale ±1 at 16 kHz.
+    pub fn put(&mut self, at: f64, sound: Vec<f64>) {
+        self.sounds.push(((at * R).round().max(0.0) as u64, sound));
+    }
+
+    /// The next block of the microphone at 48 kHz, full scale ±1, while `played` leaves the loudspeaker (stereo at 48 kHz).
+    pub fn hear(&mut self, played: &[f32]) -> Vec<f32> {
+        while self.ahead.len() < BLOCK {
+            self.go_on();
+        }
+        let mut sum = self.echo.hear(played);
+        sum.iter_mut().zip(self.ahead.drain(..BLOCK)).for_each(|(y, x)| *y += x);
+        let (from, until) = (self.sample, self.sample + BLOCK as u64);
+        for (start, sound) in &self.sounds {
+            let into = start.saturating_sub(from).min(BLOCK as u64) as usize;
+            let past = from.saturating_sub(*start).min(sound.len() as u64) as usize;
+            sum[into..].iter_mut().zip(&sound[past..]).for_each(|(y, x)| *y += x);
+        }
+        self.sounds.retain(|(start, sound)| start + sound.len() as u64 > until);
+        self.sample = until;
+        self.microphone.record(&sum)
+    }
+
+    /// Another piece of the crowd.
+    fn go_on(&mut self) {
+        let mut random = Random::new(hash_words(&[self.seed, self.pieces, 0x6372_6f77]));
+        let busy = busyness(self.pieces as f64 * PIECE_S / self.day_s);
+        let mut piece = match &self.crowd {
+            Crowd::Made => self.world.crowd(PIECE_S + FADE_S, busy, &mut random),
+            Crowd::Recorded(recordings) => recordings[(self.pieces % recordings.len() as u64) as usize].clone(),
+        };
+        if matches!(self.crowd, Crowd::Made) {
+            let level = from_decibels(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * busy).min(1.0));
+            let air = noises::air(PIECE_S + FADE_S, &mut random);
+            piece.iter_mut().zip(&air).for_each(|(y, x)| *y += level * x);
+        }
+        let fade = ((FADE_S * R) as usize).min(piece.len() / 2);
+        for (i, y) in piece.iter_mut().take(self.fading.len()).enumerate() {
+            // Two that know nothing of each other keep their power.
+            let part = i as f64 / self.fading.len() as f64;
+            *y = part.sqrt() * *y + (1.0 - part).sqrt() * self.fading[i];
+        }
+        self.fading = piece.split_off(piece.len() - fade);
+        self.ahead.extend(piece);
+        self.pieces += 1;
+    }
+}
+
+/// The microphone.
+struct Capsule {
+    keep: f64,
+    low: [f64; 2],
+    random: Random,
+    finer: Finer,
+}
+
+impl Capsule {
+    fn new(corner_hz: f64, seed: u64) -> Self {
+        let keep = exp(-2.0 * PI * corner_hz / R);
+        Self { keep, low: [0.0; 2], random: Random::new(seed), finer: Finer::new() }
+    }
+
+    fn record(&mut self, air: &[f64]) -> Vec<f32> {
+        let hiss = white(air.len(), &mut self.random);
+        let (keep, low) = (self.keep, &mut self.low);
+        let heard = air.iter().zip(&hiss).map(|(x, n)| {
+            let mut y = *x;
+            for low in low.iter_mut() {
+                *low = y + keep * (*low - y);
+                y -= *low;
+            }
+            y + from_decibels(HISS_DBFS) * n
+        });
+        self.finer.convert(heard).into_iter().map(|x| x.clamp(-1.0, 1.0) as f32).collect()
+    }
+}

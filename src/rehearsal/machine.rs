@@ -1,0 +1,116 @@
+//! The kiosk under rehearsal: all that runs live, but for clock, window and devices.
+//!
+//! The same [`Stage`], the loudspeaker's own callback, the microphone's own ring and the same tap that aligns what was
+//! played with what was heard. Blocks of 10 ms come and go as a sound card's do, steps 240 times a second.
+
+use std::sync::Arc;
+
+use super::{FRAMES, SAMPLE_RATE_HZ};
+use crate::audio_io::output::{self, Engine, Player, Workshop};
+use crate::audio_io::{Heard, Knobs, ReferenceTap, input};
+use crate::exhibit::Exhibit;
+use crate::kiosk::site::Site;
+use crate::kiosk::stage::{Controls, Stage};
+use crate::kiosk::voice::Voice;
+use crate::math::from_decibels;
+use crate::sound::Volume;
+
+/// A kiosk.
+pub struct Machine {
+    /// What moves and answers.
+    pub stage: Stage,
+    player: Player,
+    speaker: output::Voice,
+    workshop: Workshop,
+    recorder: input::Recorder,
+    ears: input::Ears,
+    tap: ReferenceTap,
+    heard: Heard,
+    knobs: Arc<Knobs>,
+    volume: Volume,
+    voice: Voice,
+    generation: u64,
+    /// The block that leaves the loudspeaker, stereo.
+    played: Vec<f32>,
+}
+
+impl Machine {
+    /// A work on show, as loud as visitors can make it.
+    pub fn new(exhibit: Arc<Exhibit>, site: &Site) -> Self {
+        let mut volume = Volume::new(site.volume);
+        volume.step(i32::MAX);
+        let knobs = Arc::new(Knobs::new(from_decibels(volume.db()) as f32));
+        let (player, speaker, workshop) = output::open(SAMPLE_RATE_HZ, 2, knobs.clone());
+        let (recorder, ears) = input::open(SAMPLE_RATE_HZ, 1, [0, 0]);
+        let voice =
+            Voice { room: site.room, most_partials: site.audio.most_partials as usize, seed: site.settings.seed };
+        let mut machine = Self {
+            stage: Stage::new(exhibit.clone(), site.settings, None, site.idle_s),
+            player,
+            speaker,
+            workshop,
+            recorder,
+            ears,
+            tap: ReferenceTap::default(),
+            heard: Heard::default(),
+            knobs,
+            volume,
+            voice,
+            generation: 0,
+            played: vec![0.0; 2 * FRAMES],
+        };
+        machine.tune(&exhibit);
+        machine
+    }
+
+    fn tune(&mut self, exhibit: &Exhibit) {
+        let synth = Box::new(self.voice.synth(exhibit, None)(SAMPLE_RATE_HZ));
+        self.workshop.exchange(Some(Engine { synth, generation: self.generation }));
+    }
+
+    /// Another work.
+    pub fn show(&mut self, exhibit: Arc<Exhibit>) {
+        self.generation += 1;
+        self.tune(&exhibit);
+        self.stage.swap(exhibit, None);
+    }
+
+    /// Staff's key: mutes, or lets it sound again.
+    pub fn toggle_mute(&mut self) {
+        self.volume.toggle_mute();
+        self.knobs.set_volume(if self.volume.is_muted() { 0.0 } else { from_decibels(self.volume.db()) as f32 });
+    }
+
+    /// Is it muted?
+    pub fn is_muted(&self) -> bool {
+        self.volume.is_muted()
+    }
+
+    /// The volume, dB.
+    pub fn volume_db(&self) -> f64 {
+        self.volume.db()
+    }
+
+    /// What leaves the loudspeaker now: a block of [`FRAMES`] frames, stereo.
+    pub fn played(&self) -> &[f32] {
+        &self.played
+    }
+
+    /// Exchanges a block with the devices: what the microphone heard while the last one was played, and the next one.
+    pub fn exchange(&mut self, heard: &[f32]) {
+        self.recorder.record(heard);
+        self.workshop.clear();
+        self.player.play(&mut self.played);
+    }
+
+    /// One step with all that the microphone has delivered; without it where it is unplugged.
+    pub fn step(&mut self, controls: &Controls, plugged: bool) {
+        self.heard.clear();
+        let count = self.ears.read(&mut self.heard);
+        let (ring, rate) = (self.speaker.reference(), SAMPLE_RATE_HZ);
+        self.tap.read(ring, rate, rate, count, &mut self.heard.reference);
+        let microphone = plugged.then(|| self.heard.share(0, 1, SAMPLE_RATE_HZ));
+        self.stage.step(controls, microphone);
+        self.speaker.send(self.stage.sample(), self.stage.sounds(), self.generation);
+    }
+}

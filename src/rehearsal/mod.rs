@@ -1,0 +1,89 @@
+//! A synthetic gallery day: visitors, a crowd, staff and the kiosk's own loudspeaker around the whole pipeline, in a closed
+//! loop, judged by what leaves the kiosk.
+//!
+//! ```text
+//! day (who comes, when) → visitor ─┐
+//!                  crowd, air ─────┤ house → microphone → machine (all that runs live) ─┬→ eyes → pictures ──┐
+//!          room ← loudspeaker ─────┘                                                   └→ ears → loudspeaker ┴→ judge → report
+//!            ↑                                                                                   │
+//!            └───────────────────────────────────────────────────────────────────────────────────┘
+//! ```
+//!
+//! Speakers, rooms and breaths come from seeds that no training of the ear uses ([`EXAM`]). The same seed gives the same
+//! day and, on one machine, the same report; nothing here asks what time it is.
+
+pub mod day;
+mod ears;
+mod eyes;
+mod house;
+pub mod judge;
+mod machine;
+mod rate;
+pub mod report;
+mod room;
+mod run;
+pub mod visitor;
+
+use std::sync::Arc;
+
+use crate::exhibit::Exhibit;
+use crate::kiosk::site::Site;
+use crate::noise::{Random, hash_words};
+use crate::offline::ear::RATE;
+use crate::offline::ear::course::EXAM;
+use crate::offline::ear::scenes::World;
+use crate::render::RenderError;
+
+pub use house::{Crowd, recorded};
+pub use room::ROOMS;
+pub use run::run;
+
+/// Samples a second of sound card and pipeline.
+const SAMPLE_RATE_HZ: u32 = 48_000;
+/// Length of a sound card's block: 10 ms, at 48 kHz and at the 16 kHz of what is made.
+const FRAMES: usize = 480;
+const BLOCK: usize = FRAMES * RATE as usize / SAMPLE_RATE_HZ as usize;
+
+/// What is rehearsed.
+pub struct Rehearsal {
+    /// Works that visitors choose from; the first is on show when the day begins.
+    pub works: Vec<Arc<Exhibit>>,
+    /// The site's settings.
+    pub site: Site,
+    /// Name of the room, one of [`ROOMS`].
+    pub room: String,
+    /// Who is in it.
+    pub crowd: Crowd,
+    /// Length of the day, h.
+    pub hours: f64,
+    /// Of the day, its people and its sounds.
+    pub seed: u64,
+}
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+pub enum RehearsalError {
+    /// There is no such room.
+    #[error("there is no room \"{name}\"; there are: {}", ROOMS.map(|(name, ..)| name).join(", "))]
+    Room {
+        /// The name.
+        name: String,
+    },
+    /// No pictures.
+    #[error("{0}")]
+    Pictures(#[from] RenderError),
+    /// Ctrl-C.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// The house of a day, and its way from loudspeaker to microphone.
+fn open_house(rehearsal: &mut Rehearsal) -> Result<house::House, RehearsalError> {
+    let mut random = Random::new(hash_words(&[rehearsal.seed, 0x726f_6f6d]));
+    let unknown = || RehearsalError::Room { name: rehearsal.room.clone() };
+    let room = room::room(&rehearsal.room, &mut random).ok_or_else(unknown)?;
+    let echo = room::Echo::new(&room, &mut random);
+    let world = World::in_room(EXAM + hash_words(&[rehearsal.seed, 0x7669_7369]) % EXAM, room);
+    let crowd = std::mem::replace(&mut rehearsal.crowd, Crowd::Made);
+    Ok(house::House::new(world, echo, crowd, rehearsal.seed, 3600.0 * rehearsal.hours))
+}

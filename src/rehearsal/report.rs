@@ -1,0 +1,216 @@
+//! What a rehearsal has found: numbers for machines, a table for people, and whether the bars are met.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::Serialize;
+
+use super::judge::median;
+use crate::offline::ear::score::wilson;
+
+/// Share of all visits that must be answered.
+pub const HEADLINE: f64 = 0.95;
+/// Of each group's.
+pub const GROUP: f64 = 0.85;
+/// A group of fewer visits says too little: one visit weighs more than five in a hundred.
+pub const ENOUGH: usize = 20;
+/// The shuffled contingency is about 1: so far from it at most.
+pub const SHUFFLED: (f64, f64) = (0.7, 1.4);
+
+/// One judged visit.
+#[derive(Clone, Debug, Serialize)]
+pub struct Judged {
+    /// Onset of what the visitor does, s of the day.
+    pub onset_s: f64,
+    /// Work on show.
+    pub work: String,
+    /// From the onset to the change that is seen, s; null where none is seen within 0.3 s.
+    pub seen_after_s: Option<f64>,
+    /// Motion energy of the second after over that of the second before.
+    pub contingency: Option<f64>,
+    /// From the onset to the first wind inside the kiosk, s; null where there is none within a second. Told, not judged: it says
+    /// whether a visit that was not answered was not heard, or not seen.
+    pub heard_after_s: Option<f64>,
+    /// Answers to nobody in the ten seconds before.
+    pub phantoms: usize,
+    /// Was it answered as it should be?
+    pub good: bool,
+    /// What the visitor belongs to.
+    pub groups: Vec<&'static str>,
+}
+
+/// A share of visits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Share {
+    /// Visits.
+    pub visits: usize,
+    /// Answered as they should be.
+    pub good: usize,
+    /// The share; null of none.
+    pub share: Option<f64>,
+    /// Its 95 % bounds (Wilson).
+    pub bounds: (f64, f64),
+}
+
+impl Share {
+    fn of<'a>(judged: impl Iterator<Item = &'a Judged>) -> Self {
+        let (visits, good) = judged.fold((0, 0), |(all, good), one| (all + 1, good + usize::from(one.good)));
+        let share = (visits > 0).then(|| good as f64 / visits as f64);
+        Self { visits, good, share, bounds: wilson(good, visits) }
+    }
+}
+
+/// How staff's doing went.
+#[derive(Clone, Debug, Serialize)]
+pub struct StaffCheck {
+    /// mute, clean or unplug.
+    pub task: &'static str,
+    /// s of the day.
+    pub from_s: f64,
+    /// Was it silent (mute), without any wind (clean, unplug), meanwhile?
+    pub good: bool,
+}
+
+/// The report.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Of the day.
+    pub seed: u64,
+    /// Length, h.
+    pub hours: f64,
+    /// Where.
+    pub room: String,
+    /// Works on show, in turn.
+    pub works: Vec<String>,
+    /// Volume, dB: as loud as visitors can make it.
+    pub volume_db: f64,
+    /// All who came.
+    pub visitors: usize,
+    /// A blow, or a hold, visibly changes the work within 0.3 s, with at least three times as much motion in the second after as
+    /// in the second before, and no answer to nobody in the ten seconds before.
+    pub headline: Share,
+    /// The same for each group.
+    pub groups: BTreeMap<&'static str, Share>,
+    /// Median contingency of the visits.
+    pub contingency: Option<f64>,
+    /// The same at moments of no meaning, and the share of them that look answered.
+    pub shuffled_contingency: Option<f64>,
+    /// Share of moments of no meaning that look answered.
+    pub shuffled_share: Option<f64>,
+    /// From the onset to the change that is seen, s: median and the slowest of 20.
+    pub seen_after_s: Option<(f64, f64)>,
+    /// Answers to nobody, s of the day.
+    pub phantoms_s: Vec<f64>,
+    /// Staff.
+    pub staff: Vec<StaffCheck>,
+    /// Times that attract mode came back after somebody had walked away, of how many.
+    pub attract_returned: (usize, usize),
+    /// Pictures drawn.
+    pub pictures: u64,
+    /// What misses its bar, in words; empty when all is well.
+    pub failures: Vec<String>,
+    /// Every visit.
+    pub visits: Vec<Judged>,
+}
+
+impl Report {
+    /// Sums up and holds it against the bars. `shuffled` are contingencies at moments of no meaning and whether they look
+    /// answered.
+    pub(super) fn conclude(mut self, shuffled: &[(f64, bool)]) -> Self {
+        self.headline = Share::of(self.visits.iter());
+        let mut names: Vec<&str> = self.visits.iter().flat_map(|visit| visit.groups.iter().copied()).collect();
+        names.sort_unstable();
+        names.dedup();
+        for name in names {
+            self.groups.insert(name, Share::of(self.visits.iter().filter(|visit| visit.groups.contains(&name))));
+        }
+        self.contingency = median(self.visits.iter().filter_map(|visit| visit.contingency).collect());
+        self.shuffled_contingency = median(shuffled.iter().map(|(contingency, _)| *contingency).collect());
+        let alike = shuffled.iter().filter(|(_, answered)| *answered).count();
+        self.shuffled_share = (!shuffled.is_empty()).then(|| alike as f64 / shuffled.len() as f64);
+        let mut seen: Vec<f64> = self.visits.iter().filter_map(|visit| visit.seen_after_s).collect();
+        seen.sort_by(f64::total_cmp);
+        self.seen_after_s =
+            median(seen.clone()).map(|middle| (middle, seen[(19 * seen.len() / 20).min(seen.len() - 1)]));
+        self.failures = self.misses();
+        self
+    }
+
+    fn misses(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        let mut check = |name: &str, share: &Share, bar: f64| {
+            if let Some(found) = share.share.filter(|found| *found < bar && share.visits >= ENOUGH) {
+                out.push(format!("{name}: {:.1} % answered, {:.0} % asked", 100.0 * found, 100.0 * bar));
+            }
+        };
+        check("all visits", &self.headline, HEADLINE);
+        for (name, share) in &self.groups {
+            check(name, share, GROUP);
+        }
+        if let Some(shuffled) = self.shuffled_contingency
+            && self.visits.len() >= ENOUGH
+            && !(SHUFFLED.0..SHUFFLED.1).contains(&shuffled)
+        {
+            out.push(format!("shuffled contingency {shuffled:.2}, not about 1"));
+        }
+        if !self.phantoms_s.is_empty() {
+            out.push(format!("{} answers to nobody, at {:.1?} s", self.phantoms_s.len(), self.phantoms_s));
+        }
+        for check in self.staff.iter().filter(|check| !check.good) {
+            out.push(format!("{} from {:.1} s on: not kept", check.task, check.from_s));
+        }
+        let (returned, asked) = self.attract_returned;
+        if returned < asked {
+            out.push(format!("attract mode came back {returned} times of {asked}"));
+        }
+        out
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = |share: Option<f64>| share.map_or("    -".to_owned(), |share| format!("{:5.1}", 100.0 * share));
+        let row = |f: &mut fmt::Formatter<'_>, name: &str, share: &Share| {
+            let (low, high) = share.bounds;
+            writeln!(
+                f,
+                "{name:28} {:6} {:6}   {} %   {:.0} to {:.0} %",
+                share.visits,
+                share.good,
+                percent(share.share),
+                100.0 * low,
+                100.0 * high
+            )
+        };
+        writeln!(
+            f,
+            "{} h in the {}, seed {}, {} visitors, volume {:.1} dB, works: {}\n",
+            self.hours,
+            self.room,
+            self.seed,
+            self.visitors,
+            self.volume_db,
+            self.works.join(", ")
+        )?;
+        writeln!(f, "{:28} {:>6} {:>6}   answered  with 95 % of certainty", "", "visits", "good")?;
+        row(f, "all visits", &self.headline)?;
+        for (name, share) in &self.groups {
+            row(f, name, share)?;
+        }
+        let number = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.2}"));
+        writeln!(f, "\ncontingency {}, shuffled {}", number(self.contingency), number(self.shuffled_contingency))?;
+        writeln!(f, "of moments of no meaning {} % look answered", percent(self.shuffled_share).trim())?;
+        if let Some((middle, slow)) = self.seen_after_s {
+            writeln!(f, "seen after {middle:.2} s, one in twenty after {slow:.2} s or more")?;
+        }
+        writeln!(f, "answers to nobody: {}", self.phantoms_s.len())?;
+        let kept = self.staff.iter().filter(|check| check.good).count();
+        writeln!(f, "staff: {kept} of {} kept", self.staff.len())?;
+        writeln!(f, "attract mode came back: {} of {}", self.attract_returned.0, self.attract_returned.1)?;
+        if self.failures.is_empty() {
+            writeln!(f, "\nAll bars are met.")
+        } else {
+            writeln!(f, "\nMissed:\n  {}", self.failures.join("\n  "))
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The room that the kiosk stands in, and the way from its loudspeaker back to its microphone.
+//!
+//! The response is that of [`Room`] by image sources; here it is applied while the day goes on, block by block, as a
+//! uniformly partitioned convolution by overlap-save (Stockham 1966; Gardner, JAES 43, 1995): the response is cut into
+//! parts as long as a block, each multiplies the spectrum of the block that is as many blocks old.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex, num_traits::Zero};
+
+use super::BLOCK;
+use super::rate::Coarser;
+use crate::math::{DVec3, PI, exp, from_decibels, tanh};
+use crate::noise::Random;
+use crate::offline::ear::RATE;
+use crate::offline::ear::rooms::Room;
+
+/// Rooms by name: what they are, size (m), mean absorption of their walls.
+pub const ROOMS: [(&str, [f64; 3], f64); 3] =
+    [("cabinet", [6.0, 5.0, 3.0], 0.30), ("gallery", [14.0, 9.0, 4.5], 0.20), ("hall", [25.0, 16.0, 6.0], 0.12)];
+/// Loudspeaker to microphone, m: both stand at the kiosk.
+const AWAY_M: f64 = 0.6;
+/// What full scale of the loudspeaker is at the microphone, dB of full scale: a microphone so sensitive that a hard
+/// breath drives it to its rails hears its loudspeaker much softer; this is the worst that a site may set up.
+const COUPLING_DB: f64 = 0.0;
+/// Blocks of sound card and system on their way out and in: 50 ms.
+const LATENCY: usize = 5;
+/// A small loudspeaker: nothing below its resonance (Hz), and a little too much when it is driven hard.
+const RESONANCE_HZ: f64 = 90.0;
+const DRIVE: f64 = 0.8;
+
+/// The room of a name, with the kiosk in it.
+pub fn room(name: &str, random: &mut Random) -> Option<Room> {
+    let (_, size, absorption) = ROOMS.iter().find(|(known, ..)| *known == name)?;
+    Some(Room::new(DVec3::from_array(*size), *absorption, random))
+}
+
+/// The loudspeaker as the microphone hears it.
+pub struct Echo {
+    coarser: Coarser,
+    /// One-pole high passes of the loudspeaker.
+    low: [f64; 2],
+    parts: Vec<Vec<Complex<f64>>>,
+    /// Spectra of the last blocks, the newest first.
+    spectra: VecDeque<Vec<Complex<f64>>>,
+    before: Vec<f64>,
+    late: VecDeque<Vec<f64>>,
+    forward: Arc<dyn RealToComplex<f64>>,
+    back: Arc<dyn ComplexToReal<f64>>,
+}
+
+impl Echo {
+    /// In this room.
+    pub fn new(room: &Room, random: &mut Random) -> Self {
+        let response = room.response(room.near(AWAY_M, random), 0, random.word());
+        let mut planner = RealFftPlanner::new();
+        let (forward, back) = (planner.plan_fft_forward(2 * BLOCK), planner.plan_fft_inverse(2 * BLOCK));
+        let gain = from_decibels(COUPLING_DB) / (2 * BLOCK) as f64;
+        let parts = response.chunks(BLOCK).map(|part| {
+            let mut padded = vec![0.0; 2 * BLOCK];
+            padded.iter_mut().zip(part).for_each(|(y, h)| *y = gain * h);
+            spectrum(&*forward, &mut padded)
+        });
+        Self {
+            coarser: Coarser::new(),
+            low: [0.0; 2],
+            parts: parts.collect(),
+            spectra: VecDeque::new(),
+            before: vec![0.0; BLOCK],
+            late: vec![vec![0.0; BLOCK]; LATENCY].into(),
+            forward,
+            back,
+        }
+    }
+
+    /// What arrives while a block is played (stereo at 48 kHz): a block at 16 kHz, of what was played [`LATENCY`] blocks ago
+    /// and before.
+    pub fn hear(&mut self, played: &[f32]) -> Vec<f64> {
+        let mono = played.as_chunks::<2>().0.iter().map(|[left, right]| 0.5 * f64::from(left + right));
+        let mut sound = self.coarser.convert(mono);
+        let keep = exp(-2.0 * PI * RESONANCE_HZ / f64::from(RATE));
+        for x in &mut sound {
+            for low in &mut self.low {
+                *low = *x + keep * (*low - *x);
+                *x -= *low;
+            }
+            *x = tanh(DRIVE * *x) / DRIVE;
+        }
+        self.late.push_back(sound);
+        let sound = self.late.pop_front().unwrap_or_default();
+        let mut pair = std::mem::replace(&mut self.before, sound);
+        pair.extend_from_slice(&self.before);
+        self.spectra.push_front(spectrum(&*self.forward, &mut pair));
+        self.spectra.truncate(self.parts.len());
+        let mut sum = vec![Complex::zero(); BLOCK + 1];
+        for (part, spectrum) in self.parts.iter().zip(&self.spectra) {
+            sum.iter_mut().zip(part.iter().zip(spectrum)).for_each(|(z, (h, x))| *z += h * x);
+        }
+        // What rounding leaves imaginary at 0 Hz and at the top has no place in a real signal.
+        (sum[0].im, sum[BLOCK].im) = (0.0, 0.0);
+        let mut out = vec![0.0; 2 * BLOCK];
+        // Lengths agree by construction.
+        if self.back.process(&mut sum, &mut out).is_err() {
+            debug_assert!(false, "spectrum and block differ in length");
+        }
+        out.split_off(BLOCK)
+    }
+}
+
+fn spectrum(forward: &dyn RealToComplex<f64>, samples: &mut [f64]) -> Vec<Complex<f64>> {
+    let mut out = forward.make_output_vec();
+    // Lengths agree by construction.
+    if forward.process(samples, &mut out).is_err() {
+        debug_assert!(false, "spectrum and block differ in length");
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::offline::ear::rooms::convolved;
+
+    #[test]
+    fn blocks_are_the_whole_convolution() {
+        // Two transforms of other lengths.
+        const ROUNDING: f64 = 1e-9;
+        let mut random = Random::new(3);
+        let hall = room("hall", &mut random).expect("a known room");
+        let mut echo = Echo::new(&hall, &mut random.clone());
+        let response = hall.response(hall.near(AWAY_M, &mut random), 0, random.word());
+        // Quiet enough for a straight loudspeaker, whose high pass is left out by comparing with its own output.
+        let mut sounds = Vec::new();
+        let mut heard = Vec::new();
+        for _ in 0..80 {
+            let block: Vec<f32> = (0..BLOCK * super::super::rate::RATIO)
+                .flat_map(|_| {
+                    let x = (0.1 * random.signed()) as f32;
+                    [x, x]
+                })
+                .collect();
+            heard.extend(echo.hear(&block));
+            sounds.extend(echo.late.back().cloned().unwrap_or_default());
+        }
+        let whole = convolved(&sounds, &response);
+        let delay = LATENCY * BLOCK;
+        let furthest = heard[delay..].iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(furthest < ROUNDING, "{furthest}");
+        assert!(whole.iter().any(|x| x.abs() > 0.01));
+    }
+}

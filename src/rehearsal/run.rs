@@ -1,0 +1,337 @@
+//! The day, step by step.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::day::{Day, Duty, Task};
+use super::ears::Ears;
+use super::eyes::Eyes;
+use super::house::House;
+use super::judge::{self, FPS};
+use super::machine::Machine;
+use super::report::{Judged, Report, Share, StaffCheck};
+use super::visitor::Press;
+use super::{FRAMES, Rehearsal, RehearsalError, open_house};
+use crate::exhibit::Exhibit;
+use crate::kiosk::gesture;
+use crate::kiosk::stage::Controls;
+use crate::simulation::{SAMPLES_PER_STEP, STEPS_PER_SECOND, Snapshot};
+use crate::wind::SurfaceShape;
+
+/// Width over height of the picture.
+const ASPECT: f64 = 16.0 / 9.0;
+/// A visit's sounds are made so long before it, s.
+const AHEAD_S: f64 = 1.0;
+/// No answer to nobody in this time before a visitor's doing, s.
+const UNTOUCHED_S: f64 = 10.0;
+/// What somebody has done is answered for so long after it ends, s: the wind dies down, the room rings.
+const AFTERMATH_S: f64 = 2.0;
+/// Wind may seem to begin this little before the breath that makes it, s: the length of a frame.
+const EARLY_S: f64 = 0.05;
+/// What staff do has taken effect after this time, s.
+const TAKES_EFFECT_S: f64 = 1.0;
+/// A pull reaches its end after this time, s: too soon for a press that is meant to blow.
+const PULL_S: f64 = 0.4;
+
+/// Rehearses a day. `on_second` hears how many seconds of it are over.
+pub fn run(
+    mut rehearsal: Rehearsal,
+    stop: &AtomicBool,
+    mut on_second: impl FnMut(u64),
+) -> Result<Report, RehearsalError> {
+    let house = open_house(&mut rehearsal)?;
+    let length = 3600.0 * rehearsal.hours;
+    let day = Day::new(rehearsal.seed, length, rehearsal.works.len(), rehearsal.site.idle_s);
+    let mut course = Course::new(&rehearsal, day, house)?;
+    for step in 0..(length * STEPS_PER_SECOND as f64) as u64 {
+        course.step(step)?;
+        if step % STEPS_PER_SECOND == 0 {
+            on_second(step / STEPS_PER_SECOND);
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Err(RehearsalError::Interrupted);
+        }
+    }
+    Ok(course.report(&rehearsal))
+}
+
+/// The day so far.
+struct Course<'a> {
+    rehearsal: &'a Rehearsal,
+    day: Day,
+    house: House,
+    machine: Machine,
+    eyes: Eyes,
+    ears: Ears,
+    controls: Controls,
+    blocks: u64,
+    work: usize,
+    /// Entries whose sounds are made; the one that is on.
+    made: usize,
+    current: usize,
+    changed: usize,
+    attract_asked: usize,
+    returned: usize,
+    /// What is being pulled: the press's beginning and where it took.
+    pulled: Option<(f64, [f64; 2])>,
+    /// Entries, by their place, that are judged when the pictures are there: the picture of the onset, real or shuffled.
+    waiting: Vec<(u64, usize, bool)>,
+    /// Did the entry's onset end attract mode?
+    woke: Vec<usize>,
+    answers: Vec<(usize, Option<judge::Answer>)>,
+    /// Entries whose doing made wind, and after how long, s.
+    heard: Vec<(usize, f64)>,
+    shuffled: Vec<(f64, bool)>,
+    winds: Vec<f64>,
+    phantoms: Vec<f64>,
+    attracted: f64,
+    duties: Vec<(Duty, bool)>,
+}
+
+impl<'a> Course<'a> {
+    fn new(rehearsal: &'a Rehearsal, day: Day, house: House) -> Result<Self, RehearsalError> {
+        let eyes = Eyes::new(&rehearsal.works)?;
+        let machine = Machine::new(rehearsal.works[0].clone(), &rehearsal.site);
+        Ok(Self {
+            rehearsal,
+            duties: day.duties.iter().map(|duty| (*duty, true)).collect(),
+            day,
+            house,
+            machine,
+            eyes,
+            ears: Ears::new(),
+            controls: Controls { aspect: ASPECT, ..Controls::default() },
+            blocks: 0,
+            work: 0,
+            made: 0,
+            current: 0,
+            changed: 0,
+            attract_asked: 0,
+            returned: 0,
+            pulled: None,
+            waiting: Vec::new(),
+            woke: Vec::new(),
+            answers: Vec::new(),
+            heard: Vec::new(),
+            shuffled: Vec::new(),
+            winds: Vec::new(),
+            phantoms: Vec::new(),
+            attracted: f64::NEG_INFINITY,
+        })
+    }
+
+    fn step(&mut self, step: u64) -> Result<(), RehearsalError> {
+        let now = step as f64 / STEPS_PER_SECOND as f64;
+        self.programme(now);
+        while (self.blocks + 1) * FRAMES as u64 <= step * SAMPLES_PER_STEP {
+            self.blocks += 1;
+            let heard = self.house.hear(self.machine.played());
+            self.machine.exchange(&heard);
+            for began in self.ears.hear(self.machine.played()) {
+                self.wind(began);
+            }
+        }
+        self.act(now);
+        let plugged = !self.on_duty(now, Task::Unplug);
+        self.controls.inert = self.on_duty(now, Task::Clean);
+        self.machine.step(&self.controls, plugged);
+        if self.machine.stage.attracts() {
+            self.attracted = now;
+        }
+        self.note_heard(now);
+        self.watch_staff(now);
+        self.eyes.look(step + 1, self.work, &self.machine.stage.snapshot().poses);
+        self.judge((step + 1) * FPS / STEPS_PER_SECOND)
+    }
+
+    fn on_duty(&self, now: f64, task: Task) -> bool {
+        self.day.duties.iter().any(|duty| duty.task == task && (duty.from..duty.until).contains(&now))
+    }
+
+    /// What begins now: visits, staff, another work.
+    fn programme(&mut self, now: f64) {
+        while let Some(entry) = self.day.entries.get(self.made).filter(|entry| entry.visit.arrives - AHEAD_S <= now) {
+            for (at, sound) in entry.visit.noises(self.house.world()) {
+                self.house.put(at, sound);
+            }
+            for breath in &entry.visit.breaths {
+                self.house.put(breath.onset, breath.sound());
+            }
+            if entry.answered()
+                && let Some(onset) = entry.visit.onset()
+            {
+                self.waiting.push((Eyes::picture_at(onset), self.made, true));
+                self.waiting.push((Eyes::picture_at(entry.shuffled), self.made, false));
+            }
+            self.made += 1;
+        }
+        if let Some((_, work)) = self.day.changes.get(self.changed).filter(|(at, _)| *at <= now) {
+            self.work = *work;
+            self.machine.show(self.rehearsal.works[self.work].clone());
+            self.changed += 1;
+        }
+        let muted = self.on_duty(now, Task::Mute);
+        if muted != self.machine.is_muted() {
+            self.machine.toggle_mute();
+        }
+        if self.day.attracts.get(self.attract_asked).is_some_and(|at| *at <= now) {
+            self.attract_asked += 1;
+            self.returned += usize::from(self.machine.stage.attracts());
+        }
+    }
+
+    /// What the visitor of the moment does, as the window would tell it.
+    fn act(&mut self, now: f64) {
+        while self.day.entries.get(self.current).is_some_and(|entry| entry.visit.leaves < now) {
+            self.current += 1;
+        }
+        self.controls.hold = false;
+        self.controls.presses.clear();
+        let Some(entry) = self.day.entries.get(self.current).filter(|entry| entry.visit.arrives <= now) else { return };
+        let visit = &entry.visit;
+        if entry.answered() && visit.onset().is_some_and(|onset| begins(onset, now)) && self.machine.stage.attracts() {
+            self.woke.push(self.current);
+        }
+        if let Some((_, place)) = visit.aim.filter(|(at, _)| begins(*at, now)) {
+            self.controls.aim = Some(place);
+            self.controls.activity += 1;
+        }
+        for (i, pressed) in visit.presses.iter().enumerate().filter(|(_, p)| (p.from..p.until).contains(&now)) {
+            let id = 1000 * self.current as u64 + i as u64;
+            match pressed.press {
+                Press::Key => self.controls.hold = true,
+                Press::Finger(at) => self.controls.presses.push(gesture::Press { id, at }),
+                Press::Pull(which, pull) => {
+                    let (_, from) = *self.pulled.get_or_insert_with(|| {
+                        let place = place(self.machine.stage.exhibit(), self.machine.stage.snapshot(), which);
+                        (pressed.from, place)
+                    });
+                    let part = ((now - pressed.from) / PULL_S).min(1.0);
+                    let at = [from[0] + part * pull[0] / ASPECT, from[1] + part * pull[1]];
+                    self.controls.presses.push(gesture::Press { id, at: at.map(|x| x.clamp(0.0, 1.0)) });
+                }
+            }
+        }
+        if self.controls.presses.is_empty() {
+            self.pulled = None;
+        }
+    }
+
+    /// Does the kiosk blow within a second of what the visitor does?
+    fn note_heard(&mut self, now: f64) {
+        let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
+        if let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now))
+            && self.machine.stage.snapshot().breath.speed > 0.0
+            && self.heard.last().is_none_or(|(entry, _)| *entry != self.current)
+        {
+            self.heard.push((self.current, now - onset));
+        }
+    }
+
+    /// Staff's doing is kept: silence while it is mute, no wind at all while it is deaf.
+    fn watch_staff(&mut self, now: f64) {
+        let speed = self.machine.stage.snapshot().breath.speed;
+        let attracts = self.machine.stage.attracts();
+        for (duty, good) in &mut self.duties {
+            if (duty.from + TAKES_EFFECT_S..duty.until).contains(&now) {
+                *good &= match duty.task {
+                    Task::Mute => self.machine.played().iter().all(|sample| *sample == 0.0),
+                    Task::Clean | Task::Unplug => speed == 0.0 || attracts,
+                };
+            }
+        }
+    }
+
+    /// Wind began to rush: is it an answer to somebody?
+    fn wind(&mut self, began: f64) {
+        self.winds.push(began);
+        let near = |entry: &&super::day::Entry| entry.visit.arrives < began + 1.0 && began < entry.visit.leaves + 10.0;
+        let answered =
+            self.day.entries.iter().filter(near).filter(|entry| entry.answered()).any(|entry| {
+                entry.visit.acts().any(|(from, until)| from < began + EARLY_S && began < until + AFTERMATH_S)
+            });
+        let shown = began < self.attracted + AFTERMATH_S;
+        if !answered && !shown {
+            self.phantoms.push(began);
+        }
+    }
+
+    /// Judges what is due, the pictures up to `picture` being there.
+    fn judge(&mut self, picture: u64) -> Result<(), RehearsalError> {
+        while let Some(index) = self.waiting.iter().position(|(middle, ..)| middle + judge::BEFORE as u64 <= picture) {
+            let (middle, entry, real) = self.waiting.swap_remove(index);
+            let answer = self.eyes.about(middle)?.as_deref().and_then(judge::answer);
+            if real {
+                self.answers.push((entry, answer));
+            } else {
+                self.shuffled.extend(answer.map(|answer| (answer.contingency, answer.is_answer())));
+            }
+        }
+        Ok(())
+    }
+
+    fn report(self, rehearsal: &Rehearsal) -> Report {
+        let judged = self.answers.iter().filter_map(|(index, answer)| {
+            let entry = &self.day.entries[*index];
+            let onset = entry.visit.onset()?;
+            let before = onset - UNTOUCHED_S..onset;
+            let phantoms = self.phantoms.iter().filter(|at| before.contains(at)).count();
+            let mut groups = entry.visit.groups();
+            groups.extend(entry.after.map(Task::after));
+            groups.extend(self.woke.contains(index).then_some("wakes it from attract mode"));
+            let middle = Eyes::picture_at(onset) as f64;
+            Some(Judged {
+                onset_s: onset,
+                work: rehearsal.works[entry.work].id.clone(),
+                seen_after_s: answer.and_then(|a| a.seen).map(|k| (middle + k as f64) / FPS as f64 - onset),
+                contingency: answer.map(|answer| answer.contingency),
+                heard_after_s: self.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
+                phantoms,
+                good: answer.is_some_and(|answer| answer.is_answer()) && phantoms == 0,
+                groups,
+            })
+        });
+        let staff = self.duties.iter().map(|(duty, good)| StaffCheck {
+            task: duty.task.name(),
+            from_s: duty.from,
+            good: *good,
+        });
+        Report {
+            seed: rehearsal.seed,
+            hours: rehearsal.hours,
+            room: rehearsal.room.clone(),
+            works: rehearsal.works.iter().map(|work| work.id.clone()).collect(),
+            volume_db: self.machine.volume_db(),
+            visitors: self.day.entries.len(),
+            headline: Share::default(),
+            groups: Default::default(),
+            contingency: None,
+            shuffled_contingency: None,
+            shuffled_share: None,
+            seen_after_s: None,
+            staff: staff.collect(),
+            attract_returned: (self.returned, self.attract_asked),
+            pictures: self.eyes.drawn,
+            failures: Vec::new(),
+            visits: judged.collect(),
+            phantoms_s: self.phantoms.clone(),
+        }
+        .conclude(&self.shuffled)
+    }
+}
+
+/// Is this the step in which `at` lies?
+fn begins(at: f64, now: f64) -> bool {
+    let step = 1.0 / STEPS_PER_SECOND as f64;
+    (now - step..now).contains(&(at - step))
+}
+
+/// Where one of the plates is in the picture; its middle where there is none.
+fn place(exhibit: &Exhibit, moment: &Snapshot, which: f64) -> [f64; 2] {
+    let view = exhibit.view(ASPECT);
+    let plates = exhibit.wind_surfaces.iter().filter_map(|surface| match &surface.shape {
+        SurfaceShape::Mesh { mesh, .. } => Some(moment.poses[surface.body].point(mesh.ball().0)),
+        SurfaceShape::Wire { .. } => None,
+    });
+    let shown: Vec<[f64; 2]> = plates.filter_map(|point| view.project(point, ASPECT)).collect();
+    shown.get((which * shown.len() as f64) as usize).copied().unwrap_or([0.5, 0.5])
+}
