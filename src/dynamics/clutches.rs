@@ -1,27 +1,32 @@
 //! Slip clutches: couplings that carry so much torque and then give way, as a minute hand on its arbor.
 //!
 //! Dry friction between two bodies about one axis has two states (D. Karnopp, "Computer simulation of stick-slip friction
-//! in mechanical dynamic systems", ASME J. Dynamic Systems, Measurement, and Control 107, 1985):
+//! in mechanical dynamic systems", ASME J. Dynamic Systems, Measurement, and Control 107, 1985); what slips is greased:
 //!
 //! ```text
-//! holds    C = q − q₀ = 0     a row like any other, multiplier λ         until |λ| > τ
-//! slips    torque f = −(q̇/h + a₀)/W, |f| ≤ τ                             until |f| < τ; then q₀ = q
+//! holds    C = q − q₀ = 0                  a row like any other, multiplier λ             until |λ| > τ
+//! slips    f = −τ (sign q̇ + q̇/ω₁)          until the torque that would bring q̇ to rest within a step's time h,
+//!                                          −(q̇/h + a₀)/W, is below τ; then q₀ = q
 //! ```
 //!
-//! a₀ is what q̈ would be without friction and W its answer to a unit of torque, joints held: f is the torque that would
-//! bring q̇ to rest within the time h of a step, as far as friction can; where it can, the row takes over. So what is light
-//! does not swing about its rest. The state is looked at between substeps, so that a row is there for all of their stages
-//! or for none; what is left of q̇ goes with the projection.
+//! a₀ is what q̈ would be without friction and W its answer to a unit of torque, joints held. f is taken at the end of a
+//! substep, where q̇ + h (a₀ + W f), so that neither what is light swings about its rest, nor what is pulled hard is flung
+//! away. The state is looked at between substeps, so that a row is there for all of their stages or for none; what is left
+//! of q̇ goes with the projection.
 //!
 //! | symbol | here | unit |
 //! |---|---|---|
 //! | q, q₀ | value of the coupling, its offset | rad |
 //! | τ | `torque` | N m |
 //! | f | `rubs` | N m |
+//! | ω₁ | `GREASE` | rad/s |
 
 use crate::articulation::block::{Vec6, add_scaled};
 use crate::articulation::{Constraint, System};
 use crate::bodies::RigidBody;
+
+/// ω₁: a clutch that slips so fast carries twice its torque, rad/s.
+const GREASE: f64 = 0.5;
 
 /// One clutch.
 #[derive(Clone, Copy, Debug)]
@@ -75,11 +80,16 @@ impl Clutches {
         for clutch in self.0.iter_mut().filter(|clutch| clutch.rubs != 0.0) {
             let now = system.coupling(clutch.constraint);
             let (rate, acceleration) = (now.rate(bodies), now.acceleration(&system.a));
-            let stops = clutch.rubs - (rate / h + acceleration) / system.answer_along(clutch.constraint);
-            clutch.rubs = if stops.abs() < clutch.torque { 0.0 } else { clutch.torque.copysign(stops) };
-            if clutch.rubs == 0.0 {
+            let answer = system.answer_along(clutch.constraint);
+            let stops = clutch.rubs - (rate / h + acceleration) / answer;
+            if stops.abs() < clutch.torque {
+                clutch.rubs = 0.0;
                 system.take_hold(clutch.constraint, bodies);
                 held = true;
+            } else {
+                let (viscosity, free) = (clutch.torque / GREASE, acceleration - answer * clutch.rubs);
+                let dry = clutch.torque.copysign(stops);
+                clutch.rubs = (dry - viscosity * (rate + h * free)) / (1.0 + viscosity * h * answer);
             }
         }
         held

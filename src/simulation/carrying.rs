@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! ṗ = Ω, p − q ≤ lead, p ≤ goal        ω* = (p − q)/τ
-//! it slips    T = T_f + L + (ω* − ω)/(W Δt),   |T| ≤ 3 T_f        L ← L + (ω*' − ω)/(W Δt)        ' the step before
+//! it slips    T = T_f + L + (ω* − ω)/(W Δt),   |T| ≤ 4 T_f        L ← L + (ω*' − ω)/(W Δt)        ' the step before
 //! it holds    T from T_f on, a twentieth more in each step: nobody jerks at it
 //! ```
 //!
@@ -28,7 +28,7 @@ const LEAD: f64 = 0.25;
 /// τ, s.
 const FOLLOWS: f64 = 0.05;
 /// T over the clutch's friction at the most, and by how much it grows in a step while the clutch holds.
-const STRONGEST: f64 = 3.0;
+const STRONGEST: f64 = 4.0;
 const GROWS: f64 = 0.05;
 /// Fastest that it is moved, rad/s.
 const FASTEST: f64 = 2.0 * PACE;
