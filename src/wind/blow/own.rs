@@ -21,7 +21,8 @@
 //!
 //! Three rules keep a breath from being mistaken for the kiosk's answer to it, which follows it and looks like it:
 //! nothing is learnt while somebody blows; a loudspeaker is never credited with coupling better below 200 Hz than
-//! above; and sustained output that is *not* heard lowers the gain (c ≤ heard / least played over all lags).
+//! above; and sustained output that is *not* heard lowers the gain (c ≤ 1.5 heard / least played over all lags, heard over
+//! 120 ms: the dips of noise are no proof).
 
 use super::features::blend;
 use super::spectrum::{BINS, FRAME_S, Power, band};
@@ -52,6 +53,8 @@ const LAG_MEMORY_S: f64 = 15.0;
 const LIKELY: f64 = 0.93;
 /// Output below this power (−70 dBFS) cannot be told from silence.
 const AUDIBLE: f64 = 1e-7;
+/// What is heard may be this much less than is predicted before the gain is lowered.
+const UNHEARD: f64 = 1.5;
 /// The kiosk's first sound, s: twice the time in which the coupling is learnt.
 const FIRST_S: f64 = 1.0;
 /// Highest coupling: the microphone may be this much more sensitive than full scale out suggests (12 dB).
@@ -198,7 +201,7 @@ impl OwnVoice {
         }
         for b in 0..BANDS {
             let least = self.played_bands.iter().map(|p| p[b]).fold(f64::INFINITY, f64::min);
-            let bound = heard[b] / least.max(AUDIBLE);
+            let bound = UNHEARD * self.means[1][b] / least.max(AUDIBLE);
             if least > AUDIBLE && bound < self.coupling[b] {
                 self.coupling[b] += FRAME_S / 0.2 * (bound - self.coupling[b]);
             }
