@@ -210,8 +210,7 @@ fn captions(page: &Page, label: &Label, scene: &Scene) {
     let all: Vec<&str> = scene.captions.iter().filter_map(said).collect();
     if !all.is_empty() && !scene.silent {
         let at = page.picture.center_bottom();
-        // The foot of many works stands there.
-        page.strip(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, 0.9 * line(page));
+        page.text(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, INK, 0.9 * line(page));
     }
 }
 

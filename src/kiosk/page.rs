@@ -1,7 +1,7 @@
 //! A place to set type on: sizes are shares of the picture's height, so that type keeps its place in the composition.
 //!
-//! Type meets a contrast of 4.5 : 1 on wall and floor and graphics 3 : 1; a pale halo keeps both over dark parts of the
-//! picture. With high contrast type stands on paper of its own, nearly black on white.
+//! Type stands on slips of paper, like a label beside a work, and meets a contrast of 4.5 : 1 over any picture; lines keep
+//! 3 : 1 by a pale halo. With high contrast type is nearly black on white.
 
 use std::sync::Arc;
 
@@ -22,10 +22,6 @@ pub const SOFT_INK: Color32 = Color32::from_rgb(52, 50, 48);
 pub const VERMILION: Color32 = Color32::from_rgb(190, 44, 22);
 /// Round type and lines.
 pub const HALO: Color32 = Color32::from_rgba_premultiplied(170, 170, 168, 170);
-/// How far it goes, em, and where.
-const BLUR: f32 = 0.06;
-const AROUND: [(f32, f32); 8] =
-    [(1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7), (-1.0, 0.0), (-0.7, -0.7), (0.0, -1.0), (0.7, -0.7)];
 /// How opaque a strip of it is: over black it leaves 9 : 1.
 const STRIP: f32 = 0.85;
 /// Under type, where there is no wall behind it.
@@ -36,7 +32,7 @@ pub const PAPER: Color32 = Color32::from_rgb(246, 244, 241);
 pub struct Reading {
     /// Large type?
     pub large: bool,
-    /// Type on paper of its own?
+    /// Type black on white?
     pub contrast: bool,
 }
 
@@ -75,24 +71,14 @@ impl<'a> Page<'a> {
         self.painter.layout(text.into(), FontId::proportional(size * self.em), color, longest)
     }
 
-    /// Puts type down where its anchor is, with what keeps it readable over a picture.
+    /// Puts type down where its anchor is, on paper that keeps it readable over a picture.
     pub fn put(&self, galley: Arc<Galley>, at: Pos2, anchor: Align2, color: Color32) -> Rect {
         let rect = anchor.anchor_size(at, galley.size());
         let opacity = f32::from(color.a()) / 255.0;
-        if self.reading.contrast {
-            // No higher than the gap to the next line: paper must not lie on what was put down before.
-            let paper = rect.expand2(vec2(0.3, 0.05) * self.em);
-            self.painter.rect_filled(paper, 0.2 * self.em, Color32::WHITE.gamma_multiply(opacity));
-        } else {
-            let halo = HALO.gamma_multiply(0.5 * opacity);
-            for (dx, dy) in AROUND {
-                self.painter.galley_with_override_text_color(
-                    rect.min + BLUR * self.em * vec2(dx, dy),
-                    galley.clone(),
-                    halo,
-                );
-            }
-        }
+        // No higher than the gap to the next line: paper must not lie on what was put down before.
+        let paper = rect.expand2(vec2(0.3, 0.05) * self.em);
+        let sheet = if self.reading.contrast { Color32::WHITE } else { PAPER.gamma_multiply(STRIP) };
+        self.painter.rect_filled(paper, 0.2 * self.em, sheet.gamma_multiply(opacity));
         self.painter.galley(rect.min, galley, color);
         rect
     }
@@ -100,15 +86,6 @@ impl<'a> Page<'a> {
     /// Both.
     pub fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32, longest: f32) -> Rect {
         self.put(self.set(text, size, color, longest), at, anchor, color)
-    }
-
-    /// Type on a strip of paper: where it may stand before the work itself.
-    pub fn strip(&self, at: Pos2, anchor: Align2, text: &str, size: f32, longest: f32) -> Rect {
-        let galley = self.set(text, size, INK, longest);
-        let rect = anchor.anchor_size(at, galley.size());
-        let around = vec2(0.4 * self.em, 0.15 * self.em);
-        self.painter.rect_filled(rect.expand2(around), 0.2 * self.em, PAPER.gamma_multiply(STRIP));
-        self.put(galley, at, anchor, INK)
     }
 
     /// A line `width` em wide in a pale halo.

@@ -86,8 +86,9 @@ fn seen(visitor: &mut Before, glass: &mut Glass, picture: &RgbaImage) -> (Vec<Le
         {
             for row in &text.galley.rows {
                 let origin = text.pos.to_vec2() + row.pos.to_vec2();
-                // A full stop says nothing of a line, and a thin letter alone is half ground.
-                let glyphs: Vec<_> = row.glyphs.iter().filter(|glyph| glyph.chr.is_alphanumeric()).collect();
+                // A full stop says nothing of a line, and a thin letter alone is half ground. What a ligature has taken
+                // in has no width of its own.
+                let glyphs: Vec<_> = row.glyphs.iter().filter(|glyph| glyph_is_seen(glyph)).collect();
                 for few in glyphs.chunks(3) {
                     let place = few.iter().map(|glyph| glyph.logical_rect()).reduce(Rect::union);
                     let text = few.iter().map(|glyph| glyph.chr).collect();
@@ -101,6 +102,10 @@ fn seen(visitor: &mut Before, glass: &mut Glass, picture: &RgbaImage) -> (Vec<Le
     let with = glass.draw(&context, picture, shapes);
     let without = glass.draw(&context, picture, without);
     (lines, with, without)
+}
+
+fn glyph_is_seen(glyph: &egui::epaint::text::Glyph) -> bool {
+    glyph.chr.is_alphanumeric() && glyph.logical_rect().width() > 0.0
 }
 
 /// Looks at every page over a work, in these languages; returns what is hard to read, and how much was measured.
