@@ -75,7 +75,12 @@ pub fn report(config: &Config) -> Report {
             "the next few steps, a fraction of a second; of what the room sounds like, mean spectra of some seconds",
         ));
     }
-    all.push(kept("seconds blown at a work, in this visit and on this day", "memory", "the visit ends; midnight"));
+    all.push(kept("seconds blown at a work in this visit", "memory", "the visit ends"));
+    all.push(kept(
+        "what the simulation was told (pointers, hands, speed of the breath) or where the work was, without a name or a sound",
+        "nowhere, but where an engineer starts the kiosk with --record FILE or --trace FILE: there",
+        "the file is deleted",
+    ));
     all.push(kept(
         "language, type, contrast, volume, motion and press-once as a visitor chose them",
         "memory",
@@ -102,7 +107,7 @@ pub fn report(config: &Config) -> Report {
         "sound: no microphone sample is ever written to a file or sent anywhere",
         "pictures of anybody: there is no camera",
         "names, faces, voices, or anything by which a visitor could be known again",
-        "where a visitor touched or pointed",
+        "where a visitor touched or pointed, unless an engineer has started a record (above)",
         "which visitor blew when, or how one went from work to work",
     ];
     let broker = &config.mqtt.broker;

@@ -128,6 +128,28 @@ pub struct Load {
 }
 
 impl Frame {
+    /// The stage as it stands: nobody there, nothing heard.
+    pub fn new(stage: &Stage) -> Self {
+        Self {
+            exhibit: stage.exhibit().clone(),
+            previous: stage.snapshot().clone(),
+            current: stage.snapshot().clone(),
+            due: Instant::now(),
+            attracts: false,
+            attract_text: None,
+            attract_rounds: 0,
+            leaves_in: None,
+            captions: Vec::new(),
+            turned: 0,
+            speaks: false,
+            deaf: false,
+            hears: false,
+            onset: None,
+            load: Load::default(),
+            inspection: None,
+        }
+    }
+
     /// Is it certain that no breath is heard? A microphone that is still being opened is not missing.
     pub fn is_deaf(&self) -> bool {
         !self.hears
@@ -192,24 +214,7 @@ impl Live {
         if let Some(record) = &mut record {
             record.begin(&options.exhibit, settings);
         }
-        let frame = Frame {
-            exhibit: options.exhibit.clone(),
-            previous: stage.snapshot().clone(),
-            current: stage.snapshot().clone(),
-            due: Instant::now(),
-            attracts: false,
-            attract_text: None,
-            attract_rounds: 0,
-            leaves_in: None,
-            captions: Vec::new(),
-            turned: 0,
-            speaks: false,
-            deaf: false,
-            hears: options.recording.is_some(),
-            onset: None,
-            load: Load::default(),
-            inspection: None,
-        };
+        let frame = Frame { hears: options.recording.is_some(), ..Frame::new(&stage) };
         let shared = Arc::new(Shared {
             controls: Mutex::new(Controls {
                 aspect,

@@ -36,6 +36,7 @@ fn it_follows_the_configuration() {
     assert!(text.contains("/srv/soffio.prom"), "{text}");
     let usual = report(&Config::default());
     assert!(usual.kept.iter().any(|kept| kept.what.contains("microphone samples")));
+    assert!(usual.kept.iter().any(|kept| kept.place.contains("--record")), "what engineers can start is told");
     assert!(!usual.kept.iter().any(|kept| kept.place.contains(".prom")));
     let bad = desk.soffio(&["privacy", "--config", "nowhere.toml"]);
     assert!(bad.code == Some(1) && bad.err.contains("nowhere.toml"), "{:?} {}", bad.code, bad.err);

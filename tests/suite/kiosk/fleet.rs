@@ -2,7 +2,6 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 use soffio::config::Config;
 use soffio::exhibit;
@@ -21,25 +20,8 @@ use soffio::simulation::Settings;
 fn frame(load: Load) -> Frame {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/pendulum");
     let exhibit = Arc::new(exhibit::load(&folder).expect("the shipped exhibit is valid"));
-    let stage = Stage::new(exhibit.clone(), Settings::default(), None, None);
-    Frame {
-        exhibit,
-        previous: stage.snapshot().clone(),
-        current: stage.snapshot().clone(),
-        due: Instant::now(),
-        attracts: false,
-        attract_text: None,
-        attract_rounds: 0,
-        leaves_in: None,
-        captions: Vec::new(),
-        turned: 0,
-        speaks: false,
-        deaf: false,
-        hears: true,
-        onset: None,
-        load,
-        inspection: None,
-    }
+    let stage = Stage::new(exhibit, Settings::default(), None, None);
+    Frame { hears: true, load, ..Frame::new(&stage) }
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 use egui::{Event, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
 use soffio::config::{Config, Pin};
@@ -10,7 +9,7 @@ use soffio::exhibit;
 use soffio::kiosk::fonts;
 use soffio::kiosk::house::House;
 use soffio::kiosk::input::{Phase, Signal};
-use soffio::kiosk::live::{Frame, Load};
+use soffio::kiosk::live::Frame;
 use soffio::kiosk::log::{KEPT, LONGEST, Line, Log};
 use soffio::kiosk::staff::gate::{Gate, LONGEST_S};
 use soffio::kiosk::staff::{Page, Sight, Staff, Vitals, Wish};
@@ -138,29 +137,12 @@ impl Before {
     /// One picture with these events; what is asked for.
     fn look(&mut self, events: Vec<Event>) -> Vec<Wish> {
         let look = self.staff.look(&self.site);
-        let snapshot = self.stage.snapshot().clone();
         let mut exhibit = self.stage.exhibit().clone();
         if let Some(folder) = &self.folder {
             Arc::make_mut(&mut exhibit).folder.clone_from(folder);
         }
-        let frame = Frame {
-            exhibit: exhibit.clone(),
-            previous: snapshot.clone(),
-            current: snapshot,
-            due: Instant::now(),
-            attracts: false,
-            attract_text: None,
-            attract_rounds: 0,
-            leaves_in: None,
-            captions: Vec::new(),
-            turned: 0,
-            speaks: false,
-            deaf: false,
-            hears: true,
-            onset: None,
-            load: Load::default(),
-            inspection: (look != Look::Nothing).then(|| Arc::new(self.stage.inspect(look))),
-        };
+        let inspection = (look != Look::Nothing).then(|| Arc::new(self.stage.inspect(look)));
+        let frame = Frame { exhibit: exhibit.clone(), hears: true, inspection, ..Frame::new(&self.stage) };
         let vitals = Vitals { adapter: "none", frame_s: 0.02, size: [1280, 720], time: self.time, sight_s: 0.0 };
         let sight = Sight {
             frame: &frame,

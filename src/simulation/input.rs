@@ -1,0 +1,175 @@
+//! What a simulation is given: what is constant over a run ([`Settings`]), and all that varies from step to step
+//! ([`StepInput`]). Whoever knows both knows the run.
+
+use serde::{Deserialize, Serialize};
+
+use super::Hand;
+use crate::exhibit::{Exhibit, Motion};
+use crate::procedural::Method;
+
+/// How a breath becomes wind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// No travelling front; gain such that a child's gentle breath visibly moves a sculpture within a second.
+    #[default]
+    Gallery,
+    /// Gain 1, the front travels as a real jet's does.
+    True,
+}
+
+/// The gallery's gain is this speed over the breath's own, so that its force grows with the speed and not with its
+/// square: a gentle 3.8 m/s counts nine times, a hard 17 m/s twice. A child's 0.3 L/s from half a metre (1.4 mN at the
+/// most) so pushes with 13 mN at the most, and moves a plate of *Steel Fish* by 17 mm and more on a 55-inch picture
+/// within a second.
+const GALLERY_SPEED: f64 = 36.0;
+/// Bounds of that gain: below 3.6 m/s it is no breath that is meant to be seen, and no breath is ever weakened.
+const GALLERY_GAIN: (f64, f64) = (1.0, 10.0);
+
+impl Profile {
+    /// Force gain at a source speed (m/s).
+    pub fn gain(self, speed: f64) -> f64 {
+        match self {
+            Self::Gallery => (GALLERY_SPEED / speed.max(1e-9)).clamp(GALLERY_GAIN.0, GALLERY_GAIN.1),
+            Self::True => 1.0,
+        }
+    }
+
+    /// Its name on the command line and in summaries.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gallery => "gallery",
+            Self::True => "true",
+        }
+    }
+}
+
+/// What is constant over a run, besides the exhibit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// How a breath becomes wind.
+    pub profile: Profile,
+    /// Added to the microphone's level before it becomes a speed, dB.
+    pub sensitivity_db: f64,
+    /// Multiplies the force of the breath on top of the profile's own gain.
+    pub breath_gain: f64,
+    /// Distance of the lips before the target, m.
+    pub distance: f64,
+    /// Lip diameter d = 2 r₀, m.
+    pub lip_diameter: f64,
+    /// Seed of all that is random.
+    pub seed: u64,
+    /// false: no wind of any kind, not even still air's drag.
+    pub wind: bool,
+    /// false: pivots without friction and bodies without damping.
+    pub friction: bool,
+    /// The time of day when the run begins, s after midnight, to which the hands of a clock are set; `None` leaves them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            profile: Profile::Gallery,
+            sensitivity_db: 0.0,
+            breath_gain: 1.0,
+            distance: 0.5,
+            lip_diameter: 0.01,
+            seed: 1,
+            wind: true,
+            friction: true,
+            clock: None,
+        }
+    }
+}
+
+/// Microphone samples of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Microphone<'a> {
+    /// One capsule, full scale ±1.
+    pub samples: &'a [f32],
+    /// A second capsule beside it (same rate and length), where there is one.
+    pub second: Option<&'a [f32]>,
+    /// Hz.
+    pub sample_rate: u32,
+    /// What the loudspeaker played meanwhile (mono, same rate and length); empty where it cannot be heard.
+    pub reference: &'a [f32],
+}
+
+/// A command of a visitor, a script, or staff.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Command {
+    /// Puts everything back to where it started.
+    Reset,
+    /// The same, but from scattered parts, which gather themselves before the exhibit begins; the seed says where they
+    /// begin. Where the exhibit does not gather it is a reset.
+    Gather(u64),
+    /// Sets the source speed of the breath directly, m/s (scripts, replay); `None` gives it back.
+    Blow(Option<f64>),
+}
+
+/// Everything that varies: the whole input of one step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StepInput<'a> {
+    /// `None`: no microphone, wind from it is exactly 0.
+    pub microphone: Option<Microphone<'a>>,
+    /// Hold-to-blow (pointer, touch, key, switch).
+    pub hold: bool,
+    /// How hard a breath controller is blown (gamepad trigger, MIDI, OSC, serial line), 0 … 1.
+    pub strength: f64,
+    /// Pointer in picture coordinates, (0,0) top left, (1,1) bottom right; `None` is the centre.
+    pub pointer: Option<[f64; 2]>,
+    /// Width over height of the picture; 0 is 16:9.
+    pub aspect: f64,
+    /// Commands, carried out in order before the step.
+    pub commands: &'a [Command],
+    /// What moves the figure in this step; `None` is the exhibit's own choice.
+    pub mode: Option<MotionMode>,
+    /// Pointers and fingers that are down on the sculpture.
+    pub hands: &'a [Hand],
+}
+
+/// What moves the figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MotionMode {
+    /// The laws: constrained dynamics.
+    #[default]
+    Dynamic,
+    /// The source's procedural motion.
+    Procedural,
+    /// Places, all joints at once.
+    PositionBased,
+}
+
+impl MotionMode {
+    /// What an exhibit is moved by where nothing presses.
+    pub fn of(exhibit: &Exhibit) -> Self {
+        match exhibit.motion {
+            Motion::Laws | Motion::Auto { .. } => Self::Dynamic,
+            Motion::Places(Method::Compulsive) => Self::Procedural,
+            Motion::Places(Method::TreeSolve) => Self::PositionBased,
+        }
+    }
+
+    /// Its name on the command line and in scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dynamic => "dynamics",
+            Self::Procedural => "procedural",
+            Self::PositionBased => "position-based",
+        }
+    }
+}
+
+impl std::str::FromStr for MotionMode {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let all = [Self::Dynamic, Self::Procedural, Self::PositionBased];
+        let wrong = || format!("solver \"{name}\" is not one of: {}", all.map(Self::name).join(", "));
+        all.into_iter().find(|mode| mode.name() == name).ok_or_else(wrong)
+    }
+}
