@@ -5,10 +5,13 @@
 //! and lag d, over a leaky memory of a few seconds, with x the played and y the heard power:
 //!
 //! ```text
-//! c(b, d) = cov(x_d, y) / var(x_d)       regression: noise that is independent of x does not bias it
+//! c(b, d) = cov(x_d, y) / var(x_d)       regression: noise in y that is independent of x does not bias it
 //! ρ(d)    = Σ_b cov(x_d, y) / √(Σ_b var x_d · var y), bands scaled alike     the lag is where ρ̄ is greatest
 //! ŷ_k(t)  = margin · c(b) · max_{|δ| ≤ 32 ms} x_k(t − d − δ), falling no faster than the room rings
 //! ```
+//!
+//! Noise in x does: single frames of played noise scatter by 5 dB, a room blurs that, and a slope taken over them is 2 dB
+//! too low in the narrow lowest band. So both sides go through the same low-pass of 40 ms first.
 //!
 //! ρ̄ is the mean of ρ over a quarter of a minute: a sound that swells slowly says little of when it was played, and must
 //! not outvote the hits before it. The greatest is taken over all lags that are about as likely.
@@ -40,6 +43,8 @@ const MARGIN: f64 = 3.0;
 const SMOOTHING_S: f64 = 0.02;
 /// The room keeps this part of the power from frame to frame, by reverberation times of 0.6 s at least and 2.5 s at most.
 const RING: (f64, f64) = (0.83, 0.957);
+/// Low-pass of both sides of the regression, s: longer than a room's first reflections, shorter than a hit rings.
+const ENVELOPE_S: f64 = 0.04;
 /// Means of what is heard, s, and the part of the longer one below which the shorter one is when a room rings for up to
 /// 4 s: (1 − a τ₂)/(1 − a τ₁) with a = 6 ln 10/T60.
 const MEANS_S: [f64; 2] = [0.03, 0.12];
@@ -75,7 +80,9 @@ pub struct OwnVoice {
     smooth: Power,
     /// Smoothed spectra that were played, a ring over the last `LAGS` frames.
     played: Vec<[f32; BINS]>,
-    /// Their band powers.
+    /// Band powers of what is played and of what is heard, as the regression sees them: both smoothed alike.
+    envelopes: [[f64; BANDS]; 2],
+    /// Those of what was played, a ring like the spectra.
     played_bands: [[f64; BANDS]; LAGS],
     next: usize,
     moments: [[Moments; BANDS]; LAGS],
@@ -103,6 +110,7 @@ impl OwnVoice {
         Self {
             smooth: [0.0; BINS],
             played: vec![[0.0; BINS]; LAGS],
+            envelopes: [[0.0; BANDS]; 2],
             played_bands: [[0.0; BANDS]; LAGS],
             next: 0,
             moments: [[Moments::default(); BANDS]; LAGS],
@@ -133,13 +141,16 @@ impl OwnVoice {
             *s += blend(SMOOTHING_S) * (x - *s);
         }
         self.played[self.next] = std::array::from_fn(|k| self.smooth[k] as f32);
-        self.played_bands[self.next] = bands(own);
         let heard = bands(microphone);
-        for (means, seconds) in self.means.iter_mut().zip(MEANS_S) {
-            means.iter_mut().zip(&heard).for_each(|(mean, y)| *mean += blend(seconds) * (y - *mean));
+        for (envelope, now) in self.envelopes.iter_mut().zip([&bands(own), &heard]) {
+            follow(envelope, now, ENVELOPE_S);
         }
+        for (means, seconds) in self.means.iter_mut().zip(MEANS_S) {
+            follow(means, &heard, seconds);
+        }
+        self.played_bands[self.next] = self.envelopes[0];
         if learn {
-            self.learn(&heard);
+            self.learn();
         }
         self.ring();
         self.predict();
@@ -160,9 +171,10 @@ impl OwnVoice {
         (self.next + LAGS - lag) % LAGS
     }
 
-    fn learn(&mut self, heard: &[f64; BANDS]) {
+    fn learn(&mut self) {
+        let heard = self.envelopes[1];
         let blend = FRAME_S / MEMORY_S;
-        for ((mean, square), y) in self.heard.iter_mut().zip(&mut self.heard_square).zip(heard) {
+        for ((mean, square), y) in self.heard.iter_mut().zip(&mut self.heard_square).zip(&heard) {
             *mean += blend * (y - *mean);
             *square += blend * (y * y - *square);
         }
@@ -242,6 +254,11 @@ impl OwnVoice {
 fn extent(b: usize) -> std::ops::Range<usize> {
     let low = if b == 0 { 0 } else { EDGES[b] };
     low..if b + 1 == BANDS { BINS } else { EDGES[b + 1] }
+}
+
+/// One-pole low-pass of band powers.
+fn follow(smooth: &mut [f64; BANDS], now: &[f64; BANDS], seconds: f64) {
+    smooth.iter_mut().zip(now).for_each(|(mean, y)| *mean += blend(seconds) * (y - *mean));
 }
 
 fn bands(power: &Power) -> [f64; BANDS] {
