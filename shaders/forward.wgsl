@@ -52,6 +52,7 @@ struct Vertex {
     @location(3) uv: vec4f,      // two sets
     @location(4) color: vec4f,
     @location(5) tag: u32,
+    @location(6) bounce: vec3f,
 }
 
 struct Varying {
@@ -62,6 +63,7 @@ struct Varying {
     @location(3) uv: vec4f,
     @location(4) color: vec4f,
     @location(5) visibility: f32,
+    @location(6) bounce: vec3f,
 }
 
 @vertex
@@ -75,6 +77,7 @@ fn vertex(v: Vertex) -> Varying {
     out.uv = v.uv;
     out.color = v.color;
     out.visibility = visibility_of_tag(v.tag);
+    out.bounce = v.bounce;
     return out;
 }
 
@@ -139,7 +142,9 @@ fn seen(v: Varying) -> Seen {
     let turn = min(0.5 * (dot(dn_x, dn_x) + dot(dn_y, dn_y)), 0.18);
     let rough = clamp(material.roughness * mr.g, 0.045, 1.0);
     s.roughness = sqrt(sqrt(min(rough * rough * rough * rough + turn, 1.0)));
-    s.occlusion = (1.0 + material.occlusion * (ao - 1.0)) * v.visibility;
+    let creases = 1.0 + material.occlusion * (ao - 1.0);
+    s.occlusion = creases * v.visibility;
+    s.bounce = creases * v.bounce;
     s.f0 = material.f0;
     s.f90 = material.f90;
     s.transmission = material.transmission;

@@ -13,7 +13,7 @@
 @group(1) @binding(6) var floor_shadow: texture_2d<f32>;
 @group(1) @binding(7) var lightmap: texture_2d_array<f32>;
 @group(1) @binding(8) var ambient: texture_2d_array<f32>;   // what static parts leave of the sky over each plane
-@group(1) @binding(9) var blocker_map: texture_2d<f32>;      // the shadow map's depths as numbers: high byte, low byte
+@group(1) @binding(9) var blocker_map: texture_2d<f32>;      // the shadow map's depths as numbers: three bytes, the highest first
 
 override AREA_LIGHT: bool = false;
 // The environment is that of the room's box: reflections are moved to where the mirror ray meets its walls.
@@ -30,6 +30,7 @@ struct Surface {
     metallic: f32,
     roughness: f32,    // perceptual
     occlusion: f32,
+    bounce: vec3f,     // irradiance from other surfaces
     f0: vec3f,         // of what is not metal
     f90: f32,
     transmission: f32, // part of the light below the surface that goes through
@@ -117,44 +118,72 @@ fn image_light(s: Surface, r: Reflector) -> vec3f {
     let prefiltered = textureSampleLevel(environment, smooth_sampler, seen, lod).rgb;
     let single = r.f0 * r.ab.x + r.f90 * r.ab.y;
     let specular_albedo = single * r.energy;
-    let diffuse = r.diffuse * (1.0 - specular_albedo) * sh_irradiance(s.normal) / PI;
+    let around = globals.env_intensity * s.occlusion * sh_irradiance(s.normal);
+    let diffuse = r.diffuse * (1.0 - specular_albedo) * (around + s.bounce) / PI;
     // Specular occlusion from the diffuse one (Lagarde and de Rousiers 2014).
     let so = clamp(pow(r.nv + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
-    return globals.env_intensity * (diffuse * s.occlusion + prefiltered * specular_albedo * so);
+    // Where something stands in the way of the mirror, its mean radiance is seen instead.
+    let nearby = s.bounce / (PI * max(1.0 - s.occlusion, 0.05));
+    let reflected = globals.env_intensity * prefiltered * so + nearby * (1.0 - so);
+    return diffuse + reflected * specular_albedo;
+}
+
+// Place of a world point in the shadow map: texture coordinates, depth, and its distance along the light's axis.
+fn in_map(p: vec3f) -> vec4f {
+    let q = globals.shadow_from_world * vec4f(p, 1.0);
+    return vec4f(q.xyz / q.w * vec3f(0.5, -0.5, 1.0) + vec3f(0.5, 0.5, 0.0), q.w);
+}
+
+// How the depth of the plane through p changes over the shadow map, per unit of texture coordinates. A projection maps
+// planes to planes, so two more points of it say so exactly.
+fn depth_slope(p: vec3f, normal: vec3f, at: vec4f, reach: f32) -> vec2f {
+    let frame = frame_of(normal);
+    let x = in_map(p + frame[0] * reach).xyz - at.xyz;
+    let y = in_map(p + frame[1] * reach).xyz - at.xyz;
+    let area = x.x * y.y - x.y * y.x;
+    // Seen from the light edge on: no slope says anything.
+    return select(vec2f(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / area, vec2f(0.0), abs(area) < 1e-12);
+}
+
+// Depth as `map_fragment` wrote it.
+fn blocker_depth(at: vec2f, size: vec2f) -> f32 {
+    let bytes = textureLoad(blocker_map, clamp(vec2i(at * size), vec2i(0), vec2i(size) - 1), 0).xyz;
+    return dot(bytes, vec3f(16711680.0, 65280.0, 255.0)) / 16777215.0;
 }
 
 // Fraction of the shadow-casting light that reaches p: blocker search, then a filter as wide as the penumbra
-// (Fernando 2005), both with fixed taps so that nothing shimmers.
+// (Fernando 2005), both with fixed taps so that nothing shimmers. Each tap is compared with the depth of the receiver's
+// own plane there, so that a wide filter does not find the wall in its own shadow.
 fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let distance = length(towards);
     let slope = sqrt(clamp(1.0 - pow(dot(facing, towards) / distance, 2.0), 0.0, 1.0));
     // One and a half texels along the normal keep a lit surface from shading itself.
     let texel = globals.shadow_texel * distance;
     let side = select(-1.0, 1.0, dot(facing, towards) > 0.0);
-    let q = globals.shadow_from_world * vec4f(p + facing * side * texel * (1.0 + 2.0 * slope), 1.0);
+    let above = p + facing * side * texel * (1.0 + 2.0 * slope);
     let near = globals.shadow_near;
     let far = globals.shadow_far;
-    if q.w <= 0.0 {
-        return 1.0;
-    }
-    let at = q.xyz / q.w * vec3f(0.5, -0.5, 1.0) + vec3f(0.5, 0.5, 0.0);
-    if any(at.xy < vec2f(0.0)) || any(at.xy > vec2f(1.0)) {
+    let at = in_map(above);
+    if at.w <= 0.0 {
         return 1.0;
     }
     let size = vec2f(textureDimensions(shadow_map));
     // Size of the light as seen in texture coordinates from a receiver at depth w, per unit of (w − b) / b.
-    let spread = globals.shadow_radius / (globals.shadow_texel * size.x * q.w);
+    let spread = globals.shadow_radius / (globals.shadow_texel * size.x * at.w);
     // No blocker is nearer to the light than the near plane.
-    let search = max(spread * (q.w - near) / near, 1.5 / size.x);
+    let search = max(spread * (at.w - near) / near, 1.5 / size.x);
+    if any(at.xy < vec2f(-search)) || any(at.xy > vec2f(1.0 + search)) {
+        return 1.0;
+    }
+    let tilt = depth_slope(above, facing, at, 8.0 * texel);
     var blockers = 0.0;
     var depth = 0.0;
     // The number of taps is a uniform so that no driver unrolls the loops: that made shaders slow to build.
     let taps = globals.shadow_taps;
     for (var i = 0.0; i < taps; i += 1.0) {
-        let texel_at = vec2i((at.xy + search * vogel(i, taps)) * size);
-        let bytes = textureLoad(blocker_map, clamp(texel_at, vec2i(0), vec2i(size) - 1), 0).xy;
-        let z = (bytes.x * 65280.0 + bytes.y * 255.0) / 65535.0;
-        if z > at.z + 2e-5 {
+        let off = search * vogel(i, taps);
+        let z = blocker_depth(at.xy + off, size);
+        if z > at.z + dot(tilt, off) + 1e-6 && all(abs(at.xy + off - 0.5) < vec2f(0.5)) {
             blockers += 1.0;
             depth += near * far / (z * (far - near) + near);
         }
@@ -163,12 +192,17 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
         return 1.0;
     }
     let blocker = depth / blockers;
-    let width = clamp(spread * (q.w - blocker) / blocker, 1.2 / size.x, search);
+    let width = clamp(spread * (at.w - blocker) / blocker, 1.2 / size.x, search);
+    // In the penumbra every tap is one of its steps; few places are in one.
+    let steps = 3.0 * taps;
     var lit = 0.0;
-    for (var i = 0.0; i < taps; i += 1.0) {
-        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + width * vogel(i, taps), at.z);
+    for (var i = 0.0; i < steps; i += 1.0) {
+        let off = width * vogel(i, steps);
+        let outside = any(abs(at.xy + off - 0.5) > vec2f(0.5));
+        let through = textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + off, at.z + dot(tilt, off));
+        lit += select(through, 1.0, outside);
     }
-    return lit / taps;
+    return lit / steps;
 }
 
 // Unit irradiance vector of a rectangle: Lambert's sum over its edges (Lambert 1760; Arvo 1995).

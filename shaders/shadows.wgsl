@@ -131,10 +131,11 @@ fn map_vertex(@location(0) position: vec3f, @location(5) tag: u32) -> @builtin(p
     return globals.shadow_from_world * vec4f(to_world(position, frame_of_tag(tag)), 1.0);
 }
 
-// The depth once more, in two bytes: some drivers compare a depth texture or read it, but not both.
+// The depth once more, in three bytes: some drivers compare a depth texture or read it, but not both.
 @fragment
 fn map_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let whole = position.z * 65535.0;
-    let high = floor(whole / 256.0);
-    return vec4f(high / 255.0, (whole - high * 256.0) / 255.0, 0.0, 1.0);
+    let whole = floor(position.z * 16777215.0);
+    let high = floor(whole / 65536.0);
+    let middle = floor(whole / 256.0) - 256.0 * high;
+    return vec4f(high, middle, whole - 65536.0 * high - 256.0 * middle, 255.0) / 255.0;
 }

@@ -48,6 +48,21 @@ impl Environment {
         Self { irradiance, levels }
     }
 
+    /// Radiance from a unit direction, as rough as this level of the cube.
+    pub fn radiance(&self, direction: Vec3, level: usize) -> Vec3 {
+        let texels = &self.levels[level];
+        let size = ((texels.len() / 6) as f32).sqrt();
+        let (face, s, t) = face_of(direction);
+        let at = |c: f32| ((c * size) as usize).min(size as usize - 1);
+        texels[(face * size as usize + at(t)) * size as usize + at(s)]
+    }
+
+    /// Irradiance of a surface with this normal under the whole of it, as `sh_irradiance` in `lighting.wgsl`.
+    pub fn irradiance_at(&self, n: Vec3) -> Vec3 {
+        let basis = [1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y];
+        self.irradiance.iter().zip(basis).map(|(c, b)| *c * b).sum::<Vec3>().max(Vec3::ZERO)
+    }
+
     /// Prepares an equirectangular image: u = atan2(z, x)/2π + ½, v = 0 at +Y.
     pub fn from_equirectangular(image: &image::Rgb32FImage) -> Self {
         let (width, height) = (image.width() as i64, image.height() as i64);

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
+use super::bounce::{self, Light};
+use super::casters::casters;
 use super::environment::Environment;
 use super::gallery::Room;
 use super::globals::Globals;
@@ -69,15 +71,27 @@ impl Renderer {
         let device = &gpu.device;
         let mut scene = Scene::new(exhibit)?;
         let room = Room::around(exhibit);
-        occlusion::corners(&mut scene, exhibit, room.radius);
         let look = &options.look;
         let environment = match &look.environment {
             Some(environment) => environment.clone(),
             None => Arc::new(Environment::new(|direction| room.radiance(direction))),
         };
+        // What moves takes its corners along, and the light on them would be wrong.
+        let still = exhibit.bodies.is_empty() && look.background.is_some();
+        if still {
+            let light = Light { environment: &environment, env_intensity: look.env_intensity, area: look.area_light };
+            bounce::corners(&mut scene, exhibit, room.radius, &light);
+        } else {
+            occlusion::corners(&mut scene, exhibit, room.radius);
+        }
         let lamp_samples = LAMP_SAMPLES[(options.quality == Quality::Full) as usize];
         let planes = ReceivingPlane::of_room(&room, exhibit, options.quality);
-        let map = MapCamera::new(&room, look, options.quality);
+        let map = MapCamera::new(&room, look, options.quality, |eye| {
+            if !still || look.area_light.is_none() {
+                return Vec::new();
+            }
+            casters(&scene, &occlusion::at_rest(&scene, exhibit).0, room.radius, eye)
+        });
         let globals =
             Globals::new(look, &room, &environment.irradiance, &map, &planes, (options.quality, lamp_samples));
         let layouts = Layouts::new(device);

@@ -9,8 +9,8 @@ use super::shadows::{MapCamera, ReceivingPlane};
 use super::{Frame, Look, Quality, Tonemap};
 use crate::exhibit::View;
 
-/// Taps of the blocker search and of the filter of the shadow map, by quality.
-const SHADOW_TAPS: [f32; 2] = [12.0, 20.0];
+/// Taps of the blocker search of the shadow map, by quality; its filter has three times as many.
+const SHADOW_TAPS: [f32; 2] = [16.0, 24.0];
 
 /// A disc lamp.
 #[repr(C)]

@@ -38,6 +38,8 @@ use crate::exhibit::View;
 use crate::math::Pose;
 use crate::simulation::Mote;
 
+mod bounce;
+mod casters;
 pub mod environment;
 mod forward;
 pub mod gallery;
@@ -48,6 +50,7 @@ pub mod passes;
 mod picture;
 mod pipelines;
 mod radiosity;
+mod refine;
 mod resources;
 pub mod scenario;
 mod scene;

@@ -33,17 +33,20 @@ pub(super) const PLANE_MAP: u32 = 80;
 const REACH: f32 = 0.22;
 
 /// Triangles to look at.
-struct Solid {
+pub(super) struct Solid {
     triangles: Vec<Triangle>,
+    /// First corner of each in the scene's vertices.
+    corners: Vec<u32>,
     bvh: Bvh2,
 }
 
 impl Solid {
     /// Opaque triangles of the scene at rest, or the static ones alone.
-    fn new(scene: &Scene, places: &[Vec3], only_static: bool) -> Option<Self> {
+    pub fn new(scene: &Scene, places: &[Vec3], only_static: bool) -> Option<Self> {
         let solid = scene.indices[..scene.opaque as usize].chunks_exact(3);
+        let solid = solid.filter(|t| !only_static || scene.vertices[t[0] as usize].frame() == 0);
+        let corners = solid.clone().map(|t| t[0]).collect();
         let triangles: Vec<Triangle> = solid
-            .filter(|t| !only_static || scene.vertices[t[0] as usize].frame() == 0)
             .map(|t| {
                 let [v0, v1, v2] = [t[0], t[1], t[2]].map(|i| Vec3A::from(places[i as usize]));
                 Triangle { v0, v1, v2 }
@@ -53,7 +56,42 @@ impl Solid {
             return None;
         }
         let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
-        Some(Self { triangles, bvh })
+        Some(Self { triangles, corners, bvh })
+    }
+
+    /// The nearest triangle that a ray meets, of the scene's opaque ones.
+    pub fn nearest(&self, from: Vec3, way: Vec3) -> Option<u32> {
+        let (mut nearest, mut met) = (f32::INFINITY, None);
+        let ray = Ray::new(from.into(), way.into(), 0.0, f32::INFINITY);
+        self.bvh.ray_traverse(ray, &mut RayHit::none(), |ray, id| {
+            let index = self.bvh.primitive_indices[id];
+            let t = self.triangles[index as usize].intersect(ray);
+            if t < nearest {
+                (nearest, met) = (t, Some(index));
+            }
+            t
+        });
+        met
+    }
+
+    /// Is there anything between two points?
+    pub fn hides(&self, from: Vec3, to: Vec3) -> bool {
+        let mut hidden = false;
+        self.between(from, to, |_| hidden = true);
+        hidden
+    }
+
+    /// Tells a corner of each triangle between two points.
+    pub fn between(&self, from: Vec3, to: Vec3, mut met: impl FnMut(u32)) {
+        let way = to - from;
+        let ray = Ray::new(from.into(), way.into(), 1e-4, 1.0);
+        self.bvh.ray_traverse(ray, &mut RayHit::none(), |ray, id| {
+            let index = self.bvh.primitive_indices[id] as usize;
+            if self.triangles[index].intersect(ray) < 1.0 {
+                met(self.corners[index]);
+            }
+            f32::INFINITY
+        });
     }
 
     /// Part of the sky over `point` that is open.
@@ -77,16 +115,8 @@ impl Solid {
 
 /// Gives each corner of the scene its visibility.
 pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
-    // Corners of one place and one normal share their rays.
     let (places, normals) = at_rest(scene, exhibit);
-    let key = |i: usize| {
-        let whole = |v: Vec3, step: f32| [v.x, v.y, v.z].map(|c| (c / step).round() as i32);
-        (whole(places[i], 1e-4 * radius), whole(normals[i], 0.05))
-    };
-    let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    order.sort_by_cached_key(|&i| key(i as usize));
-    let mut groups: Vec<&[u32]> = order.chunk_by(|&a, &b| key(a as usize) == key(b as usize)).collect();
-    groups.retain(|group| !group.is_empty());
+    let groups = groups(&places, &normals, radius);
     let rays = CORNER_RAYS.min((MAX_RAYS / groups.len().max(1)) as u32);
     let Some(solid) = (rays >= MIN_RAYS).then(|| Solid::new(scene, &places, false)).flatten() else { return };
     let directions = cosine_directions(rays);
@@ -95,10 +125,21 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
         solid.visibility(places[i], normals[i], REACH * radius, &directions)
     });
     for (group, visibility) in groups.iter().zip(seen) {
-        for &i in *group {
+        for &i in group {
             scene.vertices[i as usize].set_visibility(visibility);
         }
     }
+}
+
+/// Corners by place and normal: those of one share their rays.
+pub(super) fn groups(places: &[Vec3], normals: &[Vec3], radius: f32) -> Vec<Vec<u32>> {
+    let key = |i: u32| {
+        let whole = |v: Vec3, step: f32| [v.x, v.y, v.z].map(|c| (c / step).round() as i32);
+        (whole(places[i as usize], 1e-4 * radius), whole(normals[i as usize], 0.05))
+    };
+    let mut order: Vec<u32> = (0..places.len() as u32).collect();
+    order.sort_by_cached_key(|&i| key(i));
+    order.chunk_by(|&a, &b| key(a) == key(b)).map(<[u32]>::to_vec).collect()
 }
 
 /// Maps of both planes, texel by texel, row by row, a byte each: what static parts leave of the sky.
@@ -123,7 +164,7 @@ pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane;
 }
 
 /// World places and normals of all corners, with the bodies where they begin.
-fn at_rest(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
+pub(super) fn at_rest(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
     let frames: Vec<_> = exhibit.bodies.iter().map(|body| body.pose.matrix().as_mat4()).collect();
     let place = |v: &super::scene::Vertex| match v.frame() {
         0 => (v.position, v.normal),
@@ -133,7 +174,7 @@ fn at_rest(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
 }
 
 /// N directions about +Z with density cos/π.
-fn cosine_directions(count: u32) -> Vec<Vec3> {
+pub(super) fn cosine_directions(count: u32) -> Vec<Vec3> {
     (0..count)
         .map(|i| {
             let r2 = (i as f32 + 0.5) / count as f32;
@@ -145,7 +186,7 @@ fn cosine_directions(count: u32) -> Vec<Vec3> {
 }
 
 /// Maps a list on all processors; the result does not depend on how many there are.
-fn in_parallel<T: Sync, R: Send>(list: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+pub(super) fn in_parallel<T: Sync, R: Send>(list: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(8);
     let chunk = list.len().div_ceil(threads).max(1);
     std::thread::scope(|scope| {
@@ -171,7 +212,7 @@ mod tests {
             (corner(0.0, -9.0, -9.0), corner(0.0, 9.0, -9.0), corner(0.0, 9.0, 9.0), corner(0.0, -9.0, 9.0));
         let triangles = vec![wall(a, b, c), wall(a, c, d)];
         let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
-        let solid = Solid { triangles, bvh };
+        let solid = Solid { triangles, corners: vec![0, 0], bvh };
         let directions = cosine_directions(256);
         let at = |x: f32| solid.visibility(Vec3::new(x, 0.0, 0.0), Vec3::Z, 1.0, &directions);
         assert!((at(1e-4) - 0.5).abs() < SAMPLING, "{}", at(1e-4));

@@ -40,7 +40,7 @@ const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32, 6 => Float32x3
     ],
 };
 const SEGMENT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {

@@ -30,6 +30,8 @@ pub(super) struct Vertex {
     pub color: [f32; 4],
     /// Frame in the low 16 bits, then ambient visibility, then opacity to lamps.
     pub tag: u32,
+    /// Irradiance from other surfaces of a still scene.
+    pub bounce: Vec3,
 }
 
 impl Vertex {
@@ -199,6 +201,7 @@ impl Scene {
                 uv: uv(primitive, i),
                 color: primitive.colors.get(i).copied().unwrap_or([1.0; 4]),
                 tag,
+                bounce: Vec3::ZERO,
             });
         }
         let count = primitive.positions.len() as u32;

@@ -12,9 +12,9 @@ use crate::exhibit::Exhibit;
 /// Format of the plane shadows: blocked fraction of either lamp.
 pub(super) const PLANE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// Depths of the shadow map, to be compared.
-pub(super) const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
-/// The same depths as two bytes, to be read.
-pub(super) const BLOCKER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg8Unorm;
+pub(super) const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// The same depths as three bytes, to be read.
+pub(super) const BLOCKER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Part of a wall or floor that receives a shadow.
 #[derive(Clone, Copy, Debug)]
@@ -98,8 +98,9 @@ pub(super) struct MapCamera {
 }
 
 impl MapCamera {
-    /// From the area light if there is one, from the key lamp otherwise, around everything the work may sweep.
-    pub fn new(room: &Room, look: &Look, quality: Quality) -> Self {
+    /// From the area light if there is one, from the key lamp otherwise, around everything the work may sweep; in a still
+    /// scene around its casters alone, where there are any.
+    pub fn new(room: &Room, look: &Look, quality: Quality, casters: impl FnOnce(Vec3) -> Vec<Vec3>) -> Self {
         let (eye, light_radius) = match &look.area_light {
             Some(area) => {
                 let surface = 4.0 * area.half.0.cross(area.half.1).length();
@@ -109,13 +110,27 @@ impl MapCamera {
         };
         let offset = room.work - eye;
         let distance = offset.length().max(1.05 * room.radius);
-        let forward = offset.normalize_or(Vec3::NEG_Z);
+        let casters = casters(eye);
+        let low = casters.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = casters.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let aim = if casters.is_empty() { offset } else { 0.5 * (low + high) - eye };
+        let forward = aim.normalize_or(Vec3::NEG_Z);
         let (right, up) = forward.any_orthonormal_pair();
         let sine = (1.02 * room.radius / distance).min(0.97);
-        let half = sine / (1.0 - sine * sine).sqrt();
-        // All that the work sweeps lies between these; sixteen bits then tell a ten-thousandth of its size apart.
-        let (near, far) = (distance - 1.02 * room.radius, distance + 1.02 * room.radius);
-        let near = near.max(0.02 * distance);
+        let widest = sine / (1.0 - sine * sine).sqrt();
+        // All that the work sweeps lies between these.
+        let far = distance + 1.02 * room.radius;
+        let nearest = 0.02 * distance;
+        let (half, near) = if casters.is_empty() {
+            (widest, distance - 1.02 * room.radius)
+        } else {
+            let seen = casters.iter().map(|&p| p - eye).filter(|p| p.dot(forward) > nearest);
+            seen.fold((0.0_f32, far), |(half, near), p| {
+                let w = p.dot(forward);
+                (half.max(p.dot(right).abs().max(p.dot(up).abs()) / w), near.min(w))
+            })
+        };
+        let (half, near) = ((1.02 * half).clamp(1e-3, 4.0), (0.99 * near).max(nearest));
         let f = 1.0 / half;
         let row = |axis: Vec3, scale: f32| (axis * scale).extend(-axis.dot(eye) * scale);
         // z = n (f − w) / (f − n), over w.

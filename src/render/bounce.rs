@@ -1,0 +1,151 @@
+//! The light that surfaces of a still scene send one another, baked into their corners.
+//!
+//! Where nothing moves, a ray from a corner ends at the same triangle for ever. With N cosine-weighted rays of a corner,
+//! ρ the reflectance of the triangle that a ray meets, E the irradiance there, and D that of the lights themselves:
+//!
+//! ```text
+//! v = Σ_open L / Σ_all L          what part of the light from all around arrives, L the radiance of the environment
+//! B = (1/N) Σ_hits ρ E            what comes back from surfaces
+//! E = D + v E_env(n) + B          solved by Jacobi iteration, once for each reflection (Goral et al. 1984)
+//! ```
+//!
+//! The rays are the same at every corner, turned into its frame, so there is no noise. Triangles are made finer first: what
+//! is baked into corners is linear between them.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+
+use super::AreaLight;
+use super::environment::Environment;
+use super::occlusion::{Solid, at_rest, cosine_directions, groups, in_parallel};
+use super::radiosity::polygon_factor;
+use super::scene::Scene;
+use crate::exhibit::Exhibit;
+use crate::exhibit::model::{Appearance, Model};
+
+/// Longest edge, in radii of the scene, and corners from which on no edge is halved.
+const LONGEST: f32 = 1.0 / 28.0;
+const MOST_CORNERS: usize = 30_000;
+/// Rays of each corner, as many as all corners can have together.
+const RAYS: (usize, usize) = (24, 160);
+const ALL_RAYS: usize = 2_500_000;
+/// Reflections that are followed.
+const REFLECTIONS: u32 = 5;
+/// Points of a rectangle of light, along each side, that a corner looks at.
+const LIGHT_GRID: u32 = 4;
+/// Level of the environment's cube that rays see: as rough as the rays are sparse.
+const ROUGH: usize = 2;
+/// A ray that meets nothing.
+const NOTHING: u32 = u32::MAX;
+
+/// Light that falls on a still scene.
+pub(super) struct Light<'a> {
+    pub environment: &'a Environment,
+    pub env_intensity: f32,
+    pub area: Option<AreaLight>,
+}
+
+/// Gives each corner of a still scene its visibility and what surfaces send to it.
+pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: &Light) {
+    scene.refine(LONGEST * radius, MOST_CORNERS);
+    let (places, normals) = at_rest(scene, exhibit);
+    let order = groups(&places, &normals, radius);
+    let Some(solid) = Solid::new(scene, &places, false) else { return };
+    let mut group_of = vec![0; places.len()];
+    for (index, group) in order.iter().enumerate() {
+        group.iter().for_each(|&i| group_of[i as usize] = index);
+    }
+    let rays = (ALL_RAYS / order.len().max(1)).clamp(RAYS.0, RAYS.1);
+    let directions = cosine_directions(rays as u32);
+    let clear = 2e-4 * radius;
+    let gathered = in_parallel(&order, |group| {
+        let i = group[0] as usize;
+        let (place, normal) = (places[i] + clear * normals[i], normals[i]);
+        let (t, b) = normal.any_orthonormal_pair();
+        let (mut open, mut all) = (0.0, 0.0);
+        let mut met = Vec::with_capacity(rays);
+        for d in &directions {
+            let way = t * d.x + b * d.y + normal * d.z;
+            let brightness = light.environment.radiance(way, ROUGH).element_sum();
+            let triangle = solid.nearest(place, way).unwrap_or(NOTHING);
+            all += brightness;
+            open += if triangle == NOTHING { brightness } else { 0.0 };
+            met.push(triangle);
+        }
+        let visibility = if all > 0.0 { open / all } else { 1.0 };
+        let around = light.env_intensity * visibility * light.environment.irradiance_at(normal);
+        let direct = light.area.as_ref().map_or(Vec3::ZERO, |area| from_area(&solid, place, normal, area));
+        (visibility, direct + around, met)
+    });
+    let reflectance = reflectances(scene, &exhibit.model);
+    let mut sent = vec![Vec3::ZERO; order.len()];
+    for _ in 0..REFLECTIONS {
+        // What each triangle sends out, π times its radiance: the mean over its corners.
+        let of_triangle: Vec<Vec3> = scene.indices[..scene.opaque as usize]
+            .chunks_exact(3)
+            .zip(&reflectance)
+            .map(|(t, (rho, glow))| {
+                let falls = |i: u32| gathered[group_of[i as usize]].1 + sent[group_of[i as usize]];
+                *rho * (falls(t[0]) + falls(t[1]) + falls(t[2])) / 3.0 + PI * *glow
+            })
+            .collect();
+        sent = in_parallel(&gathered, |(.., met)| {
+            let hits = met.iter().filter(|&&triangle| triangle != NOTHING);
+            hits.map(|&triangle| of_triangle[triangle as usize]).sum::<Vec3>() / rays as f32
+        });
+    }
+    for (i, vertex) in scene.vertices.iter_mut().enumerate() {
+        vertex.set_visibility(gathered[group_of[i]].0);
+        vertex.bounce = sent[group_of[i]];
+    }
+}
+
+/// Irradiance from a rectangle of light, as much of it as is seen.
+fn from_area(solid: &Solid, place: Vec3, normal: Vec3, area: &AreaLight) -> Vec3 {
+    let (center, (x, y)) = (area.center, area.half);
+    if (place - center).dot(x.cross(y)) <= 0.0 {
+        return Vec3::ZERO;
+    }
+    let factor = polygon_factor(&[center - x - y, center + x - y, center + x + y, center - x + y], place, normal);
+    if factor == 0.0 {
+        return Vec3::ZERO;
+    }
+    let at = |k: u32| (k as f32 + 0.5) * 2.0 / LIGHT_GRID as f32 - 1.0;
+    let points = (0..LIGHT_GRID * LIGHT_GRID).map(|k| center + x * at(k % LIGHT_GRID) + y * at(k / LIGHT_GRID));
+    let seen = points.filter(|&point| !solid.hides(place, point)).count();
+    area.radiance * (PI * factor * seen as f32 / (LIGHT_GRID * LIGHT_GRID) as f32)
+}
+
+/// Reflectance and glow of each opaque triangle.
+fn reflectances(scene: &Scene, model: &Model) -> Vec<(Vec3, Vec3)> {
+    let plain = Appearance { metallic: 0.0, ..Appearance::default() };
+    let of_material: Vec<(Vec3, Vec3)> =
+        model.materials.iter().chain([&plain]).map(|look| (mean_color(look, model), look.emissive.into())).collect();
+    let mut list = Vec::with_capacity(scene.opaque as usize / 3);
+    for part in scene.parts.iter().filter(|part| part.indices.end <= scene.opaque) {
+        let (rho, glow) = of_material[part.material.min(of_material.len() - 1)];
+        for t in scene.indices[part.indices.start as usize..part.indices.end as usize].chunks_exact(3) {
+            let tint = |i: u32| Vec3::from_slice(&scene.vertices[i as usize].color);
+            list.push((rho * (tint(t[0]) + tint(t[1]) + tint(t[2])) / 3.0, glow));
+        }
+    }
+    list
+}
+
+/// Mean base colour of a material, linear.
+fn mean_color(look: &Appearance, model: &Model) -> Vec3 {
+    let base = Vec3::from_slice(&look.base_color);
+    let Some(image) = look.base_color_texture.as_ref().and_then(|t| model.images.get(t.image)) else { return base };
+    // A few thousand pixels say what an image's mean is.
+    let pixels = image.rgba.chunks_exact(4).step_by((image.rgba.len() / 4 / 4096).max(1));
+    let (sum, count) = pixels.fold((Vec3::ZERO, 0.0), |(sum, count), p| {
+        (sum + Vec3::new(p[0].into(), p[1].into(), p[2].into()).map(|c| linear(c / 255.0)), count + 1.0)
+    });
+    base * sum / f32::max(count, 1.0)
+}
+
+/// sRGB to linear.
+fn linear(c: f32) -> f32 {
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}

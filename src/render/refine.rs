@@ -1,0 +1,83 @@
+//! Finer triangles where light is baked into corners: no edge longer than a limit.
+//!
+//! Whether an edge is halved depends on its own two ends alone, so triangles on both sides of it, of one mesh or of two,
+//! agree, and no gap opens.
+
+use std::collections::HashMap;
+
+use glam::Vec4;
+
+use super::scene::{Scene, Vertex};
+
+/// Halvings at most: an edge then is a 64th of what it was.
+const MOST_ROUNDS: u32 = 6;
+
+impl Scene {
+    /// Halves edges longer than `longest`, m, again and again, as long as there are no more than `most` corners.
+    pub fn refine(&mut self, longest: f32, most: usize) {
+        for _ in 0..MOST_ROUNDS {
+            if self.vertices.len() > most || !self.halve(longest) {
+                return;
+            }
+        }
+    }
+
+    /// Halves each edge that is too long, once; was there any?
+    fn halve(&mut self, longest: f32) -> bool {
+        let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
+        let vertices = &mut self.vertices;
+        let mut middle = |a: u32, b: u32| -> Option<u32> {
+            let (p, q) = (vertices[a.min(b) as usize], vertices[a.max(b) as usize]);
+            (p.position.distance(q.position) > longest).then(|| {
+                *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                    vertices.push(between(&p, &q));
+                    vertices.len() as u32 - 1
+                })
+            })
+        };
+        let mut indices = Vec::with_capacity(2 * self.indices.len());
+        let (mut opaque, mut casters) = (0, 0);
+        for part in &mut self.parts {
+            let start = indices.len() as u32;
+            for t in self.indices[part.indices.start as usize..part.indices.end as usize].chunks_exact(3) {
+                let [a, b, c] = [t[0], t[1], t[2]];
+                match (middle(a, b), middle(b, c), middle(c, a)) {
+                    (None, None, None) => indices.extend([a, b, c]),
+                    (Some(ab), None, None) => indices.extend([a, ab, c, ab, b, c]),
+                    (None, Some(bc), None) => indices.extend([b, bc, a, bc, c, a]),
+                    (None, None, Some(ca)) => indices.extend([c, ca, b, ca, a, b]),
+                    (Some(ab), Some(bc), None) => indices.extend([ab, b, bc, a, ab, bc, a, bc, c]),
+                    (None, Some(bc), Some(ca)) => indices.extend([bc, c, ca, b, bc, ca, b, ca, a]),
+                    (Some(ab), None, Some(ca)) => indices.extend([ca, a, ab, c, ca, ab, c, ab, b]),
+                    (Some(ab), Some(bc), Some(ca)) => {
+                        indices.extend([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca]);
+                    }
+                }
+            }
+            let end = indices.len() as u32;
+            if part.indices.end <= self.opaque {
+                opaque = end;
+            }
+            if part.indices.end <= self.casters {
+                casters = end;
+            }
+            part.indices = start..end;
+        }
+        (self.indices, self.opaque, self.casters) = (indices, opaque, casters);
+        !middles.is_empty()
+    }
+}
+
+/// The corner half way between two.
+fn between(p: &Vertex, q: &Vertex) -> Vertex {
+    let mean = |a: [f32; 4], b: [f32; 4]| (0.5 * (Vec4::from(a) + Vec4::from(b))).to_array();
+    let along = mean(p.tangent, q.tangent);
+    Vertex {
+        position: 0.5 * (p.position + q.position),
+        normal: (p.normal + q.normal).normalize_or(p.normal),
+        tangent: [along[0], along[1], along[2], p.tangent[3]],
+        uv: mean(p.uv, q.uv),
+        color: mean(p.color, q.color),
+        ..*p
+    }
+}
