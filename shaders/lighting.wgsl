@@ -151,9 +151,16 @@ fn blocker_depth(at: vec2f, size: vec2f) -> f32 {
     return dot(bytes, vec3f(16711680.0, 65280.0, 255.0)) / 16777215.0;
 }
 
+// Does what the map shows beside a receiver, at distance b, lie between it and the light? With two texels to spare.
+fn in_cone(off: vec2f, at: vec4f, b: f32, spread: f32, size: vec2f) -> bool {
+    let inside = all(abs(at.xy + off - 0.5) < vec2f(0.5));
+    return inside && length(off) <= 1.25 * spread * max(at.w - b, 0.0) / b + 2.0 / size.x;
+}
+
 // Fraction of the shadow-casting light that reaches p: blocker search, then a filter as wide as the penumbra
 // (Fernando 2005), both with fixed taps so that nothing shimmers. Each tap is compared with the depth of the receiver's
-// own plane there, so that a wide filter does not find the wall in its own shadow.
+// own plane there, so that a wide filter does not find the wall in its own shadow, and what is found must lie in the cone
+// from the receiver to the light: the floor below a wall does not.
 fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let distance = length(towards);
     let slope = sqrt(clamp(1.0 - pow(dot(facing, towards) / distance, 2.0), 0.0, 1.0));
@@ -183,9 +190,10 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     for (var i = 0.0; i < taps; i += 1.0) {
         let off = search * vogel(i, taps);
         let z = blocker_depth(at.xy + off, size);
-        if z > at.z + dot(tilt, off) + 1e-6 && all(abs(at.xy + off - 0.5) < vec2f(0.5)) {
+        let b = near * far / (z * (far - near) + near);
+        if z > at.z + dot(tilt, off) + 1e-6 && in_cone(off, at, b, spread, size) {
             blockers += 1.0;
-            depth += near * far / (z * (far - near) + near);
+            depth += b;
         }
     }
     if blockers == 0.0 {
@@ -198,9 +206,10 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     var lit = 0.0;
     for (var i = 0.0; i < steps; i += 1.0) {
         let off = width * vogel(i, steps);
-        let outside = any(abs(at.xy + off - 0.5) > vec2f(0.5));
+        let z = blocker_depth(at.xy + off, size);
+        let b = near * far / (z * (far - near) + near);
         let through = textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + off, at.z + dot(tilt, off));
-        lit += select(through, 1.0, outside);
+        lit += select(1.0, through, in_cone(off, at, b, spread, size));
     }
     return lit / steps;
 }

@@ -10,7 +10,7 @@ use super::{Frame, Look, Quality, Tonemap};
 use crate::exhibit::View;
 
 /// Taps of the blocker search of the shadow map, by quality; its filter has three times as many.
-const SHADOW_TAPS: [f32; 2] = [16.0, 24.0];
+const SHADOW_TAPS: [f32; 2] = [24.0, 32.0];
 
 /// A disc lamp.
 #[repr(C)]
