@@ -208,8 +208,7 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
         let off = width * vogel(i, steps);
         let z = blocker_depth(at.xy + off, size);
         let b = near * far / (z * (far - near) + near);
-        let through = textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + off, at.z + dot(tilt, off));
-        lit += select(1.0, through, in_cone(off, at, b, spread, size));
+        lit += select(1.0, 0.0, z > at.z + dot(tilt, off) + 1e-6 && in_cone(off, at, b, spread, size));
     }
     return lit / steps;
 }

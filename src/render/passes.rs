@@ -72,7 +72,7 @@ impl Plan {
         [of("plane shadow", PLANE_FORMAT), of("plane order", ORDER_FORMAT)]
     }
 
-    /// Shadow map: depths to be compared, and to be read.
+    /// Shadow map: the order of what is drawn, and the same depths to be read.
     pub fn shadow_map(&self) -> [Attachment; 2] {
         let of = |label, format| Attachment { label, size: (self.map, self.map), samples: 1, format };
         [of("shadow map", MAP_FORMAT), of("blocker map", BLOCKER_FORMAT)]
@@ -94,7 +94,7 @@ impl Plan {
             passes.push(Pass { label: "plane shadow", writes: writes.into(), reads: Vec::new(), draws: 2 });
         }
         let map = self.shadow_map();
-        shadows.extend(map);
+        shadows.push(map[1]);
         passes.push(Pass { label: "shadow map", writes: map.into(), reads: Vec::new(), draws: 1 });
         // The room's three pipelines or the backdrop, the wires, the motes.
         let draws = self.mesh_draws + if self.planes.is_some() { 3 } else { 1 } + 2;
