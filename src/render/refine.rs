@@ -81,3 +81,31 @@ fn between(p: &Vertex, q: &Vertex) -> Vertex {
         ..*p
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::super::bounce::tests::hollow_cube;
+    use super::super::scene::tests::of_primitive;
+
+    #[test]
+    fn a_cube_made_finer_has_no_gap_and_no_long_edge() {
+        const LONGEST: f32 = 0.3;
+        let (_, mut scene) = of_primitive(hollow_cube(), Vec::new());
+        let before = scene.vertices.len();
+        scene.refine(LONGEST, 100_000);
+        assert!(scene.vertices.len() > 10 * before && scene.opaque as usize == scene.indices.len());
+        // By place: where faces meet, each has corners of its own.
+        let key = |i: u32| scene.vertices[i as usize].position.to_array().map(f32::to_bits);
+        let mut sides: HashMap<_, i32> = HashMap::new();
+        for t in scene.indices.chunks_exact(3) {
+            for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+                let way = scene.vertices[a as usize].position.distance(scene.vertices[b as usize].position);
+                assert!(way <= LONGEST, "{way} m");
+                *sides.entry((key(a).min(key(b)), key(a).max(key(b)))).or_default() += 1;
+            }
+        }
+        assert!(sides.values().all(|&triangles| triangles == 2), "an edge has not two triangles");
+    }
+}

@@ -288,21 +288,18 @@ pub(super) fn rows(pose: &Pose) -> [Vec4; 3] {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::exhibit::model::{Mesh, Node};
 
-    #[test]
-    fn a_mirrored_node_keeps_its_outside_out() {
-        let triangle = Primitive {
-            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            normals: vec![[0.0, 0.0, 1.0]; 3],
-            indices: vec![0, 1, 2],
-            ..Default::default()
-        };
-        let world = DMat4::from_scale(crate::math::DVec3::new(-2.0, 1.0, 1.0));
+    /// An exhibit of one mesh, and its scene.
+    pub fn of_primitive(primitive: Primitive, materials: Vec<Appearance>) -> (Exhibit, Scene) {
+        placed(primitive, materials, DMat4::IDENTITY)
+    }
+
+    fn placed(primitive: Primitive, materials: Vec<Appearance>, world: DMat4) -> (Exhibit, Scene) {
         let node = Node {
-            name: "mirror".into(),
+            name: "node".into(),
             parent: None,
             children: Vec::new(),
             local: world,
@@ -314,10 +311,25 @@ mod tests {
         let model = Model {
             nodes: vec![node],
             roots: vec![0],
-            meshes: vec![Mesh { name: String::new(), primitives: vec![triangle] }],
+            meshes: vec![Mesh { name: String::new(), primitives: vec![primitive] }],
+            materials,
             ..Default::default()
         };
-        let scene = Scene::new(&crate::exhibit::Exhibit::of_model(model)).expect("few bodies");
+        let exhibit = Exhibit::of_model(model);
+        let scene = Scene::new(&exhibit).expect("few bodies");
+        (exhibit, scene)
+    }
+
+    #[test]
+    fn a_mirrored_node_keeps_its_outside_out() {
+        let triangle = Primitive {
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            normals: vec![[0.0, 0.0, 1.0]; 3],
+            indices: vec![0, 1, 2],
+            ..Default::default()
+        };
+        let mirror = DMat4::from_scale(crate::math::DVec3::new(-2.0, 1.0, 1.0));
+        let (_, scene) = placed(triangle, Vec::new(), mirror);
         let corner = |i: usize| scene.vertices[scene.indices[i] as usize].position;
         let geometric = (corner(1) - corner(0)).cross(corner(2) - corner(0));
         assert!(geometric.z > 0.0 && scene.vertices[0].normal == Vec3::Z, "{geometric}");
