@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Failure, Outcome};
 use crate::exhibit::{self, Exhibit};
-use crate::offline::pictures::write_png;
+use crate::offline::pictures::{FINER, write_png};
 use crate::render::scenario::Scenario;
 use crate::render::{Frame, ImageRenderer, Options, RenderError, Shaders};
 use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
@@ -67,7 +67,7 @@ pub fn run(args: Args) -> Outcome {
         options.look = look;
         options.shaders = shaders.map_or(options.shaders.clone(), Arc::new);
     };
-    let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(failure)?;
+    let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(failure)?.finer(FINER);
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure };

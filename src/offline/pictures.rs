@@ -11,6 +11,9 @@ use crate::exhibit::Exhibit;
 use crate::render::{Frame, ImageRenderer, RenderError};
 use crate::simulation::Snapshot;
 
+/// Pixels drawn for each of a picture in a file, along each side.
+pub const FINER: u32 = 2;
+
 /// Draws moments of one exhibit.
 pub struct Pictures {
     renderer: ImageRenderer,
@@ -21,7 +24,7 @@ pub struct Pictures {
 impl Pictures {
     /// Prepares pictures of `size` pixels. Needs a Vulkan driver; software is enough.
     pub fn new(exhibit: &Arc<Exhibit>, size: (u32, u32)) -> Result<Self, RenderError> {
-        Ok(Self { renderer: ImageRenderer::new(exhibit, |_| ())?, exhibit: exhibit.clone(), size })
+        Ok(Self { renderer: ImageRenderer::new(exhibit, |_| ())?.finer(FINER), exhibit: exhibit.clone(), size })
     }
 
     /// Draws a moment as the exhibit's camera sees it.

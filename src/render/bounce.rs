@@ -21,6 +21,7 @@ use super::environment::Environment;
 use super::occlusion::{Solid, at_rest, cosine_directions, groups, in_parallel};
 use super::radiosity::polygon_factor;
 use super::scene::Scene;
+use super::textures::to_linear;
 use crate::exhibit::Exhibit;
 use crate::exhibit::model::{Appearance, Model};
 
@@ -161,14 +162,9 @@ fn mean_color(look: &Appearance, model: &Model) -> Vec3 {
     // A few thousand pixels say what an image's mean is.
     let pixels = image.rgba.chunks_exact(4).step_by((image.rgba.len() / 4 / 4096).max(1));
     let (sum, count) = pixels.fold((Vec3::ZERO, 0.0), |(sum, count), p| {
-        (sum + Vec3::new(p[0].into(), p[1].into(), p[2].into()).map(|c| linear(c / 255.0)), count + 1.0)
+        (sum + Vec3::new(p[0].into(), p[1].into(), p[2].into()).map(|c| to_linear(c / 255.0)), count + 1.0)
     });
     base * sum / f32::max(count, 1.0)
-}
-
-/// sRGB to linear.
-fn linear(c: f32) -> f32 {
-    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

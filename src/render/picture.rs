@@ -1,5 +1,9 @@
 //! Pictures without a window: draw into an own texture, read it back.
+//!
+//! A file has time: a fine picture is drawn larger and made smaller in linear light, so that a thin tube of some model is
+//! a line and not a row of dashes.
 
+use super::textures::{to_linear, to_srgb};
 use super::{Frame, Gpu, Options, RenderError, Renderer};
 use crate::exhibit::Exhibit;
 
@@ -11,6 +15,8 @@ pub struct ImageRenderer {
     gpu: Gpu,
     renderer: Renderer,
     target: Option<Target>,
+    /// Pixels drawn for one of the picture, along each side.
+    finer: u32,
 }
 
 /// Texture and read-back buffer of one size.
@@ -34,7 +40,12 @@ impl ImageRenderer {
         let mut options = Options::for_gpu(&gpu, FORMAT);
         adjust(&mut options);
         let renderer = Renderer::new(&gpu, exhibit, options)?;
-        Ok(Self { gpu, renderer, target: None })
+        Ok(Self { gpu, renderer, target: None, finer: 1 })
+    }
+
+    /// Draws so many pixels for each of the picture, along each side, wherever the device has textures that large.
+    pub fn finer(self, finer: u32) -> Self {
+        Self { finer: finer.max(1), ..self }
     }
 
     /// The device.
@@ -54,12 +65,15 @@ impl ImageRenderer {
         if width == 0 || height == 0 || width.max(height) > limit {
             return Err(RenderError::Size { width, height, limit });
         }
+        let finer = self.finer.min(limit / width.max(height));
+        let frame = Frame { size: (finer * width, finer * height), ..*frame };
         if self.target.as_ref().is_none_or(|target| target.size != frame.size) {
             self.target = Some(Target::new(&self.gpu, frame.size));
         }
         let Some(target) = &self.target else { unreachable!("made above") };
-        self.renderer.draw(&self.gpu, &target.view, frame);
-        target.read(&self.gpu)
+        self.renderer.draw(&self.gpu, &target.view, &frame);
+        let drawn = target.read(&self.gpu)?;
+        Ok(if finer == 1 { drawn } else { means(&drawn, finer) })
     }
 }
 
@@ -114,5 +128,65 @@ impl Target {
         drop(mapped);
         self.buffer.unmap();
         image::RgbaImage::from_raw(width, height, pixels).ok_or_else(|| failed(&"too few bytes came back"))
+    }
+}
+
+/// The picture whose pixels are means, in linear light, of what is drawn: weighed by a tent of two pixels' width, which
+/// lets a slanting line neither bead nor blur.
+fn means(drawn: &image::RgbaImage, side: u32) -> image::RgbaImage {
+    let linear: [f32; 256] = std::array::from_fn(|byte| to_linear(byte as f32 / 255.0));
+    let (width, height, side) = (drawn.width() / side, drawn.height() / side, side as i32);
+    let tent: Vec<f32> = (-side..side).map(|k| (1.0 - ((k as f32 + 0.5) / side as f32).abs()) / side as f32).collect();
+    // Along the rows first.
+    let mut rows = vec![[0.0; 3]; (width * drawn.height()) as usize];
+    for (at, sum) in rows.iter_mut().enumerate() {
+        let (x, y) = (at as u32 % width, at as u32 / width);
+        for (k, weight) in (-side..side).zip(&tent) {
+            let from = (x as i32 * side + side / 2 + k).clamp(0, drawn.width() as i32 - 1);
+            let pixel = drawn.get_pixel(from as u32, y);
+            sum.iter_mut().zip(pixel.0).for_each(|(sum, byte)| *sum += weight * linear[usize::from(byte)]);
+        }
+    }
+    image::RgbaImage::from_fn(width, height, |x, y| {
+        let mut sum = [0.0; 3];
+        for (k, weight) in (-side..side).zip(&tent) {
+            let from = (y as i32 * side + side / 2 + k).clamp(0, drawn.height() as i32 - 1);
+            let row = rows[(from as u32 * width + x) as usize];
+            sum.iter_mut().zip(row).for_each(|(sum, c)| *sum += weight * c);
+        }
+        let [r, g, b] = sum.map(|c| (255.0 * to_srgb(c) + 0.5) as u8);
+        image::Rgba([r, g, b, 255])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn black_and_white_make_the_grey_of_half_the_light() {
+        let checks =
+            image::RgbaImage::from_fn(8, 8, |x, y| image::Rgba([[0, 0, 0, 255], [255; 4]][(x + y) as usize % 2]));
+        let grey = means(&checks, 2);
+        // sRGB of linear 0.5; at the rim the outermost pixels count for what would lie beyond.
+        assert_eq!(grey.dimensions(), (4, 4));
+        assert_eq!(grey.get_pixel(1, 2).0, [188, 188, 188, 255]);
+        for byte in 0..=255 {
+            let plain = image::RgbaImage::from_pixel(6, 6, image::Rgba([byte, byte, byte, 255]));
+            assert!(means(&plain, 2).pixels().all(|p| p.0[0] == byte), "{byte} comes back as it was");
+        }
+    }
+
+    #[test]
+    fn a_line_keeps_its_darkness_wherever_it_falls_between_pixels() {
+        // Eight bits of the picture.
+        const ROUNDING: f32 = 0.02;
+        for at in 8..12 {
+            let line =
+                image::RgbaImage::from_fn(24, 24, |x, _| image::Rgba(if x == at { [0, 0, 0, 255] } else { [255; 4] }));
+            let picture = means(&line, 2);
+            let ink: f32 = (0..12).map(|x| 1.0 - to_linear(f32::from(picture.get_pixel(x, 6).0[0]) / 255.0)).sum();
+            assert!((ink - 0.5).abs() < ROUNDING, "{ink} at {at}");
+        }
     }
 }

@@ -231,12 +231,12 @@ fn mip_chain(image: &Image, srgb: bool) -> Vec<Vec<u8>> {
 }
 
 /// sRGB code (0 … 1) to linear light.
-fn to_linear(c: f32) -> f32 {
+pub(super) fn to_linear(c: f32) -> f32 {
     if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Linear light to sRGB code (0 … 1).
-fn to_srgb(c: f32) -> f32 {
+pub(super) fn to_srgb(c: f32) -> f32 {
     if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
 }
 
