@@ -28,9 +28,9 @@ use crate::exhibit::model::{Appearance, Model};
 /// Longest edge, in radii of the scene, and corners from which on no edge is halved.
 const LONGEST: f32 = 1.0 / 28.0;
 const MOST_CORNERS: usize = 30_000;
-/// Rays of each corner, as many as all corners can have together.
-const RAYS: (usize, usize) = (24, 160);
-const ALL_RAYS: usize = 2_500_000;
+/// Rays of each corner, as many as all corners can have together; with fewer than the first they say nothing.
+const RAYS: (usize, usize) = (12, 320);
+const ALL_RAYS: usize = 6_000_000;
 /// Reflections that are followed.
 const REFLECTIONS: u32 = 5;
 /// Points of a rectangle of light, along each side, that a corner looks at.
@@ -57,12 +57,12 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
     scene.refine(LONGEST * radius, MOST_CORNERS);
     let (places, normals) = at_rest(scene, exhibit);
     let order = groups(&places, &normals, radius);
-    let Some(solid) = Solid::new(scene, &places, false) else { return };
+    let rays = (ALL_RAYS / order.len().max(1)).min(RAYS.1);
+    let Some(solid) = (rays >= RAYS.0).then(|| Solid::new(scene, &places, false)).flatten() else { return };
     let mut group_of = vec![0; places.len()];
     for (index, group) in order.iter().enumerate() {
         group.iter().for_each(|&i| group_of[i as usize] = index);
     }
-    let rays = (ALL_RAYS / order.len().max(1)).clamp(RAYS.0, RAYS.1);
     let directions = cosine_directions(rays as u32).into_iter().map(|d| Quat::from_rotation_z(ASKEW) * d);
     let directions: Vec<Vec3> = directions.collect();
     let inward = inward(scene, &places);

@@ -15,6 +15,8 @@
 //! | `environment` | image-based light: prefiltered cube, harmonics, split-sum table | `lighting.wgsl` |
 //! | `scene` | the exhibit as one vertex buffer in body frames | `forward.wgsl` |
 //! | `occlusion` | ambient visibility of corners and planes, by rays at load | |
+//! | `bounce`, `refine` | what surfaces of a still scene send one another, baked into its corners, which are made finer | |
+//! | `casters` | what the shadow map of a still scene is drawn around | |
 //! | `textures` | materials and mip maps | |
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
@@ -24,7 +26,7 @@
 //! | `shaders` | their sources, built in or from a folder, checked | |
 //! | `pipelines` | what state each pass is drawn with | |
 //! | `forward` | [`Renderer`]: the order of the passes | `motes.wgsl`, `resolve.wgsl` |
-//! | `picture` | [`ImageRenderer`]: headless, read back | |
+//! | `picture` | [`ImageRenderer`]: headless, read back, for files drawn larger and made smaller | |
 //! | `scenario` | scenario files of `soffio render` | |
 //!
 //! Invariant: a frame allocates no GPU memory unless its size changed, and depends on nothing but the exhibit, the
