@@ -53,6 +53,7 @@ struct Vertex {
     @location(4) color: vec4f,
     @location(5) tag: u32,
     @location(6) bounce: vec3f,
+    @location(7) outline: u32,
 }
 
 struct Varying {
@@ -64,7 +65,13 @@ struct Varying {
     @location(4) color: vec4f,
     @location(5) visibility: f32,
     @location(6) bounce: vec3f,
+    @location(7) @interpolate(flat) outline: u32,
 }
+
+// Parts of which a pixel shows only a part are left to ribbons: quads along the silhouette of a plate, wide enough for
+// every pixel that it crosses. Of the ribbons that a pixel lies in the nearest edge's draws it, once.
+override OUTLINED: bool = false;
+override RIBBON: bool = false;
 
 @vertex
 fn vertex(v: Vertex) -> Varying {
@@ -78,6 +85,51 @@ fn vertex(v: Vertex) -> Varying {
     out.color = v.color;
     out.visibility = visibility_of_tag(v.tag);
     out.bounce = v.bounce;
+    out.outline = v.outline;
+    return out;
+}
+
+// How far a ribbon reaches to each side, pixels: a pixel that the edge crosses has all its samples within.
+const RIBBON_REACH: f32 = 1.6;
+
+struct Ribbon {
+    @location(0) a: vec3f,
+    @location(1) b: vec3f,
+    @location(2) normal: vec3f,
+    @location(3) uv_a: vec4f,
+    @location(4) uv_b: vec4f,
+    @location(5) color: vec4f,
+    @location(6) tag: u32,
+    @location(7) outline: u32,   // the plate, and the edge in its silhouette
+}
+
+@vertex
+fn ribbon_vertex(@builtin(vertex_index) index: u32, r: Ribbon) -> Varying {
+    var corners = array<vec2f, 6>(vec2f(0.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, 1.0));
+    let c = corners[index];
+    let end = select(r.a, r.b, c.x > 0.5);
+    let sight = end - globals.eye;
+    let forward = cross(globals.up, globals.right);
+    let reach = RIBBON_REACH * globals.pixel_angle * dot(sight, forward);
+    // Along and across the edge in the picture.
+    let a = globals.clip_from_world * vec4f(r.a, 1.0);
+    let b = globals.clip_from_world * vec4f(r.b, 1.0);
+    let way = b.xy / b.w - a.xy / a.w;
+    let aspect = globals.clip_from_world * vec4f(globals.right, 0.0);
+    let scale = vec2f(length(globals.clip_from_world * vec4f(globals.up, 0.0)) / length(aspect), 1.0);
+    let flat = way * scale;
+    let along = select(vec2f(1.0, 0.0), flat * inverseSqrt(max(dot(flat, flat), 1e-30)), dot(flat, flat) > 1e-20);
+    let offset = (along * (2.0 * c.x - 1.0) + vec2f(-along.y, along.x) * c.y) * reach;
+    var out: Varying;
+    out.position = end;
+    out.clip = globals.clip_from_world * vec4f(end + globals.right * offset.x + globals.up * offset.y, 1.0);
+    out.normal = r.normal;
+    out.tangent = vec4f(0.0);
+    out.uv = select(r.uv_a, r.uv_b, c.x > 0.5);
+    out.color = r.color;
+    out.visibility = visibility_of_tag(r.tag);
+    out.bounce = vec3f(0.0);
+    out.outline = r.outline;
     return out;
 }
 
@@ -113,6 +165,9 @@ fn seen(v: Varying) -> Seen {
     s.view = normalize(globals.eye - v.position);
     var facing = cross(dp_x, dp_y);
     facing = facing * inverseSqrt(max(dot(facing, facing), 1e-30));
+    if RIBBON {
+        facing = v.normal;
+    }
     facing = select(-facing, facing, dot(facing, s.view) > 0.0);
     var n = normalize(v.normal + facing * 1e-6);
     n = select(-n, n, dot(n, facing) >= 0.0);
@@ -162,11 +217,29 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     if it.base.a < material.cutoff {
         discard;
     }
+    if OUTLINED && cover(v.clip.xy, v.outline).part < WHOLE {
+        discard;
+    }
     if material.unlit > 0.5 {
         return vec4f(display(it.base.rgb, v.clip.xy), it.base.a);
     }
     let radiance = shade(it.surface, key_light_at(it.surface)) + it.glow;
     return vec4f(display(radiance, v.clip.xy), it.base.a);
+}
+
+// A pixel that the plate covers in part.
+@fragment
+fn ribbon_fragment(v: Varying) -> @location(0) vec4f {
+    let it = seen(v);
+    let part = cover(v.clip.xy, v.outline & 0xffffu);
+    if part.part >= WHOLE_OF_RIBBON || part.part <= 0.0 || part.nearest != v.outline >> 16u {
+        discard;
+    }
+    if material.unlit > 0.5 {
+        return vec4f(display(it.base.rgb, v.clip.xy), part.part);
+    }
+    let radiance = shade(it.surface, key_light_at(it.surface)) + it.glow;
+    return vec4f(display(radiance, v.clip.xy), part.part);
 }
 
 // Part of the light behind that one crossing of the surface lets through, per channel.

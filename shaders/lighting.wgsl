@@ -7,13 +7,11 @@
 @group(1) @binding(0) var environment: texture_cube<f32>;
 @group(1) @binding(1) var dfg: texture_2d<f32>;
 @group(1) @binding(2) var smooth_sampler: sampler;
-@group(1) @binding(3) var shadow_map: texture_depth_2d;      // compared, with a filter
-@group(1) @binding(4) var shadow_sampler: sampler_comparison;
-@group(1) @binding(5) var wall_shadow: texture_2d<f32>;
-@group(1) @binding(6) var floor_shadow: texture_2d<f32>;
-@group(1) @binding(7) var lightmap: texture_2d_array<f32>;
-@group(1) @binding(8) var ambient: texture_2d_array<f32>;   // what static parts leave of the sky over each plane
-@group(1) @binding(9) var blocker_map: texture_2d<f32>;      // the shadow map's depths as numbers: three bytes, the highest first
+@group(1) @binding(3) var blocker_map: texture_2d<f32>;      // the shadow map's depths: three bytes, the highest first
+@group(1) @binding(4) var wall_shadow: texture_2d<f32>;
+@group(1) @binding(5) var floor_shadow: texture_2d<f32>;
+@group(1) @binding(6) var lightmap: texture_2d_array<f32>;
+@group(1) @binding(7) var ambient: texture_2d_array<f32>;   // what static parts leave of the sky over each plane
 
 override AREA_LIGHT: bool = false;
 // The environment is that of the room's box: reflections are moved to where the mirror ray meets its walls.
@@ -174,7 +172,7 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     if at.w <= 0.0 {
         return 1.0;
     }
-    let size = vec2f(textureDimensions(shadow_map));
+    let size = vec2f(textureDimensions(blocker_map));
     // Size of the light as seen in texture coordinates from a receiver at depth w, per unit of (w − b) / b.
     let spread = globals.shadow_radius / (globals.shadow_texel * size.x * at.w);
     // No blocker is nearer to the light than the near plane.

@@ -131,7 +131,7 @@ fn map_vertex(@location(0) position: vec3f, @location(5) tag: u32) -> @builtin(p
     return globals.shadow_from_world * vec4f(to_world(position, frame_of_tag(tag)), 1.0);
 }
 
-// The depth once more, in three bytes: some drivers compare a depth texture or read it, but not both.
+// The depth once more, in three bytes of a colour: not every driver lets a shader read a depth texture.
 @fragment
 fn map_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let whole = floor(position.z * 16777215.0);

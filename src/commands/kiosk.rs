@@ -67,6 +67,9 @@ pub struct Args {
     /// Safe mode: one built-in work, no controllers, no orders from afar; by itself after three deaths in the first minute
     #[arg(long)]
     safe: bool,
+    /// Draws with the shaders in this folder, and reads them anew when one changes
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    shaders: Option<PathBuf>,
     /// Destroys the graphics device after so much time, to rehearse its loss
     #[arg(long, value_name = "SECONDS", hide = true)]
     lose_device_at: Option<f64>,
@@ -117,7 +120,8 @@ pub fn run(args: Args) -> Outcome {
     super::stop_on_ctrl_c(&stop);
 
     let fleet = Fleet::start(begun.keeper, begun.kept, begun.safe, &config);
-    let ground = Ground { config, overrides, file, problem, log, fleet, lose_device_at: args.lose_device_at };
+    let (lose_device_at, shaders) = (args.lose_device_at, args.shaders.clone());
+    let ground = Ground { config, overrides, file, problem, log, fleet, lose_device_at, shaders };
     match window::run(ground, &places, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),

@@ -26,6 +26,7 @@ use super::captions::Captions;
 use super::governor::Governor;
 use super::loudness::{Loudness, View, Wishes};
 use super::microphone::MicrophoneHealth;
+use super::moments::{BEHIND, Moments};
 use super::pace::Pacer;
 use super::recording::Recording;
 use super::site::Site;
@@ -61,10 +62,10 @@ pub struct Options {
 pub struct Frame {
     /// What is shown. Another `Arc` means: another exhibit.
     pub exhibit: Arc<Exhibit>,
-    /// The step before [`Self::current`].
-    pub previous: Snapshot,
     /// The last step.
-    pub current: Snapshot,
+    pub current: Arc<Snapshot>,
+    /// That one and those before it.
+    pub moments: Moments,
     /// When the last step was due.
     pub due: Instant,
     /// Is attract mode playing?
@@ -130,10 +131,11 @@ pub struct Load {
 impl Frame {
     /// The stage as it stands: nobody there, nothing heard.
     pub fn new(stage: &Stage) -> Self {
+        let moments = Moments::new(stage.snapshot());
         Self {
             exhibit: stage.exhibit().clone(),
-            previous: stage.snapshot().clone(),
-            current: stage.snapshot().clone(),
+            current: moments.newest().clone(),
+            moments,
             due: Instant::now(),
             attracts: false,
             attract_text: None,
@@ -163,10 +165,11 @@ impl Frame {
         matches!(self.load.audio.output, DeviceState::Missing(_))
     }
 
-    /// The moment to draw at `now`: one step behind the simulation, so that there is always one to interpolate to.
-    pub fn moment(&self, now: Instant) -> Snapshot {
-        let since = now.saturating_duration_since(self.due).as_secs_f64();
-        self.previous.interpolate(&self.current, (since * STEPS_PER_SECOND as f64).clamp(0.0, 1.0))
+    /// Sets `moment` to what a picture shows whose time is `shown`.
+    pub fn set_moment(&self, shown: Instant, moment: &mut Snapshot) {
+        let early = self.due.saturating_duration_since(shown).as_secs_f64();
+        let since = shown.saturating_duration_since(self.due).as_secs_f64() - early;
+        self.moments.before(BEHIND - since * STEPS_PER_SECOND as f64, moment);
     }
 }
 
@@ -288,7 +291,7 @@ struct Thread {
     shared: Arc<Shared>,
     limit: u64,
     recorded: bool,
-    previous: Snapshot,
+    moments: Moments,
     heard: Heard,
     sounds: Vec<SoundCommand>,
     breaths: Breaths,
@@ -315,7 +318,7 @@ impl Thread {
         let audio =
             AudioIo::start_with(&site.audio, site.breath && !options.closed, voice.synth(&options.exhibit, None));
         Self {
-            previous: stage.snapshot().clone(),
+            moments: Moments::new(stage.snapshot()),
             stage,
             trace,
             record,
@@ -404,11 +407,11 @@ impl Thread {
         self.sounds.clear();
         let before = Instant::now();
         for i in 0..due {
-            self.previous.clone_from(self.stage.snapshot());
             let microphone = rate.map(|sample_rate| self.heard.share(i, due, sample_rate));
             controls.mode = self.mode.or(self.governor.mode());
             let worked = ThreadTime::now();
             self.stage.step(&controls, microphone);
+            self.moments.push(self.stage.snapshot());
             self.govern(worked.elapsed().as_secs_f64());
             controls.commands.clear();
             if let Some(record) = &mut self.record {
@@ -475,8 +478,8 @@ impl Thread {
         self.published = self.stage.snapshot().step;
         let frame = Arc::new(Frame {
             exhibit: self.stage.exhibit().clone(),
-            previous: self.previous.clone(),
-            current: self.stage.snapshot().clone(),
+            current: self.moments.newest().clone(),
+            moments: self.moments.clone(),
             due,
             attracts: self.stage.attracts(),
             attract_text: self.stage.attract_text().map(str::to_owned),

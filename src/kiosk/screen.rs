@@ -12,7 +12,7 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use crate::exhibit::{Exhibit, View};
-use crate::render::{Frame, Gpu, Options, Renderer};
+use crate::render::{Finish, Frame, Gpu, Options, Renderer, Shaders, Work};
 use crate::simulation::Snapshot;
 
 use super::fonts;
@@ -32,10 +32,11 @@ pub struct Screen {
     config: wgpu::SurfaceConfiguration,
     scene: Renderer,
     shown: Arc<Exhibit>,
-    /// What will draw the exhibit that comes on next.
-    next: Option<(Arc<Exhibit>, Renderer)>,
+    /// The exhibit that comes on next, ready to be drawn.
+    next: Option<(Arc<Exhibit>, Work)>,
     type_setter: egui_wgpu::Renderer,
     broken: Arc<AtomicBool>,
+    refresh: Option<f64>,
 }
 
 /// What became of a picture.
@@ -70,7 +71,8 @@ impl Screen {
             tracing::error!("graphics device lost ({reason:?}): {message}");
             theirs.store(true, Ordering::Relaxed);
         });
-        let scene = scene(&gpu, exhibit, &config)?;
+        let options = Options::for_gpu(&gpu, config.format.add_srgb_suffix());
+        let scene = Renderer::new(&gpu, exhibit, options).map_err(|error| error.to_string())?;
         let type_setter = egui_wgpu::Renderer::new(&gpu.device, config.format, RendererOptions::default());
         let context = egui::Context::default();
         context.set_fonts(fonts::definitions());
@@ -85,7 +87,8 @@ impl Screen {
         let panel =
             egui_winit::State::new(context, egui::ViewportId::ROOT, &window, scale, window.theme(), Some(largest));
         let shown = exhibit.clone();
-        Ok(Self { window, panel, gpu, surface, config, scene, shown, next: None, type_setter, broken })
+        let refresh = refresh(&window);
+        Ok(Self { window, refresh, panel, gpu, surface, config, scene, shown, next: None, type_setter, broken })
     }
 
     /// Pixels.
@@ -98,9 +101,24 @@ impl Screen {
         f64::from(self.config.width) / f64::from(self.config.height)
     }
 
+    /// From one refresh of the display to the next, s, where it says.
+    pub fn refresh(&self) -> Option<f64> {
+        self.refresh
+    }
+
     /// Name of the adapter, and whether it is a program on the processor.
     pub fn adapter(&self) -> (String, bool) {
         (self.gpu.name(), self.gpu.is_software())
+    }
+
+    /// Draws so finely from the next picture on.
+    pub fn set_finish(&mut self, finish: Finish) {
+        self.scene.set_finish(&self.gpu, finish);
+    }
+
+    /// Draws with these shaders from the next picture on.
+    pub fn set_shaders(&mut self, shaders: Shaders) {
+        self.scene.set_shaders(&self.gpu, shaders.into());
     }
 
     /// Destroys the graphics device, as a driver that dies would: the next picture finds it gone.
@@ -112,6 +130,7 @@ impl Screen {
     pub fn resize(&mut self, size: PhysicalSize<u32>) {
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width, size.height);
+            self.refresh = refresh(&self.window);
             self.surface.configure(&self.gpu.device, &self.config);
         }
     }
@@ -160,7 +179,7 @@ impl Screen {
     /// Makes ready to draw an exhibit, so that its first moments are seen when it comes on.
     pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
         // What cannot be drawn is said when it is shown.
-        self.next = scene(&self.gpu, exhibit, &self.config).ok().map(|scene| (exhibit.clone(), scene));
+        self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|work| (exhibit.clone(), work));
     }
 
     /// Takes over another exhibit. One that cannot be drawn leaves the last picture's scene on show.
@@ -169,12 +188,11 @@ impl Screen {
             return;
         }
         self.shown = exhibit.clone();
-        if let Some((_, scene)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
-            self.scene = scene;
-            return;
+        if let Some((_, work)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
+            return self.scene.show(work);
         }
-        match scene(&self.gpu, exhibit, &self.config) {
-            Ok(scene) => self.scene = scene,
+        match self.scene.prepare(&self.gpu, exhibit) {
+            Ok(work) => self.scene.show(work),
             Err(error) => tracing::error!("{} cannot be drawn: {error}", exhibit.id),
         }
     }
@@ -236,8 +254,8 @@ impl Screen {
     }
 }
 
-/// What draws an exhibit into the sRGB view of a surface.
-fn scene(gpu: &Gpu, exhibit: &Exhibit, config: &wgpu::SurfaceConfiguration) -> Result<Renderer, String> {
-    let options = Options::for_gpu(gpu, config.format.add_srgb_suffix());
-    Renderer::new(gpu, exhibit, options).map_err(|error| error.to_string())
+/// From one refresh of the window's display to the next, s.
+fn refresh(window: &Window) -> Option<f64> {
+    let millihertz = window.current_monitor()?.refresh_rate_millihertz()?;
+    (millihertz > 0).then(|| 1e3 / f64::from(millihertz))
 }

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::live::{Frame, Onset};
+use super::rhythm::Rhythm;
 use crate::simulation::Snapshot;
 
 /// Share of the newest picture in the mean time of a picture.
@@ -18,21 +19,25 @@ pub struct Clock {
     pub next: Instant,
     /// Mean time from picture to picture, s.
     pub frame_s: f64,
+    /// What times pictures show.
+    pub rhythm: Rhythm,
 }
 
 impl Default for Clock {
     fn default() -> Self {
         let now = Instant::now();
-        Self { began: now, last: now, next: now, frame_s: 0.0 }
+        Self { began: now, last: now, next: now, frame_s: 0.0, rhythm: Rhythm::default() }
     }
 }
 
 impl Clock {
-    /// A picture begins; the next not before `least` seconds.
-    pub fn tick(&mut self, now: Instant, least: f64) {
+    /// A picture begins; the next not before `least` seconds. Says what time this one shows.
+    pub fn tick(&mut self, now: Instant, least: f64) -> Instant {
         self.frame_s += FRAME_SMOOTHING * (now.duration_since(self.last).as_secs_f64() - self.frame_s);
         self.last = now;
         self.next = now + Duration::from_secs_f64(least);
+        let shown = self.rhythm.next(self.seconds(now));
+        self.began + Duration::from_secs_f64(shown.max(0.0))
     }
 
     /// Seconds since it began.

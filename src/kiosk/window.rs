@@ -17,9 +17,10 @@ use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::audio_io::DeviceState;
 use crate::config::Config;
-use crate::simulation::Command;
+use crate::simulation::{Command, Snapshot};
 
 use super::aloud::Aloud;
+use super::drift::Drift;
 use super::events::{is_input, translate};
 use super::fleet::Fleet;
 use super::given::Given;
@@ -36,7 +37,9 @@ use super::screen::{Drawn, Screen};
 use super::shelf::{News, Offer, Places, Shelf, id};
 use super::site::{Overrides, SiteFile};
 use super::staff::{Sight, Staff, Vitals};
+use super::tiers::Tiers;
 use super::timing::{Clock, FirstSight};
+use super::workbench::Workbench;
 
 mod day;
 mod fleet;
@@ -53,6 +56,8 @@ const INVITES_S: f64 = 6.0;
 /// What one picture may count as given breath, s: after a longer pause nobody knows.
 const LONGEST_GIFT: f64 = 0.5;
 
+/// Refresh of a display that does not say it, s.
+const COMMON_REFRESH: f64 = 1.0 / 60.0;
 /// Between two pictures while the house is closed, s.
 const CLOSED_S: f64 = 0.25;
 
@@ -72,6 +77,8 @@ pub struct Ground {
     pub fleet: Fleet,
     /// The graphics device is destroyed once, after so many seconds: a rehearsal of its loss.
     pub lose_device_at: Option<f64>,
+    /// A folder of shaders that somebody works on.
+    pub shaders: Option<std::path::PathBuf>,
 }
 
 /// Why there is no live kiosk.
@@ -108,7 +115,7 @@ pub fn run(
         backends: wgpu::Backends::VULKAN,
         ..wgpu::InstanceDescriptor::new_with_display_handle_from_env(display)
     });
-    let Ground { config, overrides, file, problem, log, fleet, lose_device_at } = ground;
+    let Ground { config, overrides, file, problem, log, fleet, lose_device_at, shaders } = ground;
     let given = fleet.kept().given.clone();
     let mut app = App {
         instance,
@@ -121,6 +128,7 @@ pub fn run(
         work_says: None,
         fleet,
         lose_device_at,
+        workbench: shaders.map(Workbench::new),
         log,
         house: House::default(),
         shelf: Shelf::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
@@ -151,6 +159,9 @@ pub fn run(
         watchdog: super::watchdog::Watchdog::default(),
         pictures_shown: 0,
         sight: FirstSight::default(),
+        drift: Drift::default(),
+        moment: Snapshot::default(),
+        tiers: Tiers::default(),
         lost: 0,
         missing: None,
         failure: None,
@@ -201,6 +212,7 @@ struct App<'a> {
     log: Log,
     fleet: Fleet,
     lose_device_at: Option<f64>,
+    workbench: Option<Workbench>,
     house: House,
     instance: wgpu::Instance,
     interrupted: &'a AtomicBool,
@@ -240,6 +252,10 @@ struct App<'a> {
     watchdog: super::watchdog::Watchdog,
     pictures_shown: u64,
     sight: FirstSight,
+    drift: Drift,
+    /// What is shown; kept so that a picture needs no new memory for it.
+    moment: Snapshot,
+    tiers: Tiers,
     lost: u32,
     missing: Option<Missing>,
     failure: Option<String>,
@@ -341,6 +357,7 @@ impl ApplicationHandler for App<'_> {
         self.follow_site();
         self.follow_hours();
         self.follow_fleet();
+        self.follow_workbench();
         let now = Instant::now();
         if let Some(show) = &self.show
             && now >= self.clock.next
@@ -364,14 +381,27 @@ impl App<'_> {
         let now = Instant::now();
         let last = self.clock.last;
         let (adapter, software) = show.screen.adapter();
-        let least = match (self.house.is_open() || self.staff.is_open(), software) {
+        let open = self.house.is_open() || self.staff.is_open();
+        let least = match (open, software) {
             (false, _) => CLOSED_S,
             (true, true) => 1.0 / self.config.screen.software_fps,
-            (true, false) => 0.0,
+            (true, false) => self.tiers.tier().least,
         };
-        self.clock.tick(now, least);
+        let asked = least.max(show.screen.refresh().unwrap_or(COMMON_REFRESH));
+        if open && self.tiers.note(now.duration_since(last).as_secs_f64(), asked) {
+            let tier = self.tiers.tier();
+            tracing::info!(
+                "pictures are drawn with {} of their pixels and {} samples from here",
+                tier.finish.scale,
+                tier.finish.msaa
+            );
+            show.screen.set_finish(tier.finish);
+        }
+        self.clock.rhythm.set_refresh(show.screen.refresh());
+        let shown = self.clock.tick(now, least);
         let frame = show.live.frame();
-        let mut moment = frame.moment(now);
+        let mut moment = std::mem::take(&mut self.moment);
+        frame.set_moment(shown, &mut moment);
         if self.needs.calm {
             moment.motes.clear();
         }
@@ -379,7 +409,9 @@ impl App<'_> {
             let seconds = now.duration_since(last).as_secs_f64().min(LONGEST_GIFT);
             self.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
         }
-        let view = frame.exhibit.view(show.screen.aspect());
+        let rest = frame.exhibit.view(show.screen.aspect());
+        let sways = frame.attracts && !self.needs.calm;
+        let view = self.drift.view(rest, self.clock.seconds(shown), sways);
         let size = show.screen.size();
         let vitals = Vitals {
             adapter: &adapter,
@@ -466,6 +498,7 @@ impl App<'_> {
                 ),
             );
         }
+        self.moment = moment;
         self.follow_attract(&frame);
         self.follow_devices(&frame);
         self.follow_visit(&frame);
@@ -499,9 +532,25 @@ impl App<'_> {
         match Screen::new(self.instance.clone(), window, &frame.exhibit) {
             Ok(screen) => {
                 tracing::info!("a new graphics device draws in the old window: {}", screen.adapter().0);
+                self.tiers = Tiers::default();
+                self.workbench = self.workbench.take().map(Workbench::again);
                 self.show = Some(Show { screen, live });
             }
             Err(error) => self.fail(events, error),
+        }
+    }
+
+    /// Draws with shaders that have changed; what is wrong with them is said, and the last good ones stay.
+    fn follow_workbench(&mut self) {
+        let time = self.clock.seconds(Instant::now());
+        let Some(news) = self.workbench.as_mut().and_then(|workbench| workbench.news(time)) else { return };
+        match (news, &mut self.show) {
+            (Ok(shaders), Some(show)) => {
+                show.screen.set_shaders(shaders);
+                self.say("the shaders are read anew".into());
+            }
+            (Ok(_), None) => {}
+            (Err(error), _) => self.say(format!("{error}\nThe last good shaders stay.")),
         }
     }
 

@@ -55,12 +55,12 @@ pub(super) struct PunctualUniform {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Globals {
-    clip_from_world: Mat4,
+    pub clip_from_world: Mat4,
     shadow_from_world: Mat4,
     pub eye: Vec3,
     exposure: f32,
     right: Vec3,
-    pixel_angle: f32,
+    pub pixel_angle: f32,
     up: Vec3,
     shadow_taps: f32,
     room_center: Vec3,

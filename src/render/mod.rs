@@ -4,7 +4,7 @@
 //! is antialiased by four samples, wires by exact coverage. Order of a frame:
 //!
 //! ```text
-//! plane shadows (wall, floor) → shadow map → opaque meshes → room → glass → wires → blended → motes → resolve
+//! plane shadows (wall, floor) → shadow map → opaque meshes → room → edges of plates → glass → wires → blended → motes → resolve → stretch
 //! ```
 //!
 //! | file | holds | shader |
@@ -21,16 +21,19 @@
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
+//! | `outlines` | silhouettes of plates, and the ribbons along them | `outline.wgsl` |
 //! | `passes` | the list of passes: attachments, draws, bytes | |
 //! | `resources` | textures and bind groups of the light | |
 //! | `shaders` | their sources, built in or from a folder, checked | |
 //! | `pipelines` | what state each pass is drawn with | |
-//! | `forward` | [`Renderer`]: the order of the passes | `motes.wgsl`, `resolve.wgsl` |
+//! | `fixtures` | what the device keeps while works come and go | |
+//! | `work` | [`Work`]: what is drawn of one exhibit | |
+//! | `forward` | [`Renderer`]: the order of the passes | `motes.wgsl`, `resolve.wgsl`, `stretch.wgsl` |
 //! | `picture` | [`ImageRenderer`]: headless, read back, for files drawn larger and made smaller | |
 //! | `scenario` | scenario files of `soffio render` | |
 //!
-//! Invariant: a frame allocates no GPU memory unless its size changed, and depends on nothing but the exhibit, the
-//! options and the [`Frame`].
+//! Invariants: a frame allocates no GPU memory unless its size changed, none of ours before the device is asked, and
+//! depends on nothing but the exhibit, the options and the [`Frame`]. A change of work makes no pipeline that was there.
 
 use std::sync::Arc;
 
@@ -43,11 +46,13 @@ use crate::simulation::Mote;
 mod bounce;
 mod casters;
 pub mod environment;
+mod fixtures;
 mod forward;
 pub mod gallery;
 mod globals;
 mod gpu;
 mod occlusion;
+mod outlines;
 pub mod passes;
 mod picture;
 mod pipelines;
@@ -60,11 +65,13 @@ pub mod shaders;
 mod shadows;
 mod textures;
 mod wires;
+mod work;
 
 pub use forward::Renderer;
 pub use gpu::Gpu;
 pub use picture::ImageRenderer;
 pub use shaders::Shaders;
+pub use work::Work;
 
 /// What the renderer can fail on.
 #[derive(Debug, thiserror::Error)]
@@ -185,6 +192,15 @@ impl Options {
         let shader_resolve = software && gpu.reads_samples();
         Self { msaa: 4, format, quality, shader_resolve, look: Look::default(), shaders: Arc::default() }
     }
+}
+
+/// How many pixels and samples a picture is made of, where a machine is too slow for all of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finish {
+    /// Pixels drawn along a side for each of the target's, at most 1; fewer are stretched over it.
+    pub scale: f32,
+    /// Samples per pixel: 1 or 4.
+    pub msaa: u32,
 }
 
 /// One moment to draw.

@@ -38,6 +38,8 @@ pub struct Pass {
 pub struct Plan {
     /// Pixels of the picture.
     pub size: (u32, u32),
+    /// Pixels of the target, which it is stretched over where they are more.
+    pub target: (u32, u32),
     /// Samples per pixel.
     pub samples: u32,
     /// Of the picture.
@@ -67,14 +69,14 @@ impl Pass {
 
 impl Plan {
     /// Shadow on a plane.
-    pub fn plane(&self, texels: (u32, u32)) -> [Attachment; 2] {
+    pub fn plane(texels: (u32, u32)) -> [Attachment; 2] {
         let of = |label, format| Attachment { label, size: texels, samples: 1, format };
         [of("plane shadow", PLANE_FORMAT), of("plane order", ORDER_FORMAT)]
     }
 
-    /// Shadow map: the order of what is drawn, and the same depths to be read.
-    pub fn shadow_map(&self) -> [Attachment; 2] {
-        let of = |label, format| Attachment { label, size: (self.map, self.map), samples: 1, format };
+    /// Shadow map of so many texels along a side: the order of what is drawn, and the same depths to be read.
+    pub fn shadow_map(side: u32) -> [Attachment; 2] {
+        let of = |label, format| Attachment { label, size: (side, side), samples: 1, format };
         [of("shadow map", MAP_FORMAT), of("blocker map", BLOCKER_FORMAT)]
     }
 
@@ -84,16 +86,21 @@ impl Plan {
         [of("samples", self.format), of("depth", DEPTH_FORMAT)]
     }
 
+    /// The picture before it is stretched.
+    pub fn smaller(&self) -> Attachment {
+        Attachment { label: "smaller", size: self.size, samples: 1, format: self.format }
+    }
+
     /// The passes of a frame in which something moved.
     pub fn passes(&self) -> Vec<Pass> {
         let mut passes = Vec::new();
         let mut shadows = Vec::new();
         for texels in self.planes.into_iter().flatten() {
-            let writes = self.plane(texels);
+            let writes = Self::plane(texels);
             shadows.push(writes[0]);
             passes.push(Pass { label: "plane shadow", writes: writes.into(), reads: Vec::new(), draws: 2 });
         }
-        let map = self.shadow_map();
+        let map = Self::shadow_map(self.map);
         shadows.push(map[1]);
         passes.push(Pass { label: "shadow map", writes: map.into(), reads: Vec::new(), draws: 1 });
         // The room's three pipelines or the backdrop, the wires, the motes.
@@ -103,6 +110,11 @@ impl Plan {
         if self.samples > 1 {
             let target = Attachment { label: "target", samples: 1, ..writes[0] };
             passes.push(Pass { label: "resolve", writes: vec![target], reads: vec![writes[0]], draws: 1 });
+        }
+        if self.size != self.target {
+            let smaller = self.smaller();
+            let target = Attachment { label: "target", size: self.target, ..smaller };
+            passes.push(Pass { label: "stretch", writes: vec![target], reads: vec![smaller], draws: 1 });
         }
         passes
     }

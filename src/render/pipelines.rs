@@ -1,8 +1,9 @@
 //! Shaders, bind group layouts and pipelines: the fixed state of every pass.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::scene::{Scene, State, Surface, Vertex};
+use super::outlines::Ribbon;
+use super::scene::{State, Surface, Vertex};
 use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
 use super::wires::Segment;
 use super::{Gpu, Options, Tonemap};
@@ -11,6 +12,10 @@ use super::{Gpu, Options, Tonemap};
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Order of the lamp samples in the plane shadows; 16 bits tell 65 thousand apart.
 pub(super) const ORDER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
+/// Where the shader of the edges of plates begins.
+const RIBBON_ENTRY: &str = "ribbon_fragment";
+/// Depth is reversed.
+const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::Greater;
 
 /// Layouts of the three bind groups: frame, light, material.
 pub(super) struct Layouts {
@@ -18,12 +23,18 @@ pub(super) struct Layouts {
     pub light: wgpu::BindGroupLayout,
     pub material: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
+    pub stretch: wgpu::BindGroupLayout,
 }
 
-/// Pipelines of all passes.
+/// Pipelines of all passes. Those of the meshes are made when a work first asks for their state, and kept for the next.
 pub(super) struct Pipelines {
-    /// For each state of the scene's parts what is drawn, one after the other: one pipeline, three of glass.
-    pub forward: BTreeMap<State, Vec<wgpu::RenderPipeline>>,
+    /// For each state of a scene's parts what is drawn, one after the other: one pipeline, three of glass.
+    forward: BTreeMap<State, Vec<wgpu::RenderPipeline>>,
+    /// Edges of the outlined ones.
+    ribbons: BTreeMap<State, wgpu::RenderPipeline>,
+    /// What those are made of.
+    module: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
     /// Wall, floor, and the four faces that receive no shadow.
     pub room: [wgpu::RenderPipeline; 3],
     pub backdrop: wgpu::RenderPipeline,
@@ -34,13 +45,15 @@ pub(super) struct Pipelines {
     pub plane_wires: [wgpu::RenderPipeline; 2],
     pub shadow_map: wgpu::RenderPipeline,
     pub resolve: wgpu::RenderPipeline,
+    pub stretch: wgpu::RenderPipeline,
 }
 
 const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32, 6 => Float32x3
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32, 6 => Float32x3,
+        7 => Uint32
     ],
 };
 const SEGMENT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
@@ -48,6 +61,14 @@ const SEGMENT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     step_mode: wgpu::VertexStepMode::Instance,
     attributes: &wgpu::vertex_attr_array![
         0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4
+    ],
+};
+const RIBBON: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Ribbon>() as u64,
+    step_mode: wgpu::VertexStepMode::Instance,
+    attributes: &wgpu::vertex_attr_array![
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x4, 4 => Float32x4, 5 => Float32x4,
+        6 => Uint32, 7 => Uint32
     ],
 };
 const MOTE: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
@@ -87,19 +108,22 @@ impl Layouts {
                     (fragment, texture(smooth, TextureViewDimension::Cube, false)),
                     image,
                     (fragment, BindingType::Sampler(SamplerBindingType::Filtering)),
-                    (fragment, texture(TextureSampleType::Depth, TextureViewDimension::D2, false)),
-                    (fragment, BindingType::Sampler(SamplerBindingType::Comparison)),
+                    image,
                     image,
                     image,
                     (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
                     (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
-                    image,
+                    (
+                        fragment,
+                        texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2, false),
+                    ),
                 ],
             ),
             material: group(
                 "material",
                 &[(fragment, uniform), image, image, image, image, image, sampler, sampler, sampler, sampler, sampler],
             ),
+            stretch: group("stretch", &[image, sampler]),
             resolve: group(
                 "resolve",
                 &[(fragment, texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2, true))],
@@ -159,12 +183,31 @@ fn pipeline(device: &wgpu::Device, state: Fixed) -> wgpu::RenderPipeline {
     })
 }
 
+/// Blending by one factor each.
+fn blend(src_factor: wgpu::BlendFactor, dst_factor: wgpu::BlendFactor) -> Option<wgpu::BlendState> {
+    let component = wgpu::BlendComponent { src_factor, dst_factor, operation: wgpu::BlendOperation::Add };
+    Some(wgpu::BlendState { color: component, alpha: component })
+}
+
+/// What the options decide in the shaders of the picture.
+fn constants(options: &Options) -> [(&'static str, f64); 3] {
+    let tonemap = match options.look.tonemap {
+        Tonemap::Neutral => 0.0,
+        Tonemap::Aces => 1.0,
+        Tonemap::Agx => 2.0,
+        Tonemap::Clamp => 3.0,
+    };
+    let area_light = if options.look.area_light.is_some() { 1.0 } else { 0.0 };
+    let gallery = options.look.environment.is_none() && options.look.background.is_none();
+    [("TONEMAP", tonemap), ("AREA_LIGHT", area_light), ("GALLERY", if gallery { 1.0 } else { 0.0 })]
+}
+
 impl Pipelines {
-    pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options, scene: &Scene) -> Self {
+    /// All but those of the meshes.
+    pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options) -> Self {
         let device = &gpu.device;
         let module = |label: &str| {
-            let source = options.shaders.source(label);
-            let source = wgpu::ShaderSource::Wgsl(source);
+            let source = wgpu::ShaderSource::Wgsl(options.shaders.source(label));
             device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
         };
         let layout = |label, groups: &[&wgpu::BindGroupLayout]| {
@@ -177,30 +220,12 @@ impl Pipelines {
         };
         let shadow_layout = layout("shadow", &[&layouts.frame]);
         let light_layout = layout("light", &[&layouts.frame, &layouts.light]);
-        let material_layout = layout("material", &[&layouts.frame, &layouts.light, &layouts.material]);
         let resolve_layout = layout("resolve", &[&layouts.resolve]);
-        let (forward, room) = (module("forward"), module("room"));
-        let (shadows, wires) = (module("shadows"), module("wires"));
-        let (motes, resolve) = (module("motes"), module("resolve"));
-
-        let nearer = wgpu::CompareFunction::Greater;
-        let add = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let adding = Some(wgpu::BlendState { color: add, alpha: add });
-        let blending = Some(wgpu::BlendState::ALPHA_BLENDING);
-        let tonemap = match options.look.tonemap {
-            Tonemap::Neutral => 0.0,
-            Tonemap::Aces => 1.0,
-            Tonemap::Agx => 2.0,
-            Tonemap::Clamp => 3.0,
-        };
-        let area_light = if options.look.area_light.is_some() { 1.0 } else { 0.0 };
-        let gallery = options.look.environment.is_none() && options.look.background.is_none();
-        let constants =
-            [("TONEMAP", tonemap), ("AREA_LIGHT", area_light), ("GALLERY", if gallery { 1.0 } else { 0.0 })];
+        let stretch_layout = layout("stretch", &[&layouts.stretch]);
+        let (room, shadows, wires) = (module("room"), module("shadows"), module("wires"));
+        let (motes, resolve, stretch) = (module("motes"), module("resolve"), module("stretch"));
+        let adding = blend(wgpu::BlendFactor::One, wgpu::BlendFactor::One);
+        let constants = constants(options);
         // A pass into the picture itself.
         let base = || Fixed {
             label: "room",
@@ -210,49 +235,12 @@ impl Pipelines {
             buffer: None,
             constants: &constants,
             cull: None,
-            depth: Some((DEPTH_FORMAT, true, nearer)),
+            depth: Some((DEPTH_FORMAT, true, NEARER)),
             color: Some((options.format, None)),
             samples: options.msaa,
         };
-        let multiply = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::Dst,
-            dst_factor: wgpu::BlendFactor::Zero,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let multiplying = Some(wgpu::BlendState { color: multiply, alpha: multiply });
-        let mesh = |state: State, entry, cull, write, blend| {
-            let layers = ("LAYERS", if state.layers { 1.0 } else { 0.0 });
-            pipeline(
-                device,
-                Fixed {
-                    label: "forward",
-                    module: &forward,
-                    layout: &material_layout,
-                    entries: ("vertex", Some(entry)),
-                    buffer: Some(VERTEX),
-                    constants: &[constants[0], constants[1], constants[2], layers],
-                    cull,
-                    depth: Some((DEPTH_FORMAT, write, nearer)),
-                    color: Some((options.format, blend)),
-                    ..base()
-                },
-            )
-        };
-        let meshes = |state: State| {
-            let cull = (!state.double_sided).then_some(wgpu::Face::Back);
-            match state.surface {
-                Surface::Opaque => vec![mesh(state, "fragment", cull, true, None)],
-                Surface::Blend => vec![mesh(state, "fragment", cull, false, blending)],
-                // The far wall's gloss, what both walls let through, the near wall's gloss.
-                Surface::Glass => vec![
-                    mesh(state, "gloss_fragment", Some(wgpu::Face::Front), false, adding),
-                    mesh(state, "tint_fragment", None, false, multiplying),
-                    mesh(state, "gloss_fragment", Some(wgpu::Face::Back), false, adding),
-                ],
-            }
-        };
         let overlay = |label, module, buffer, constants, blend| {
-            let depth = Some((DEPTH_FORMAT, false, nearer));
+            let depth = Some((DEPTH_FORMAT, false, NEARER));
             let color = Some((options.format, blend));
             pipeline(device, Fixed { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
         };
@@ -281,9 +269,15 @@ impl Pipelines {
             let entries = ("wire_vertex", Some("wire_fragment"));
             plane("plane wires", entries, SEGMENT, p, wgpu::CompareFunction::Always, false)
         };
-        let states: BTreeSet<State> = scene.parts.iter().map(|part| part.state).collect();
+        // A pass over the whole target.
+        let whole = |label, module, layout| {
+            pipeline(device, Fixed { label, module, layout, constants: &[], depth: None, samples: 1, ..base() })
+        };
         Self {
-            forward: states.into_iter().map(|state| (state, meshes(state))).collect(),
+            forward: BTreeMap::new(),
+            ribbons: BTreeMap::new(),
+            module: module("forward"),
+            layout: layout("material", &[&layouts.frame, &layouts.light, &layouts.material]),
             room: [0.0, 1.0, 2.0].map(|receiver| {
                 let constants = [constants[0], constants[1], constants[2], ("RECEIVER", receiver)];
                 pipeline(device, Fixed { constants: &constants, ..base() })
@@ -297,7 +291,7 @@ impl Pipelines {
                     ..base()
                 },
             ),
-            wires: overlay("wires", &wires, SEGMENT, &constants, blending),
+            wires: overlay("wires", &wires, SEGMENT, &constants, Some(wgpu::BlendState::ALPHA_BLENDING)),
             motes: overlay("motes", &motes, MOTE, &[], adding),
             plane_meshes: [plane_meshes(0), plane_meshes(1)],
             plane_wires: [plane_wires(0), plane_wires(1)],
@@ -310,24 +304,99 @@ impl Pipelines {
                     entries: ("map_vertex", Some("map_fragment")),
                     buffer: Some(VERTEX),
                     constants: &[],
-                    depth: Some((MAP_FORMAT, true, nearer)),
+                    depth: Some((MAP_FORMAT, true, NEARER)),
                     color: Some((BLOCKER_FORMAT, None)),
                     samples: 1,
                     ..base()
                 },
             ),
-            resolve: pipeline(
-                device,
-                Fixed {
-                    label: "resolve",
-                    module: &resolve,
-                    layout: &resolve_layout,
-                    constants: &[],
-                    depth: None,
-                    samples: 1,
-                    ..base()
-                },
-            ),
+            resolve: whole("resolve", &resolve, &resolve_layout),
+            stretch: whole("stretch", &stretch, &stretch_layout),
         }
     }
+
+    /// Makes what `states` need and no work needed before.
+    pub fn cover(&mut self, gpu: &Gpu, options: &Options, states: impl Iterator<Item = State>) {
+        for state in states {
+            if !self.forward.contains_key(&state) {
+                let made = self.meshes(&gpu.device, options, state);
+                self.forward.insert(state, made);
+                if state.outlined {
+                    let blend = Some(wgpu::BlendState::ALPHA_BLENDING);
+                    let how = How { entry: RIBBON_ENTRY, cull: None, write: false, blend };
+                    let made = self.mesh(&gpu.device, options, state, how);
+                    self.ribbons.insert(state, made);
+                }
+            }
+        }
+    }
+
+    /// What draws the parts of a state that a work asked for.
+    pub fn forward(&self, state: &State) -> &[wgpu::RenderPipeline] {
+        self.forward.get(state).map_or(&[], Vec::as_slice)
+    }
+
+    /// What draws the edges of the parts of an outlined state.
+    pub fn ribbons(&self, state: &State) -> Option<&wgpu::RenderPipeline> {
+        self.ribbons.get(state)
+    }
+
+    /// The states that are covered.
+    pub fn states(&self) -> Vec<State> {
+        self.forward.keys().copied().collect()
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        let fixed = self.room.len() + self.plane_meshes.len() + self.plane_wires.len() + 6;
+        fixed + self.ribbons.len() + self.forward.values().map(Vec::len).sum::<usize>()
+    }
+
+    fn meshes(&self, device: &wgpu::Device, options: &Options, state: State) -> Vec<wgpu::RenderPipeline> {
+        use wgpu::BlendFactor::{Dst, One, Zero};
+        let mesh = |entry, cull, write, blend| self.mesh(device, options, state, How { entry, cull, write, blend });
+        let cull = (!state.double_sided).then_some(wgpu::Face::Back);
+        match state.surface {
+            Surface::Opaque => vec![mesh("fragment", cull, true, None)],
+            Surface::Blend => vec![mesh("fragment", cull, false, Some(wgpu::BlendState::ALPHA_BLENDING))],
+            // The far wall's gloss, what both walls let through, the near wall's gloss.
+            Surface::Glass => vec![
+                mesh("gloss_fragment", Some(wgpu::Face::Front), false, blend(One, One)),
+                mesh("tint_fragment", None, false, blend(Dst, Zero)),
+                mesh("gloss_fragment", Some(wgpu::Face::Back), false, blend(One, One)),
+            ],
+        }
+    }
+
+    /// One pipeline of meshes of a state.
+    fn mesh(&self, device: &wgpu::Device, options: &Options, state: State, how: How) -> wgpu::RenderPipeline {
+        let [a, b, c] = constants(options);
+        let flag = |set| if set { 1.0 } else { 0.0 };
+        let ribbon = how.entry == RIBBON_ENTRY;
+        let constants =
+            [a, b, c, ("LAYERS", flag(state.layers)), ("OUTLINED", flag(state.outlined)), ("RIBBON", flag(ribbon))];
+        pipeline(
+            device,
+            Fixed {
+                label: "forward",
+                module: &self.module,
+                layout: &self.layout,
+                entries: (if ribbon { "ribbon_vertex" } else { "vertex" }, Some(how.entry)),
+                buffer: Some(if ribbon { RIBBON } else { VERTEX }),
+                constants: &constants,
+                cull: how.cull,
+                depth: Some((DEPTH_FORMAT, how.write, NEARER)),
+                color: Some((options.format, how.blend)),
+                samples: options.msaa,
+            },
+        )
+    }
+}
+
+/// How triangles of a mesh are drawn: the entry of the shader, the side left out, whether depth is written, the blending.
+struct How {
+    entry: &'static str,
+    cull: Option<wgpu::Face>,
+    write: bool,
+    blend: Option<wgpu::BlendState>,
 }

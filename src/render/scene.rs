@@ -9,6 +9,7 @@ use glam::{DMat4, Mat4, Vec3, Vec4};
 
 use super::RenderError;
 use super::globals::PunctualUniform;
+use super::outlines::Plate;
 use crate::exhibit::Exhibit;
 use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
 use crate::math::Pose;
@@ -32,6 +33,8 @@ pub(super) struct Vertex {
     pub tag: u32,
     /// Irradiance from other surfaces of a still scene.
     pub bounce: Vec3,
+    /// Index of the plate, where the part is outlined.
+    pub outline: u32,
 }
 
 impl Vertex {
@@ -65,6 +68,8 @@ pub(super) struct State {
     pub double_sided: bool,
     /// A clear coat or a sheen.
     pub layers: bool,
+    /// Plates with a silhouette of their own.
+    pub outlined: bool,
 }
 
 /// Triangles drawn alike.
@@ -92,6 +97,7 @@ pub(super) struct Punctual {
 }
 
 /// All meshes and lights of an exhibit.
+#[derive(Default)]
 pub(super) struct Scene {
     pub vertices: Vec<Vertex>,
     pub indices: Vec<u32>,
@@ -102,6 +108,8 @@ pub(super) struct Scene {
     /// So many throw shadows on the planes.
     pub casters: u32,
     pub lights: Vec<Punctual>,
+    /// Of the outlined parts.
+    pub plates: Vec<Plate>,
 }
 
 impl Scene {
@@ -123,7 +131,8 @@ impl Scene {
             };
             let frame = carrier.map_or(0, |body| body + 1);
             if let Some(mesh) = node.mesh.and_then(|m| model.meshes.get(m)) {
-                pieces.extend(mesh.primitives.iter().map(|p| (p, frame, frame_from_node.as_mat4())));
+                let matrix = frame_from_node.as_mat4();
+                pieces.extend(mesh.primitives.iter().map(|p| (p, frame, matrix, plate(model, p, frame, matrix))));
             }
             if let Some(light) = node.light.and_then(|l| model.lights.get(l))
                 && lights.len() < MAX_PUNCTUAL
@@ -139,24 +148,23 @@ impl Scene {
                 });
             }
         }
-        let state = |p: &Primitive| {
-            let look = p.material.and_then(|m| model.materials.get(m));
-            (look.map_or(State::PLAIN, State::of), p.material.unwrap_or(model.materials.len()))
+        let state = |p: &Primitive, plate: &Option<Plate>| {
+            let outlined = plate.is_some();
+            (State { outlined, ..state_of(model, p) }, p.material.unwrap_or(model.materials.len()))
         };
         // By state, so that neighbours merge into one draw.
-        pieces.sort_by_key(|(p, ..)| state(p));
-        let mut scene =
-            Self { vertices: Vec::new(), indices: Vec::new(), parts: Vec::new(), opaque: 0, casters: 0, lights };
-        for (primitive, frame, matrix) in pieces {
-            let (state, material) = state(primitive);
+        pieces.sort_by_key(|(p, _, _, plate)| state(p, plate));
+        let mut scene = Self { lights, ..Self::default() };
+        for (primitive, frame, matrix, plate) in pieces {
+            let (state, material) = state(primitive, &plate);
             let opacity = match state.surface {
                 Surface::Opaque => 1.0,
                 Surface::Glass => primitive.material.map_or(1.0, |m| shade_of(&model.materials[m])),
                 Surface::Blend => 0.0,
             };
             let start = scene.indices.len() as u32;
-            let tag = frame as u32 | (255 << 16) | (((opacity * 255.0 + 0.5) as u32) << 24);
-            let center = scene.append(primitive, tag, matrix);
+            let base = scene.vertices.len() as u32;
+            let center = scene.append(primitive, tag(frame, opacity), matrix);
             let end = scene.indices.len() as u32;
             match state.surface {
                 Surface::Opaque => (scene.opaque, scene.casters) = (end, end),
@@ -168,6 +176,11 @@ impl Scene {
                     last.indices.end = end;
                 }
                 _ => scene.parts.push(Part { indices: start..end, material, state, center, frame }),
+            }
+            if let Some(mut plate) = plate {
+                plate.place(scene.parts.len() - 1, base);
+                scene.vertices[base as usize..].iter_mut().for_each(|v| v.outline = scene.plates.len() as u32);
+                scene.plates.push(plate);
             }
         }
         Ok(scene)
@@ -202,6 +215,7 @@ impl Scene {
                 color: primitive.colors.get(i).copied().unwrap_or([1.0; 4]),
                 tag,
                 bounce: Vec3::ZERO,
+                outline: 0,
             });
         }
         let count = primitive.positions.len() as u32;
@@ -216,7 +230,7 @@ impl Scene {
 }
 
 impl State {
-    const PLAIN: Self = Self { surface: Surface::Opaque, double_sided: false, layers: false };
+    const PLAIN: Self = Self { surface: Surface::Opaque, double_sided: false, layers: false, outlined: false };
 
     fn of(look: &Appearance) -> Self {
         let surface = match look.alpha {
@@ -225,8 +239,29 @@ impl State {
             _ => Surface::Opaque,
         };
         let layers = look.coat > 0.0 || look.sheen.iter().any(|c| *c > 0.0);
-        Self { surface, double_sided: look.double_sided, layers }
+        Self { surface, double_sided: look.double_sided, layers, outlined: false }
     }
+}
+
+/// How a primitive's triangles are drawn, unless they are a plate.
+fn state_of(model: &Model, primitive: &Primitive) -> State {
+    primitive.material.and_then(|m| model.materials.get(m)).map_or(State::PLAIN, State::of)
+}
+
+/// The tag of a frame's vertices, of this opacity to lamps; no corner is in shade yet.
+fn tag(frame: usize, opacity: f32) -> u32 {
+    frame as u32 | (255 << 16) | (((opacity * 255.0 + 0.5) as u32) << 24)
+}
+
+/// The plate that a primitive is, where it is one and hides what is behind all over.
+fn plate(model: &Model, primitive: &Primitive, frame: usize, matrix: Mat4) -> Option<Plate> {
+    let holes = primitive.material.and_then(|m| model.materials.get(m)).is_some_and(|m| m.alpha != AlphaMode::Opaque);
+    if holes || state_of(model, primitive).surface != Surface::Opaque {
+        return None;
+    }
+    let mut alone = Scene::default();
+    alone.append(primitive, tag(frame, 1.0), matrix);
+    Plate::of(&alone.vertices, &alone.indices)
 }
 
 /// Both sets of texture coordinates of a corner; a missing one repeats the other.

@@ -9,25 +9,28 @@ use std::path::Path;
 use wgpu::naga;
 
 /// A shader and the files it is put together from.
-const PARTS: [(&str, &[&str]); 6] = [
-    ("forward", &["common", "lighting", "forward"]),
+const PARTS: [(&str, &[&str]); 7] = [
+    ("forward", &["common", "lighting", "outline", "forward"]),
     ("room", &["common", "lighting", "room"]),
     ("shadows", &["common", "shadows"]),
     ("wires", &["common", "lighting", "wires"]),
     ("motes", &["common", "motes"]),
     ("resolve", &["resolve"]),
+    ("stretch", &["stretch"]),
 ];
 
 /// The files as they were when the program was built.
-const BUILT_IN: [(&str, &str); 8] = [
+const BUILT_IN: [(&str, &str); 10] = [
     ("common", include_str!("../../shaders/common.wgsl")),
     ("lighting", include_str!("../../shaders/lighting.wgsl")),
+    ("outline", include_str!("../../shaders/outline.wgsl")),
     ("forward", include_str!("../../shaders/forward.wgsl")),
     ("room", include_str!("../../shaders/room.wgsl")),
     ("shadows", include_str!("../../shaders/shadows.wgsl")),
     ("wires", include_str!("../../shaders/wires.wgsl")),
     ("motes", include_str!("../../shaders/motes.wgsl")),
     ("resolve", include_str!("../../shaders/resolve.wgsl")),
+    ("stretch", include_str!("../../shaders/stretch.wgsl")),
 ];
 
 /// What a folder's shaders can be wrong with.

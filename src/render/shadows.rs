@@ -11,7 +11,7 @@ use crate::exhibit::Exhibit;
 
 /// Format of the plane shadows: blocked fraction of either lamp.
 pub(super) const PLANE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
-/// Depths of the shadow map, to be compared.
+/// Depths of the shadow map, while it is drawn.
 pub(super) const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// The same depths as three bytes, to be read.
 pub(super) const BLOCKER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -93,11 +93,14 @@ pub(super) struct MapCamera {
     /// Where the reversed depth is 1, and where it is 0, m.
     pub near: f32,
     pub far: f32,
-    /// Texels along a side.
-    pub size: u32,
 }
 
 impl MapCamera {
+    /// Texels along a side of the map.
+    pub fn size(quality: Quality) -> u32 {
+        if quality == Quality::Light { 768 } else { 1024 }
+    }
+
     /// From the area light if there is one, from the key lamp otherwise, around everything the work may sweep; in a still
     /// scene around its casters alone, where there are any.
     pub fn new(room: &Room, look: &Look, quality: Quality, casters: impl FnOnce(Vec3) -> Vec<Vec3>) -> Self {
@@ -136,7 +139,7 @@ impl MapCamera {
         // z = n (f − w) / (f − n), over w.
         let depth = row(forward, -near / (far - near)) + Vec4::W * (near * far / (far - near));
         let clip_from_world = Mat4::from_cols(row(right, f), row(up, f), depth, row(forward, 1.0)).transpose();
-        let size = if quality == Quality::Light { 768 } else { 1024 };
-        Self { clip_from_world, light_radius, texel: 2.0 * half / size as f32, near, far, size }
+        let size = Self::size(quality);
+        Self { clip_from_world, light_radius, texel: 2.0 * half / size as f32, near, far }
     }
 }

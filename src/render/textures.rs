@@ -8,6 +8,7 @@ use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
+use super::fixtures::Fixtures;
 use crate::exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
 
 /// `Material` of `forward.wgsl`.
@@ -37,9 +38,9 @@ struct MaterialUniform {
 }
 
 /// Bind groups of all appearances of a model, and last of the default one.
-pub(super) fn materials(gpu: &Gpu, model: &Model, layout: &wgpu::BindGroupLayout) -> Vec<wgpu::BindGroup> {
-    let mut textures = Textures { gpu, images: &model.images, made: BTreeMap::new(), samplers: BTreeMap::new() };
-    let white = textures.upload(&Image { width: 1, height: 1, rgba: vec![255; 4] }, false);
+pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Vec<wgpu::BindGroup> {
+    let Fixtures { layouts, white, samplers, .. } = fixtures;
+    let mut textures = Textures { gpu, images: &model.images, made: BTreeMap::new(), samplers };
     let default = Appearance { metallic: 0.0, roughness: 0.6, ..Appearance::default() };
     model
         .materials
@@ -49,7 +50,7 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, layout: &wgpu::BindGroupLayout
             let uses = uses(look);
             let color = [true, false, false, false, true];
             let views: Vec<_> =
-                uses.iter().zip(color).map(|(t, srgb)| textures.view(t.map(|t| t.image), srgb, &white)).collect();
+                uses.iter().zip(color).map(|(t, srgb)| textures.view(t.map(|t| t.image), srgb, white)).collect();
             let samplers: Vec<_> =
                 uses.iter().map(|t| textures.sampler(t.map_or(Sampler::default(), |t| t.sampler))).collect();
             let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -65,11 +66,16 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, layout: &wgpu::BindGroupLayout
                 .collect();
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(&look.name),
-                layout,
+                layout: &layouts.material,
                 entries: &entries,
             })
         })
         .collect()
+}
+
+/// One white texel.
+pub(super) fn white(gpu: &Gpu) -> wgpu::TextureView {
+    upload(gpu, &Image { width: 1, height: 1, rgba: vec![255; 4] }, false)
 }
 
 /// The images of an appearance in the order of the bindings.
@@ -128,7 +134,7 @@ struct Textures<'a> {
     gpu: &'a Gpu,
     images: &'a [Image],
     made: BTreeMap<(usize, bool), wgpu::TextureView>,
-    samplers: BTreeMap<Sampler, wgpu::Sampler>,
+    samplers: &'a mut BTreeMap<Sampler, wgpu::Sampler>,
 }
 
 impl Textures<'_> {
@@ -171,31 +177,32 @@ impl Textures<'_> {
         if let Some(view) = self.made.get(&(index, srgb)) {
             return view.clone();
         }
-        let view = self.upload(image, srgb);
+        let view = upload(self.gpu, image, srgb);
         self.made.insert((index, srgb), view.clone());
         view
     }
+}
 
-    fn upload(&self, image: &Image, srgb: bool) -> wgpu::TextureView {
-        let levels = mip_chain(image, srgb);
-        let format = if srgb { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
-        let texture = self.gpu.device.create_texture_with_data(
-            &self.gpu.queue,
-            &wgpu::TextureDescriptor {
-                label: Some("material image"),
-                size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
-                mip_level_count: levels.len() as u32,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            },
-            wgpu::util::TextureDataOrder::LayerMajor,
-            &levels.concat(),
-        );
-        texture.create_view(&Default::default())
-    }
+/// An image and its smaller levels.
+fn upload(gpu: &Gpu, image: &Image, srgb: bool) -> wgpu::TextureView {
+    let levels = mip_chain(image, srgb);
+    let format = if srgb { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
+    let texture = gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &wgpu::TextureDescriptor {
+            label: Some("material image"),
+            size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
+            mip_level_count: levels.len() as u32,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        &levels.concat(),
+    );
+    texture.create_view(&Default::default())
 }
 
 /// The image and its halves down to one pixel, each the box average of the one before.

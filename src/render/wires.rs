@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
-use crate::exhibit::Exhibit;
+use crate::exhibit::Wire;
 use crate::math::Pose;
 
 /// One straight piece of a wire, in the world, as `wires.wgsl` reads it.
@@ -23,17 +23,17 @@ pub(super) struct Segment {
 }
 
 /// Straight pieces of all wires.
-pub(super) fn count(exhibit: &Exhibit) -> usize {
-    exhibit.wires.iter().map(|wire| wire.points.len().saturating_sub(1)).sum()
+pub(super) fn count(wires: &[Wire]) -> usize {
+    wires.iter().map(|wire| wire.points.len().saturating_sub(1)).sum()
 }
 
-/// Fills `segments` with all wires at these poses, the farthest from the eye first.
-pub(super) fn fill(exhibit: &Exhibit, poses: &[Pose], eye: Vec3, segments: &mut Vec<Segment>) {
+/// Fills `segments` with all wires at these poses, the farthest from the eye first. Bodies beyond the poses are at `rest`.
+pub(super) fn fill(wires: &[Wire], rest: &[Pose], poses: &[Pose], eye: Vec3, segments: &mut Vec<Segment>) {
     segments.clear();
-    for wire in &exhibit.wires {
+    for wire in wires {
         let pose = match wire.body {
             None => Pose::IDENTITY,
-            Some(body) => poses.get(body).copied().unwrap_or_else(|| exhibit.bodies[body].pose),
+            Some(body) => *poses.get(body).unwrap_or(&rest[body]),
         };
         let point = |i: usize| pose.point(wire.points[i]).as_vec3();
         let color = Vec3::from_array(wire.color).extend(wire.roughness);

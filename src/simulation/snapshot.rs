@@ -87,17 +87,26 @@ const REBORN: f32 = 0.1;
 impl Snapshot {
     /// The moment between two snapshots of the same exhibit, `alpha` in 0…1.
     pub fn interpolate(&self, next: &Self, alpha: f64) -> Self {
-        let mut out = next.clone();
-        for (pose, before) in out.poses.iter_mut().zip(&self.poses) {
+        let mut out = Self::default();
+        out.set_between(self, next, alpha);
+        out
+    }
+
+    /// Becomes the moment between two snapshots, in the memory that it has.
+    pub fn set_between(&mut self, first: &Self, next: &Self, alpha: f64) {
+        let Self { step, poses, breath, motes, diagnostics } = self;
+        (*step, *breath, *diagnostics) = (next.step, next.breath, next.diagnostics);
+        poses.clone_from(&next.poses);
+        motes.clone_from(&next.motes);
+        for (pose, before) in poses.iter_mut().zip(&first.poses) {
             *pose = before.interpolate(pose, alpha);
         }
-        for (mote, before) in out.motes.iter_mut().zip(&self.motes) {
+        for (mote, before) in motes.iter_mut().zip(&first.motes) {
             for (to, from) in mote.position.iter_mut().zip(before.position) {
                 if (*to - from).abs() < REBORN {
                     *to = from + (*to - from) * alpha as f32;
                 }
             }
         }
-        out
     }
 }

@@ -519,6 +519,8 @@ mod captions;
 #[cfg(feature = "kiosk")]
 mod contrast;
 #[cfg(feature = "kiosk")]
+mod drift;
+#[cfg(feature = "kiosk")]
 mod edit;
 #[cfg(feature = "kiosk")]
 mod flashes;
@@ -537,6 +539,8 @@ mod pin;
 #[cfg(feature = "kiosk")]
 mod record;
 #[cfg(feature = "kiosk")]
+mod rhythm;
+#[cfg(feature = "kiosk")]
 mod screens;
 #[cfg(feature = "kiosk")]
 mod site;
@@ -544,6 +548,8 @@ mod site;
 mod staff;
 #[cfg(feature = "kiosk")]
 mod stage;
+#[cfg(feature = "kiosk")]
+mod tiers;
 #[cfg(feature = "kiosk")]
 mod voice;
 

@@ -302,9 +302,9 @@ fn vulkan_and_gl_draw_the_same_picture() {
 
 #[test]
 fn a_slowly_turning_mobile_does_not_shimmer() {
-    /// Of a pixel's second differences in time, linear light. One sample of four that flips there and back twice at the
-    /// strongest contrast makes 0.068; anything that flickers on its own makes more.
-    const SHIMMER: f64 = 0.07;
+    /// Of a pixel's second differences in time, linear light: goal 7 of the renderer. Edges of plates that were sampled made
+    /// 0.065, one sample of four after the other. What is left are places where a wire and a plate cross.
+    const SHIMMER: f64 = 0.05;
     let exhibit = mobile();
     let Some(mut renderer) = renderer(&exhibit, |_| {}) else { return };
     let size = (360, 240);
@@ -320,14 +320,20 @@ fn a_slowly_turning_mobile_does_not_shimmer() {
         let picture = renderer.draw(&frame(&exhibit, &poses, size)).expect("a picture");
         frames.push(picture.pixels().map(|p| linear(p.0[1])).collect());
     }
-    let (shimmer, at) = (0..frames[0].len())
-        .map(|i| {
-            let second: Vec<f64> = frames.windows(3).map(|w| f64::from(w[0][i] - 2.0 * w[1][i] + w[2][i])).collect();
-            let mean = second.iter().sum::<f64>() / second.len() as f64;
-            ((second.iter().map(|d| (d - mean) * (d - mean)).sum::<f64>() / second.len() as f64).sqrt(), i)
-        })
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .expect("pixels");
+    let deviation = |i: usize| {
+        let second: Vec<f64> = frames.windows(3).map(|w| f64::from(w[0][i] - 2.0 * w[1][i] + w[2][i])).collect();
+        let mean = second.iter().sum::<f64>() / second.len() as f64;
+        (second.iter().map(|d| (d - mean) * (d - mean)).sum::<f64>() / second.len() as f64).sqrt()
+    };
+    let deviations: Vec<f64> = (0..frames[0].len()).map(deviation).collect();
+    if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
+        // White is a twentieth.
+        let grey = image::GrayImage::from_fn(size.0, size.1, |x, y| {
+            image::Luma([(255.0 * 20.0 * deviations[(y * size.0 + x) as usize]).min(255.0) as u8])
+        });
+        grey.save(std::path::Path::new(&folder).join("shimmer.png")).expect("a writable folder");
+    }
+    let (at, shimmer) = deviations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).expect("pixels");
     println!("shimmer {shimmer:.4} at {}, {}", at % 360, at / 360);
     assert!(shimmer < SHIMMER, "{shimmer}");
 }

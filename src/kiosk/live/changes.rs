@@ -9,6 +9,7 @@ use crate::controllers::Controllers;
 use crate::exhibit::Exhibit;
 use crate::kiosk::captions::Captions;
 use crate::kiosk::governor::Governor;
+use crate::kiosk::moments::Moments;
 use crate::kiosk::site::Site;
 use crate::kiosk::voice::{Guest, Trial, Tried, Voice, hit};
 use crate::simulation::Settings;
@@ -57,6 +58,7 @@ impl Thread {
             record.begin(self.stage.exhibit(), *self.stage.settings());
         }
         self.captions = Captions::default();
+        self.moments = Moments::new(self.stage.snapshot());
         self.onset = None;
         if let Some(trace) = self.trace.take() {
             match trace.finish() {

@@ -1,0 +1,191 @@
+//! What is drawn of one exhibit: its meshes, materials and wires, the light of the room that is measured to it, and the
+//! memory in which its frames are prepared.
+
+use glam::{Mat4, Vec3, Vec4};
+use wgpu::util::DeviceExt;
+
+use super::bounce;
+use super::casters::casters;
+use super::environment::Environment;
+use super::fixtures::Fixtures;
+use super::gallery::Room;
+use super::globals::Globals;
+use super::outlines::{Outlines, Ribbon};
+use super::passes::Plan;
+use super::resources::{Light, attachment, contours, light_group};
+use super::scene::{Part, Punctual, Scene, Surface, rows};
+use super::shadows::{MapCamera, ReceivingPlane};
+use super::wires::{self, Segment};
+use super::{Frame, Gpu, Options, Quality, RenderError, occlusion, textures};
+use crate::exhibit::{Exhibit, Wire};
+use crate::math::Pose;
+
+/// Points of each lamp's disc that shadows of meshes are cast from.
+const LAMP_SAMPLES: [u32; 2] = [28, 56];
+
+/// An exhibit made ready to be drawn by the [`super::Renderer`] that prepared it.
+pub struct Work {
+    pub(super) parts: Vec<Part>,
+    pub(super) globals: Globals,
+    pub(super) vertices: wgpu::Buffer,
+    pub(super) indices: wgpu::Buffer,
+    pub(super) segments_buffer: wgpu::Buffer,
+    pub(super) ribbons_buffer: wgpu::Buffer,
+    pub(super) contours: wgpu::Texture,
+    pub(super) light_group: wgpu::BindGroup,
+    pub(super) materials: Vec<wgpu::BindGroup>,
+    pub(super) plane_views: [wgpu::TextureView; 2],
+    pub(super) order_views: [wgpu::TextureView; 2],
+    /// Texels of the shadows on wall and floor.
+    pub(super) planes: [(u32, u32); 2],
+    /// So many indices, from the first, are opaque, and so many throw shadows on the planes.
+    pub(super) opaque: u32,
+    pub(super) casters: u32,
+    pub(super) lamp_samples: u32,
+    radius: f32,
+    /// Poses of bodies that a frame leaves out.
+    rest: Vec<Pose>,
+    wires: Vec<Wire>,
+    lights: Vec<Punctual>,
+    // Scratch, kept so that a frame allocates nothing.
+    pub(super) frames: Vec<[Vec4; 3]>,
+    pub(super) segments: Vec<Segment>,
+    pub(super) outlines: Outlines,
+    /// Squared distance and index of each blended part, the farthest first.
+    pub(super) blended: Vec<(f32, usize)>,
+    drawn_frames: Vec<[Vec4; 3]>,
+}
+
+impl Work {
+    /// Prepares an exhibit: everything that `fixtures` does not hold already.
+    pub(super) fn new(
+        gpu: &Gpu,
+        fixtures: &mut Fixtures,
+        options: &Options,
+        exhibit: &Exhibit,
+    ) -> Result<Self, RenderError> {
+        let device = &gpu.device;
+        let mut scene = Scene::new(exhibit)?;
+        fixtures.pipelines.cover(gpu, options, scene.parts.iter().map(|part| part.state));
+        let room = Room::around(exhibit);
+        let look = &options.look;
+        let environment = match &look.environment {
+            Some(environment) => environment.clone(),
+            None => Environment::new(|direction| room.radiance(direction)).into(),
+        };
+        // What moves takes its corners along, and the light on them would be wrong.
+        let still = exhibit.bodies.is_empty() && look.background.is_some();
+        if still {
+            let (env_intensity, area) = (look.env_intensity, look.area_light);
+            let light = bounce::Light { environment: &environment, env_intensity, area };
+            bounce::corners(&mut scene, exhibit, room.radius, &light);
+        } else {
+            occlusion::corners(&mut scene, exhibit, room.radius);
+        }
+        let lamp_samples = LAMP_SAMPLES[(options.quality == Quality::Full) as usize];
+        let planes = ReceivingPlane::of_room(&room, exhibit, options.quality);
+        let map = MapCamera::new(&room, look, options.quality, |eye| {
+            if !still || look.area_light.is_none() {
+                return Vec::new();
+            }
+            casters(&scene, &occlusion::at_rest(&scene, exhibit).0, room.radius, eye)
+        });
+        let globals =
+            Globals::new(look, &room, &environment.irradiance, &map, &planes, (options.quality, lamp_samples));
+        let sampled = |of| attachment(device, of, wgpu::TextureUsages::TEXTURE_BINDING);
+        let [plane_views, order_views] = [0, 1].map(|which| planes.map(|p| sampled(Plan::plane(p.texels)[which])));
+        let ambient = occlusion::planes(&scene, exhibit, &planes, room.radius);
+        let outlines = Outlines::new(std::mem::take(&mut scene.plates), &scene.vertices);
+        let contours = contours(device, outlines.rows());
+        let light = Light {
+            environment: &environment,
+            room: &room,
+            planes: &plane_views,
+            ambient: &ambient,
+            contours: &contours.create_view(&Default::default()),
+        };
+        let light_group = light_group(gpu, fixtures, light);
+        let filled = |label, contents: &[u8], usage| {
+            // An exhibit of wires alone has no vertices; an empty buffer could not be bound.
+            let contents = if contents.is_empty() { &[0; 16] } else { contents };
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        let filled_later = |label, size: usize| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: size as u64,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let segment_count = wires::count(&exhibit.wires);
+        let blended = scene.parts.iter().filter(|part| part.state.surface == Surface::Blend).count();
+        let frame_count = exhibit.bodies.len() + 1;
+        Ok(Self {
+            vertices: filled("vertices", bytemuck::cast_slice(&scene.vertices), wgpu::BufferUsages::VERTEX),
+            indices: filled("indices", bytemuck::cast_slice(&scene.indices), wgpu::BufferUsages::INDEX),
+            segments_buffer: filled_later("segments", segment_count.max(1) * size_of::<Segment>()),
+            ribbons_buffer: filled_later("ribbons", outlines.most().max(1) * size_of::<Ribbon>()),
+            contours,
+            materials: textures::materials(gpu, &exhibit.model, fixtures),
+            globals,
+            light_group,
+            plane_views,
+            order_views,
+            planes: planes.map(|plane| plane.texels),
+            opaque: scene.opaque,
+            casters: scene.casters,
+            lamp_samples,
+            radius: room.radius,
+            rest: exhibit.bodies.iter().map(|body| body.pose).collect(),
+            wires: exhibit.wires.clone(),
+            parts: scene.parts,
+            lights: scene.lights,
+            frames: Vec::with_capacity(frame_count),
+            segments: Vec::with_capacity(segment_count),
+            outlines,
+            blended: Vec::with_capacity(blended),
+            drawn_frames: Vec::with_capacity(frame_count),
+        })
+    }
+
+    /// Puts everything where a frame has it, in memory alone.
+    pub(super) fn place(&mut self, frame: &Frame) {
+        self.frames.clear();
+        self.frames.push(rows(&Pose::IDENTITY));
+        for (index, rest) in self.rest.iter().enumerate() {
+            self.frames.push(rows(frame.poses.get(index).unwrap_or(rest)));
+        }
+        self.globals.set_frame(frame, self.radius);
+        let frames = &self.frames;
+        self.globals.set_lights(&self.lights, |i| {
+            Mat4::from_cols(frames[i][0], frames[i][1], frames[i][2], Vec4::W).transpose()
+        });
+        wires::fill(&self.wires, &self.rest, frame.poses, self.globals.eye, &mut self.segments);
+        self.outlines.find(&self.frames, &self.globals, frame.size);
+        self.sort_blended();
+    }
+
+    /// Has nothing moved since this was last asked, so that the shadows still hold? After [`Self::forget`] they do not.
+    pub(super) fn rests(&mut self) -> bool {
+        let rests = self.frames == self.drawn_frames;
+        self.drawn_frames.clone_from(&self.frames);
+        rests
+    }
+
+    /// Has the shadows drawn with the next frame.
+    pub(super) fn forget(&mut self) {
+        self.drawn_frames.clear();
+    }
+
+    /// Blended parts, the farthest first.
+    fn sort_blended(&mut self) {
+        self.blended.clear();
+        for (index, part) in self.parts.iter().enumerate().filter(|(_, part)| part.state.surface == Surface::Blend) {
+            let center = part.center.extend(1.0);
+            let world = Vec3::from_array(self.frames[part.frame].map(|row| row.dot(center)));
+            self.blended.push((world.distance_squared(self.globals.eye), index));
+        }
+        self.blended.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    }
+}
