@@ -107,6 +107,19 @@ pub struct StaffCheck {
     pub good: bool,
 }
 
+/// A bar that the day is held against.
+#[derive(Clone, Debug, Serialize)]
+pub struct Bar {
+    /// Its name.
+    pub bar: &'static str,
+    /// What is asked, in words.
+    pub asked: String,
+    /// What was found, in words.
+    pub found: String,
+    /// Is it met? Null where the day has too few visits to say.
+    pub met: Option<bool>,
+}
+
 /// The report.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
@@ -149,6 +162,8 @@ pub struct Report {
     pub attract_returned: (usize, usize),
     /// Pictures drawn.
     pub pictures: u64,
+    /// What is asked, and what was found.
+    pub bars: Vec<Bar>,
     /// What misses its bar, in words; empty when all is well.
     pub failures: Vec<String>,
     /// Every visit.
@@ -180,39 +195,66 @@ impl Report {
         changed.sort_by(f64::total_cmp);
         self.changed_after_s =
             median(changed.clone()).map(|middle| (middle, changed[(19 * changed.len() / 20).min(changed.len() - 1)]));
-        self.failures = self.misses();
+        self.bars = self.hold();
+        let missed = self.bars.iter().filter(|bar| bar.met == Some(false));
+        self.failures =
+            missed.map(|Bar { bar, asked, found, .. }| format!("{bar}: asked {asked}, found {found}")).collect();
         self
     }
 
-    fn misses(&self) -> Vec<String> {
-        let mut out = Vec::new();
-        let mut check = |name: &str, share: &Share, bar: f64| {
-            if let Some(found) = share.share.filter(|found| *found < bar && share.visits >= ENOUGH) {
-                out.push(format!("{name}: {:.1} % answered, {:.0} % asked", 100.0 * found, 100.0 * bar));
-            }
-        };
-        check("all visits", &self.headline, HEADLINE);
-        for (name, share) in &self.groups {
-            check(name, share, GROUP);
-        }
-        if let Some(shuffled) = self.shuffled_contingency
-            && self.visits.len() >= ENOUGH
-            && !(SHUFFLED.0..SHUFFLED.1).contains(&shuffled)
-        {
-            out.push(format!("shuffled contingency {shuffled:.2}, not about 1"));
-        }
-        if !self.phantoms.is_empty() {
-            let times: Vec<f64> = self.phantoms.iter().map(|nobody| nobody.at_s).collect();
-            out.push(format!("{} answers to nobody, at {times:.1?} s", times.len()));
-        }
-        for check in self.staff.iter().filter(|check| !check.good) {
-            out.push(format!("{} from {:.1} s on: not kept", check.task, check.from_s));
-        }
+    /// Every bar beside what was found.
+    fn hold(&self) -> Vec<Bar> {
+        let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+        let enough = |visits: usize| visits >= ENOUGH;
+        let Share { visits, share, .. } = self.headline;
+        let all = share.unwrap_or_default();
+        let groups = || self.groups.iter().filter(|(_, group)| enough(group.visits));
+        let below = groups().filter_map(|(name, group)| Some((name, group.share.filter(|share| *share < GROUP)?)));
+        let below: Vec<String> = below.map(|(name, share)| format!("{name} {}", percent(share))).collect();
+        let shuffled = self.shuffled_contingency;
+        let times: Vec<f64> = self.phantoms.iter().map(|nobody| nobody.at_s).collect();
+        let broken: Vec<String> =
+            self.staff.iter().filter(|c| !c.good).map(|c| format!("{} at {:.1} s", c.task, c.from_s)).collect();
         let (returned, asked) = self.attract_returned;
-        if returned < asked {
-            out.push(format!("attract mode came back {returned} times of {asked}"));
-        }
-        out
+        let bar = |bar, asked: String, found: String, met: Option<bool>| Bar { bar, asked, found, met };
+        vec![
+            bar(
+                "answered",
+                format!("{} of all visits", percent(HEADLINE)),
+                format!("{} of {visits}", percent(all)),
+                enough(visits).then_some(all >= HEADLINE),
+            ),
+            bar(
+                "groups",
+                format!("{} of every group", percent(GROUP)),
+                format!("{} of {} below: {}", below.len(), groups().count(), below.join(", ")),
+                (groups().count() > 0).then_some(below.is_empty()),
+            ),
+            bar(
+                "shuffled",
+                format!("contingency {} to {} at moments of no meaning", SHUFFLED.0, SHUFFLED.1),
+                shuffled.map_or("none".into(), |found| format!("{found:.2}")),
+                shuffled.filter(|_| enough(visits)).map(|found| (SHUFFLED.0..SHUFFLED.1).contains(&found)),
+            ),
+            bar(
+                "nobody",
+                "no answer to nobody".into(),
+                format!("{}, at {times:.1?} s", times.len()),
+                Some(times.is_empty()),
+            ),
+            bar(
+                "staff",
+                "silent while mute, still while deaf".into(),
+                format!("{} of {} not: {}", broken.len(), self.staff.len(), broken.join(", ")),
+                Some(broken.is_empty()),
+            ),
+            bar(
+                "attract",
+                "attract mode comes back".into(),
+                format!("{returned} times of {asked}"),
+                Some(returned >= asked),
+            ),
+        ]
     }
 }
 
@@ -261,10 +303,11 @@ impl fmt::Display for Report {
         let kept = self.staff.iter().filter(|check| check.good).count();
         writeln!(f, "staff: {kept} of {} kept", self.staff.len())?;
         writeln!(f, "attract mode came back: {} of {}", self.attract_returned.0, self.attract_returned.1)?;
-        if self.failures.is_empty() {
-            writeln!(f, "\nAll bars are met.")
-        } else {
-            writeln!(f, "\nMissed:\n  {}", self.failures.join("\n  "))
+        writeln!(f)?;
+        for Bar { bar, asked, found, met } in &self.bars {
+            let met = met.map_or("too few visits", |met| if met { "met" } else { "MISSED" });
+            writeln!(f, "{bar:10} {met:14} asked {asked}; found {found}")?;
         }
+        Ok(())
     }
 }

@@ -345,6 +345,7 @@ impl<'a> Course<'a> {
             staff: staff.collect(),
             attract_returned: (self.returned, self.attract_asked),
             pictures: self.eyes.drawn,
+            bars: Vec::new(),
             failures: Vec::new(),
             visits: judged.collect(),
             phantoms: self.phantoms.clone(),
