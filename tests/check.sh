@@ -35,7 +35,10 @@ ignored() {
 
 # One bar of the rehearsed day, as its report has it: tells it, and fails where it is not met.
 rehearsed() {
-    grep -o "{\"bar\":\"$1\"[^}]*}" out/long/rehearse.json | tee /dev/stderr | grep '"met":true' >/dev/null
+    local bar
+    bar=$(grep -o "{\"bar\":\"$1\"[^}]*}" out/long/rehearse.json) || bar="no report has the bar \"$1\""
+    echo "$bar" >&2
+    [[ $bar == *'"met":true'* ]]
 }
 
 # Longer runs than a change needs: each leaves its mark in out/long and is not run again until the sources change.
