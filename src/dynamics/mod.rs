@@ -116,6 +116,7 @@ pub struct Figure<'a> {
 }
 
 /// A figure in motion. Nothing here allocates after [`Dynamics::new`].
+#[derive(Clone)]
 pub struct Dynamics {
     /// The bodies' present state. Whoever changes it from outside calls [`Dynamics::disturb`].
     pub bodies: Vec<RigidBody>,

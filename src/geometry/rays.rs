@@ -28,6 +28,7 @@ use crate::math::{DMat3, DVec3, Pose};
 const OUTWARDS: f32 = 4.0 * f32::EPSILON;
 
 /// Rigid parts that may stand in a ray's way.
+#[derive(Clone)]
 pub struct Occluders {
     parts: Vec<Part>,
     /// Over the parts' boxes; one part a leaf.
@@ -39,6 +40,7 @@ pub struct Occluders {
 pub struct Hint(Option<(u32, u32)>);
 
 /// One rigid part.
+#[derive(Clone)]
 struct Part {
     /// The body that carries it; `None` stands still.
     body: Option<usize>,

@@ -74,7 +74,7 @@ pub struct Controls {
 
 impl Controls {
     /// The same with nobody there.
-    fn without_visitor(&self) -> Self {
+    pub fn without_visitor(&self) -> Self {
         let Self { aspect, activity, mode, inert, calm, keyed, .. } = *self;
         Self { aspect, activity, mode, inert, calm, keyed, commands: self.commands.clone(), ..Self::default() }
     }
@@ -92,7 +92,8 @@ struct Told {
 /// How much slower the breaths of the attract script are where less motion is wanted.
 const GENTLER: f64 = 0.5;
 
-/// The exhibit on show.
+/// The exhibit on show. A clone goes on from the same moment by itself.
+#[derive(Clone)]
 pub struct Stage {
     simulation: Simulation,
     steps: u64,

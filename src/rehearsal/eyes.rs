@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::judge::{BEFORE, FPS, Picture};
+use super::judge::{Answer, BEFORE, FPS, Picture, answer};
 use crate::exhibit::Exhibit;
 use crate::math::Pose;
 use crate::render::{Frame, ImageRenderer, Look, RenderError};
@@ -56,22 +56,31 @@ impl Eyes {
         }
     }
 
-    /// The pictures of a second before and after a picture; `None` where another work came in between, or some are not kept.
-    pub fn about(&mut self, middle: u64) -> Result<Option<Vec<Picture>>, RenderError> {
+    /// What is seen of the second before and after a picture, beside the poses of those after it had nobody come. `None` where
+    /// another work came in between, or some are not kept.
+    pub fn judge(&mut self, middle: u64, alone: &[Vec<Pose>]) -> Result<Option<Answer>, RenderError> {
         let span = middle.saturating_sub(BEFORE as u64)..=middle + BEFORE as u64;
         let kept = self.moments.iter().filter(|(number, ..)| span.contains(number)).collect::<Vec<_>>();
         let work = kept.first().map_or(0, |(_, work, _)| *work);
         if kept.len() != 2 * BEFORE + 1 || kept.iter().any(|(_, other, _)| *other != work) {
             return Ok(None);
         }
-        let mut pictures = Vec::with_capacity(kept.len());
         let (exhibit, renderer) = &mut self.works[work];
         let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-        for (.., poses) in kept {
+        let mut draw = |poses: &[Pose]| -> Result<Picture, RenderError> {
             let picture = renderer.draw(&Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0 })?;
-            pictures.push(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect()));
+            Ok(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect()))
+        };
+        let pictures = kept.iter().map(|(.., poses)| draw(poses)).collect::<Result<Vec<_>, _>>()?;
+        // Bodies that stand alike look alike: most visits begin so, and are drawn once.
+        let mut drawn = pictures.len();
+        let mut beside = Vec::with_capacity(alone.len());
+        for ((poses, (.., own)), picture) in alone.iter().zip(&kept[BEFORE + 1..]).zip(&pictures[BEFORE + 1..]) {
+            let alike = poses == own;
+            beside.push(if alike { picture.clone() } else { draw(poses)? });
+            drawn += usize::from(!alike);
         }
-        self.drawn += pictures.len() as u64;
-        Ok(Some(pictures))
+        self.drawn += drawn as u64;
+        Ok(answer(&pictures, &beside))
     }
 }

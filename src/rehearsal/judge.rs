@@ -1,12 +1,16 @@
 //! What an onlooker sees of an answer: from pictures alone.
 //!
 //! ```text
-//! n(a, b)     pixels that differ between two pictures by more than 4 % of full scale in some channel
+//! n(a, b)     part of the pixels that differ between two pictures by more than 4 % of full scale in some channel
+//! changed at  the first picture k within 0.3 s of the onset with n(picture k, picture k had nobody come) > least
 //! D(k)        most that n(p, p + k pictures) came to in the second before the onset: what moves anyhow
 //! seen at     the first picture k within 0.3 s of the onset with n(onset, onset + k) > D(k) + least
 //! energy      mean squared difference of successive pictures
 //! contingency energy in the second after the onset over that in the second before
 //! ```
+//!
+//! A visit is answered that changes the work at a contingency of 3. *Seen* asks more, and is told beside it: that the
+//! change stands out from whatever moved already.
 //!
 //! 4 % is twice what the eye tells at an edge under a museum's light (Weber's fraction of 1 to 2 %).
 
@@ -47,9 +51,14 @@ const STILL: f64 = FPS as f64 * LEAST * (UNSEEN as f64 / 255.0) * (UNSEEN as f64
 /// What followed an onset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// From the onset to the first picture in which a change is seen, pictures; `None` if there is none soon.
+    /// From the onset to the first picture that is visibly another one than had nobody come, pictures; `None` if there is
+    /// none soon.
+    pub changed: Option<usize>,
+    /// From the onset to the first picture in which more has changed than does anyhow, pictures.
     pub seen: Option<usize>,
-    /// Motion energy of the second after over that of the second before.
+    /// Motion energy of the second before, and of the second after; full scale 1.
+    pub energy: [f64; 2],
+    /// The one over the other.
     pub contingency: f64,
 }
 
@@ -59,15 +68,17 @@ pub const CONTINGENT: f64 = 3.0;
 impl Answer {
     /// Did the work visibly answer?
     pub fn is_answer(&self) -> bool {
-        self.seen.is_some() && self.contingency >= CONTINGENT
+        self.changed.is_some() && self.contingency >= CONTINGENT
     }
 }
 
-/// Judges the pictures of a second before an onset, at it, and of a second after it: 2 · [`BEFORE`] + 1 of them.
-pub fn answer(pictures: &[Picture]) -> Option<Answer> {
-    if pictures.len() != 2 * BEFORE + 1 {
+/// Judges the pictures of a second before an onset, at it, and of a second after it, 2 · [`BEFORE`] + 1 of them; `alone` are
+/// the first [`SOON`] after it had nobody come.
+pub fn answer(pictures: &[Picture], alone: &[Picture]) -> Option<Answer> {
+    if pictures.len() != 2 * BEFORE + 1 || alone.len() != SOON {
         return None;
     }
+    let changed = (1..=SOON).find(|&k| pictures[BEFORE + k].changed(&alone[k - 1]) > LEAST);
     let onset = &pictures[BEFORE];
     let anyhow = |lapse: usize| {
         let pairs = (0..=BEFORE - lapse).map(|i| pictures[i].changed(&pictures[i + lapse]));
@@ -78,8 +89,8 @@ pub fn answer(pictures: &[Picture]) -> Option<Answer> {
         change > LEAST && change > anyhow(k) + LEAST
     });
     let energy = |pictures: &[Picture]| pictures.windows(2).map(|pair| pair[0].energy(&pair[1])).sum::<f64>();
-    let contingency = (energy(&pictures[BEFORE..]) + STILL) / (energy(&pictures[..=BEFORE]) + STILL);
-    Some(Answer { seen, contingency })
+    let [before, after] = [&pictures[..=BEFORE], &pictures[BEFORE..]].map(energy);
+    Some(Answer { changed, seen, energy: [before, after], contingency: (after + STILL) / (before + STILL) })
 }
 
 /// The middle of some numbers; `None` of none.

@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::judge::median;
+use super::judge::{FPS, SOON, median};
 use crate::offline::ear::score::wilson;
 
 /// Share of all visits that must be answered.
@@ -22,21 +22,56 @@ pub const SHUFFLED: (f64, f64) = (0.7, 1.4);
 pub struct Judged {
     /// Onset of what the visitor does, s of the day.
     pub onset_s: f64,
+    /// Since anybody last did something, s; null for the first.
+    pub since_s: Option<f64>,
     /// Work on show.
     pub work: String,
-    /// From the onset to the change that is seen, s; null where none is seen within 0.3 s.
-    pub seen_after_s: Option<f64>,
-    /// Motion energy of the second after over that of the second before.
-    pub contingency: Option<f64>,
     /// From the onset to the first wind inside the kiosk, s; null where there is none within a second. Told, not judged: it says
     /// whether a visit that was not answered was not heard, or not seen.
     pub heard_after_s: Option<f64>,
+    /// From the onset to the first picture that is visibly another one than had nobody come, s; null where there is none
+    /// within 0.3 s.
+    pub changed_after_s: Option<f64>,
+    /// From the onset to the change that stands out from what moves anyhow, s. Told, not judged.
+    pub seen_after_s: Option<f64>,
+    /// Motion energy of the second before and of the second after; full scale 1.
+    pub energy: Option<[f64; 2]>,
+    /// The one over the other.
+    pub contingency: Option<f64>,
     /// Answers to nobody in the ten seconds before.
     pub phantoms: usize,
     /// Was it answered as it should be?
     pub good: bool,
+    /// Why not.
+    pub missed: Option<&'static str>,
     /// What the visitor belongs to.
     pub groups: Vec<&'static str>,
+}
+
+impl Judged {
+    /// The first thing that went wrong on the way from breath to picture.
+    pub(super) fn miss(&self) -> Option<&'static str> {
+        Some(match (self.contingency, self.heard_after_s, self.changed_after_s) {
+            _ if self.good => return None,
+            (None, ..) => "another work came",
+            _ if self.phantoms > 0 => "answered nobody before",
+            (_, None, _) => "not heard",
+            (_, Some(after), None) if after > SOON as f64 / FPS as f64 => "heard too late",
+            (_, _, None) => "not changed soon",
+            _ => "moved too much before",
+        })
+    }
+}
+
+/// An answer to nobody.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Nobody {
+    /// When, s of the day.
+    pub at_s: f64,
+    /// Since anybody last did something, s; null before the first.
+    pub since_s: Option<f64>,
+    /// Was there wind inside the kiosk, or did only its loudspeaker rush?
+    pub blew: bool,
 }
 
 /// A share of visits.
@@ -53,8 +88,9 @@ pub struct Share {
 }
 
 impl Share {
-    fn of<'a>(judged: impl Iterator<Item = &'a Judged>) -> Self {
-        let (visits, good) = judged.fold((0, 0), |(all, good), one| (all + 1, good + usize::from(one.good)));
+    /// Of these visits, those of which something holds.
+    fn of<'a>(judged: impl Iterator<Item = &'a Judged>, holds: impl Fn(&Judged) -> bool) -> Self {
+        let (visits, good) = judged.fold((0, 0), |(all, good), one| (all + 1, good + usize::from(holds(one))));
         let share = (visits > 0).then(|| good as f64 / visits as f64);
         Self { visits, good, share, bounds: wilson(good, visits) }
     }
@@ -69,6 +105,19 @@ pub struct StaffCheck {
     pub from_s: f64,
     /// Was it silent (mute), without any wind (clean, unplug), meanwhile?
     pub good: bool,
+}
+
+/// A bar that the day is held against.
+#[derive(Clone, Debug, Serialize)]
+pub struct Bar {
+    /// Its name.
+    pub bar: &'static str,
+    /// What is asked, in words.
+    pub asked: String,
+    /// What was found, in words.
+    pub found: String,
+    /// Is it met? Null where the day has too few visits to say.
+    pub met: Option<bool>,
 }
 
 /// The report.
@@ -91,22 +140,30 @@ pub struct Report {
     pub headline: Share,
     /// The same for each group.
     pub groups: BTreeMap<&'static str, Share>,
+    /// Why visits were not answered as they should be, and how many.
+    pub missed: BTreeMap<&'static str, usize>,
+    /// Of all visits, those that visibly changed the work within 0.3 s, however much it moved before. Told, not judged.
+    pub changed: Share,
+    /// Of all visits, those whose change stood out within 0.3 s from what moves anyhow. Told, not judged.
+    pub seen: Share,
     /// Median contingency of the visits.
     pub contingency: Option<f64>,
     /// The same at moments of no meaning, and the share of them that look answered.
     pub shuffled_contingency: Option<f64>,
     /// Share of moments of no meaning that look answered.
     pub shuffled_share: Option<f64>,
-    /// From the onset to the change that is seen, s: median and the slowest of 20.
-    pub seen_after_s: Option<(f64, f64)>,
-    /// Answers to nobody, s of the day.
-    pub phantoms_s: Vec<f64>,
+    /// From the onset to the change, s: median and the slowest of 20.
+    pub changed_after_s: Option<(f64, f64)>,
+    /// Answers to nobody.
+    pub phantoms: Vec<Nobody>,
     /// Staff.
     pub staff: Vec<StaffCheck>,
     /// Times that attract mode came back after somebody had walked away, of how many.
     pub attract_returned: (usize, usize),
     /// Pictures drawn.
     pub pictures: u64,
+    /// What is asked, and what was found.
+    pub bars: Vec<Bar>,
     /// What misses its bar, in words; empty when all is well.
     pub failures: Vec<String>,
     /// Every visit.
@@ -117,53 +174,87 @@ impl Report {
     /// Sums up and holds it against the bars. `shuffled` are contingencies at moments of no meaning and whether they look
     /// answered.
     pub(super) fn conclude(mut self, shuffled: &[(f64, bool)]) -> Self {
-        self.headline = Share::of(self.visits.iter());
+        self.headline = Share::of(self.visits.iter(), |visit| visit.good);
+        self.changed = Share::of(self.visits.iter(), |visit| visit.changed_after_s.is_some());
+        self.seen = Share::of(self.visits.iter(), |visit| visit.seen_after_s.is_some());
+        for missed in self.visits.iter().filter_map(|visit| visit.missed) {
+            *self.missed.entry(missed).or_default() += 1;
+        }
         let mut names: Vec<&str> = self.visits.iter().flat_map(|visit| visit.groups.iter().copied()).collect();
         names.sort_unstable();
         names.dedup();
         for name in names {
-            self.groups.insert(name, Share::of(self.visits.iter().filter(|visit| visit.groups.contains(&name))));
+            let members = self.visits.iter().filter(|visit| visit.groups.contains(&name));
+            self.groups.insert(name, Share::of(members, |visit| visit.good));
         }
         self.contingency = median(self.visits.iter().filter_map(|visit| visit.contingency).collect());
         self.shuffled_contingency = median(shuffled.iter().map(|(contingency, _)| *contingency).collect());
         let alike = shuffled.iter().filter(|(_, answered)| *answered).count();
         self.shuffled_share = (!shuffled.is_empty()).then(|| alike as f64 / shuffled.len() as f64);
-        let mut seen: Vec<f64> = self.visits.iter().filter_map(|visit| visit.seen_after_s).collect();
-        seen.sort_by(f64::total_cmp);
-        self.seen_after_s =
-            median(seen.clone()).map(|middle| (middle, seen[(19 * seen.len() / 20).min(seen.len() - 1)]));
-        self.failures = self.misses();
+        let mut changed: Vec<f64> = self.visits.iter().filter_map(|visit| visit.changed_after_s).collect();
+        changed.sort_by(f64::total_cmp);
+        self.changed_after_s =
+            median(changed.clone()).map(|middle| (middle, changed[(19 * changed.len() / 20).min(changed.len() - 1)]));
+        self.bars = self.hold();
+        let missed = self.bars.iter().filter(|bar| bar.met == Some(false));
+        self.failures =
+            missed.map(|Bar { bar, asked, found, .. }| format!("{bar}: asked {asked}, found {found}")).collect();
         self
     }
 
-    fn misses(&self) -> Vec<String> {
-        let mut out = Vec::new();
-        let mut check = |name: &str, share: &Share, bar: f64| {
-            if let Some(found) = share.share.filter(|found| *found < bar && share.visits >= ENOUGH) {
-                out.push(format!("{name}: {:.1} % answered, {:.0} % asked", 100.0 * found, 100.0 * bar));
-            }
-        };
-        check("all visits", &self.headline, HEADLINE);
-        for (name, share) in &self.groups {
-            check(name, share, GROUP);
-        }
-        if let Some(shuffled) = self.shuffled_contingency
-            && self.visits.len() >= ENOUGH
-            && !(SHUFFLED.0..SHUFFLED.1).contains(&shuffled)
-        {
-            out.push(format!("shuffled contingency {shuffled:.2}, not about 1"));
-        }
-        if !self.phantoms_s.is_empty() {
-            out.push(format!("{} answers to nobody, at {:.1?} s", self.phantoms_s.len(), self.phantoms_s));
-        }
-        for check in self.staff.iter().filter(|check| !check.good) {
-            out.push(format!("{} from {:.1} s on: not kept", check.task, check.from_s));
-        }
+    /// Every bar beside what was found.
+    fn hold(&self) -> Vec<Bar> {
+        let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+        let enough = |visits: usize| visits >= ENOUGH;
+        let Share { visits, share, .. } = self.headline;
+        let all = share.unwrap_or_default();
+        let groups = || self.groups.iter().filter(|(_, group)| enough(group.visits));
+        let below = groups().filter_map(|(name, group)| Some((name, group.share.filter(|share| *share < GROUP)?)));
+        let below: Vec<String> = below.map(|(name, share)| format!("{name} {}", percent(share))).collect();
+        let shuffled = self.shuffled_contingency;
+        let times: Vec<f64> = self.phantoms.iter().map(|nobody| nobody.at_s).collect();
+        let broken: Vec<String> =
+            self.staff.iter().filter(|c| !c.good).map(|c| format!("{} at {:.1} s", c.task, c.from_s)).collect();
         let (returned, asked) = self.attract_returned;
-        if returned < asked {
-            out.push(format!("attract mode came back {returned} times of {asked}"));
-        }
-        out
+        let bar = |bar, asked: String, found: String, met: Option<bool>| Bar { bar, asked, found, met };
+        vec![
+            bar(
+                "answered",
+                format!("{} of all visits", percent(HEADLINE)),
+                format!("{} of {visits}", percent(all)),
+                enough(visits).then_some(all >= HEADLINE),
+            ),
+            bar(
+                "groups",
+                format!("{} of every group", percent(GROUP)),
+                format!("{} of {} below: {}", below.len(), groups().count(), below.join(", ")),
+                (groups().count() > 0).then_some(below.is_empty()),
+            ),
+            bar(
+                "shuffled",
+                format!("contingency {} to {} at moments of no meaning", SHUFFLED.0, SHUFFLED.1),
+                shuffled.map_or("none".into(), |found| format!("{found:.2}")),
+                shuffled.filter(|_| enough(visits)).map(|found| (SHUFFLED.0..SHUFFLED.1).contains(&found)),
+            ),
+            bar(
+                "nobody",
+                "no answer to nobody".into(),
+                format!("{}, at {times:.1?} s", times.len()),
+                Some(times.is_empty()),
+            ),
+            bar(
+                "staff",
+                "silent while mute, still while deaf".into(),
+                format!("{} of {} not: {}", broken.len(), self.staff.len(), broken.join(", ")),
+                Some(broken.is_empty()),
+            ),
+            bar(
+                "attract",
+                "attract mode comes back".into(),
+                format!("{returned} times of {asked}"),
+                Some(returned >= asked),
+            ),
+        ]
     }
 }
 
@@ -200,17 +291,23 @@ impl fmt::Display for Report {
         let number = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.2}"));
         writeln!(f, "\ncontingency {}, shuffled {}", number(self.contingency), number(self.shuffled_contingency))?;
         writeln!(f, "of moments of no meaning {} % look answered", percent(self.shuffled_share).trim())?;
-        if let Some((middle, slow)) = self.seen_after_s {
-            writeln!(f, "seen after {middle:.2} s, one in twenty after {slow:.2} s or more")?;
+        if let Some((middle, slow)) = self.changed_after_s {
+            writeln!(f, "changed after {middle:.2} s, one in twenty after {slow:.2} s or more")?;
         }
-        writeln!(f, "answers to nobody: {}", self.phantoms_s.len())?;
+        row(f, "changed the work in time", &self.changed)?;
+        row(f, "stood out from what moves", &self.seen)?;
+        for (why, visits) in &self.missed {
+            writeln!(f, "{why:28} {visits:6}")?;
+        }
+        writeln!(f, "answers to nobody: {}", self.phantoms.len())?;
         let kept = self.staff.iter().filter(|check| check.good).count();
         writeln!(f, "staff: {kept} of {} kept", self.staff.len())?;
         writeln!(f, "attract mode came back: {} of {}", self.attract_returned.0, self.attract_returned.1)?;
-        if self.failures.is_empty() {
-            writeln!(f, "\nAll bars are met.")
-        } else {
-            writeln!(f, "\nMissed:\n  {}", self.failures.join("\n  "))
+        writeln!(f)?;
+        for Bar { bar, asked, found, met } in &self.bars {
+            let met = met.map_or("too few visits", |met| if met { "met" } else { "MISSED" });
+            writeln!(f, "{bar:10} {met:14} asked {asked}; found {found}")?;
         }
+        Ok(())
     }
 }

@@ -8,12 +8,14 @@ use super::eyes::Eyes;
 use super::house::House;
 use super::judge::{self, FPS};
 use super::machine::Machine;
-use super::report::{Judged, Report, Share, StaffCheck};
+use super::report::{Judged, Nobody, Report, Share, StaffCheck};
+use super::twin::left_alone;
 use super::visitor::Press;
 use super::{FRAMES, Rehearsal, RehearsalError, open_house};
 use crate::exhibit::Exhibit;
 use crate::kiosk::gesture;
 use crate::kiosk::stage::Controls;
+use crate::math::Pose;
 use crate::simulation::{SAMPLES_PER_STEP, STEPS_PER_SECOND, Snapshot};
 use crate::wind::SurfaceShape;
 
@@ -54,6 +56,17 @@ pub fn run(
     Ok(course.report(&rehearsal))
 }
 
+/// A moment that is judged when its pictures are there.
+struct Moment {
+    entry: usize,
+    /// s of the day.
+    at: f64,
+    /// The onset of what the visitor does, or a moment of no meaning?
+    real: bool,
+    /// The work had nobody come, from then on.
+    alone: Vec<Vec<Pose>>,
+}
+
 /// The day so far.
 struct Course<'a> {
     rehearsal: &'a Rehearsal,
@@ -73,17 +86,17 @@ struct Course<'a> {
     returned: usize,
     /// What is being pulled: the press's beginning and where it took.
     pulled: Option<(f64, [f64; 2])>,
-    /// Entries, by their place, that are judged when the pictures are there: the picture of the onset, real or shuffled.
-    waiting: Vec<(u64, usize, bool)>,
+    waiting: Vec<Moment>,
     /// Did the entry's onset end attract mode?
     woke: Vec<usize>,
     answers: Vec<(usize, Option<judge::Answer>)>,
     /// Entries whose doing made wind, and after how long, s.
     heard: Vec<(usize, f64)>,
     shuffled: Vec<(f64, bool)>,
-    winds: Vec<f64>,
-    phantoms: Vec<f64>,
+    phantoms: Vec<Nobody>,
+    /// When attract mode last played, and when there last was wind inside the kiosk, s.
     attracted: f64,
+    blew: f64,
     duties: Vec<(Duty, bool)>,
 }
 
@@ -113,9 +126,9 @@ impl<'a> Course<'a> {
             answers: Vec::new(),
             heard: Vec::new(),
             shuffled: Vec::new(),
-            winds: Vec::new(),
             phantoms: Vec::new(),
             attracted: f64::NEG_INFINITY,
+            blew: f64::NEG_INFINITY,
         })
     }
 
@@ -133,9 +146,15 @@ impl<'a> Course<'a> {
         self.act(now);
         let plugged = !self.on_duty(now, Task::Unplug);
         self.controls.inert = self.on_duty(now, Task::Clean);
+        for moment in self.waiting.iter_mut().filter(|moment| begins(moment.at, now)) {
+            moment.alone = left_alone(&self.machine.stage, &self.controls, Eyes::picture_at(moment.at));
+        }
         self.machine.step(&self.controls, plugged);
         if self.machine.stage.attracts() {
             self.attracted = now;
+        }
+        if self.machine.stage.snapshot().breath.speed > 0.0 {
+            self.blew = now;
         }
         self.note_heard(now);
         self.watch_staff(now);
@@ -159,8 +178,9 @@ impl<'a> Course<'a> {
             if entry.answered()
                 && let Some(onset) = entry.visit.onset()
             {
-                self.waiting.push((Eyes::picture_at(onset), self.made, true));
-                self.waiting.push((Eyes::picture_at(entry.shuffled), self.made, false));
+                for (at, real) in [(onset, true), (entry.shuffled, false)] {
+                    self.waiting.push(Moment { entry: self.made, at, real, alone: Vec::new() });
+                }
             }
             self.made += 1;
         }
@@ -243,7 +263,6 @@ impl<'a> Course<'a> {
 
     /// Wind began to rush: is it an answer to somebody?
     fn wind(&mut self, began: f64) {
-        self.winds.push(began);
         let near = |entry: &&super::day::Entry| entry.visit.arrives < began + 1.0 && began < entry.visit.leaves + 10.0;
         let answered =
             self.day.entries.iter().filter(near).filter(|entry| entry.answered()).any(|entry| {
@@ -251,15 +270,19 @@ impl<'a> Course<'a> {
             });
         let shown = began < self.attracted + AFTERMATH_S;
         if !answered && !shown {
-            self.phantoms.push(began);
+            let acts = self.day.entries.iter().flat_map(|entry| entry.visit.acts());
+            let last = acts.map(|(_, until)| until).filter(|until| *until < began).fold(f64::NEG_INFINITY, f64::max);
+            let (since_s, blew) = (last.is_finite().then_some(began - last), self.blew > began - EARLY_S);
+            self.phantoms.push(Nobody { at_s: began, since_s, blew });
         }
     }
 
     /// Judges what is due, the pictures up to `picture` being there.
     fn judge(&mut self, picture: u64) -> Result<(), RehearsalError> {
-        while let Some(index) = self.waiting.iter().position(|(middle, ..)| middle + judge::BEFORE as u64 <= picture) {
-            let (middle, entry, real) = self.waiting.swap_remove(index);
-            let answer = self.eyes.about(middle)?.as_deref().and_then(judge::answer);
+        let due = |moment: &Moment| Eyes::picture_at(moment.at) + judge::BEFORE as u64 <= picture;
+        while let Some(index) = self.waiting.iter().position(due) {
+            let Moment { entry, at, real, alone } = self.waiting.swap_remove(index);
+            let answer = self.eyes.judge(Eyes::picture_at(at), &alone)?;
             if real {
                 self.answers.push((entry, answer));
             } else {
@@ -274,21 +297,29 @@ impl<'a> Course<'a> {
             let entry = &self.day.entries[*index];
             let onset = entry.visit.onset()?;
             let before = onset - UNTOUCHED_S..onset;
-            let phantoms = self.phantoms.iter().filter(|at| before.contains(at)).count();
+            let phantoms = self.phantoms.iter().filter(|nobody| before.contains(&nobody.at_s)).count();
             let mut groups = entry.visit.groups();
             groups.extend(entry.after.map(Task::after));
             groups.extend(self.woke.contains(index).then_some("wakes it from attract mode"));
             let middle = Eyes::picture_at(onset) as f64;
-            Some(Judged {
+            let after = |picture: usize| (middle + picture as f64) / FPS as f64 - onset;
+            let acts = self.day.entries.iter().flat_map(|entry| entry.visit.acts());
+            let last = acts.map(|(_, until)| until).filter(|until| *until < onset).fold(f64::NEG_INFINITY, f64::max);
+            let judged = Judged {
                 onset_s: onset,
+                since_s: last.is_finite().then_some(onset - last),
                 work: rehearsal.works[entry.work].id.clone(),
-                seen_after_s: answer.and_then(|a| a.seen).map(|k| (middle + k as f64) / FPS as f64 - onset),
-                contingency: answer.map(|answer| answer.contingency),
                 heard_after_s: self.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
+                changed_after_s: answer.and_then(|a| a.changed).map(after),
+                seen_after_s: answer.and_then(|a| a.seen).map(after),
+                energy: answer.map(|answer| answer.energy),
+                contingency: answer.map(|answer| answer.contingency),
                 phantoms,
                 good: answer.is_some_and(|answer| answer.is_answer()) && phantoms == 0,
+                missed: None,
                 groups,
-            })
+            };
+            Some(Judged { missed: judged.miss(), ..judged })
         });
         let staff = self.duties.iter().map(|(duty, good)| StaffCheck {
             task: duty.task.name(),
@@ -304,16 +335,20 @@ impl<'a> Course<'a> {
             visitors: self.day.entries.len(),
             headline: Share::default(),
             groups: Default::default(),
+            missed: Default::default(),
+            changed: Share::default(),
+            seen: Share::default(),
             contingency: None,
             shuffled_contingency: None,
             shuffled_share: None,
-            seen_after_s: None,
+            changed_after_s: None,
             staff: staff.collect(),
             attract_returned: (self.returned, self.attract_asked),
             pictures: self.eyes.drawn,
+            bars: Vec::new(),
             failures: Vec::new(),
             visits: judged.collect(),
-            phantoms_s: self.phantoms.clone(),
+            phantoms: self.phantoms.clone(),
         }
         .conclude(&self.shuffled)
     }

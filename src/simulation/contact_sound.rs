@@ -117,6 +117,7 @@ impl Pressed {
 }
 
 /// Two ends that can meet.
+#[derive(Clone)]
 struct Pair {
     /// `None` stands still.
     bodies: [Option<usize>; 2],
@@ -181,6 +182,7 @@ struct Player {
 }
 
 /// All contacts of an exhibit and what is heard of them.
+#[derive(Clone)]
 pub struct ContactSound {
     /// The ends of each pair, ascending: bodies, behind them the colliders that stand still.
     keys: Vec<[usize; 2]>,

@@ -37,6 +37,7 @@ const BESIDE: f64 = 0.25;
 const TURNED: f64 = 0.8;
 
 /// A figure on its way home.
+#[derive(Clone)]
 pub struct Gathering {
     homes: Vec<(DVec3, DQuat)>,
     driven: Vec<bool>,

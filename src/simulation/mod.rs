@@ -72,7 +72,8 @@ const FULL_METER: f64 = 16.0;
 /// Room for what happens in one step: more makes its list grow, once.
 const LISTED: usize = 256;
 
-/// An exhibit in motion.
+/// An exhibit in motion. A clone goes on from the same moment by itself.
+#[derive(Clone)]
 pub struct Simulation {
     exhibit: Arc<Exhibit>,
     settings: Settings,

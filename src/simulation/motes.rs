@@ -43,6 +43,7 @@ struct Speck {
 }
 
 /// The room's dust.
+#[derive(Clone)]
 pub struct Motes {
     specks: Vec<Speck>,
     random: Random,

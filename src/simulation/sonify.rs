@@ -50,6 +50,7 @@ pub fn wind(sample: u64, air: DVec3, gust: f64, target: DVec3, listener: &Listen
 }
 
 /// Wires that sing, and what part of the wind each was last told to hear.
+#[derive(Clone)]
 pub struct Wires(Vec<(usize, f32)>);
 
 impl Wires {

@@ -48,7 +48,7 @@ impl Microphone<'_> {
 }
 
 /// All sources of breath of one kiosk.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct BreathSource {
     settings: BlowSettings,
     detector: Option<(u32, BlowDetector)>,

@@ -59,6 +59,7 @@ const RAY_START: f64 = 1e-4;
 const FAR: f64 = 50.0;
 
 /// A surface's patches and coefficients.
+#[derive(Clone)]
 struct Feeler {
     body: usize,
     patches: Vec<Patch>,
@@ -192,6 +193,7 @@ pub struct Sample {
 }
 
 /// All that feels the wind in an exhibit, and all winds of it.
+#[derive(Clone)]
 pub struct WindField {
     feelers: Vec<Feeler>,
     weather: Weather,
