@@ -6,8 +6,13 @@
 
 pub mod aloud;
 pub mod attract;
+pub mod bidi;
 pub mod breaths;
 pub mod captions;
+pub mod care;
+pub mod chirp;
+pub mod chirping;
+pub mod dwell;
 pub mod edit;
 pub mod events;
 pub mod fleet;

@@ -515,9 +515,15 @@ mod live {
 
 #[cfg(feature = "kiosk")]
 mod aloud;
+#[cfg(feature = "kiosk")]
+mod bidi;
 mod captions;
 #[cfg(feature = "kiosk")]
+mod chirp;
+#[cfg(feature = "kiosk")]
 mod contrast;
+#[cfg(feature = "kiosk")]
+mod dwell;
 #[cfg(feature = "kiosk")]
 mod edit;
 #[cfg(feature = "kiosk")]
@@ -526,6 +532,8 @@ mod flashes;
 mod fleet;
 #[cfg(feature = "kiosk")]
 mod glass;
+#[cfg(feature = "kiosk")]
+mod hearing;
 #[cfg(feature = "kiosk")]
 mod house;
 #[cfg(feature = "kiosk")]
