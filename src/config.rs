@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::simulation::{Profile, Settings};
 use crate::sound::{MOST_PARTIALS, RoomSpec, VolumeSettings};
 
+mod care;
 pub mod chord;
 mod diagnose;
 mod groups;
@@ -22,6 +23,7 @@ mod opening;
 mod pin;
 pub mod remedies;
 
+pub use care::Care;
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
 pub use groups::Group;
@@ -56,6 +58,8 @@ pub struct Config {
     pub night: Hours,
     /// When the house is open.
     pub opening: Opening,
+    /// What the kiosk looks after by itself.
+    pub care: Care,
     /// What visitors may do.
     pub visit: Visit,
     /// Other ways to blow and to aim.
@@ -166,6 +170,10 @@ pub struct AudioSettings {
     pub second_capsule_channel: u16,
     /// Id or any part of the loudspeaker's name; empty is the system's own choice.
     pub loudspeaker: String,
+    /// Id or any part of the name of a second output, for a hearing loop; empty for none.
+    pub hearing_loop: String,
+    /// Volume of the hearing loop, dB of full scale: fixed, whatever visitors do to the loudspeaker.
+    pub hearing_loop_db: f64,
     /// Volume that every visitor finds, dB of full scale.
     pub volume_db: f64,
     /// Length of one block of either device, ms: short answers at once, long never stutters.
@@ -181,6 +189,8 @@ impl Default for AudioSettings {
             microphone_channel: 0,
             second_capsule_channel: 0,
             loudspeaker: String::new(),
+            hearing_loop: String::new(),
+            hearing_loop_db: -6.0,
             volume_db: -6.0,
             block_ms: 10.0,
             most_partials: MOST_PARTIALS as u32,
@@ -331,7 +341,7 @@ impl Default for AttractSettings {
 }
 
 /// What visitors may do.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Visit {
     /// May they blow? Where they may not, in times of an outbreak, the microphone is closed, and the invitation says
@@ -339,6 +349,10 @@ pub struct Visit {
     pub breath: bool,
     /// A press begins the breath and the next one ends it, so that nobody must hold; visitors can choose it too.
     pub press_once: bool,
+    /// Who rests the pointer on something presses it, so that nobody must press; visitors can choose it too.
+    pub dwell: bool,
+    /// How long it rests, s.
+    pub dwell_s: f64,
     /// Less motion: a work is there at once instead of gathering its parts, no dust in the air, gentler attract mode;
     /// visitors can choose it too.
     pub calm: bool,
@@ -348,7 +362,14 @@ pub struct Visit {
 
 impl Default for Visit {
     fn default() -> Self {
-        Self { breath: true, press_once: false, calm: false, reads_aloud: "espeak-ng".into() }
+        Self {
+            breath: true,
+            press_once: false,
+            dwell: false,
+            dwell_s: 1.2,
+            calm: false,
+            reads_aloud: "espeak-ng".into(),
+        }
     }
 }
 
@@ -423,6 +444,7 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
     Limit { key: "audio.second_capsule_channel", low: 0.0, high: 64.0, unit: "1" },
+    Limit { key: "audio.hearing_loop_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.volume_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.block_ms", low: 2.0, high: 100.0, unit: "ms" },
     Limit { key: "audio.most_partials", low: 16.0, high: 65_536.0, unit: "1" },
@@ -434,6 +456,8 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "controllers.stick_speed", low: 0.05, high: 5.0, unit: "1/s" },
     Limit { key: "controllers.midi_controller", low: 0.0, high: 127.0, unit: "1" },
     Limit { key: "controllers.serial_baud", low: 300.0, high: 4e6, unit: "1/s" },
+    Limit { key: "care.foam_blows", low: 0.0, high: 1e6, unit: "1" },
+    Limit { key: "visit.dwell_s", low: 0.3, high: 5.0, unit: "s" },
     Limit { key: "attract.idle_s", low: 1.0, high: 3600.0, unit: "s" },
     Limit { key: "staff.closes_s", low: 10.0, high: 3600.0, unit: "s" },
 ];

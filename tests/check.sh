@@ -47,7 +47,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind contrast flashes rehearse \
+    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind contrast flashes fuzz rehearse \
         answered groups shuffled nobody staff attract; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
@@ -61,6 +61,8 @@ long() {
             # Every shipped work and language, on whatever Vulkan driver there is.
             contrast)   cargo test --release --locked --quiet --test suite kiosk::contrast -- --include-ignored --nocapture ;;
             flashes)    cargo test --release --locked --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
+            # An hour in all; where the fuzzer is not installed it says so.
+            fuzz)       tests/fuzz/run.sh ;;
             hands)      ignored hands::no_handling_breaks_anything_in_twenty_seconds ;;
             blown)      ignored mobiles::ten_minutes_of_hard_breath_tangle_nothing ;;
             cabinet)    ignored cabinet::ten_minutes_of_hard_breath_break_nothing_in_the_cabinet ;;

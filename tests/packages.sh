@@ -2,6 +2,7 @@
 # Sourced, not run.
 
 missing=()
+wanted=()
 
 say() { printf 'soffio: %s\n' "$*" >&2; }
 
@@ -33,40 +34,55 @@ present() {
         # Not grep -q: it would end ldconfig early, which pipefail takes for a failure.
         *.so.*) { ldconfig -p || /sbin/ldconfig -p; } 2>/dev/null | grep -F "$1" >/dev/null ;;
         lvp_icd) any /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json ;;
+        DejaVu*) any /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf /usr/share/fonts/truetype/noto/NotoSansArabic* ;;
         Nanum*) any /usr/share/fonts/truetype/nanum/*.ttf /usr/share/fonts/opentype/noto/*CJK* ;;
         *) command -v "$1" >/dev/null 2>&1 ;;
     esac
 }
 
-# need "why" package:witness …
-need() {
-    local why=$1 pair
-    shift
+# need "why" package:witness …: what the kiosk does not run without.
+need() { look missing "$@"; }
+
+# want "why" package:witness …: what it runs without, but not as well. One of these that cannot be had keeps no other away.
+want() { look wanted "$@"; }
+
+look() {
+    local -n list=$1
+    local why=$2 pair
+    shift 2
     for pair in "$@"; do
         if ! present "${pair#*:}"; then
             local package=${pair%%:*}
             [ "$package" = cc ] && package=build-essential
-            missing+=("$package")
+            list+=("$package")
             say "missing $package, wanted $why"
         fi
     done
 }
 
 install_missing() {
-    [ ${#missing[@]} -eq 0 ] && return 0
+    local package
+    install_all "${missing[@]}"
+    for package in "${wanted[@]}"; do
+        install_all "$package"
+    done
+}
+
+install_all() {
+    [ $# -eq 0 ] && return 0
     local as_root=()
     [ "$(id -u)" -eq 0 ] || as_root=(sudo)
     if ! command -v apt-get >/dev/null 2>&1 || { [ ${#as_root[@]} -gt 0 ] && ! command -v sudo >/dev/null 2>&1; }; then
-        say "please install with your package manager: ${missing[*]}"
+        say "please install with your package manager: $*"
         return 0
     fi
-    say "installing: ${missing[*]}"
+    say "installing: $*"
     local log
     log=$(mktemp)
     if ! { "${as_root[@]}" apt-get update -qq && DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get \
-            -o DPkg::Lock::Timeout=400 install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+            -o DPkg::Lock::Timeout=400 install -y -qq --no-install-recommends "$@"; } >"$log" 2>&1; then
         tail -5 "$log" >&2
-        say "that did not work; the full log is $log. Install by hand: ${missing[*]}"
+        say "that did not work; the full log is $log. Install by hand: $*"
         return 0
     fi
     rm -f "$log"

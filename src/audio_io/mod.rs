@@ -7,6 +7,7 @@
 //!                          ←── microphone ring ──────────────── Recorder ← microphone
 //! AudioIo::set_instruments ──→ builds the Synth ── synth ring → Player; the old one ── retired ring ─→ dropped here
 //! AudioIo::say ────── words ring ─────────────────────────────→ Player: over the work, and into the reference
+//!                                                               Player: mono ── tail ring ─→ Hearing → hearing loop
 //! AudioIo::knobs ←──────────── volume, night, energy ───────────→ Player
 //! AudioIo::status ←──────────── opens, watches, reopens
 //! ```
@@ -19,6 +20,7 @@
 
 mod clock;
 pub mod devices;
+pub mod hearing;
 pub mod input;
 mod knobs;
 mod mouth;
@@ -52,6 +54,8 @@ pub struct AudioStatus {
     pub input: DeviceState,
     /// Loudspeaker.
     pub output: DeviceState,
+    /// The second output, where the site has one.
+    pub hearing_loop: Option<DeviceState>,
     /// Gaps in either since the start: the machine was too slow.
     pub xruns: u64,
     /// Times that a loudspeaker was opened: more than once when it was lost and came back.

@@ -7,6 +7,7 @@ use cpal::{FromSample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::clock::ClockMap;
+use super::hearing::Tail;
 use super::knobs::Knobs;
 use super::mouth::{self, Mouth, Prompter, Words};
 use crate::math::exp;
@@ -65,6 +66,12 @@ pub struct Player {
     retired: Producer<Engine>,
     mouth: Mouth,
     reference: Producer<f32>,
+    /// To a second output, where there is one; others wait, and those that are over go back.
+    tail: Option<Tail>,
+    tails: Consumer<Tail>,
+    spent_tails: Producer<Tail>,
+    /// Follows whether anything is to be heard at all.
+    sounds: f32,
     shared: Arc<Shared>,
     knobs: Arc<Knobs>,
     channels: usize,
@@ -90,6 +97,8 @@ pub struct Voice {
 pub struct Workshop {
     engines: Producer<Engine>,
     retired: Consumer<Engine>,
+    tails: Producer<Tail>,
+    spent_tails: Consumer<Tail>,
 }
 
 /// The three ends of one loudspeaker.
@@ -98,6 +107,8 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
     let (reference, from_player) = RingBuffer::new((REFERENCE * sample_rate) as usize);
     let (new_engines, engines) = RingBuffer::new(4);
     let (retired, old_engines) = RingBuffer::new(8);
+    let (to_tails, tails) = RingBuffer::new(4);
+    let (spent_tails, old_tails) = RingBuffer::new(8);
     let (mouth, prompter) = mouth::open(sample_rate);
     let shared = Arc::new(Shared::default());
     let player = Player {
@@ -109,6 +120,10 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         retired,
         mouth,
         reference,
+        tail: None,
+        tails,
+        spent_tails,
+        sounds: 0.0,
         shared: shared.clone(),
         channels: channels.max(1),
         // From silence: a loudspeaker that comes back in the middle of a sound does not bang.
@@ -122,7 +137,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
     };
     let clock = ClockMap::new(sample_rate);
     let voice = Voice { commands: to_player, prompter, reference: from_player, shared, clock, sample_rate };
-    (player, voice, Workshop { engines: new_engines, retired: old_engines })
+    (player, voice, Workshop { engines: new_engines, retired: old_engines, tails: to_tails, spent_tails: old_tails })
 }
 
 impl Player {
@@ -130,6 +145,7 @@ impl Player {
     pub fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
         let frames = data.len() / self.channels;
         self.change_engine();
+        self.change_tail();
         let night = self.knobs.night();
         for engine in self.engine.iter_mut().chain(self.leaving.iter_mut().map(|(engine, _)| engine)) {
             engine.synth.set_night(night);
@@ -178,6 +194,18 @@ impl Player {
         }
     }
 
+    /// Frees nothing either.
+    fn change_tail(&mut self) {
+        while self.spent_tails.slots() > 0
+            && let Ok(tail) = self.tails.pop()
+        {
+            if let Some(old) = self.tail.replace(tail) {
+                // There is room: only this end pushes.
+                let _ = self.spent_tails.push(old);
+            }
+        }
+    }
+
     fn render(&mut self, stereo: &mut [f32]) {
         match &mut self.engine {
             Some(engine) => engine.synth.render(stereo),
@@ -193,6 +221,14 @@ impl Player {
         }
         self.mouth.speak(stereo);
         let volume = self.knobs.volume();
+        if let Some(Tail(tail)) = &mut self.tail {
+            let target = if volume > 0.0 { 1.0 } else { 0.0 };
+            for [left, right] in stereo.as_chunks::<2>().0 {
+                self.sounds += (target - self.sounds) * self.glide;
+                // A full ring means that the second output stands still.
+                let _ = tail.push(0.5 * (left + right) * self.sounds);
+            }
+        }
         for frame in stereo.as_chunks_mut::<2>().0 {
             let off = volume - self.gain;
             self.gain = if off.abs() < THERE { volume } else { self.gain + off * self.glide };
@@ -258,8 +294,16 @@ impl Workshop {
         }
     }
 
-    /// Drops the engines that the player has given back.
+    /// Has the player give what it plays to a second output, instead of to another one before.
+    pub fn lead(&mut self, tail: Tail) {
+        self.clear();
+        // Full only if four were opened within one block.
+        let _ = self.tails.push(tail);
+    }
+
+    /// Drops what the player has given back.
     pub fn clear(&mut self) {
+        while self.spent_tails.pop().is_ok() {}
         while self.retired.pop().is_ok() {}
     }
 }

@@ -9,7 +9,7 @@
 //! mean backlog b is too long:
 //!
 //! ```text
-//! step = ring rate / rate · (1 + (b − TARGET) / PULL)
+//! step = ring rate / rate · (1 + (b − target) / PULL)
 //! ```
 //!
 //! so a drift δ ends in a constant shift of δ · PULL (3 ms at 300 millionths), and never in a jump.
@@ -28,16 +28,29 @@ const MEAN: f64 = 2.0;
 const MOST_DRIFT: f64 = 2e-3;
 
 /// Reads the reference at the microphone's pace.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct ReferenceTap {
     /// The two samples between which the output lies, and where.
     between: [f32; 2],
     phase: f64,
     /// Mean backlog, s; `None` before the first read.
     backlog: Option<f64>,
+    /// The one that is kept, s.
+    target: f64,
+}
+
+impl Default for ReferenceTap {
+    fn default() -> Self {
+        Self { between: [0.0; 2], phase: 0.0, backlog: None, target: TARGET }
+    }
 }
 
 impl ReferenceTap {
+    /// One that keeps so much in the ring, s, and finds it there.
+    pub fn keeping(target: f64) -> Self {
+        Self { backlog: Some(target), target, ..Self::default() }
+    }
+
     /// Appends `count` samples at `rate` from a ring at `ring_rate`, Hz. Where the ring has run dry, silence.
     pub fn read(&mut self, ring: &mut Consumer<f32>, ring_rate: u32, rate: u32, count: usize, into: &mut Vec<f32>) {
         let (nominal, seconds) = (f64::from(ring_rate) / f64::from(rate.max(1)), count as f64 / f64::from(rate.max(1)));
@@ -45,15 +58,15 @@ impl ReferenceTap {
         let due = (count as f64 * nominal).ceil() as usize;
         let surplus = ring.slots().saturating_sub(due);
         let mut left = surplus as f64 / f64::from(ring_rate);
-        if (self.backlog.is_none() || left > BACKLOG)
+        if (self.backlog.is_none() || left > BACKLOG + self.target - TARGET)
             && let Ok(chunk) = ring.read_chunk(surplus)
         {
             chunk.commit_all();
             left = 0.0;
         }
-        let mean = self.backlog.get_or_insert(TARGET);
+        let mean = self.backlog.get_or_insert(self.target);
         *mean += (seconds / MEAN).min(1.0) * (left - *mean);
-        let step = nominal * (1.0 + ((*mean - TARGET) / PULL).clamp(-MOST_DRIFT, MOST_DRIFT));
+        let step = nominal * (1.0 + ((*mean - self.target) / PULL).clamp(-MOST_DRIFT, MOST_DRIFT));
         for _ in 0..count {
             while self.phase >= 1.0 {
                 self.between = [self.between[1], ring.pop().unwrap_or(0.0)];

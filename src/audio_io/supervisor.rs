@@ -13,10 +13,12 @@ use cpal::{BufferSize, Device, ErrorKind, FromSample, SampleFormat, SizedSample,
 use cpu_time::ThreadTime;
 
 use super::devices::{Chosen, Direction, choose, is_present};
+use super::hearing::{self, Hearing};
 use super::input::{self, Ears, Recorder};
 use super::output::{self, Engine, Player, Voice, Workshop};
 use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SynthFactory};
 use crate::config::remedies;
+use crate::math::from_decibels;
 
 /// Between two looks at the devices.
 const LOOK: Duration = Duration::from_millis(100);
@@ -197,6 +199,10 @@ pub(super) struct Supervisor {
     knobs: Arc<Knobs>,
     microphone: Line,
     loudspeaker: Line,
+    hearing_loop: Line,
+    /// The opening of the loudspeaker that the second output hears.
+    follows: u64,
+    openings: u64,
     workshop: Option<(Workshop, u32)>,
 }
 
@@ -220,6 +226,9 @@ impl Supervisor {
             knobs,
             microphone: Line::new(Direction::Input),
             loudspeaker: Line::new(Direction::Output),
+            hearing_loop: Line::new(Direction::Output),
+            follows: 0,
+            openings: 0,
             workshop: None,
         }
     }
@@ -229,6 +238,7 @@ impl Supervisor {
         loop {
             self.tend_loudspeaker();
             self.tend_microphone();
+            self.tend_hearing_loop();
             for (name, line) in [("microphone", &mut self.microphone), ("loudspeaker", &mut self.loudspeaker)] {
                 if let Some(length) = line.tell_block() {
                     tracing::info!("{name} in blocks of {length:.1} ms");
@@ -302,6 +312,7 @@ impl Supervisor {
                 tracing::info!("loudspeaker: {name}, {sample_rate} Hz");
                 self.loudspeaker.opened(stream, id, sample_rate);
                 self.workshop = Some((workshop, sample_rate));
+                self.openings += 1;
                 self.install_synth();
                 self.link(Link::Loudspeaker(Some(voice)));
                 self.tell(|status| {
@@ -314,6 +325,51 @@ impl Supervisor {
                 self.tell(|status| status.output = DeviceState::Missing(reason));
             }
         }
+    }
+
+    /// The second output follows the loudspeaker that is open; neither opening nor losing it touches the first.
+    fn tend_hearing_loop(&mut self) {
+        let wanted = self.settings.hearing_loop.trim();
+        if wanted.is_empty() {
+            return;
+        }
+        let lost = match &self.workshop {
+            None => Some("waits for the loudspeaker".to_owned()),
+            Some(_) if self.follows != self.openings => Some("the loudspeaker is another one".into()),
+            Some(_) => self.hearing_loop.lost(),
+        };
+        if let Some(reason) = lost {
+            if self.hearing_loop.stream.is_some() {
+                tracing::warn!("hearing loop closed: {reason}");
+                self.hearing_loop.give_up();
+            }
+            self.follows = self.openings;
+            self.tell(|status| status.hearing_loop = Some(DeviceState::Missing(reason)));
+        }
+        let Some((workshop, from_rate)) = self.workshop.as_mut().filter(|_| self.hearing_loop.due()) else { return };
+        let gain = from_decibels(self.settings.hearing_loop_db) as f32;
+        let result = choose(Direction::Output, wanted, self.settings.block_ms).and_then(|chosen| {
+            let Chosen { device, id, name, config, format } = chosen;
+            let open = |config: StreamConfig| {
+                let (tail, hearing) = hearing::open(*from_rate, config.sample_rate, config.channels.into(), gain);
+                Ok((play(&device, config, format, hearing, self.hearing_loop.health.clone())?, tail))
+            };
+            let (stream, tail) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, tail, id, name, config.sample_rate))
+        });
+        let state = match result {
+            Ok((stream, tail, id, name, sample_rate)) => {
+                tracing::info!("hearing loop: {name}, {sample_rate} Hz");
+                self.hearing_loop.opened(stream, id, sample_rate);
+                workshop.lead(tail);
+                DeviceState::Ok { name, sample_rate }
+            }
+            Err(reason) => {
+                self.hearing_loop.give_up();
+                DeviceState::Missing(reason)
+            }
+        };
+        self.tell(|status| status.hearing_loop = Some(state));
     }
 
     fn tend_microphone(&mut self) {
@@ -379,17 +435,34 @@ fn with_any_block<T>(
     open(config).or_else(|_| open(StreamConfig { buffer_size: BufferSize::Default, ..config }))
 }
 
+/// What an output's callback calls.
+trait Plays: Send + 'static {
+    fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]);
+}
+
+impl Plays for Player {
+    fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
+        Player::play(self, data);
+    }
+}
+
+impl Plays for Hearing {
+    fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
+        Hearing::play(self, data);
+    }
+}
+
 fn play(
     device: &Device,
     config: StreamConfig,
     format: SampleFormat,
-    player: Player,
+    player: impl Plays,
     health: Arc<Health>,
 ) -> Result<Stream, cpal::Error> {
     fn build<T: SizedSample + FromSample<f32>>(
         device: &Device,
         config: StreamConfig,
-        mut player: Player,
+        mut player: impl Plays,
         health: Arc<Health>,
     ) -> Result<Stream, cpal::Error> {
         let errors = health.clone();

@@ -14,7 +14,7 @@ pub use microphone::{judge_blow, judge_room};
 
 /// Says what to mend on this machine: screen, graphics, microphone, loudspeaker, fonts, files.
 #[derive(clap::Args, Debug, Default)]
-#[command(after_help = "Example:\n  soffio doctor --json")]
+#[command(after_help = "Example:\n  soffio doctor --json\n  soffio doctor --chirp --blow")]
 pub struct Args {
     /// The site's configuration [default: kiosk-config/kiosk.toml here or above, else built in]
     #[arg(long, value_name = "FILE")]
@@ -22,6 +22,9 @@ pub struct Args {
     /// Listen to a breath too, from where visitors stand, and propose the sensitivity for it
     #[arg(long)]
     blow: bool,
+    /// Let the loudspeaker chirp to the microphone, and say how the foam, and both of them, are
+    #[arg(long)]
+    chirp: bool,
     /// One JSON array on stdout instead of text
     #[arg(long)]
     json: bool,
@@ -76,7 +79,7 @@ pub fn run(args: Args) -> Outcome {
     findings.push(pin(&config));
     findings.extend(exhibits(&config));
     #[cfg(feature = "kiosk")]
-    findings.extend(machine::look(&config, args.blow));
+    findings.extend(machine::look(&config, args.blow, args.chirp));
     #[cfg(not(feature = "kiosk"))]
     findings.push(
         Finding::new("devices", Health::Bad, "this build has no window and no sound", "build with the feature `kiosk`")

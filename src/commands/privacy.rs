@@ -75,6 +75,13 @@ pub fn report(config: &Config) -> Report {
             "the next few steps, a fraction of a second; of what the room sounds like, mean spectra of some seconds",
         ));
     }
+    if config.visit.breath {
+        all.push(kept(
+            "a few seconds of the kiosk's own chirp, once a day or when staff ask for it",
+            "memory",
+            "it is heard",
+        ));
+    }
     all.push(kept("seconds blown at a work in this visit", "memory", "the visit ends"));
     all.push(kept(
         "what the simulation was told (pointers, hands, speed of the breath) or where the work was, without a name or a sound",
@@ -95,7 +102,9 @@ pub fn report(config: &Config) -> Report {
     const COUNTS: &str = "counts over all visitors (visits and how long they were, breaths by their source, languages)";
     #[cfg(feature = "kiosk")]
     if let Some(folder) = crate::kiosk::kept::folder(config) {
-        let what = format!("{COUNTS}; the day's sum of breath; wrong PINs, mute, night, the work on show");
+        let what = format!(
+            "{COUNTS}; the day's sum of breath; how loud the kiosk's own chirp arrived in seven octaves; wrong PINs, mute, night, the work on show"
+        );
         all.push(kept(&what, &folder.display().to_string(), "the file is deleted"));
     }
     let metrics = &config.staff.metrics;

@@ -17,6 +17,11 @@ impl TimeOfDay {
     pub fn from_minutes(minutes: u16) -> Self {
         Self(minutes % DAY)
     }
+
+    /// Minutes since the last time it was `then`.
+    pub fn since(self, then: Self) -> u16 {
+        (self.0 + DAY - then.0) % DAY
+    }
 }
 
 impl FromStr for TimeOfDay {
@@ -58,13 +63,12 @@ impl Hours {
     /// Is this time inside? Never where one of the two is missing, or both are the same.
     pub fn contain(&self, time: TimeOfDay) -> bool {
         let (Some(from), Some(to)) = (self.from, self.to) else { return false };
-        let since = |time: TimeOfDay| (time.0 + DAY - from.0) % DAY;
-        since(time) < since(to)
+        time.since(from) < to.since(from)
     }
 }
 
 /// An empty text is no time.
-mod text {
+pub(super) mod text {
     use serde::{Deserialize, Deserializer, Serializer, de};
 
     use super::TimeOfDay;

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::care::Care;
 use super::given::Given;
 use super::house::House;
 use super::kept::{Keeper, Kept, Life, SETTLED, Tally};
@@ -15,8 +16,11 @@ use super::metrics::{Metrics, Numbers, text};
 use super::mqtt::{Mqtt, Order};
 use super::visits::{DWELL_S, FRAME_S, Histogram, Visits};
 use crate::audio_io::DeviceState;
-use crate::config::Config;
+use crate::config::{Config, Day, TimeOfDay};
 use crate::exhibit::{Exhibit, SIDECAR};
+
+/// For so long the daily chirp waits for a silent moment, minutes.
+const CHIRP_WAITS_MIN: u16 = 60;
 
 /// What staff are told of safe mode.
 pub const SAFE_MODE: &str = "safe mode: the kiosk died three times within a minute of its start, so it shows one built-in \
@@ -55,6 +59,10 @@ pub struct Fleet {
     safe: bool,
     /// Was what was read last, a configuration or a work, good?
     reloads: bool,
+    /// Chirps that were taken in.
+    chirps: u64,
+    /// The day on which it chirped last.
+    chirped: Option<Day>,
     /// The work on show, and a word that differs where its sidecar does.
     content: Option<(Arc<Exhibit>, String)>,
 }
@@ -73,6 +81,8 @@ impl Fleet {
             began: Instant::now(),
             safe,
             reloads: true,
+            chirps: 0,
+            chirped: None,
             content: None,
         }
     }
@@ -147,6 +157,16 @@ impl Fleet {
         if self.kept.given != *seen.given {
             self.kept.given = seen.given.clone();
         }
+        if let (count, Some(outcome)) = &load.chirp
+            && *count != self.chirps
+        {
+            self.chirps = *count;
+            let when = jiff::Zoned::now().strftime("%Y-%m-%d %H:%M").to_string();
+            match self.kept.care.note(outcome, when) {
+                verdict if verdict.is_bad() => tracing::warn!("chirp: {verdict}"),
+                verdict => tracing::info!("chirp: {verdict}"),
+            }
+        }
         self.keeper.tend(now, &self.kept);
 
         if self.content.as_ref().is_none_or(|(shown, _)| !Arc::ptr_eq(shown, &frame.exhibit)) {
@@ -158,11 +178,37 @@ impl Fleet {
             frames: &self.frames,
             safe: self.safe,
             reloads: self.reloads,
+            foam_lasts: seen.site.care.foam_blows,
             content: (&frame.exhibit.id, version),
         };
         self.metrics.tend(now, || text(frame, &numbers));
         let (kept, safe, visited) = (&self.kept, self.safe, self.visits.goes_on());
         self.mqtt.tend(now, || state(seen, kept, version, (safe, visited)));
+    }
+
+    /// Is the daily chirp due, on this day and the one before it, at this time? It waits until the house is closed or nobody
+    /// is there, for an hour; then it is too late for this day.
+    pub fn chirp_is_due(
+        &mut self,
+        at: Option<TimeOfDay>,
+        [today, yesterday]: [Day; 2],
+        time: TimeOfDay,
+        open: bool,
+    ) -> bool {
+        let Some(late) = at.map(|at| time.since(at)).filter(|late| *late < CHIRP_WAITS_MIN) else { return false };
+        // An hour that began before midnight belongs to the day before.
+        let day = if late > time.since(TimeOfDay::from_minutes(0)) { yesterday } else { today };
+        let is = self.chirped != Some(day) && !(open && self.visits.goes_on());
+        if is {
+            self.chirped = Some(day);
+        }
+        is
+    }
+
+    /// What is known of foam and chirps, for staff to change.
+    pub fn care(&mut self) -> (&mut Care, u64) {
+        let breaths = self.kept.tally.breaths();
+        (&mut self.kept.care, breaths)
     }
 
     /// The next order of the broker.

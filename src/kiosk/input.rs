@@ -88,6 +88,8 @@ pub enum Request {
     Listen,
     /// A press begins the breath and the next one ends it, or: it is held.
     PressOnce,
+    /// Resting the pointer presses, or does not.
+    Dwell,
     /// Less motion, or as much as there is.
     Calm,
     /// Read aloud what is written, or hush.
@@ -237,6 +239,18 @@ impl Visitor {
             Signal::Touch { at, phase: Phase::Down, .. } => Some(*at),
             _ => None,
         }
+    }
+
+    /// Where the pointer is, once it has moved: for whoever rests it. Nowhere while something is pressed.
+    pub fn rests(&self) -> Option<[f64; 2]> {
+        self.aim.and(self.lies).filter(|_| self.presses.is_empty() && self.finger.is_none())
+    }
+
+    /// A short press of a pointer that rests, there.
+    pub fn tap(&mut self, at: [f64; 2]) {
+        self.press(None, at, true);
+        self.press(None, at, false);
+        self.activity += 1;
     }
 
     /// Counts an input that is neither aim nor breath.

@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::breaths::Source;
+use super::care::Care;
 use super::given::Given;
 use super::loudness::NightBy;
 use super::visits::Histogram;
@@ -62,6 +64,8 @@ pub struct Kept {
     pub wrong_pins: i32,
     /// Breath given today.
     pub given: Given,
+    /// What is known of foam and chirps.
+    pub care: Care,
     /// What is counted for ever.
     pub tally: Tally,
 }
@@ -78,6 +82,13 @@ pub struct Tally {
     pub languages: BTreeMap<String, u64>,
     /// Breaths by their source.
     pub blows: BTreeMap<String, u64>,
+}
+
+impl Tally {
+    /// Breaths at the microphone.
+    pub fn breaths(&self) -> u64 {
+        self.blows.get(&Source::Microphone.to_string()).copied().unwrap_or_default()
+    }
 }
 
 impl Kept {
@@ -190,6 +201,11 @@ impl Keeper {
 pub fn last_good() -> Option<Config> {
     let file = folder(&Config::default())?.join(LAST_GOOD);
     Config::load(Some(&file)).ok().map(|(config, _)| config)
+}
+
+/// What is kept there now, for whoever only looks.
+pub fn look(folder: &Path) -> Option<Kept> {
+    serde_json::from_slice(&std::fs::read(folder.join(FILE)).ok()?).ok()
 }
 
 fn text(kept: &Kept) -> String {

@@ -16,6 +16,7 @@ use cpu_time::ThreadTime;
 use crate::audio_io::{AudioIo, AudioStatus, DeviceState, Heard};
 use crate::controllers::{Controllers, Reading, State};
 use crate::exhibit::Exhibit;
+use crate::math::from_decibels;
 use crate::offline::feed::WavFeed;
 use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
 use crate::simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND, Settings, Snapshot};
@@ -23,6 +24,7 @@ use crate::sound::SoundCommand;
 
 use super::breaths::{Blows, Breaths, Turn};
 use super::captions::Captions;
+use super::chirping::{Act, Course, Outcome};
 use super::governor::Governor;
 use super::loudness::{Loudness, View, Wishes};
 use super::microphone::MicrophoneHealth;
@@ -126,6 +128,8 @@ pub struct Load {
     pub blows: Blows,
     /// What the controllers say, by kind.
     pub controllers: Vec<(&'static str, State)>,
+    /// Chirps so far, and what came of the last one.
+    pub chirp: (u64, Option<Arc<Outcome>>),
 }
 
 impl Frame {
@@ -295,6 +299,8 @@ struct Thread {
     heard: Heard,
     sounds: Vec<SoundCommand>,
     breaths: Breaths,
+    chirping: Course,
+    began: Instant,
     captions: Captions,
     deaf: bool,
     closed: bool,
@@ -336,6 +342,8 @@ impl Thread {
             heard: Heard::default(),
             sounds: Vec::new(),
             breaths: Breaths::default(),
+            chirping: Course::default(),
+            began: Instant::now(),
             captions: Captions::default(),
             deaf: false,
             closed: options.closed,
@@ -388,6 +396,7 @@ impl Thread {
             shared.trials.clear();
             shared.lifts.clear();
             shared.words = None;
+            shared.chirp = false;
             shared.loudness = Wishes::default();
             taken
         };
@@ -400,10 +409,15 @@ impl Thread {
         add(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
         self.heard.clear();
         self.closed = controls.closed;
-        self.audio.listen(self.site.breath && !self.closed);
+        if controls.chirp && self.site.breath {
+            self.chirping.begin(self.began.elapsed().as_secs_f64());
+        }
+        self.audio.listen(self.site.breath && !self.closed || self.chirping.runs());
         self.deaf = controls.deaf;
+        let rate = self.audio.read_microphone(&mut self.heard);
+        let chirps = self.chirp(rate);
         // What a visitor does not want to be heard is read all the same, so that it is gone.
-        let rate = self.audio.read_microphone(&mut self.heard).filter(|_| !self.deaf);
+        let rate = rate.filter(|_| !self.deaf && !chirps);
         self.sounds.clear();
         let before = Instant::now();
         for i in 0..due {
@@ -442,8 +456,29 @@ impl Thread {
             self.audio.say(&words);
         }
         self.loudness.tend(controls.loudness, (self.stage.attracts(), controls.closed), self.audio.knobs());
+        if chirps {
+            self.audio.knobs().set_volume(from_decibels(self.site.audio.volume_db) as f32);
+        }
         self.inspection = (controls.look != Look::Nothing).then(|| Arc::new(self.stage.inspect(controls.look)));
         Ok(rate.is_some() && !self.load.microphone.is_silent() || self.recorded)
+    }
+
+    /// Goes on with a chirp, where one is on its way; says whether there was one.
+    fn chirp(&mut self, rate: Option<u32>) -> bool {
+        if !self.chirping.runs() {
+            return false;
+        }
+        let now = self.began.elapsed().as_secs_f64();
+        match self.chirping.tend(now, &self.audio.status(), (&self.heard.samples, rate)) {
+            Some(Act::Say(words)) => self.audio.say(&words),
+            Some(Act::Done(outcome)) => {
+                self.load.chirp = (self.load.chirp.0 + 1, Some(Arc::new(outcome)));
+                // The hours, or the visitor's keys, say how loud it is again.
+                self.loudness.forget();
+            }
+            None => {}
+        }
+        true
     }
 
     /// Looks whether the laws can go on.

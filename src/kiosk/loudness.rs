@@ -144,6 +144,11 @@ impl Loudness {
         knobs.set_night(self.night);
     }
 
+    /// Sets the volume anew at the next call: something else has set it meanwhile.
+    pub fn forget(&mut self) {
+        self.looked = None;
+    }
+
     fn look(&mut self, due: bool, knobs: &Knobs) {
         let now = Zoned::now();
         let minutes = 60 * u16::from(now.hour().unsigned_abs()) + u16::from(now.minute().unsigned_abs());

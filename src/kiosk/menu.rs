@@ -8,6 +8,7 @@ use std::path::Path;
 
 use egui::{Align2, Color32, Rect, Stroke, StrokeKind, TextureId, pos2, vec2};
 
+use super::bidi::reads_from_right;
 use super::groups::{Row, heading, leaves, rows};
 use super::input::Request;
 use super::overlay::Scene;
@@ -200,7 +201,8 @@ fn tile(page: &Page, tile: &Tile, room: Rect) {
         page.painter.rect_stroke(picture, 0.0, Stroke::new(0.2 * page.em, VERMILION), StrokeKind::Outside);
     }
     let title = page.set(&tile.title, 0.85, INK, room.width());
-    page.painter.galley(picture.left_bottom() + vec2(0.0, 0.3 * page.em), title, INK);
+    let x = if reads_from_right(&tile.title) { picture.right() - title.size().x } else { picture.left() };
+    page.painter.galley(pos2(x, picture.bottom() + 0.3 * page.em), title, INK);
 }
 
 /// Title, maker, the wall text, and how the work is played: as large as there is room for.
@@ -208,7 +210,7 @@ fn wall_text(page: &Page, scene: &Scene, room: Rect) {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return };
     let invite = if scene.hears { own.invite } else { "" };
-    let hold = if scene.needs.press_once { own.press } else { own.hold };
+    let hold = scene.needs.how(own);
     let play = [invite, own.aim, hold, own.take];
     let parts: Vec<(&str, f32, f32)> = [(label.title.as_str(), 1.5, 0.2), (label.maker.as_str(), 0.8, 1.0)]
         .into_iter()
@@ -235,10 +237,13 @@ fn wall_text(page: &Page, scene: &Scene, room: Rect) {
         scale *= 0.94;
         lines = set(scale);
     }
+    let from_right = reads_from_right(&label.body);
     let mut y = room.top();
     for (galley, space) in lines {
         let next = y + galley.size().y + space;
-        page.painter.galley(pos2(room.left(), y), galley, INK);
+        // What is read from the right begins at the column's right edge.
+        let x = if from_right { room.right() - galley.size().x } else { room.left() };
+        page.painter.galley(pos2(x, y), galley, INK);
         y = next;
     }
 }
@@ -262,6 +267,7 @@ fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     items.push((Item::Word(own.large, scene.needs.reading.large), Request::Large));
     items.push((Item::Word(own.contrast, scene.needs.reading.contrast), Request::Contrast));
     items.push((Item::Word(own.press_once, scene.needs.press_once), Request::PressOnce));
+    items.push((Item::Word(own.dwell, scene.needs.dwell), Request::Dwell));
     items.push((Item::Word(own.calm, scene.needs.calm), Request::Calm));
     if scene.volume {
         items.push((Item::Sign("\u{2212}"), Request::Louder(-1)));

@@ -5,12 +5,14 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use super::care::Verdict;
 use super::kept::Kept;
 use super::live::Frame;
 use super::visits::{DWELL_S, FRAME_S, Histogram};
 use super::writer::Writer;
 use crate::audio_io::DeviceState;
 use crate::simulation::MotionMode;
+use crate::sound::BANDS;
 
 /// Between two files.
 const EVERY: Duration = Duration::from_secs(15);
@@ -48,6 +50,8 @@ pub struct Numbers<'a> {
     pub safe: bool,
     /// Was what was read last, a configuration or a work, good?
     pub reloads: bool,
+    /// Breaths that a foam lasts for; 0 where nobody counts them.
+    pub foam_lasts: u32,
     /// Id of the work on show, and its version.
     pub content: (&'a str, &'a str),
 }
@@ -57,6 +61,7 @@ pub fn text(frame: &Frame, numbers: &Numbers) -> String {
     let mut page = Page(String::new());
     machine(&mut page, frame, numbers);
     sound(&mut page, frame);
+    care(&mut page, numbers);
     visitors(&mut page, numbers);
     page.0
 }
@@ -96,6 +101,9 @@ fn sound(page: &mut Page, frame: &Frame) {
     }
     page.number("mic_ok", "gauge", "Does the microphone listen", works(&audio.input));
     page.number("loudspeaker_ok", "gauge", "Does the loudspeaker play", works(&audio.output));
+    if let Some(state) = &audio.hearing_loop {
+        page.number("hearing_loop_ok", "gauge", "Does the hearing loop play", works(state));
+    }
     page.number("loudspeaker_openings_total", "counter", "Times a loudspeaker was opened", audio.openings as f64);
     page.number("volume_db", "gauge", "Volume, dB of full scale", loud.volume_db);
     page.number("muted", "gauge", "Muted by staff", flag(loud.muted));
@@ -107,6 +115,23 @@ fn sound(page: &mut Page, frame: &Frame) {
         let help = "A-weighted mean level at the visitor's ear, dB(A)";
         page.number(&format!("laeq_{span}_db"), "gauge", help, loud.laeq_db[i].unwrap_or(f64::NAN));
     }
+}
+
+fn care(page: &mut Page, numbers: &Numbers) {
+    let kept = numbers.kept;
+    let foam = kept.care.foam(kept.tally.breaths());
+    page.number("foam_blows", "gauge", "Breaths at the microphone since its foam was changed", foam as f64);
+    page.number("foam_lasts_blows", "gauge", "Breaths that a foam lasts for, 0 for ever", numbers.foam_lasts.into());
+    let Some((verdict, _)) = &kept.care.last else { return };
+    let labels = Verdict::NAMES.map(|name| ([("verdict", name)], flag(name == verdict.name())));
+    let rows: Vec<Row> = labels.iter().map(|(label, is)| (&label[..], *is)).collect();
+    page.labelled("chirp", "gauge", "What the last chirp says, 1 for what it is", &rows);
+    page.number("chirp_bad", "gauge", "Does the last chirp ask for somebody", flag(verdict.is_bad()));
+    let bands = BANDS.map(|hz| hz.to_string());
+    let known = bands.iter().zip(kept.care.change_db).filter_map(|(hz, db)| Some(([("hz", hz.as_str())], db?)));
+    let labels: Vec<_> = known.collect();
+    let rows: Vec<Row> = labels.iter().map(|(label, db)| (&label[..], *db)).collect();
+    page.labelled("chirp_change_db", "gauge", "The last chirp over the first clean ones, by octave", &rows);
 }
 
 fn visitors(page: &mut Page, numbers: &Numbers) {

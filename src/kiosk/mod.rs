@@ -6,9 +6,14 @@
 
 pub mod aloud;
 pub mod attract;
+pub mod bidi;
 pub mod breaths;
 pub mod captions;
+pub mod care;
+pub mod chirp;
+pub mod chirping;
 pub mod drift;
+pub mod dwell;
 pub mod edit;
 pub mod events;
 pub mod fleet;

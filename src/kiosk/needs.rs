@@ -1,9 +1,11 @@
-//! What a visitor needs otherwise, for this visit: larger type, more contrast, a breath that need not be held, less motion.
+//! What a visitor needs otherwise, for this visit: larger type, more contrast, a breath that need not be held, a pointer that
+//! need not press, less motion.
 //!
 //! The site says what everybody finds; a visitor changes it on the page behind "More"; whoever comes next finds the
 //! site's again.
 
 use super::page::Reading;
+use super::words::Words;
 use crate::config::Visit;
 
 /// What a visitor has chosen.
@@ -13,13 +15,29 @@ pub struct Needs {
     pub reading: Reading,
     /// A press begins the breath, the next one ends it.
     pub press_once: bool,
+    /// Resting the pointer presses; then a press begins the breath too, as there is nothing to hold.
+    pub dwell: bool,
     /// No change of scene in which parts fly together, no dust in the air, gentler attract mode.
     pub calm: bool,
 }
 
 impl Needs {
+    /// Does a press begin the breath and the next one end it?
+    pub fn once(&self) -> bool {
+        self.press_once || self.dwell
+    }
+
+    /// How one blows without a breath.
+    pub fn how(&self, own: &Words) -> &'static str {
+        match (self.dwell, self.press_once) {
+            (true, _) => own.dwells,
+            (false, true) => own.press,
+            (false, false) => own.hold,
+        }
+    }
+
     /// As the site has it.
     pub fn of(site: &Visit) -> Self {
-        Self { reading: Reading::default(), press_once: site.press_once, calm: site.calm }
+        Self { reading: Reading::default(), press_once: site.press_once, dwell: site.dwell, calm: site.calm }
     }
 }

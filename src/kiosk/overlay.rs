@@ -4,18 +4,19 @@
 //! of the air itself, as wide as the jet is where it meets the sculpture, drawn in perspective; the arc along it is
 //! the breath meter. All else is behind one word, "More" (`menu`).
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, pos2, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
 use crate::config::Group;
 use crate::exhibit::{Exhibit, Label, View};
 use crate::math::{PI, tangents};
 use crate::simulation::{BreathView, Snapshot};
 
+use super::bidi::reads_from_right;
 use super::given;
 use super::input::Request;
 use super::menu::{Menu, Tile};
 use super::needs::Needs;
-use super::page::{HALO, INK, Page, SMALL, SOFT_INK, VERMILION};
+use super::page::{HALO, INK, PAPER, Page, SMALL, SOFT_INK, VERMILION};
 use super::words::words;
 
 /// Quiet time after which the invitation comes back, s.
@@ -64,6 +65,8 @@ pub struct Scene<'a> {
     pub leaves_in: Option<f64>,
     /// What the visitor needs otherwise.
     pub needs: Needs,
+    /// Where a pointer rests that presses by resting (picture coordinates), and how much of that time is over.
+    pub rests: Option<([f64; 2], f64)>,
     /// Is something being read aloud? `None` where nothing can read the language shown.
     pub speech: Option<bool>,
     /// The works to choose from.
@@ -109,6 +112,7 @@ impl Overlay {
         let mut buttons = Vec::new();
         if menu.open {
             menu.paint(&page, scene, &mut buttons);
+            rest(&page, picture, scene);
             return buttons;
         }
         ring(&page, picture, &scene.view, &scene.moment.breath);
@@ -125,6 +129,7 @@ impl Overlay {
             leaving(&page, left, more, if scene.hears { words(code).stay } else { words(code).stay_touch });
         }
         buttons.push((more, Request::Menu));
+        rest(&page, picture, scene);
         buttons
     }
 
@@ -161,8 +166,8 @@ fn invitation(scene: &Scene) -> String {
     let label = scene.exhibit.labels.get(scene.inviting);
     let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
     // Whoever need not hold is not told to.
-    if scene.needs.press_once && !(scene.hears && scene.breath) {
-        return own.press.into();
+    if scene.needs.once() && !(scene.hears && scene.breath) {
+        return scene.needs.how(own).into();
     }
     if !scene.breath {
         return own.no_breath.into();
@@ -171,6 +176,15 @@ fn invitation(scene: &Scene) -> String {
     let shown = scene.attract_text.filter(|key| scene.hears || *key != "invite").and_then(find);
     let (key, fallback) = if scene.hears { ("invite", own.invite) } else { ("hold", own.hold) };
     shown.or_else(|| find(key)).unwrap_or_else(|| fallback.into())
+}
+
+/// The ring about a pointer that rests, filled by as much as it has rested.
+fn rest(page: &Page, picture: Rect, scene: &Scene) {
+    let Some(([x, y], share)) = scene.rests else { return };
+    let (center, radius) = (picture.lerp_inside(vec2(x as f32, y as f32)), 0.3 * page.button);
+    page.painter.circle_stroke(center, radius, Stroke::new(0.45 * page.em, PAPER));
+    page.painter.circle_stroke(center, radius, Stroke::new(0.1 * page.em, SOFT_INK));
+    page.arc(center, radius, share as f32, VERMILION);
 }
 
 /// Longest line beside the work.
@@ -182,26 +196,38 @@ fn line(page: &Page) -> f32 {
 fn wall_label(page: &Page, label: &Label, scene: &Scene) {
     let own = words(scene.language);
     let mut at = page.picture.left_bottom();
-    let mut put = |text: &str, size: f32, color: Color32, space: f32| {
-        if !text.is_empty() {
-            at.y -= page.text(at, Align2::LEFT_BOTTOM, text, size, color, line(page)).height() + space * page.em;
-        }
-    };
     let ear = match (scene.hears, scene.has_ear && !scene.listens) {
         (true, _) => own.privacy,
         (false, true) => own.ear_off,
         (false, false) => "",
     };
-    put(scene.exhibit.credit.notice.trim(), SMALL, SOFT_INK, 0.2);
-    put(ear, SMALL, SOFT_INK, 0.3);
     let sound = match (scene.exhibit.sounds.is_empty(), scene.silent) {
         (true, _) => own.no_sound,
         (false, true) => own.silent,
         (false, false) => "",
     };
-    put(sound, SMALL, SOFT_INK, 0.6);
-    put(&label.maker, 0.85, SOFT_INK, 0.1);
-    put(&label.title, 1.4, INK, 0.0);
+    let parts = [
+        (scene.exhibit.credit.notice.trim(), SMALL, SOFT_INK, 0.2),
+        (ear, SMALL, SOFT_INK, 0.3),
+        (sound, SMALL, SOFT_INK, 0.6),
+        (label.maker.as_str(), 0.85, SOFT_INK, 0.1),
+        (label.title.as_str(), 1.4, INK, 0.0),
+    ];
+    let set = |&(text, size, color, space): &(&str, f32, Color32, f32)| {
+        (!text.is_empty()).then(|| (page.set(text, size, color, line(page)), color, space * page.em))
+    };
+    let set: Vec<_> = parts.iter().filter_map(set).collect();
+    // A label that is read from the right has one edge on the right.
+    let anchor = match reads_from_right(&label.title) {
+        true => {
+            at.x += set.iter().map(|(galley, ..)| galley.size().x).fold(0.0, f32::max);
+            Align2::RIGHT_BOTTOM
+        }
+        false => Align2::LEFT_BOTTOM,
+    };
+    for (galley, color, space) in set {
+        at.y -= page.put(galley, at, anchor, color).height() + space;
+    }
 }
 
 /// What is heard, in the middle of the lower edge.

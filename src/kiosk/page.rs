@@ -5,7 +5,10 @@
 
 use std::sync::Arc;
 
+use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2};
+
+use super::bidi;
 
 /// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
 pub const BUTTON_MM: f32 = 15.0;
@@ -68,7 +71,33 @@ impl<'a> Page<'a> {
     pub fn set(&self, text: &str, size: f32, color: Color32, longest: f32) -> Arc<Galley> {
         let color =
             if self.reading.contrast { Color32::BLACK.gamma_multiply(f32::from(color.a()) / 255.0) } else { color };
-        self.painter.layout(text.into(), FontId::proportional(size * self.em), color, longest)
+        let font = FontId::proportional(size * self.em);
+        match bidi::is_mixed(text) {
+            false => self.painter.layout(text.into(), font, color, longest),
+            true => self.set_mixed(text, font, color, longest),
+        }
+    }
+
+    /// The same where something is read from the right. Lines begin where most of the text does.
+    fn set_mixed(&self, text: &str, font: FontId, color: Color32, longest: f32) -> Arc<Galley> {
+        let format = TextFormat::simple(font.clone(), color);
+        let width = |piece: &str| self.painter.layout_no_wrap(piece.into(), font.clone(), color).size().x;
+        let lines = bidi::lines(text, longest, width);
+        let lengths: Vec<f32> = lines.iter().map(|line| line.iter().map(|piece| width(piece)).sum()).collect();
+        let longest = lengths.iter().copied().fold(0.0, f32::max);
+        let from_right = bidi::reads_from_right(text);
+        let mut job = LayoutJob { wrap: TextWrapping::no_max_width(), ..LayoutJob::default() };
+        for (i, (line, length)) in lines.iter().zip(&lengths).enumerate() {
+            if i > 0 {
+                job.append("\n", 0.0, format.clone());
+            }
+            let mut space = if from_right { longest - length } else { 0.0 };
+            for piece in line {
+                job.append(piece, space, format.clone());
+                space = 0.0;
+            }
+        }
+        self.painter.layout_job(job)
     }
 
     /// Puts type down where its anchor is, on paper that keeps it readable over a picture.

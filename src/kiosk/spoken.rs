@@ -12,7 +12,7 @@ pub fn work(scene: &Scene) -> Vec<Said> {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return Vec::new() };
     let invite = if scene.hears && scene.breath { own.invite } else { "" };
-    let hold = if scene.needs.press_once { own.press } else { own.hold };
+    let hold = scene.needs.how(own);
     let sound = if scene.exhibit.sounds.is_empty() { own.no_sound } else { "" };
     let privacy = if scene.hears { own.privacy } else { "" };
     let parts = [
@@ -43,6 +43,7 @@ pub fn button(request: Request, scene: &Scene) -> Vec<Said> {
         Request::Large => switch(own.large, scene.needs.reading.large),
         Request::Contrast => switch(own.contrast, scene.needs.reading.contrast),
         Request::PressOnce => switch(own.press_once, scene.needs.press_once),
+        Request::Dwell => switch(own.dwell, scene.needs.dwell),
         Request::Calm => switch(own.calm, scene.needs.calm),
         Request::Listen => switch(own.ear, scene.listens),
         Request::Speak => own.speak.to_owned(),

@@ -70,6 +70,8 @@ pub struct Controls {
     pub trials: Vec<Trial>,
     /// What is to be said next, and not yet sent.
     pub words: Option<Words>,
+    /// The loudspeaker is to chirp to the microphone, once.
+    pub chirp: bool,
 }
 
 impl Controls {

@@ -21,6 +21,7 @@ use crate::simulation::{Command, Snapshot};
 
 use super::aloud::Aloud;
 use super::drift::Drift;
+use super::dwell::Dwell;
 use super::events::{is_input, translate};
 use super::fleet::Fleet;
 use super::given::Given;
@@ -138,6 +139,7 @@ pub fn run(
         menu: Menu::default(),
         needs: Needs::of(&config.visit),
         aloud: Aloud::default(),
+        dwell: Dwell::default(),
         turned: 0,
         listens: true,
         given,
@@ -228,6 +230,7 @@ struct App<'a> {
     menu: Menu,
     needs: Needs,
     aloud: Aloud,
+    dwell: Dwell,
     /// Works swiped on so far that were heeded.
     turned: i64,
     /// Has no visitor switched the microphone off?
@@ -424,6 +427,7 @@ impl App<'_> {
         let works: Vec<String> = self.offer.works().iter().map(|work| work.id.clone()).collect();
         let works: Vec<&str> = works.iter().map(String::as_str).collect();
         let mut wishes = Vec::new();
+        let mut points = egui::Rect::NOTHING;
         let silent = frame.load.loudness.muted || frame.is_mute();
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
             self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
@@ -448,6 +452,7 @@ impl App<'_> {
                 silent,
                 leaves_in: frame.leaves_in,
                 needs: self.needs,
+                rests: self.visitor.rests().zip(self.dwell.share(vitals.time, self.config.visit.dwell_s)),
                 speech: self.aloud.can_speak(&self.language).then_some(self.aloud.is_on()).filter(|_| !silent),
                 tiles: &tiles,
                 groups: &self.config.exhibits.groups,
@@ -461,6 +466,7 @@ impl App<'_> {
                 self.aloud.follow(&scene, rate);
             }
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
+            points = ui.ctx().content_rect();
             self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
             if day::cover(&painter, &self.house, &scene) {
                 self.buttons.clear();
@@ -475,6 +481,7 @@ impl App<'_> {
                 file: self.site.as_ref().map(|site| site.path.as_path()),
                 works: &works,
                 house: &self.house,
+                kept: self.fleet.kept(),
                 log: &self.log,
                 activity: self.visitor.activity(),
                 on_desk: desk,
@@ -502,6 +509,7 @@ impl App<'_> {
         self.follow_attract(&frame);
         self.follow_devices(&frame);
         self.follow_visit(&frame);
+        self.follow_rest(events, vitals.time, points);
         let (look, open) = (self.staff.look(&self.config), self.staff.is_open());
         if let Some(show) = &self.show {
             show.live.controls().look = look;
@@ -667,7 +675,7 @@ impl App<'_> {
             Request::Large => self.needs.reading.large ^= true,
             Request::Contrast => self.needs.reading.contrast ^= true,
             Request::Listen => self.listens = !self.listens,
-            Request::PressOnce | Request::Calm | Request::Speak => self.choose(request),
+            Request::PressOnce | Request::Dwell | Request::Calm | Request::Speak => self.choose(request),
             Request::Look(way) => {
                 self.menu.look(way, &self.buttons);
                 self.aloud.reach(self.menu.marked(&self.buttons));
@@ -701,7 +709,7 @@ impl App<'_> {
         controls.presses.extend(self.visitor.presses());
         controls.lifts.extend(lifts);
         controls.keyed = self.visitor.keyed();
-        controls.press_once = self.needs.press_once && !self.menu.open;
+        controls.press_once = self.needs.once() && !self.menu.open;
         controls.calm = self.needs.calm;
         controls.activity = self.visitor.activity();
         controls.deaf = !self.listens;

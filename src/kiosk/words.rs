@@ -46,6 +46,10 @@ pub struct Words {
     pub press: &'static str,
     /// That choice, as what is switched.
     pub press_once: &'static str,
+    /// How to blow by resting the pointer.
+    pub dwells: &'static str,
+    /// That choice, as what is switched.
+    pub dwell: &'static str,
     /// Less motion, as what is switched.
     pub calm: &'static str,
     /// Reads aloud.
@@ -68,7 +72,7 @@ pub struct Words {
 
 impl Words {
     /// All of them, for whoever checks that none is missing.
-    pub fn all(&self) -> [&'static str; 30] {
+    pub fn all(&self) -> [&'static str; 32] {
         [
             self.code,
             self.name,
@@ -91,6 +95,8 @@ impl Words {
             self.cleaning,
             self.press,
             self.press_once,
+            self.dwells,
+            self.dwell,
             self.calm,
             self.speak,
             self.no_sound,
@@ -103,6 +109,28 @@ impl Words {
         ]
     }
 }
+
+/// Names of languages in which labels are written and which the kiosk itself does not speak.
+const OTHER_NAMES: &[(&str, &str)] = &[
+    ("ar", "العربية"),
+    ("cs", "Čeština"),
+    ("da", "Dansk"),
+    ("el", "Ελληνικά"),
+    ("fa", "فارسی"),
+    ("fi", "Suomi"),
+    ("he", "עברית"),
+    ("hu", "Magyar"),
+    ("nl", "Nederlands"),
+    ("no", "Norsk"),
+    ("pl", "Polski"),
+    ("pt", "Português"),
+    ("ru", "Русский"),
+    ("sv", "Svenska"),
+    ("tr", "Türkçe"),
+    ("uk", "Українська"),
+    ("ur", "اردو"),
+    ("zh", "中文"),
+];
 
 /// All languages that the kiosk itself speaks; the first stands in for the others.
 pub const WORDS: &[Words] = &[
@@ -128,6 +156,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "The glass is being cleaned",
         press: "Press to blow, press again to stop",
         press_once: "Press once",
+        dwells: "Rest the pointer to blow, move and rest again to stop",
+        dwell: "Rest to press",
         calm: "Less motion",
         speak: "Read aloud",
         no_sound: "This work makes no sound.",
@@ -160,6 +190,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "Das Glas wird gereinigt",
         press: "Zum Pusten drücken, zum Beenden noch einmal",
         press_once: "Einmal drücken",
+        dwells: "Zeiger ruhen lassen zum Pusten, bewegen und ruhen lassen zum Beenden",
+        dwell: "Ruhen statt drücken",
         calm: "Weniger Bewegung",
         speak: "Vorlesen",
         no_sound: "Dieses Werk macht keinen Ton.",
@@ -192,6 +224,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "Nettoyage de l’écran en cours",
         press: "Appuyez pour souffler, appuyez encore pour arrêter",
         press_once: "Un seul appui",
+        dwells: "Laissez le pointeur immobile pour souffler, encore ailleurs pour arrêter",
+        dwell: "Pointer sans appuyer",
         calm: "Moins de mouvement",
         speak: "Lire à voix haute",
         no_sound: "Cette œuvre ne fait aucun son.",
@@ -224,6 +258,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "Lo schermo viene pulito",
         press: "Premi per soffiare, premi ancora per smettere",
         press_once: "Un solo tocco",
+        dwells: "Tieni fermo il puntatore per soffiare, di nuovo altrove per smettere",
+        dwell: "Puntare senza premere",
         calm: "Meno movimento",
         speak: "Leggi ad alta voce",
         no_sound: "Quest’opera non fa suoni.",
@@ -256,6 +292,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "Se está limpiando la pantalla",
         press: "Pulsa para soplar, pulsa otra vez para parar",
         press_once: "Pulsar una vez",
+        dwells: "Deja quieto el puntero para soplar, y otra vez en otro sitio para parar",
+        dwell: "Apuntar sin pulsar",
         calm: "Menos movimiento",
         speak: "Leer en voz alta",
         no_sound: "Esta obra no suena.",
@@ -288,6 +326,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "화면을 닦고 있습니다",
         press: "누르면 바람이 불고 다시 누르면 멈춥니다",
         press_once: "한 번 누르기",
+        dwells: "포인터를 멈추면 바람이 불고, 옮겨서 다시 멈추면 그칩니다",
+        dwell: "멈춰서 누르기",
         calm: "움직임 줄이기",
         speak: "소리 내어 읽기",
         no_sound: "이 작품은 소리가 나지 않습니다.",
@@ -320,6 +360,8 @@ pub const WORDS: &[Words] = &[
         cleaning: "画面を清掃しています",
         press: "押すと風が吹き、もう一度押すと止まります",
         press_once: "一度押し",
+        dwells: "ポインターを止めると風が吹き、動かしてまた止めると止まります",
+        dwell: "止めて押す",
         calm: "動きを減らす",
         speak: "読み上げ",
         no_sound: "この作品は音が出ません。",
@@ -339,10 +381,17 @@ pub fn words(language: &str) -> &'static Words {
 
 /// The name of a language in the language; its code where the kiosk does not know it.
 pub fn language_name(language: &str) -> &str {
-    known(language).map_or(language, |words| words.name)
+    let base = base(language);
+    let other = || OTHER_NAMES.iter().find(|(code, _)| code.eq_ignore_ascii_case(base)).map(|(_, name)| *name);
+    known(language).map(|words| words.name).or_else(other).unwrap_or(language)
+}
+
+/// A code without its region.
+fn base(language: &str) -> &str {
+    language.split(['-', '_']).next().unwrap_or(language)
 }
 
 fn known(language: &str) -> Option<&'static Words> {
-    let base = language.split(['-', '_']).next().unwrap_or(language);
+    let base = base(language);
     WORDS.iter().find(|words| words.code.eq_ignore_ascii_case(base))
 }

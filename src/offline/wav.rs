@@ -8,6 +8,8 @@ use super::whole_file::WholeFile;
 
 /// Sample rates the kiosk understands, Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 8_000..=192_000;
+/// Bits of a sample that are read.
+const BITS: std::ops::RangeInclusive<u16> = 8..=32;
 
 /// A recording as one channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,6 +94,10 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
     let spec = reader.spec();
     if !RATES_HZ.contains(&spec.sample_rate) {
         return Err(WavError::Rate { path: path.into(), rate: spec.sample_rate });
+    }
+    // An extended header has a number of its own, which may be anything.
+    if !BITS.contains(&spec.bits_per_sample) {
+        return Err(format(format!("says {} bits a sample, where 8 to 32 are read", spec.bits_per_sample)));
     }
     let promised = reader.len() as usize;
     // Samples are taken until the first that cannot be read; the count says what that means.

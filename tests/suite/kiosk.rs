@@ -515,11 +515,17 @@ mod live {
 
 #[cfg(feature = "kiosk")]
 mod aloud;
+#[cfg(feature = "kiosk")]
+mod bidi;
 mod captions;
+#[cfg(feature = "kiosk")]
+mod chirp;
 #[cfg(feature = "kiosk")]
 mod contrast;
 #[cfg(feature = "kiosk")]
 mod drift;
+#[cfg(feature = "kiosk")]
+mod dwell;
 #[cfg(feature = "kiosk")]
 mod edit;
 #[cfg(feature = "kiosk")]
@@ -528,6 +534,8 @@ mod flashes;
 mod fleet;
 #[cfg(feature = "kiosk")]
 mod glass;
+#[cfg(feature = "kiosk")]
+mod hearing;
 #[cfg(feature = "kiosk")]
 mod house;
 #[cfg(feature = "kiosk")]

@@ -17,6 +17,7 @@ mod exhibits_in_motion;
 mod expected;
 mod exports;
 mod forge;
+mod fuzz;
 mod gather;
 mod hands;
 mod hits;

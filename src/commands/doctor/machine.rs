@@ -5,11 +5,15 @@ use std::time::{Duration, Instant};
 use super::{Finding, Health, judge_blow, judge_room};
 use crate::audio_io::{AudioIo, DeviceState, Heard};
 use crate::config::{Config, remedies};
+use crate::kiosk::care::CLEAN_NIGHTS;
+use crate::kiosk::chirping::{Act, Course};
+use crate::kiosk::fonts::{self, Script};
+use crate::kiosk::kept;
 use crate::kiosk::speech::Speaker;
+use crate::kiosk::window;
 use crate::kiosk::words::WORDS;
-use crate::kiosk::{fonts, window};
 use crate::render::Gpu;
-use crate::sound::Synth;
+use crate::sound::{BANDS, Synth};
 use crate::wind::blow::{BlowDetector, BlowEstimate, BlowSettings, Reason};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -28,9 +32,10 @@ const METER: u64 = 80;
 const OPENING: Duration = Duration::from_secs(3);
 
 /// All that can be found out without a visitor, or with the help of one who blows.
-pub fn look(config: &Config, blow: bool) -> Vec<Finding> {
-    let mut findings = vec![display(), graphics(), east_asian(), reading(config)];
-    findings.extend(sound(config, blow));
+pub fn look(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
+    let mut findings = vec![display(), graphics(), reading(config)];
+    findings.extend(Script::ALL.map(writing));
+    findings.extend(sound(config, blow, chirp));
     findings
 }
 
@@ -61,12 +66,16 @@ fn graphics() -> Finding {
     finding.of_device()
 }
 
-fn east_asian() -> Finding {
-    let what = "fonts for Chinese, Japanese and Korean";
-    match fonts::find_east_asian() {
+fn writing(script: Script) -> Finding {
+    let (what, package) = match script {
+        Script::EastAsian => ("fonts for Chinese, Japanese and Korean", "fonts-noto-cjk or fonts-nanum"),
+        Script::Hebrew => ("font for Hebrew", "fonts-noto-core or fonts-dejavu-core"),
+        Script::Arabic => ("font for Arabic, Persian and Urdu", "fonts-noto-core or fonts-dejavu-core"),
+    };
+    match fonts::find(script) {
         Some((file, _)) => Finding::new(what, Health::Ok, file.display().to_string(), ""),
         None => {
-            let remedy = "install fonts-noto-cjk or fonts-nanum; until then these languages are not offered";
+            let remedy = format!("install {package}; until then labels in these languages are not offered");
             Finding::new(what, Health::Warn, "none found", remedy)
         }
     }
@@ -96,7 +105,7 @@ fn reading(config: &Config) -> Finding {
     }
 }
 
-fn sound(config: &Config, blow: bool) -> Vec<Finding> {
+fn sound(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
     let mut audio = AudioIo::start(&config.audio, Synth::silent);
     let mut heard = Heard::default();
     let mut rate = None;
@@ -130,6 +139,9 @@ fn sound(config: &Config, blow: bool) -> Vec<Finding> {
             findings.push(second_capsule(status.capsules).of_device());
         }
         findings.push(judge_room(&heard.samples, rate).of_device());
+        if chirp {
+            findings.push(own_chirp(config, &mut audio).of_device());
+        }
         if blow {
             let sensitivity_db = config.breath.sensitivity_db;
             let mut detector = BlowDetector::with_settings(rate, BlowSettings { sensitivity_db, ..Default::default() });
@@ -138,6 +150,45 @@ fn sound(config: &Config, blow: bool) -> Vec<Finding> {
         }
     }
     findings
+}
+
+/// Has the loudspeaker chirp to the microphone, as it does at night, and compares with what the kiosk has kept of its nights.
+fn own_chirp(config: &Config, audio: &mut AudioIo) -> Finding {
+    let what = "chirp";
+    let (began, mut course, mut heard) = (Instant::now(), Course::default(), Heard::default());
+    course.begin(0.0);
+    let outcome = loop {
+        std::thread::sleep(LOOK);
+        heard.clear();
+        let rate = audio.read_microphone(&mut heard);
+        match course.tend(began.elapsed().as_secs_f64(), &audio.status(), (&heard.samples, rate)) {
+            Some(Act::Say(words)) => audio.say(&words),
+            Some(Act::Done(outcome)) => break outcome,
+            None => {}
+        }
+    };
+    let mut care = kept::folder(config).and_then(|folder| kept::look(&folder)).unwrap_or_default().care;
+    if let Ok(arrived) = &outcome
+        && care.clean_db.len() < CLEAN_NIGHTS
+    {
+        let octaves = BANDS.iter().zip(arrived.levels_db).zip(arrived.clear);
+        let said: Vec<String> = octaves
+            .map(|((hz, db), clear)| format!("{hz:.0} Hz {}{db:.0} dB", if clear { "" } else { "below " }))
+            .collect();
+        let (health, remedy) = match arrived.clear.iter().filter(|clear| **clear).count() {
+            0 => (Health::Bad, "nothing of it arrives: look at the loudspeaker, its amplifier and the microphone"),
+            1..4 => (Health::Warn, "most of it is lost in noise: turn the loudspeaker up, or look what is in the way"),
+            _ => (Health::Ok, ""),
+        };
+        return Finding::new(what, health, format!("{}; no nights to compare with yet", said.join(", ")), remedy);
+    }
+    match care.note(&outcome, String::new()) {
+        verdict if verdict.is_bad() => {
+            let remedy = "mend it, and chirp again; after a change that was meant so, `Listen anew` on the staff panel";
+            Finding::new(what, Health::Bad, verdict.to_string(), remedy)
+        }
+        verdict => Finding::new(what, Health::Ok, verdict.to_string(), ""),
+    }
 }
 
 fn second_capsule(capsules: usize) -> Finding {

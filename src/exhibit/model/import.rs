@@ -81,6 +81,9 @@ pub fn import(path: &Path) -> Result<Imported, Report> {
     Ok(Imported { model, warnings: reader.warnings })
 }
 
+/// Bytes of a GLB file's header.
+const GLB_HEADER: u32 = 12;
+
 struct Reader {
     name: String,
     folder: PathBuf,
@@ -106,6 +109,11 @@ impl Reader {
     fn read(&mut self, path: &Path) -> Outcome<Model> {
         let bytes = paths::read_limited(path, MAX_FILE_BYTES)?;
         let (json_bytes, blob) = if bytes.starts_with(b"glTF") {
+            // The reader takes a length that has room for its own header for granted.
+            let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
+            if length.is_none_or(|length| length < GLB_HEADER) {
+                return Err(self.broken("not a whole GLB file: its length has no room for its header"));
+            }
             let glb = gltf::binary::Glb::from_slice(&bytes)
                 .map_err(|error| self.broken(format_args!("not a whole GLB file: {error}")))?;
             (glb.json.into_owned(), glb.bin.map(std::borrow::Cow::into_owned))

@@ -166,7 +166,8 @@ impl Context<'_> {
         let mesh =
             self.mesh_of(node, &format!("{at}/{}", if given.node.is_some() { "node" } else { "body" }), &used_for)?;
         let extents = mesh.extents()?;
-        let material = &self.materials[self.part_material(body, node).unwrap_or(bodies.get(body)?.material)];
+        // A body of an unknown material was reported; there may be none at all.
+        let material = self.materials.get(self.part_material(body, node).unwrap_or(bodies.get(body)?.material))?;
         let params = given.params;
         let closed = mesh.is_closed();
         let measured = if extents.half.z > 0.0 { 2.0 * extents.half.z } else { NOMINAL_THICKNESS };

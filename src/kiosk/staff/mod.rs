@@ -62,6 +62,12 @@ pub enum Wish {
     Clean,
     /// Open while the house is closed, or close again.
     Open,
+    /// The loudspeaker chirps to the microphone.
+    Chirp,
+    /// The foam is a new one.
+    FoamChanged,
+    /// What chirps tell from now on is how it should be.
+    ListenAnew,
     /// Show the work with this id.
     Show(String),
     /// Let it be heard.

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::config::Config;
 use crate::exhibit::View;
 use crate::kiosk::house::House;
+use crate::kiosk::kept::Kept;
 use crate::kiosk::live::Frame;
 use crate::kiosk::log::Log;
 
@@ -43,6 +44,8 @@ pub struct Sight<'a> {
     pub works: &'a [&'a str],
     /// Is it open, is it cleaned?
     pub house: &'a House,
+    /// What is kept: of foam and chirps, too.
+    pub kept: &'a Kept,
     /// What was logged.
     pub log: &'a Log,
     /// Inputs so far.

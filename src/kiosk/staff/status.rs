@@ -36,6 +36,13 @@ fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
             if early || !sight.house.is_open() {
                 all.push((if early { "Close the house again" } else { "Open now" }, Wish::Open));
             }
+            if sight.site.visit.breath {
+                all.extend([
+                    ("Chirp", Wish::Chirp),
+                    ("New foam", Wish::FoamChanged),
+                    ("Listen anew", Wish::ListenAnew),
+                ]);
+            }
             all.push(("End the kiosk", Wish::Close));
             for (name, asked) in all {
                 if ui.button(name).clicked() {
@@ -73,6 +80,14 @@ fn numbers(ui: &mut Ui, sight: &Sight) {
     row("level", level, heard.clipping);
     let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
     row("at full scale", clips, microphone.clips_lately());
+    let foam = sight.kept.care.foam(sight.kept.tally.breaths());
+    let lasts = u64::from(sight.site.care.foam_blows);
+    let said = if lasts > 0 { format!("{foam} breaths of {lasts}") } else { format!("{foam} breaths") };
+    row("foam", said, lasts > 0 && foam >= lasts);
+    match &sight.kept.care.last {
+        Some((verdict, when)) => row("chirp", format!("{verdict}; {when}"), verdict.is_bad()),
+        None => row("chirp", "none yet".into(), false),
+    }
     row("gain control", if heard.gain_control { "seen" } else { "none seen" }.into(), heard.gain_control);
     row("detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
     row("breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
@@ -96,6 +111,9 @@ fn numbers(ui: &mut Ui, sight: &Sight) {
         row(kind, said.clone(), false);
     }
     row("loudspeaker", audio.output.to_string(), false);
+    if let Some(state) = &audio.hearing_loop {
+        row("hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
+    }
     row("late blocks", audio.xruns.to_string(), audio.xruns > 0);
     let loud = &frame.load.loudness;
     let muted = if loud.muted { ", muted" } else { "" };

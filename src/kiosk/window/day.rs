@@ -45,8 +45,20 @@ impl App<'_> {
         let yesterday = now.date().checked_sub(1.day()).unwrap_or(now.date());
         let minutes = 60 * u16::from(now.hour().unsigned_abs()) + u16::from(now.minute().unsigned_abs());
         let time = TimeOfDay::from_minutes(minutes);
-        self.house.look(&self.config.opening, day(now.date()), day(yesterday), time);
+        let days = [day(now.date()), day(yesterday)];
+        self.house.look(&self.config.opening, days[0], days[1], time);
         self.tell_house(before);
+        if self.fleet.chirp_is_due(self.config.care.chirp_at, days, time, self.house.is_open()) {
+            self.chirp();
+        }
+    }
+
+    /// The loudspeaker chirps to the microphone, to find out how both are.
+    fn chirp(&mut self) {
+        if let Some(show) = &self.show {
+            show.live.controls().chirp = true;
+            tracing::info!("the loudspeaker chirps to the microphone");
+        }
     }
 
     /// Staff open the kiosk while the house is closed, or close it again.
@@ -146,6 +158,17 @@ impl App<'_> {
                 self.house.clean(self.clock.seconds(Instant::now()));
                 tracing::info!("all input is off: the glass is cleaned");
                 self.tell();
+            }
+            Wish::Chirp => self.chirp(),
+            Wish::FoamChanged => {
+                let (care, breaths) = self.fleet.care();
+                let had = care.foam(breaths);
+                care.change_foam(breaths);
+                self.say(format!("a new foam; the old one had {had} breaths"));
+            }
+            Wish::ListenAnew => {
+                self.fleet.care().0.listen_anew();
+                self.chirp();
             }
             Wish::Show(id) => {
                 if let Some(work) = self.offer.works().iter().find(|work| work.id == id) {

@@ -1,8 +1,11 @@
 //! The window's part in what a visitor needs otherwise: reading aloud, choices for this visit, works that are swiped to.
 
+use winit::event_loop::ActiveEventLoop;
+
 use super::App;
 use crate::audio_io::{DeviceState, Words};
 use crate::kiosk::aloud::goes_on;
+use crate::kiosk::dwell::Target;
 use crate::kiosk::input::{Request, Signal};
 use crate::kiosk::live::Frame;
 use crate::kiosk::needs::Needs;
@@ -33,6 +36,30 @@ impl App<'_> {
         }
     }
 
+    /// Presses where the pointer rests, for whoever chose that.
+    pub(super) fn follow_rest(&mut self, events: &ActiveEventLoop, time: f64, points: egui::Rect) {
+        let hears = self.needs.dwell && self.house.hears(time) && !self.staff.is_open();
+        let pointer = self.visitor.rests().filter(|_| hears).map(|[x, y]| {
+            let below = self.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)));
+            let on = match below {
+                Some(Request::Nothing) => None,
+                Some(request) => Some(Target::Button(request)),
+                None => Some(Target::Work),
+            };
+            ([x, y], on)
+        });
+        let aspect = f64::from(points.width() / points.height());
+        match self.dwell.tend(time, pointer, self.config.visit.dwell_s, aspect) {
+            Some(Target::Button(request)) => {
+                self.visitor.note();
+                self.grant(events, request);
+            }
+            Some(Target::Work) => self.visitor.tap(pointer.map_or([0.5, 0.5], |(at, _)| at)),
+            None => return,
+        }
+        self.tell();
+    }
+
     /// The next visitor finds what the site says.
     pub(super) fn forget_needs(&mut self) {
         self.needs = Needs::of(&self.config.visit);
@@ -57,6 +84,7 @@ impl App<'_> {
     pub(super) fn choose(&mut self, request: Request) {
         match request {
             Request::PressOnce => self.needs.press_once ^= true,
+            Request::Dwell => self.needs.dwell ^= true,
             Request::Calm => self.needs.calm ^= true,
             Request::Speak => {
                 let hush = self.aloud.press();

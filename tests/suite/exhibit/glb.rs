@@ -185,3 +185,21 @@ pub fn assemble(mut json: Vec<u8>, mut binary: Vec<u8>) -> Vec<u8> {
     out.extend(body);
     out
 }
+
+/// Post (still), Boom with Weight, Plate on the boom's tip, an open Flag, and two nodes named Twin.
+pub fn boom_and_plate() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let tip = scene.node("Tip", [0.5, 0.0, 0.0], None, &[]);
+    let end = scene.node("End", [-0.5, 0.0, 0.0], None, &[]);
+    let weight = scene.node("Weight", [-0.4, 0.0, 0.0], Some(&cuboid([0.02, 0.02, 0.02])), &[]);
+    scene.node("Boom", [0.0, 1.0, 0.0], None, &[tip, end, weight]);
+    let hook = scene.node("Hook", [0.0, 0.1, 0.0], None, &[]);
+    scene.node("Plate", [0.5, 0.9, 0.0], Some(&cuboid([0.1, 0.2, 0.001])), &[hook]);
+    scene.node("Post", [0.0, 0.5, 0.0], Some(&cuboid([0.01, 1.0, 0.01])), &[]);
+    scene.node("Flag", [0.0, 2.0, 0.0], Some(&sheet(0.2, 0.1)), &[]);
+    scene.node("Twin", [0.0, 3.0, 0.0], None, &[]);
+    scene.node("Twin", [0.0, 4.0, 0.0], None, &[]);
+    let stretched = scene.node("Stretched", [0.0, 5.0, 0.0], Some(&cuboid([0.1; 3])), &[]);
+    scene.set(stretched, "scale", json!([1.0, 2.0, 1.0]));
+    scene.glb()
+}

@@ -37,7 +37,10 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
     let mut frames = Histogram::default();
     (0..10).for_each(|_| frames.note(FRAME_S, 0.016));
     let content = ("pendulum", "00ff");
-    let text = text(&frame(load), &Numbers { kept: &kept, frames: &frames, safe: true, reloads: false, content });
+    let text = text(
+        &frame(load),
+        &Numbers { kept: &kept, frames: &frames, safe: true, reloads: false, foam_lasts: 100, content },
+    );
     for line in [
         "soffio_up 1",
         "soffio_starts_total 7",
@@ -89,11 +92,13 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
         frames: &Histogram::default(),
         safe: false,
         reloads: true,
+        foam_lasts: 5000,
         content: ("pendulum", ""),
     };
     let mut told = text(&frame(Load::default()), &numbers);
     // Told only once there is something to tell.
-    told += "soffio_blows_total\nsoffio_language_total\nsoffio_laeq_minute_db\nsoffio_level_minute_db\n";
+    told +=
+        "soffio_chirp_bad\nsoffio_blows_total\nsoffio_language_total\nsoffio_laeq_minute_db\nsoffio_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
     let mut asked = 0;
     for file in ["soffio.rules.yml", "soffio.grafana.json"] {

@@ -43,6 +43,7 @@ pub struct Before {
     pub languages: Vec<String>,
     pub language: String,
     pub needs: Needs,
+    pub rests: Option<([f64; 2], f64)>,
     pub speech: Option<bool>,
     pub overlay: Overlay,
     pub menu: Menu,
@@ -74,6 +75,7 @@ impl Before {
             language: languages[0].clone(),
             languages,
             needs: Needs::default(),
+            rests: None,
             speech: Some(false),
             overlay: Overlay::default(),
             menu: Menu::default(),
@@ -143,6 +145,7 @@ impl Before {
             volume: true,
             time: self.time,
             needs: self.needs,
+            rests: self.rests,
             speech: self.speech,
             tiles: &tiles,
             groups: &self.groups,
@@ -420,7 +423,7 @@ fn the_fonts_can_write_every_word_of_every_language_that_the_kiosk_speaks() {
     context.set_fonts(fonts::definitions());
     let mut laid_out = context.run_ui(egui::RawInput::default(), |ui| {
         // Where the system has no East Asian font those languages are not offered.
-        let east = fonts::find_east_asian().is_some();
+        let east = fonts::find(fonts::Script::EastAsian).is_some();
         for words in WORDS.iter().filter(|words| east || !["ko", "ja"].contains(&words.code)) {
             for text in words.all() {
                 let can = ui.ctx().fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), text));

@@ -9,6 +9,7 @@ use soffio::exhibit;
 use soffio::kiosk::fonts;
 use soffio::kiosk::house::House;
 use soffio::kiosk::input::{Phase, Signal};
+use soffio::kiosk::kept::Kept;
 use soffio::kiosk::live::Frame;
 use soffio::kiosk::log::{KEPT, LONGEST, Line, Log};
 use soffio::kiosk::staff::gate::{Gate, LONGEST_S};
@@ -92,6 +93,7 @@ struct Before {
     staff: Staff,
     site: Config,
     house: House,
+    kept: Kept,
     log: Log,
     file: Option<std::path::PathBuf>,
     folder: Option<std::path::PathBuf>,
@@ -123,6 +125,7 @@ impl Before {
             staff,
             site,
             house: House::default(),
+            kept: Kept::default(),
             log: Log::default(),
             file: None,
             folder: None,
@@ -154,6 +157,7 @@ impl Before {
             file: self.file.as_deref(),
             works: &["steel-fish", "wind-chimes"],
             house: &self.house,
+            kept: &self.kept,
             log: &self.log,
             activity: self.activity,
             on_desk: self.on_desk,

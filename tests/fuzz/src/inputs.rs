@@ -1,0 +1,125 @@
+//! What is done with bytes that somebody hands to Soffio as a file: read, and where they are good, tried for a moment.
+//!
+//! Invariant: no bytes panic, take long or take much memory. The fuzzer makes bytes up; the suite runs the seeds and all
+//! that was ever found, through the same functions.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use soffio::config::Config;
+use soffio::dynamics::{Integrator, Solver};
+use soffio::exhibit::{self, Exhibit};
+use soffio::offline::audition::Audition;
+use soffio::offline::scene::Scene;
+use soffio::offline::scene::run::{Engine, Soffio};
+use soffio::offline::wav;
+use soffio::simulation::{Script, Settings, Simulation, StepInput, record};
+use soffio::sound::Preset;
+
+/// Steps that a good exhibit or scene is run for.
+const STEPS: usize = 8;
+/// How long a good timbre sounds, s.
+const SOUNDS: f64 = 0.02;
+
+/// Reads bytes as a file of one kind, in a folder of its own.
+pub type Reader = fn(&Path, &[u8]);
+
+/// A kind of file by its name.
+pub const KINDS: &[(&str, Reader)] = &[
+    ("sidecar", sidecar),
+    ("model", model),
+    ("recording", recording),
+    ("timbre", timbre),
+    ("config", config),
+    ("script", script),
+    ("scene", scene),
+];
+
+/// `exhibit.toml` beside the models that lie in `folder`.
+pub fn sidecar(folder: &Path, bytes: &[u8]) {
+    put(&folder.join(exhibit::SIDECAR), bytes);
+    match exhibit::load(folder) {
+        Ok(exhibit) => begin(exhibit),
+        Err(report) => drop(report.render(false)),
+    }
+}
+
+/// `.glb` or `.gltf`.
+pub fn model(folder: &Path, bytes: &[u8]) {
+    let path = folder.join("torn.glb");
+    put(&path, bytes);
+    match exhibit::plain(&path) {
+        Ok(exhibit) => begin(exhibit),
+        Err(report) => drop(report.render(false)),
+    }
+}
+
+/// WAV.
+pub fn recording(folder: &Path, bytes: &[u8]) {
+    let path = folder.join("torn.wav");
+    put(&path, bytes);
+    match wav::read(&path) {
+        Ok(recording) => assert!(!recording.samples.is_empty() && recording.duration() > 0.0),
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// A timbre's TOML.
+pub fn timbre(_: &Path, bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    // A timbre is called as its file is; here every name is right.
+    let name = text.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next()).unwrap_or("torn");
+    match Preset::parse(name, text) {
+        Ok(preset) => drop(Audition::default().render(&preset, &preset.specimen, SOUNDS)),
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `kiosk.toml`.
+pub fn config(_: &Path, bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match Config::parse(text, Path::new("kiosk.toml")) {
+        Ok(config) => drop(config.simulation_settings(0)),
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// A script's JSON lines, or a record's.
+pub fn script(_: &Path, bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    if let Ok(mut script) = Script::parse(text) {
+        let mut commands = Vec::new();
+        for part in 0..=STEPS {
+            script.due(script.duration() * part as f64 / STEPS as f64, &mut commands);
+        }
+    }
+    if let Err(error) = record::parse(text) {
+        drop(error.to_string());
+    }
+}
+
+/// A physics scene's JSON.
+pub fn scene(_: &Path, bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match Scene::parse(text, "torn.json") {
+        Ok(scene) => {
+            let mut run = Soffio::new(&scene, scene.dts[0], Integrator::Auto, Solver::Sparse);
+            for _ in 0..STEPS {
+                run.step();
+            }
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// A valid exhibit is one that runs.
+fn begin(exhibit: Exhibit) {
+    let mut simulation = Simulation::new(Arc::new(exhibit), Settings::default());
+    for _ in 0..STEPS {
+        simulation.step(&StepInput { hold: true, ..StepInput::default() });
+    }
+}
+
+fn put(path: &Path, bytes: &[u8]) {
+    std::fs::write(path, bytes).expect("a writable folder");
+}

@@ -1,0 +1,72 @@
+//! What the fuzzer begins with, and all that it ever found, through the functions that it tries (`tests/fuzz`).
+
+use std::path::{Path, PathBuf};
+
+use soffio::exhibit;
+use soffio::offline::wav;
+
+use super::exhibit::glb::{Folder, boom_and_plate};
+
+#[path = "../fuzz/src/inputs.rs"]
+mod inputs;
+
+/// Files of `tests/fuzz/<of>/<kind>`.
+fn files(of: &str, kind: &str) -> Vec<PathBuf> {
+    let folder = Path::new("tests/fuzz").join(of).join(kind);
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.expect("a file").path()).collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn seeds_are_good_files() {
+    let stored = std::fs::read("tests/fuzz/seeds/model/figure.glb").expect("a seed");
+    assert!(stored == boom_and_plate(), "seeds/model/figure.glb is not the figure that the tests make");
+    for file in files("seeds", "model") {
+        exhibit::plain(&file).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    }
+    for file in files("seeds", "recording") {
+        assert!(wav::read(&file).is_ok_and(|recording| recording.samples.len() == 64), "{file:?}");
+    }
+    for file in files("seeds", "sidecar") {
+        let folder = Folder::exhibit(&boom_and_plate(), "");
+        folder.write(exhibit::SIDECAR, &std::fs::read(&file).expect("a seed"));
+        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    }
+}
+
+#[test]
+fn what_was_found_once_is_borne() {
+    let mut tried = 0;
+    for (kind, try_it) in inputs::KINDS {
+        for file in ["seeds", "found"].iter().flat_map(|of| files(of, kind)) {
+            println!("{file:?}");
+            let folder = Folder::exhibit(&boom_and_plate(), "");
+            try_it(folder.path(), &std::fs::read(&file).expect("a file"));
+            tried += 1;
+        }
+    }
+    assert!(tried > 0);
+}
+
+#[test]
+fn a_recording_of_impossible_bits_is_refused_with_a_reason() {
+    let error = wav::read("tests/fuzz/found/recording/bits.wav").expect_err("544 bits a sample");
+    assert!(error.to_string().contains("544 bits a sample"), "{error}");
+}
+
+#[test]
+fn a_sound_of_a_body_whose_material_nobody_knows_is_told_and_not_looked_up() {
+    let folder = Folder::exhibit(&boom_and_plate(), "");
+    let torn = std::fs::read("tests/fuzz/found/sidecar/unknown-material-sounds.toml").expect("what was found");
+    folder.write(exhibit::SIDECAR, &torn);
+    let report = exhibit::load(folder.path()).expect_err("there is no such material");
+    assert!(report.to_string().contains("s:teel"), "{report}");
+}
+
+#[test]
+fn a_model_that_says_it_is_shorter_than_its_header_is_refused() {
+    let report = exhibit::plain(Path::new("tests/fuzz/found/model/short-length.glb")).expect_err("no room");
+    assert!(report.to_string().contains("no room for its header"), "{report}");
+}
