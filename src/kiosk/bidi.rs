@@ -99,19 +99,18 @@ fn pieces(info: &BidiInfo, paragraph: &ParagraphInfo, line: Range<usize>) -> Lin
     pieces
 }
 
-/// A run from the left. The shaper would turn digits of Arabic, of whose script they are, so each is a piece of its own.
+/// A run from the left. The shaper turns the digits of Arabic about, of whose script they are: they are given it reversed.
 fn kept(run: &str) -> Vec<String> {
     let digit = |c: char| bidi_class(c) == BidiClass::AN;
-    let mut pieces: Vec<String> = Vec::new();
-    let mut before = true;
+    let mut pieces: Vec<(bool, String)> = Vec::new();
     for c in run.chars() {
-        match pieces.last_mut().filter(|_| !before && !digit(c)) {
-            Some(piece) => piece.push(c),
-            None => pieces.push(c.into()),
+        match pieces.last_mut().filter(|(of_digits, _)| *of_digits == digit(c)) {
+            Some((true, piece)) => piece.insert(0, c),
+            Some((false, piece)) => piece.push(c),
+            None => pieces.push((digit(c), c.into())),
         }
-        before = digit(c);
     }
-    pieces
+    pieces.into_iter().map(|(_, piece)| piece).collect()
 }
 
 /// A run from the right: words whole, as they are read (the shaper turns them), the rest sign by sign, mirrored.

@@ -32,8 +32,8 @@ fn numbers_and_latin_names_among_them_are_read_from_the_left() {
     assert_eq!(set("מאת Alexander Calder נתלה"), "נתלה| |Alexander Calder| |מאת");
     // A Latin name first does not turn the sentence about: this is UAX 9 with the paragraph's level given.
     assert_eq!(set("Calder בנה מובייל תלוי"), "תלוי| |מובייל| |בנה| |Calder");
-    // Arabic-Indic digits too, each by itself, so that the shaper turns none about.
-    assert_eq!(set("عام ١٩٤١ م"), "م| |١|٩|٤|١| |عام");
+    // Arabic-Indic digits are given the shaper reversed, which it turns about.
+    assert_eq!(set("عام ١٩٤١ م"), "م| |١٤٩١| |عام");
     // A word from the right within English stays one word within it.
     assert_eq!(set("the word שלום means peace"), "the word |שלום| means peace");
 }
