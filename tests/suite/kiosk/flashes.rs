@@ -130,6 +130,10 @@ fn no_shipped_work_ever_flashes_in_attract_mode() {
     let mut bad = Vec::new();
     for folder in super::captions::folders() {
         let id = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        // One work alone, for whoever mends it.
+        if std::env::var("SOFFIO_WORK").is_ok_and(|only| only != id) {
+            continue;
+        }
         let seconds = exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}")).attract.duration;
         let flashes = worst(attract(&id, seconds.clamp(5.0, 40.0), 15), 15);
         println!("{id}: {flashes}");
