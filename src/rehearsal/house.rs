@@ -2,6 +2,12 @@
 //!
 //! Time goes in blocks of 10 ms, as a sound card's does. Everything is summed as sound; last comes the microphone: its
 //! corner, its own noise, its rails.
+//!
+//! How loud a house is beside a breath is a matter of physics. The breath of [`generate`](crate::wind::generate) at 8.9 m/s
+//! strikes a capsule 30 cm away at −23 dB of full scale. A round jet from lips a centimetre wide has 6 · 8.9 m/s · 1/30 =
+//! 1.8 m/s left there (Pope, Turbulent Flows, 2000, section 5.1), and a quarter of that wavers: ρ U u′ = 1 Pa, 94 dB. So
+//! full scale is 117 dB of sound, and a museum of 57 dB(A) (Carvalho et al. 2016, measured in Santo Tirso) lies 60 dB
+//! below it.
 
 use std::collections::VecDeque;
 
@@ -14,7 +20,7 @@ use crate::noise::{Random, hash_words};
 use crate::offline::ear::scenes::{World, resampled};
 use crate::offline::ear::{RATE, noises};
 use crate::offline::wav::Recording;
-use crate::wind::generate::filter::white;
+use crate::wind::generate::filter::{normalised, white};
 
 const R: f64 = RATE as f64;
 /// The crowd comes in pieces of this length, which fade into each other, s.
@@ -22,12 +28,23 @@ const PIECE_S: f64 = 60.0;
 const FADE_S: f64 = 2.0;
 /// A recording must be so long, s: the fades at its ends and as much between them.
 const SHORTEST_S: f64 = 3.0 * FADE_S;
+/// Sound pressure level of full scale, dB.
+const FULL_SCALE_DB: f64 = 117.0;
+/// Mean level of an empty house, and what a full one has more: 66 dB in all, and 80 dB with a school class in it; each minute
+/// is louder or quieter by up to 4 dB.
+const HOUSE_DB: (f64, f64) = (48.0, 18.0);
+const MINUTE_DB: f64 = 4.0;
 /// Ventilation and street, dB of full scale: from a quiet house to a busy one.
 const AIR_DBFS: (f64, f64) = (-62.0, -50.0);
 /// Noise of the microphone, dB of full scale.
 const HISS_DBFS: f64 = -76.0;
 /// Corners of a bare capsule, a gooseneck on a sound card, a cheap one, Hz.
 const CORNERS_HZ: [f64; 3] = [20.0, 60.0, 80.0];
+
+/// Amplitude of a sound of so many dB at the microphone, full scale 1.
+pub fn loud(db: f64) -> f64 {
+    from_decibels(db - FULL_SCALE_DB)
+}
 
 /// Where the crowd comes from.
 pub enum Crowd {
@@ -120,7 +137,11 @@ impl House {
         let mut random = Random::new(hash_words(&[self.seed, self.pieces, 0x6372_6f77]));
         let busy = busyness(self.pieces as f64 * PIECE_S / self.day_s);
         let mut piece = match &self.crowd {
-            Crowd::Made => self.world.crowd(PIECE_S + FADE_S, busy, &mut random),
+            Crowd::Made => {
+                let level = HOUSE_DB.0 + HOUSE_DB.1 * busy + random.range(-MINUTE_DB, MINUTE_DB);
+                let crowd = normalised(self.world.crowd(PIECE_S + FADE_S, busy, &mut random));
+                crowd.into_iter().map(|x| loud(level) * x).collect()
+            }
             Crowd::Recorded(recordings) => recordings[(self.pieces % recordings.len() as u64) as usize].clone(),
         };
         if matches!(self.crowd, Crowd::Made) {

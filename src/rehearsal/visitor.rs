@@ -3,11 +3,12 @@
 //! Distances, angles and strengths are those of people before a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s,
 //! an adult 6 to 17 m/s, soft as often as hard; most blow at the microphone, some past it.
 
+use super::house::loud;
 use crate::math::{from_decibels, pow};
 use crate::noise::{Random, hash_words};
 use crate::offline::ear::scenes::{Lips, World};
 use crate::offline::ear::{RATE, noises, voices};
-use crate::wind::generate::filter::peaked;
+use crate::wind::generate::filter::{normalised, peaked};
 use crate::wind::generate::{self, BreathShape};
 
 /// Lips to microphone, m.
@@ -25,6 +26,13 @@ const ADULT_M_S: (f64, f64) = (6.0, 17.0);
 /// Bounds between gentle, normal and strong, m/s.
 const NORMAL_M_S: f64 = 6.5;
 const STRONG_M_S: f64 = 11.0;
+
+/// Levels at the microphone, dB of sound: who talks, loudly or not, from 0.3 to 1.5 m, who shouts at it (62, 75 and 82 dB at
+/// a metre are normal, loud and shouted speech: ANSI S3.5-1997), who laughs; steps on a floor.
+const TALK_DB: (f64, f64) = (58.0, 76.0);
+const SHOUT_DB: (f64, f64) = (82.0, 98.0);
+const LAUGHTER_DB: (f64, f64) = (70.0, 88.0);
+const STEPS_DB: (f64, f64) = (45.0, 65.0);
 
 /// What somebody comes to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -260,30 +268,29 @@ impl Visit {
         let random = &mut random;
         let mut out = Vec::new();
         let stay = self.leaves - self.arrives;
-        let mut say = |at: f64, sound: Vec<f64>, db: f64| {
-            let gain = from_decibels(db);
-            out.push((at, world.before_the_kiosk(&sound).into_iter().map(|x| gain * x).collect()));
+        let mut say = |at: f64, sound: Vec<f64>, (low, high): (f64, f64), random: &mut Random| {
+            let gain = loud(random.range(low, high));
+            let heard = normalised(world.before_the_kiosk(&sound));
+            out.push((at, heard.into_iter().map(|x| gain * x).collect()));
         };
-        say(self.arrives, noises::footsteps(1.5, random), random.range(-50.0, -30.0));
+        say(self.arrives, noises::footsteps(1.5, random), STEPS_DB, random);
         match self.way {
             Way::InAGroup => {
                 for _ in 0..2 + (random.unit() * 3.0) as u32 {
-                    say(self.arrives, world.speech(stay, random), random.range(-40.0, -22.0));
+                    say(self.arrives, world.speech(stay, random), TALK_DB, random);
                 }
                 let at = random.range(self.arrives, self.leaves);
-                say(at, peaked(voices::laughter(&world.voice(random), random)), random.range(-24.0, -8.0));
+                say(at, voices::laughter(&world.voice(random), random), LAUGHTER_DB, random);
             }
             Way::Shouts => {
                 let onset = self.onset().unwrap_or(self.leaves);
                 let length = random.range(0.5, 1.8);
                 let shout = voices::speech(&world.voice(random).shouting(), length, random);
                 // Air for the breath is taken after it.
-                say(onset - length - random.range(0.6, 1.5), peaked(shout), random.range(-16.0, -2.0));
+                say(onset - length - random.range(0.6, 1.5), shout, SHOUT_DB, random);
             }
-            Way::WalksAway => say(self.arrives, world.speech(stay, random), random.range(-34.0, -18.0)),
-            _ if random.unit() < 0.3 => {
-                say(self.arrives, world.speech(2.0, random), random.range(-38.0, -22.0));
-            }
+            Way::WalksAway => say(self.arrives, world.speech(stay, random), TALK_DB, random),
+            _ if random.unit() < 0.3 => say(self.arrives, world.speech(2.0, random), TALK_DB, random),
             _ => {}
         }
         // A hand on the glass is heard through the table, not through the room.

@@ -31,7 +31,7 @@ pub struct Args {
     /// Worlds of speakers and rooms in each lesson.
     #[arg(long, default_value_t = 3)]
     worlds: u64,
-    /// Hours of museum in each world, and the rest in proportion.
+    /// Size of each world: 1 is an hour and a half of museum, and the rest in proportion.
     #[arg(long, default_value_t = 1.0)]
     size: f64,
     /// Rounds over all examples after each lesson.

@@ -44,7 +44,7 @@ pub struct Course {
     pub lessons: u64,
     /// Worlds of speakers and rooms in a lesson.
     pub worlds: u64,
-    /// 1: an hour of museum a world, and the rest in proportion.
+    /// 1: an hour and a half of museum a world, and the rest in proportion.
     pub size: f64,
     /// Rounds over all examples after each lesson.
     pub rounds: usize,
@@ -67,8 +67,8 @@ pub struct Learnt {
 fn scenes(size: f64) -> Vec<(Condition, u64)> {
     let count = |full: f64| (full * size).round() as u64;
     let mut all = vec![
-        (Condition::Museum, count(60.0)),
-        (Condition::Impulses, count(120.0)),
+        (Condition::Museum, count(90.0)),
+        (Condition::Impulses, count(180.0)),
         (Condition::Alike, count(120.0)),
         (Condition::Isolated, count(180.0)),
     ];

@@ -33,7 +33,8 @@ impl Wind {
     }
 }
 
-/// The kiosk's answers to breaths: its wind, a little later than each, and strikes of what it moves.
+/// The kiosk's answers to breaths: its wind, a little later than each, and strikes of what it moves; half the time it
+/// has been ringing before.
 pub fn answers(seconds: f64, breaths: &[Breath], random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; (seconds * R) as usize];
     let wind = Wind::new(out.len(), random);
@@ -43,7 +44,9 @@ pub fn answers(seconds: f64, breaths: &[Breath], random: &mut Random) -> Vec<f64
         let length = (breath.offset - at).max(0.1) + random.range(0.1, 0.6);
         wind.blow(&mut out, at, length, force, random);
     }
-    strikes(&mut out, breaths.first().map_or(0.0, |b| b.onset) + random.range(0.1, 0.7), random);
+    let onset = breaths.first().map_or(0.0, |b| b.onset);
+    let from = if random.unit() < 0.5 { random.range(0.0, onset) } else { onset + random.range(0.1, 0.7) };
+    strikes(&mut out, from, random);
     out.into_iter().map(|x| x.clamp(-1.0, 1.0)).collect()
 }
 

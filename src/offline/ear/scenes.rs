@@ -26,6 +26,9 @@ const ROOMS: usize = 8;
 const PLACES: usize = 5;
 /// The longest that anybody blows evenly, s: with attack and release, less than what is latched as a machine's.
 const LONGEST_HOLD_S: f64 = 5.0;
+/// How long a scene has gone on before somebody blows, s: visitors come to rooms that have been loud for long, and what
+/// the ear remembers of the seconds before must be as full in a lesson as there.
+const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
 
 /// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -214,7 +217,7 @@ impl World {
         // Soft breaths are as frequent as hard ones: they are the harder to hear.
         let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
         let first = BreathShape {
-            lead_in: random.range(0.7, 2.5),
+            lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
             strength: soft * crate::math::pow(hard / soft, random.unit()),
             lead_out: random.range(0.8, 1.5),
             distance,
