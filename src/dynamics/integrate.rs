@@ -187,7 +187,7 @@ impl Dynamics {
             return;
         }
         self.system.look_for_gaps();
-        let apart = self.system.largest_error();
+        let apart = self.system.largest_lean_error();
         self.system.solve_displacement();
         self.system.close_quads();
         if apart > COARSE {
