@@ -225,6 +225,23 @@ impl Loops {
         }
     }
 
+    /// As [`Loops::correct`], for an impulse that only trains feel, whose own answers they have already.
+    pub fn correct_trains(&mut self, trains: &mut Trains) {
+        let n = self.active.len();
+        let shares = |k: usize| self.shares[k * self.trains..][..self.trains].iter().enumerate();
+        for k in 0..n {
+            self.mu[k] = -shares(k).map(|(train, share)| share * trains.rate(train)).sum::<f64>();
+        }
+        self.factor.solve(&mut self.mu[..n]);
+        for k in 0..n {
+            for (train, share) in self.shares[k * self.trains..][..self.trains].iter().enumerate() {
+                if *share != 0.0 {
+                    trains.add_push(train, self.mu[k] * share);
+                }
+            }
+        }
+    }
+
     /// What the rows push along each train's coordinate, after [`Loops::correct`].
     pub fn pushes(&self) -> &[f64] {
         &self.pushes

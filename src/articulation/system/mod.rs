@@ -4,6 +4,7 @@
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
 mod closing;
+mod geared;
 mod joint;
 mod report;
 mod solve;
@@ -26,6 +27,7 @@ use super::tree::{Form, JointRows, Link, Tree};
 use super::{Axis, Constraint, ConstraintKind, Measure};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
+pub use geared::Geared;
 pub use joint::{Joint, RowState};
 use joint::{is_only_point, joints, lone_point};
 
