@@ -172,7 +172,7 @@ fn mix<S: Simd>(y: &mut [f32x16<S>; LINES]) {
             (y[i], y[i + half]) = (y[i] + y[i + half], y[i] - y[i + half]);
         }
     }
-    y.iter_mut().for_each(|y| *y = *y * 0.25);
+    y.iter_mut().for_each(|y| *y *= 0.25);
 }
 
 /// Rows for columns: each round takes the highest bit of a number's row for the lowest of its column.
