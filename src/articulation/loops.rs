@@ -12,6 +12,8 @@
 //!
 //! Rows that repeat others (a planar four-bar of hinges has three) get the multiplier 0, as in the tree.
 
+use std::ops::Range;
+
 use super::block::{RowVec, Vec6, add_scaled, dot};
 use super::cholesky::Cholesky;
 use super::quads::Quads;
@@ -65,6 +67,8 @@ pub struct Loops {
     pub rows: Vec<LoopRow>,
     driven: Vec<bool>,
     skeleton: Vec<usize>,
+    /// Numbers of the joints by which the skeleton's bodies hang.
+    numbers: Vec<Range<usize>>,
     /// Bodies of trains that rows touch, how many trains there are, and f of the active rows, row by row.
     carried: Vec<usize>,
     trains: usize,
@@ -81,15 +85,21 @@ pub struct Loops {
 }
 
 impl Loops {
-    /// Room for these rows; `count` numbers are in `lambda`.
-    pub fn new(rows: Vec<LoopRow>, (tree, trains): (&Tree, &Trains), driven: &[bool], count: usize) -> Self {
+    /// Room for these rows; `count` numbers are in `lambda`, `numbers` says where a joint's are.
+    pub fn new(
+        rows: Vec<LoopRow>,
+        (tree, trains): (&Tree, &Trains),
+        driven: &[bool],
+        (count, numbers): (usize, impl Fn(usize) -> Range<usize>),
+    ) -> Self {
         let n = rows.len();
         let room = if n > 0 { driven.len() } else { 0 };
         let own = rows.iter().filter(|row| !row.held);
         let touched = own.flat_map(|row| row.parts.iter().map(|(body, _)| *body));
         let ways = tree.paths(touched);
-        let (carried, skeleton) = ways.into_iter().partition(|&body| trains.has(body));
+        let (carried, skeleton): (Vec<usize>, Vec<usize>) = ways.into_iter().partition(|&body| trains.has(body));
         Self {
+            numbers: skeleton.iter().filter_map(|&body| tree.joint_of(body)).map(numbers).collect(),
             skeleton,
             carried,
             trains: trains.count(),
@@ -170,7 +180,9 @@ impl Loops {
         if n == 0 {
             return;
         }
-        self.h.copy_from_slice(lambda);
+        for numbers in &self.numbers {
+            self.h[numbers.clone()].copy_from_slice(&lambda[numbers.clone()]);
+        }
         for &body in &self.skeleton {
             self.a[body] = if self.driven[body] { a[body] } else { [0.0; 6] };
         }
@@ -193,20 +205,39 @@ impl Loops {
                 add_scaled(&mut self.b[*body], self.mu[k], block);
             }
         }
-        self.h.fill(0.0);
+        for numbers in &self.numbers {
+            self.h[numbers.clone()].fill(0.0);
+        }
         for &body in self.skeleton.iter().rev() {
             tree.up(body, &mut self.b, None, &mut self.h);
         }
         for &body in &self.skeleton {
             add_scaled(&mut b[body], 1.0, &self.b[body]);
         }
-        for (sum, h) in lambda.iter_mut().zip(&self.h) {
-            *sum += h;
+        for (sum, h) in self.numbers.iter().flat_map(|numbers| numbers.clone().map(|k| (k, self.h[k]))) {
+            lambda[sum] += h;
         }
         for k in 0..n {
             lambda[self.rows[self.active[k]].at] = self.mu[k];
             for (push, share) in self.pushes.iter_mut().zip(&self.shares[k * self.trains..]) {
                 *push += self.mu[k] * share;
+            }
+        }
+    }
+
+    /// As [`Loops::correct`], for an impulse that only trains feel, whose own answers they have already.
+    pub fn correct_trains(&mut self, trains: &mut Trains) {
+        let n = self.active.len();
+        let shares = |k: usize| self.shares[k * self.trains..][..self.trains].iter().enumerate();
+        for k in 0..n {
+            self.mu[k] = -shares(k).map(|(train, share)| share * trains.rate(train)).sum::<f64>();
+        }
+        self.factor.solve(&mut self.mu[..n]);
+        for k in 0..n {
+            for (train, share) in self.shares[k * self.trains..][..self.trains].iter().enumerate() {
+                if *share != 0.0 {
+                    trains.add_push(train, self.mu[k] * share);
+                }
             }
         }
     }

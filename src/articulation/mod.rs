@@ -24,7 +24,7 @@ pub use activity::{Activity, Break};
 pub use cholesky::Cholesky;
 pub use function::{Function, Interpolation, Jet3};
 pub use schedule::{Breaking, Schedule, Trigger, Window};
-pub use system::{Joint, Method, RowState, System};
+pub use system::{Geared, Joint, Method, RowState, System};
 
 /// A point fixed in a body's node frame, or in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,10 +23,8 @@ impl System {
     /// Rows that act and are too far from closed for projection, at the last evaluation, each with the pull ω₀² |C| of the
     /// stabiliser that draws it together, m/s² or rad/s²; `time` is the figure's own 1/ω₀, s.
     pub fn open_rows(&self, time: f64) -> impl Iterator<Item = (usize, f64)> {
-        let acting = |count: usize, at: usize| (at..at + count).filter(|&row| self.states()[row].share > 0.0);
-        let joints = self.joints().iter().flat_map(move |joint| acting(joint.hard, joint.at));
-        let couplings = (0..).map_while(|index| self.coupling_row(index)).flat_map(move |at| acting(1, at));
-        joints.chain(couplings).filter_map(move |row| {
+        let acting = self.lean_rows().filter(|&row| self.states()[row].share > 0.0);
+        acting.filter_map(move |row| {
             let state = &self.states()[row];
             let time = self.constraints()[state.constraint].stabilization_time.unwrap_or(time);
             (state.value.abs() > PROJECTION_REACH).then(|| (row, state.value.abs() / (time * time)))

@@ -345,6 +345,24 @@ impl Trains {
         Some((wheel.train, wheel.ratio * dot(&wheel.twist, block)))
     }
 
+    /// Lets every train's rate be its answer to these f alone.
+    pub fn answer(&mut self, shares: impl Iterator<Item = (usize, f64)>) {
+        self.trains.iter_mut().for_each(|train| train.rate = 0.0);
+        for (train, f) in shares {
+            self.trains[train].rate += f / self.trains[train].mass;
+        }
+    }
+
+    /// Adds the answer to `f` along a train's coordinate to its rate.
+    pub fn add_push(&mut self, train: usize, f: f64) {
+        self.trains[train].rate += f / self.trains[train].mass;
+    }
+
+    /// The rate of a train's coordinate, as last found.
+    pub fn rate(&self, train: usize) -> f64 {
+        self.trains[train].rate
+    }
+
     /// f²/m for two rows' f on one train.
     pub fn response(&self, train: usize, f: f64, g: f64) -> f64 {
         f * g / self.trains[train].mass

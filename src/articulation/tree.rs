@@ -134,7 +134,7 @@ pub struct Tree {
     pub(super) level: Level,
     /// Roots first.
     order: Vec<usize>,
-    /// The same by quads; reversed it is the elimination order.
+    /// The same by quads, without what is driven; reversed it is the elimination order.
     pub(super) steps: Vec<Step>,
     pub(super) hang: Vec<Hang>,
     pub(super) driven: Vec<bool>,
@@ -220,7 +220,7 @@ impl Tree {
                 redundant: 0,
             })
         };
-        let (steps, members) = by_quads(&order, &hang);
+        let (steps, members) = by_quads(&order, &hang, driven);
         let world = Slot { quad: members.len(), lane: 0 };
         let mut slots = vec![world; bodies];
         for (quad, four) in members.iter().enumerate() {
@@ -314,8 +314,8 @@ impl Tree {
 }
 
 /// Steps from the roots, and the quads that they go by: two to four bodies of one depth that hang by a point side by
-/// side, the others in the order in which they come.
-fn by_quads(order: &[usize], hang: &[Hang]) -> (Vec<Step>, Vec<Members>) {
+/// side, the others in the order in which they come. What is driven is in a quad, but nothing is to be found of it.
+fn by_quads(order: &[usize], hang: &[Hang], driven: &[bool]) -> (Vec<Step>, Vec<Members>) {
     let (mut steps, mut members) = (Vec::new(), Vec::<Members>::new());
     let mut open = None;
     for level in order.chunk_by(|&a, &b| hang[a].depth == hang[b].depth) {
@@ -344,7 +344,9 @@ fn by_quads(order: &[usize], hang: &[Hang]) -> (Vec<Step>, Vec<Members>) {
             };
             open = Some(quad);
             let slot = Slot { quad, lane: members[quad].count - 1 };
-            steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
+            if !driven[body] {
+                steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
+            }
         }
     }
     (steps, members)

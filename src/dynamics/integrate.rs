@@ -23,8 +23,8 @@
 //! solved by simple iteration from the rate at the start (Hairer, Lubich, Wanner, Geometric Numerical Integration,
 //! II.1.3). **Fast**: semi-implicit Euler.
 
-use super::Dynamics;
 use super::passes::{Compare, Estimate, Guess, Last, Mean, Push, Show, Stage};
+use super::{Dynamics, Known};
 use crate::articulation::block::{angular, linear, vec6};
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
@@ -119,21 +119,23 @@ impl Dynamics {
     /// Closes the joints at the new state, at the time `t`, and finds the rate there.
     fn arrive(&mut self, t: f64) {
         self.carry_driven(t);
-        self.close_joints();
+        self.close_joints(false);
         self.solve_forces(t);
     }
 
-    /// Accelerations of the present state into the system's `a`, unless they are there already.
+    /// Accelerations of the present state into the system's `a`, as far as they are not there already.
     pub(super) fn ensure_rates(&mut self, t: f64) {
-        if self.fresh {
+        if self.known == Known::Rates {
             return;
         }
         self.carry_driven(t);
-        self.system.evaluate_lean(&self.bodies);
-        self.system.look_for_gaps();
-        self.system.factor();
+        if self.known == Known::Nothing {
+            self.system.evaluate_lean(&self.bodies);
+            self.system.look_for_gaps();
+            self.system.factor();
+        }
         self.solve_forces(t);
-        self.fresh = true;
+        self.known = Known::Rates;
     }
 
     /// Accelerations at the quads' present state, rows and factor made anew.
@@ -172,22 +174,26 @@ impl Dynamics {
         self.system.evaluate_quads(&self.bodies);
     }
 
-    /// Closes the joints of the bodies in place and speed; leaves the system factored there.
-    pub(super) fn project(&mut self) {
+    /// Closes the joints of the bodies in place and speed; leaves the system factored there. Is it `factored` for these
+    /// places already?
+    pub(super) fn project(&mut self, factored: bool) {
         self.system.quads_mut().look(&self.bodies);
-        self.close_joints();
+        self.close_joints(factored);
+        self.known = Known::Factor;
     }
 
     /// The same where the quads are; the bodies follow.
-    fn close_joints(&mut self) {
+    fn close_joints(&mut self, factored: bool) {
         self.evaluate_quads();
-        self.system.factor();
+        if !factored {
+            self.system.factor();
+        }
         if self.system.states().is_empty() {
             self.by_quads(Show);
             return;
         }
         self.system.look_for_gaps();
-        let apart = self.system.largest_error();
+        let apart = self.system.largest_lean_error();
         self.system.solve_displacement();
         self.system.close_quads();
         if apart > COARSE {
@@ -210,7 +216,7 @@ impl Dynamics {
         self.system.factor();
         self.system.solve_velocity(&self.bodies);
         self.system.apply_velocity(&mut self.bodies);
-        self.fresh = false;
+        self.known = Known::Nothing;
     }
 }
 

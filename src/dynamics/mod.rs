@@ -95,6 +95,17 @@ pub struct Settings {
     pub solver: Solver,
 }
 
+/// How much of a figure's system belongs to the present state: each the more after the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Known {
+    /// Nothing: bodies have moved, or joints have changed.
+    Nothing,
+    /// Rows and factor, as a projection or a substep's end leaves them; not the accelerations, since forces have changed.
+    Factor,
+    /// The accelerations too.
+    Rates,
+}
+
 /// Everything a figure needs to move.
 pub struct Figure<'a> {
     /// Bodies in their start state.
@@ -156,8 +167,8 @@ pub struct Dynamics {
     dt: f64,
     /// Substep that the error allows, s.
     stride: f64,
-    /// Do the system's accelerations belong to the present state?
-    fresh: bool,
+    /// What of the system belongs to the present state.
+    known: Known,
     /// Breath of the step before, and of this one, m/s.
     breath: [f64; 2],
     /// First body with bad numbers in the last step.
@@ -218,7 +229,7 @@ impl Dynamics {
             time: 0.0,
             dt: 0.0,
             stride: f64::INFINITY,
-            fresh: false,
+            known: Known::Nothing,
             breath: [0.0; 2],
             fault: None,
             substeps: 0,
@@ -244,7 +255,7 @@ impl Dynamics {
         let mut done = 0.0;
         while done < dt * (1.0 - 1e-12) {
             let now = self.time + done;
-            if !self.fresh {
+            if self.known < Known::Rates {
                 // What the joints carry says how long a substep may be; the rate is its first stage.
                 self.press();
                 self.ensure_rates(now);
@@ -314,7 +325,7 @@ impl Dynamics {
         self.weigh();
         self.break_overloaded(now + used);
         if self.clutches.give_way(&mut self.system) {
-            self.fresh = false;
+            self.known = Known::Nothing;
         }
         used
     }
@@ -324,9 +335,9 @@ impl Dynamics {
         self.press();
         self.ensure_rates(t);
         if self.clutches.rub(h, &mut self.system, &self.bodies) {
-            self.project();
+            self.project(false);
         }
-        self.fresh = false;
+        self.known = Known::Nothing;
     }
 
     /// Notes what the joints carry.
@@ -348,16 +359,18 @@ impl Dynamics {
                 return h;
             }
             self.prepare_impulses();
-            match self.contacts.settle((h, pass, h > 2.0 * least), &self.before, &mut self.system, &mut self.bodies) {
-                Verdict::Stands => break,
+            let (before, system) = (&self.before, &mut self.system);
+            match self.contacts.settle((h, pass, h > 2.0 * least), before, system, &mut self.bodies) {
+                Verdict::Stands { moved } => {
+                    // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
+                    self.project(!moved);
+                    return h;
+                }
                 Verdict::Again => pass += 1,
                 Verdict::Shorter => (h, pass) = (0.5 * h, 1),
             }
             self.back_to_start();
         }
-        // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
-        self.project();
-        h
     }
 
     /// All wrenches: those from outside, and those of what rests.
@@ -367,7 +380,7 @@ impl Dynamics {
         self.clutches.press(&self.system, &mut self.pressed);
         if self.pressed != self.external {
             std::mem::swap(&mut self.pressed, &mut self.external);
-            self.fresh = false;
+            self.known = self.known.min(Known::Factor);
         }
     }
 
@@ -385,7 +398,7 @@ impl Dynamics {
                 let error = self.runge_kutta(t, h);
                 pace::judge(h, self.dt, error)
             };
-            self.fresh = true;
+            self.known = Known::Rates;
             self.stride = wish;
             if good || h <= least {
                 return h;
@@ -398,7 +411,7 @@ impl Dynamics {
 
     fn back_to_start(&mut self) {
         self.by_quads(Return);
-        self.fresh = false;
+        self.known = Known::Nothing;
     }
 
     /// Longest substep that follows the fastest motion: the tension modes (a body that hangs by the arm r under the
@@ -416,7 +429,7 @@ impl Dynamics {
 
     fn set_shares(&mut self, t: f64) {
         if self.system.activity.set_shares(t) | self.springs.activity.set_shares(t) {
-            self.fresh = false;
+            self.known = Known::Nothing;
         }
     }
 
@@ -430,7 +443,7 @@ impl Dynamics {
             self.system.activity.mended(index, together);
             if self.system.activity.overloaded(index, load, false) {
                 self.system.activity.break_at(index, t);
-                self.fresh = false;
+                self.known = Known::Nothing;
             }
         }
     }
@@ -453,7 +466,7 @@ impl Dynamics {
 
     /// Says that bodies were moved from outside.
     pub fn disturb(&mut self) {
-        self.fresh = false;
+        self.known = Known::Nothing;
     }
 
     /// Constraints that broke in the last step.
@@ -517,7 +530,7 @@ impl Dynamics {
     fn prepare_impulses(&mut self) {
         self.system.evaluate_lean(&self.bodies);
         self.system.factor();
-        self.fresh = false;
+        self.known = Known::Nothing;
     }
 
     /// How points of the figure (body, world place, m) answer impulses, joints held: block i n + j is the velocity of point
@@ -584,7 +597,7 @@ impl Dynamics {
             self.system.begin_trains(&self.bodies);
             self.contacts.forget(&self.bodies);
             (self.fourth_step, self.stride) = (None, f64::INFINITY);
-            self.fresh = false;
+            self.known = Known::Nothing;
         }
         bad
     }

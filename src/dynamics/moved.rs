@@ -2,7 +2,7 @@
 //! it. Windows, triggers, springs, turns and bad numbers go on as in a step of the laws, so that either kind of step may
 //! follow the other.
 
-use super::{Drive, Dynamics, Impact};
+use super::{Drive, Dynamics, Impact, Known};
 use crate::articulation::System;
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
@@ -85,7 +85,7 @@ impl Dynamics {
         self.contacts.forget(&self.bodies);
         self.loads.fill(0.0);
         (self.fourth_step, self.stride) = (None, f64::INFINITY);
-        self.fresh = false;
+        self.known = Known::Nothing;
         bad + lost
     }
 

@@ -130,6 +130,9 @@ pub fn run(
     } = play;
     let (wall, cpu) = (Instant::now(), ProcessTime::now());
     let mut simulation = Simulation::new(exhibit.clone(), settings);
+    if on_frame.is_none() {
+        simulation.leave_dust_out();
+    }
     let mut soundtrack =
         Soundtrack::new(exhibit, settings.seed, room.as_ref(), dry, audio.as_deref()).map_err(PlayError::Output)?;
     let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;

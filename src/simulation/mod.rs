@@ -82,6 +82,8 @@ pub struct Simulation {
     start_step: u64,
     source: BreathSource,
     aim: Aim,
+    /// Body of each surface that breath leans to, the ball around it in the node frame, and where that is now.
+    aim_balls: Vec<(usize, DVec3, f64)>,
     aim_targets: Vec<AimTarget>,
     front: Front,
     wind: WindField,
@@ -131,6 +133,7 @@ impl Simulation {
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             view: (DEFAULT_ASPECT, view),
             aim_targets: Vec::with_capacity(exhibit.wind_surfaces.len()),
+            aim_balls: aim_balls(&exhibit),
             contact_sound: ContactSound::new(&exhibit),
             wires: Wires::new(&exhibit),
             exhibit,
@@ -149,6 +152,11 @@ impl Simulation {
             impact_count: 0,
             fault_count: 0,
         }
+    }
+
+    /// Leaves the dust out: nobody will look at the air. It is only seen, and changes nothing that moves or sounds.
+    pub fn leave_dust_out(&mut self) {
+        self.motes.leave();
     }
 
     /// Advances by 1/240 s. The only way time moves.
@@ -277,13 +285,12 @@ impl Simulation {
             self.view = (aspect, self.exhibit.view(aspect));
         }
         self.aim_targets.clear();
-        self.aim_targets.extend(self.exhibit.wind_surfaces.iter().filter_map(|surface| match &surface.shape {
-            SurfaceShape::Mesh { mesh, .. } => {
-                let (center, radius) = mesh.ball();
-                Some(AimTarget { center: self.dynamics.bodies[surface.body].pose().point(center), radius })
-            }
-            SurfaceShape::Wire { .. } => None,
-        }));
+        let bodies = &self.dynamics.bodies;
+        let target = |&(body, center, radius): &(usize, DVec3, f64)| AimTarget {
+            center: bodies[body].pose().point(center),
+            radius,
+        };
+        self.aim_targets.extend(self.aim_balls.iter().map(target));
         let pointer = input.pointer.unwrap_or([0.5, 0.5]);
         let Settings { distance, profile, .. } = self.settings;
         let view = &self.view.1;
@@ -487,6 +494,18 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     let gain = exhibit.breath.gain * settings.breath_gain * settings.profile.gain(speed);
     let blows = speed > 0.0 || front.is_some_and(Front::in_flight);
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
+}
+
+/// Surfaces of sheets that breath leans to: body, and the ball around it in the node frame.
+fn aim_balls(exhibit: &Exhibit) -> Vec<(usize, DVec3, f64)> {
+    let ball = |surface: &crate::wind::Surface| match &surface.shape {
+        SurfaceShape::Mesh { mesh, .. } => {
+            let (center, radius) = mesh.ball();
+            Some((surface.body, center, radius))
+        }
+        SurfaceShape::Wire { .. } => None,
+    };
+    exhibit.wind_surfaces.iter().filter_map(ball).collect()
 }
 
 /// The exhibit's bodies as they start, a clock's at the hour.

@@ -66,6 +66,11 @@ impl Motes {
         Self { specks, random, center, time: 0.0, step: 0 }
     }
 
+    /// Leaves the air clean.
+    pub fn leave(&mut self) {
+        self.specks.clear();
+    }
+
     /// Lets the air carry the dust for `dt` seconds. Its velocity at a point is that of the `streams` (breath, fans,
     /// draughts) and of the air that the room `stirs`, which changes slowly. The breath, where there is one, draws specks
     /// into itself.
@@ -78,6 +83,9 @@ impl Motes {
     ) {
         self.time += dt;
         self.step += 1;
+        if self.specks.is_empty() {
+            return;
+        }
         let share = 1.0 - exp(-dt / CARRIED);
         for (index, speck) in self.specks.iter_mut().enumerate() {
             // Each speck asks for the room's air now and then, in turn.

@@ -20,6 +20,9 @@
 //! Psychophysiology 25, 1988). So after a silence C is [`SUDDEN`], and rises by [`RISE`] while something asks for more:
 //! the last 8 dB of a bang take 0.1 s. It sinks again in the quiet that follows, by [`SINK`].
 //!
+//! Where nothing has reached for the ceiling for as long as the signal is delayed, and what comes does not either, the gain
+//! stands still, and frames only pass: the same bits for less.
+//!
 //! Real-time: all storage is made by [`Limiter::new`].
 
 use super::true_peak::{self, TruePeak};
@@ -56,6 +59,8 @@ pub(super) struct Limiter {
     length: usize,
     frame: u64,
     held: u64,
+    /// Frames for which `held` has not changed.
+    still: usize,
     recovery: f64,
     true_peak: TruePeak,
     ceiling: f64,
@@ -78,6 +83,7 @@ impl Limiter {
             length: 0,
             frame: 0,
             held: UNITY,
+            still: frames,
             recovery: 1.0 - exp(-1.0 / (RECOVERY * sample_rate)),
             true_peak: TruePeak::new(),
             ceiling: SUDDEN,
@@ -91,45 +97,96 @@ impl Limiter {
         self.delay.len()
     }
 
-    /// Takes a frame, gives the frame of [`Self::latency`] ago.
-    pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
+    /// Takes frames, gives those of [`Self::latency`] ago in their place.
+    pub fn process(&mut self, frames: &mut [[f32; 2]]) {
+        if self.stands() && self.true_peak.bound(frames) <= 0.5 * SUDDEN {
+            self.pass(frames);
+        } else {
+            frames.iter_mut().for_each(|frame| *frame = self.process_one(*frame));
+        }
+    }
+
+    /// Will the gain stay what it is while nothing reaches for the ceiling?
+    fn stands(&self) -> bool {
+        let nothing_asked = self.length > 0 && self.wedge[self.front].0 == UNITY;
+        nothing_asked && self.still >= self.gains.len() && self.recovered() == self.held
+    }
+
+    /// `held` after a frame that nothing is asked for in.
+    fn recovered(&self) -> u64 {
+        self.held + ((UNITY - self.held) as f64 * self.recovery) as u64
+    }
+
+    /// As [`Self::process_one`], where the gain stands and none of these frames asks for less.
+    fn pass(&mut self, frames: &mut [[f32; 2]]) {
+        self.true_peak.take(frames);
+        let gain = self.gain();
+        for frame in frames.iter_mut() {
+            let delayed = std::mem::replace(&mut self.delay[self.at], *frame);
+            self.at = next(self.at, self.delay.len());
+            *frame = limited(delayed, gain);
+        }
+        for _ in 0..frames.len() {
+            self.ceiling = (self.ceiling * self.sink).clamp(SUDDEN, CEILING * MARGIN);
+        }
+        self.frame += frames.len() as u64;
+        (self.length, self.wedge[self.front]) = (1, (UNITY, self.frame - 1));
+    }
+
+    fn process_one(&mut self, frame: [f32; 2]) -> [f32; 2] {
         let peak = f64::from(self.true_peak.process(frame));
         let minimum = self.slide(wanted(peak, self.ceiling));
         let reached = peak > 0.5 * self.ceiling;
         self.ceiling = (self.ceiling * if reached { self.rise } else { self.sink }).clamp(SUDDEN, CEILING * MARGIN);
+        let before = self.held;
         self.held = if minimum <= self.held {
             minimum
         } else {
             self.held + ((minimum - self.held) as f64 * self.recovery) as u64
         };
+        self.still = if self.held == before { self.still + 1 } else { 0 };
         let delayed = std::mem::replace(&mut self.delay[self.at], frame);
-        self.at = (self.at + 1) % self.delay.len();
+        self.at = next(self.at, self.delay.len());
         self.sum = self.sum - self.gains[self.gain_at] + self.held;
         self.gains[self.gain_at] = self.held;
-        self.gain_at = (self.gain_at + 1) % self.gains.len();
-        let gain = self.sum as f64 / (UNITY * self.gains.len() as u64) as f64;
-        delayed.map(|sample| {
-            let limit = CEILING as f32;
-            // The clamp only undoes the last bit of rounding.
-            ((f64::from(sample) * gain) as f32).clamp(-limit, limit)
-        })
+        self.gain_at = next(self.gain_at, self.gains.len());
+        limited(delayed, self.gain())
+    }
+
+    fn gain(&self) -> f64 {
+        self.sum as f64 / (UNITY * self.gains.len() as u64) as f64
     }
 
     /// Minimum of the last L + 1 wishes, this one included: those of a frame live until it has left the delay.
     fn slide(&mut self, wish: u64) -> u64 {
         let size = self.wedge.len();
-        while self.length > 0 && self.wedge[(self.front + self.length - 1) % size].0 >= wish {
+        let place = |from: usize| if from < size { from } else { from - size };
+        while self.length > 0 && self.wedge[place(self.front + self.length - 1)].0 >= wish {
             self.length -= 1;
         }
         if self.length > 0 && self.wedge[self.front].1 + (size as u64) <= self.frame {
-            self.front = (self.front + 1) % size;
+            self.front = next(self.front, size);
             self.length -= 1;
         }
-        self.wedge[(self.front + self.length) % size] = (wish, self.frame);
+        self.wedge[place(self.front + self.length)] = (wish, self.frame);
         self.length += 1;
         self.frame += 1;
         self.wedge[self.front].0
     }
+}
+
+/// A delayed frame at this gain.
+fn limited(delayed: [f32; 2], gain: f64) -> [f32; 2] {
+    delayed.map(|sample| {
+        let limit = CEILING as f32;
+        // The clamp only undoes the last bit of rounding.
+        ((f64::from(sample) * gain) as f32).clamp(-limit, limit)
+    })
+}
+
+/// The next place in a ring.
+fn next(at: usize, size: usize) -> usize {
+    if at + 1 == size { 0 } else { at + 1 }
 }
 
 /// The gain that a peak asks for below a ceiling.
@@ -155,7 +212,7 @@ mod tests {
         assert_eq!(latency, 78);
         let soft: Vec<f32> = (0..1000).map(|i| 0.17 * libm::sinf(i as f32 * 0.1)).collect();
         for (i, x) in soft.iter().enumerate() {
-            let [y, _] = limiter.process([*x, -x]);
+            let [y, _] = limiter.process_one([*x, -x]);
             if i >= latency {
                 assert_eq!(y, soft[i - latency]);
             }
@@ -167,7 +224,7 @@ mod tests {
             let loud = if random.unit() < 0.01 { 100.0 } else { 0.7 };
             let x = (loud * random.signed()) as f32 * f32::from(u8::from(i % 5000 < 3000));
             let delayed = limiter.delay[limiter.at][0];
-            let [y, _] = limiter.process([x, 0.5 * x]);
+            let [y, _] = limiter.process_one([x, 0.5 * x]);
             let gain = limiter.sum as f64 / (UNITY * limiter.gains.len() as u64) as f64;
             unclamped = unclamped.max((f64::from(delayed) * gain).abs());
             peak = peak.max(y.abs());
@@ -175,5 +232,28 @@ mod tests {
         assert!(peak <= CEILING as f32, "{peak}");
         // Without the clamp too: the look-ahead does the work.
         assert!(unclamped <= CEILING, "{unclamped}");
+    }
+
+    #[test]
+    fn what_only_passes_has_the_same_bits() {
+        let mut random = Random::new(5);
+        let (mut alone, mut together) = (Limiter::new(48_000.0), Limiter::new(48_000.0));
+        let mut passed = 0;
+        for block in 0..3000 {
+            // Now and then loud enough to be limited, then near to it, then soft until the gain has come back: after a second.
+            let loud = match block % 1000 {
+                0 => 3.0,
+                1..50 => 0.3,
+                _ => 0.05,
+            };
+            let n = 1 + (random.unit() * 200.0) as usize;
+            let mut frames: Vec<[f32; 2]> = (0..n).map(|_| [0, 1].map(|_| (loud * random.signed()) as f32)).collect();
+            let expected: Vec<[f32; 2]> = frames.iter().map(|frame| alone.process_one(*frame)).collect();
+            passed += usize::from(together.stands() && together.true_peak.bound(&frames) <= 0.5 * SUDDEN);
+            together.process(&mut frames);
+            assert_eq!(frames, expected, "block {block}");
+            assert_eq!(together.ceiling, alone.ceiling);
+        }
+        assert!(passed > 500, "only {passed} blocks passed");
     }
 }

@@ -11,6 +11,9 @@ use super::limiter::Limiter;
 use super::night::Night;
 use super::room::{Room, RoomSpec};
 
+/// Frames that the room answers at once.
+const PIECE: usize = 256;
+
 pub(super) struct Master {
     sample_rate: f64,
     room: Option<Box<Room>>,
@@ -45,17 +48,20 @@ impl Master {
         self.night.set(night, !self.started);
     }
 
-    /// Takes a frame, gives the frame of [`Self::latency`] ago. Real-time.
-    pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
+    /// Takes frames, gives those of [`Self::latency`] ago in their place; how they are cut into calls does not matter.
+    /// Real-time.
+    pub fn process(&mut self, frames: &mut [[f32; 2]]) {
         self.started = true;
-        let [l, r] = frame;
-        let heard = match &mut self.room {
-            Some(room) => {
-                let [a, b] = room.process(frame);
-                [l + a, r + b]
+        if let Some(room) = &mut self.room {
+            for frames in frames.chunks_mut(PIECE) {
+                let mut answer = [[0.0; 2]; PIECE];
+                let answer = &mut answer[..frames.len()];
+                answer.copy_from_slice(frames);
+                room.answer(answer);
+                frames.as_flattened_mut().iter_mut().zip(answer.as_flattened()).for_each(|(x, y)| *x += y);
             }
-            None => frame,
-        };
-        self.limiter.process(self.night.process(heard))
+        }
+        self.night.process(frames);
+        self.limiter.process(frames);
     }
 }

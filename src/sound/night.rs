@@ -77,10 +77,18 @@ impl Night {
         }
     }
 
-    pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
-        if self.amount == 0.0 && !self.wanted {
-            return frame;
+    /// In their place.
+    pub fn process(&mut self, frames: &mut [[f32; 2]]) {
+        for frame in frames {
+            // By day for as long as nobody asks: all frames are what they are.
+            if self.amount == 0.0 && !self.wanted {
+                return;
+            }
+            *frame = self.process_one(*frame);
         }
+    }
+
+    fn process_one(&mut self, frame: [f32; 2]) -> [f32; 2] {
         let [l, r] = frame.map(f64::from);
         let square = 0.5 * (l * l + r * r);
         let (up, down) = self.follow;

@@ -270,10 +270,13 @@ impl Synth {
             right.fill(0.0);
             self.mix(left, right);
             for ((frame, l), r) in now.iter_mut().zip(left).zip(right) {
-                *frame = if self.dry { [*l, *r] } else { self.master.process([*l, *r]) };
+                *frame = [*l, *r];
             }
             self.position += n as u64;
             frames = later;
+        }
+        if !self.dry {
+            self.master.process(out.as_chunks_mut::<2>().0);
         }
     }
 

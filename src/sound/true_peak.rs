@@ -18,6 +18,8 @@ const TAPS: usize = 12;
 /// Frames by which the answer is late.
 pub(super) const DELAY: usize = TAPS / 2;
 
+/// What sums of rounded numbers may be beyond the sum.
+const ROUNDING: f64 = 1.0 + 1e-5;
 /// Sums that are made at once: each point of either channel, and two of nothing, for a processor's sake.
 const LANES: usize = 8;
 
@@ -25,6 +27,8 @@ const LANES: usize = 8;
 pub(super) struct TruePeak {
     /// By samples, each point's tap for the left channel and for the right.
     taps: [[f32; LANES]; TAPS],
+    /// How far a point can be beyond the samples that it is made of: the largest sum of taps' sizes, at least 1.
+    most: f64,
     /// The last frames twice over, a ring; from `at` on, the oldest first.
     last: [[f32; 2]; 2 * TAPS],
     at: usize,
@@ -38,17 +42,36 @@ impl TruePeak {
             (sin(PI * d) / (PI * d) * window * window) as f32
         };
         let lane = |l: usize, j: usize| if l / 2 < PHASES - 1 { tap(l / 2, j) } else { 0.0 };
-        let taps = std::array::from_fn(|j| std::array::from_fn(|l| lane(l, j)));
-        Self { taps, last: [[0.0; 2]; 2 * TAPS], at: 0 }
+        let taps: [[f32; LANES]; TAPS] = std::array::from_fn(|j| std::array::from_fn(|l| lane(l, j)));
+        let size = |l: usize| taps.iter().map(|tap| f64::from(tap[l].abs())).sum::<f64>();
+        let most = ROUNDING * (0..LANES).map(size).fold(1.0, f64::max);
+        Self { taps, most, last: [[0.0; 2]; 2 * TAPS], at: 0 }
+    }
+
+    /// What no point is above when these frames come next.
+    pub fn bound(&self, frames: &[[f32; 2]]) -> f64 {
+        let largest = |frames: &[[f32; 2]]| frames.as_flattened().iter().fold(0.0, |most: f32, x| most.max(x.abs()));
+        self.most * f64::from(largest(frames).max(largest(&self.last[..TAPS])))
+    }
+
+    /// Takes frames in without looking.
+    pub fn take(&mut self, frames: &[[f32; 2]]) {
+        for frame in &frames[frames.len().saturating_sub(TAPS)..] {
+            self.push(*frame);
+        }
+    }
+
+    /// Every frame is written twice, so that the last of them always lie in one piece.
+    fn push(&mut self, frame: [f32; 2]) {
+        self.last[self.at] = frame;
+        self.last[self.at + TAPS] = frame;
+        self.at = if self.at + 1 == TAPS { 0 } else { self.at + 1 };
     }
 
     /// Takes a frame in; the highest point, of both channels, between the frames of [`DELAY`] and of one less ago, both
     /// included.
     pub fn process(&mut self, frame: [f32; 2]) -> f32 {
-        // Every frame is written twice, so that the last of them always lie in one piece.
-        self.last[self.at] = frame;
-        self.last[self.at + TAPS] = frame;
-        self.at = (self.at + 1) % TAPS;
+        self.push(frame);
         let last = &self.last[self.at..][..TAPS];
         let mut sums = [0.0f32; LANES];
         for (taps, x) in self.taps.iter().zip(last) {

@@ -11,12 +11,10 @@ const RATE: u32 = 48_000;
 /// The room's answer to an impulse on both sides (1 and 0 where only the left one is asked for).
 fn response(spec: &RoomSpec, impulse: [f32; 2], seconds: f64) -> [Vec<f64>; 2] {
     let mut room = Room::new(spec, f64::from(RATE)).expect("it decays");
-    let mut out = [Vec::new(), Vec::new()];
-    for n in 0..(seconds * f64::from(RATE)) as usize {
-        let answer = room.process(if n == 0 { impulse } else { [0.0; 2] });
-        out.iter_mut().zip(answer).for_each(|(side, y)| side.push(f64::from(y)));
-    }
-    out
+    let mut frames = vec![[0.0; 2]; (seconds * f64::from(RATE)) as usize];
+    frames[0] = impulse;
+    room.answer(&mut frames);
+    [0, 1].map(|side| frames.iter().map(|frame| f64::from(frame[side])).collect())
 }
 
 fn spectrum(samples: &[f64]) -> Vec<Complex<f64>> {
@@ -215,31 +213,29 @@ fn it_stays_finite_forgets_and_sleeps() {
     let spec = RoomSpec { level_db: 0.0, t60: [2.0; 7] };
     let mut room = Room::new(&spec, f64::from(RATE)).expect("it decays");
     let mut random = Random::new(3);
-    let mut loudest = 0.0f32;
-    for n in 0..RATE {
-        // Far beyond full scale, and what a broken voice might say.
-        let x = match n % 1000 {
-            0 => f32::NAN,
-            1 => f32::INFINITY,
-            2 => f32::MAX,
-            _ => 10.0 * random.signed() as f32,
-        };
-        let out = room.process([x, -x]);
-        assert!(out.iter().all(|y| y.is_finite()), "frame {n}");
-        loudest = out.iter().fold(loudest, |m, y| m.max(y.abs()));
-    }
-    assert!(loudest > 1.0);
+    // Far beyond full scale, and what a broken voice might say.
+    let said = |n: u32| match n % 1000 {
+        0 => f32::NAN,
+        1 => f32::INFINITY,
+        2 => f32::MAX,
+        _ => 10.0 * random.signed() as f32,
+    };
+    let mut frames: Vec<[f32; 2]> = (0..RATE).map(said).map(|x| [x, -x]).collect();
+    room.answer(&mut frames);
+    assert!(frames.as_flattened().iter().all(|y| y.is_finite()));
+    assert!(frames.as_flattened().iter().any(|y| y.abs() > 1.0));
     // 240 dB and more: then exactly nothing, at once again when nothing comes, and as new when something does.
-    let silent = (0..RATE * 15).filter(|_| room.process([0.0; 2]) == [0.0; 2]).count();
+    let mut silence = vec![[0.0; 2]; RATE as usize * 15];
+    room.answer(&mut silence);
+    let silent = silence.iter().filter(|frame| **frame == [0.0; 2]).count();
     assert!(silent > 3 * RATE as usize, "it never became silent");
     let mut new = Room::new(&spec, f64::from(RATE)).expect("it decays");
-    let mut energy = [0.0f64; 2];
-    for n in 0..RATE {
-        let frame = [f32::from(u8::from(n == 0)), 0.0];
-        for (sum, room) in energy.iter_mut().zip([&mut room, &mut new]) {
-            *sum += room.process(frame).iter().map(|y| f64::from(y * y)).sum::<f64>();
-        }
-    }
+    let energy = [&mut room, &mut new].map(|room| {
+        let mut frames = vec![[0.0; 2]; RATE as usize];
+        frames[0] = [1.0, 0.0];
+        room.answer(&mut frames);
+        frames.as_flattened().iter().map(|y| f64::from(y * y)).sum::<f64>()
+    });
     assert!(energy[0] == energy[1] && energy[0] > 0.0, "{energy:?}");
 }
 
@@ -274,5 +270,34 @@ fn rooms_that_cannot_be_are_refused_by_their_octave() {
     // Every rate a device may have.
     for rate in [8_000, 22_050, 44_100, 48_000, 96_000, 192_000] {
         assert!(Room::new(&RoomSpec::GALLERY, f64::from(rate)).is_some(), "{rate} Hz");
+    }
+}
+
+#[test]
+fn it_does_not_matter_how_frames_are_cut() {
+    // Every chunk of the inner loop, sleep and waking, whole seconds beside single frames.
+    let spec = RoomSpec { level_db: 0.0, t60: [0.2; 7] };
+    let mut random = Random::new(11);
+    let mut frames = vec![[0.0f32; 2]; 4 * RATE as usize];
+    for (n, frame) in frames.iter_mut().enumerate() {
+        // A clap of 10 ms each second but one: at −1200 dB/s it is silent between them.
+        if n % (2 * RATE as usize) < 480 {
+            *frame = [random.signed() as f32, random.signed() as f32];
+        }
+    }
+    for rate in [48_000.0, 8_000.0] {
+        let [mut whole, mut cut] = [frames.clone(), frames.clone()];
+        Room::new(&spec, rate).expect("it decays").answer(&mut whole);
+        let mut room = Room::new(&spec, rate).expect("it decays");
+        let mut rest = &mut cut[..];
+        while !rest.is_empty() {
+            let n = (1 + (random.unit() * 40.0) as usize).min(rest.len());
+            let (now, later) = rest.split_at_mut(n);
+            room.answer(now);
+            rest = later;
+        }
+        let bits = |frames: &[[f32; 2]]| frames.as_flattened().iter().map(|y| y.to_bits()).collect::<Vec<_>>();
+        assert!(bits(&whole) == bits(&cut), "at {rate} Hz");
+        assert!(whole.iter().filter(|frame| **frame == [0.0; 2]).count() > RATE as usize / 10, "it never slept");
     }
 }

@@ -38,6 +38,8 @@ pub struct Joint {
     pub(super) block: Option<usize>,
     /// First of its rows among the loops', where it closes one (or the solver is dense).
     pub(super) outside: Option<usize>,
+    /// Is it a train's own?
+    pub(super) in_train: bool,
 }
 
 /// Numbers of a row beside its blocks.
@@ -227,6 +229,7 @@ pub(super) fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
                 hangs: None,
                 block: None,
                 outside: None,
+                in_train: false,
             });
         }
     }

@@ -4,9 +4,12 @@
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
 mod closing;
+mod geared;
 mod joint;
 mod report;
 mod solve;
+
+use std::ops::Range;
 
 use fearless_simd::Level;
 
@@ -24,6 +27,7 @@ use super::tree::{Form, JointRows, Link, Tree};
 use super::{Axis, Constraint, ConstraintKind, Measure};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
+pub use geared::Geared;
 pub use joint::{Joint, RowState};
 use joint::{is_only_point, joints, lone_point};
 
@@ -91,8 +95,10 @@ pub struct System {
     joints: Vec<Joint>,
     /// Joints that are not always one point by which a body hangs; first those that are no train's.
     various: Vec<usize>,
-    /// How many of them, and of the couplings, are no train's.
+    /// How many of them are no train's.
     outside_trains: usize,
+    /// Numbers of all rows that are no train's.
+    rows: Vec<Range<usize>>,
     trains: Trains,
     /// What is being solved for.
     asked: Asked,
@@ -161,7 +167,9 @@ impl System {
             .zip(&joints)
             .map(|(all, joint)| all && joint.constraints.len() == 1)
             .collect();
-        let in_train = |joint: &Joint| joint.constraints.iter().all(|&constraint| trains.owns(constraint));
+        for joint in &mut joints {
+            joint.in_train = joint.constraints.iter().all(|&constraint| trains.owns(constraint));
+        }
         // To the tree a train is ground that moves.
         let given: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || trains.has(body)).collect();
         let tree = Tree::new(level, &given, &links, &at, &points);
@@ -169,7 +177,7 @@ impl System {
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
             joint.point = lone_point(joint, constraints, bodies);
-            let closes = tree.loops().contains(&index) && !in_train(joint);
+            let closes = tree.loops().contains(&index) && !joint.in_train;
             if closes || method == Method::Dense {
                 joint.outside = Some(outside.len());
                 let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
@@ -212,9 +220,14 @@ impl System {
         };
         let hung = Hung::new(&tree, ends);
         let various = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none());
-        let (mut various, of_trains): (Vec<usize>, Vec<usize>) = various.partition(|&joint| !in_train(&joints[joint]));
+        let (mut various, of_trains): (Vec<usize>, Vec<usize>) = various.partition(|&joint| !joints[joint].in_train);
         let outside_trains = various.len();
         various.extend(of_trains);
+        let of_joints = joints.iter().filter(|joint| !joint.in_train).map(|joint| joint.at..joint.at + joint.capacity);
+        let of_couplings = couplings.iter().filter(|c| !trains.owns(c.constraint)).map(|c| c.at..c.at + 1);
+        let rows = merged(of_joints.chain(of_couplings));
+        let numbers = |joint: usize| joints[joint].at..joints[joint].at + joints[joint].capacity;
+        let loops = Loops::new(loop_rows, (&tree, &trains), driven, (count, numbers));
         let asked = !(various.is_empty() && couplings.is_empty());
         let mut states = vec![RowState::default(); count];
         for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
@@ -226,8 +239,9 @@ impl System {
         Self {
             gathering: false,
             activity: Activity::new(constraints),
-            loops: Loops::new(loop_rows, (&tree, &trains), driven, count),
+            loops,
             outside_trains,
+            rows,
             trains,
             asked: Asked::Impulse,
             constraints: constraints.to_vec(),
@@ -273,6 +287,13 @@ impl System {
     /// The coupling's row at an index, if there is one.
     pub(super) fn coupling_row(&self, index: usize) -> Option<usize> {
         self.couplings.get(index).map(|coupling| coupling.at)
+    }
+
+    /// Rows that hold at the last evaluation and are no train's: joint by joint, then couplings.
+    pub(super) fn lean_rows(&self) -> impl Iterator<Item = usize> {
+        let joints = self.joints.iter().filter(|joint| !joint.in_train);
+        let couplings = self.couplings.iter().filter(|coupling| !self.trains.owns(coupling.constraint));
+        joints.flat_map(|joint| joint.at..joint.at + joint.hard).chain(couplings.map(|coupling| coupling.at))
     }
 
     /// What the bodies of a row answer to it, each alone.
@@ -495,6 +516,18 @@ impl System {
             }
         }
     }
+}
+
+/// Ranges that follow each other as one.
+fn merged(ranges: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
+    let mut out: Vec<Range<usize>> = Vec::new();
+    for range in ranges {
+        match out.last_mut() {
+            Some(last) if last.end == range.start => last.end = range.end,
+            _ => out.push(range),
+        }
+    }
+    out
 }
 
 fn blank_row(at: usize, place: usize, bodies: &[usize], held: bool) -> LoopRow {

@@ -84,8 +84,18 @@ impl System {
 
     /// Largest |C| of any held row of the last evaluation (m or rad).
     pub fn largest_error(&self) -> f64 {
-        let joints = self.joints.iter().flat_map(|joint| &self.states[joint.at..joint.at + joint.hard]);
-        joints.fold(0.0, |worst, state| worst.max(state.value.abs()))
+        self.largest_of(self.joints.iter())
+    }
+
+    /// The same without what trains hold of themselves, which the laws of motion do not evaluate.
+    pub fn largest_lean_error(&self) -> f64 {
+        self.largest_of(self.joints.iter().filter(|joint| !joint.in_train))
+    }
+
+    fn largest_of<'a>(&'a self, joints: impl Iterator<Item = &'a Joint>) -> f64 {
+        joints
+            .flat_map(|joint| &self.states[joint.at..joint.at + joint.hard])
+            .fold(0.0, |worst, state| worst.max(state.value.abs()))
     }
 
     /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,

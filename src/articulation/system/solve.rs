@@ -33,9 +33,11 @@ impl System {
     pub fn look_for_gaps(&mut self) {
         self.tell_values();
         self.gathering = false;
-        for state in &mut self.states {
-            state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
-            self.gathering |= state.gathers;
+        for rows in &self.rows {
+            for state in &mut self.states[rows.clone()] {
+                state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
+                self.gathering |= state.gathers;
+            }
         }
     }
 
@@ -68,8 +70,10 @@ impl System {
         self.tell_values();
         self.b.fill([0.0; 6]);
         self.still();
-        for (g, state) in self.g.iter_mut().zip(&self.states) {
-            *g = if state.gathers { 0.0 } else { -state.value };
+        for rows in &self.rows {
+            for (g, state) in self.g[rows.clone()].iter_mut().zip(&self.states[rows.clone()]) {
+                *g = if state.gathers { 0.0 } else { -state.value };
+            }
         }
         self.solve();
     }
@@ -87,15 +91,19 @@ impl System {
         self.b.fill([0.0; 6]);
         self.still();
         self.rates(bodies);
-        for (g, state) in self.g.iter_mut().zip(&self.states) {
-            *g = if state.gathers { 0.0 } else { -*g };
+        for rows in &self.rows {
+            for (g, state) in self.g[rows.clone()].iter_mut().zip(&self.states[rows.clone()]) {
+                *g = if state.gathers { 0.0 } else { -*g };
+            }
         }
         self.solve();
     }
 
     /// Solves for the velocity change after impulses `b`, joints held: J δ = 0.
     pub fn solve_impulse(&mut self) {
-        self.g.fill(0.0);
+        for rows in &self.rows {
+            self.g[rows.clone()].fill(0.0);
+        }
         self.still();
         self.solve();
     }
@@ -160,8 +168,10 @@ impl System {
     /// Closes the joints: adds the answer of [`System::solve_displacement`] to the quads' places.
     pub fn close_quads(&mut self) {
         self.quads.displace(&self.a);
-        for state in self.states.iter_mut().filter(|state| !state.gathers) {
-            state.value = 0.0;
+        for rows in &self.rows {
+            for state in self.states[rows.clone()].iter_mut().filter(|state| !state.gathers) {
+                state.value = 0.0;
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::commands::{Failure, Outcome};
 use crate::math::{PI, exp, ln, sin};
 use crate::noise::Random;
-use crate::simulation::SAMPLE_RATE;
+use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 use crate::sound::modal::{BLOCK, Bank, Partial};
 use crate::sound::{
     InstrumentSpec, Preset, Room, RoomSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
@@ -194,8 +194,9 @@ fn room() -> f64 {
     let mut random = Random::new(1);
     let noise: Vec<f32> = (0..SAMPLE_RATE).map(|_| random.signed() as f32).collect();
     let start = ThreadTime::now();
-    for x in &noise {
-        black_box(room.process([*x, -*x]));
+    let mut frames: Vec<[f32; 2]> = noise.iter().map(|x| [*x, -*x]).collect();
+    for step in frames.chunks_mut(SAMPLES_PER_STEP as usize) {
+        room.answer(black_box(step));
     }
     100.0 * start.elapsed().as_secs_f64() * rate / noise.len() as f64
 }

@@ -19,10 +19,10 @@
 
 use super::leap::Active;
 use super::open::Open;
-use super::row::Row;
+use super::row::{ROW_ENDS, Row};
 use super::twist::Twist;
-use crate::articulation::System;
 use crate::articulation::block::{angular, linear, vec6};
+use crate::articulation::{Geared, System};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec2, DVec3};
 
@@ -128,6 +128,8 @@ impl Touch {
 pub(super) struct Problem {
     pub touches: Vec<Touch>,
     pub rows: Vec<Row>,
+    /// What each row pushes of trains, where it touches nothing else.
+    geared: Vec<Option<Geared<ROW_ENDS>>>,
     /// W, row by row.
     pub(super) w: Vec<f64>,
     /// Velocities of the rows under the present impulses, m/s.
@@ -150,6 +152,7 @@ impl Problem {
         Self {
             touches: Vec::with_capacity(touches),
             rows: Vec::with_capacity(rows),
+            geared: Vec::with_capacity(rows),
             w: vec![0.0; rows * rows],
             u: Vec::with_capacity(rows),
             other: vec![0.0; rows],
@@ -183,13 +186,28 @@ impl Problem {
     pub fn assemble(&mut self, system: &mut System, bodies: &[RigidBody]) {
         let n = self.rows.len();
         self.open.find(system);
+        // Of joints that give way the multipliers are asked too.
+        let lean = self.open.is_empty();
+        self.geared.clear();
+        self.geared.extend(self.rows.iter().map(|row| if lean { system.geared(&row.ends) } else { None }));
         for column in 0..n {
+            if let Some(geared) = &self.geared[column] {
+                system.answer_geared(geared);
+                for row in column..n {
+                    if let Some(other) = &self.geared[row] {
+                        let value = system.geared_rate(other);
+                        self.w[row * n + column] = value;
+                        self.w[column * n + row] = value;
+                    }
+                }
+                continue;
+            }
             system.b.fill([0.0; 6]);
             for (body, block) in self.rows[column].ends.iter().flatten() {
                 system.push_impulse(*body, block, 1.0);
             }
             system.solve_impulse();
-            for row in column..n {
+            for row in (0..n).filter(|&row| row >= column || self.geared[row].is_some()) {
                 let value = self.rows[row].along(&system.a);
                 self.w[row * n + column] = value;
                 self.w[column * n + row] = value;

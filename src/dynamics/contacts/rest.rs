@@ -54,8 +54,8 @@ const MOST_PUSH: f64 = 1e-3;
 /// What is to be done about a pass over a substep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::dynamics) enum Verdict {
-    /// Nothing: it stands.
-    Stands,
+    /// Nothing: it stands. Were bodies moved out of each other?
+    Stands { moved: bool },
     /// Integrate it again, under better forces.
     Again,
     /// Integrate a shorter one: surfaces curve too much for the forces to stand still.
@@ -174,10 +174,14 @@ impl Contacts {
             self.problem.apply(system, bodies);
         }
         self.hold((h, settled, stands), start, bodies);
-        if stands && self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
+        if !stands {
+            return Verdict::Again;
+        }
+        let moved = self.problem.touches.iter().any(|touch| touch.gap < -LAYER);
+        if moved {
             self.problem.push_out(-LAYER, MOST_PUSH, system, bodies);
         }
-        if stands { Verdict::Stands } else { Verdict::Again }
+        Verdict::Stands { moved }
     }
 
     /// Has anything that rests sunk in by more than this within the substep?

@@ -25,10 +25,13 @@
 //! something to be heard, which spares work and keeps numbers out of the range where processors are slow.
 
 mod absorption;
+mod network;
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x16};
 
-use absorption::{Absorption, Absorptions, SHELVES};
+use absorption::{Absorption, Absorptions};
+use network::{CHUNK, Delay, Network};
 
 use crate::math::{decibels, from_decibels, pow, sqrt};
 
@@ -43,9 +46,8 @@ pub const STEEPEST: f64 = 1.6;
 
 /// Shortest and longest line, s.
 const LENGTHS: (f64, f64) = (0.021, 0.079);
-/// Allpasses of the left and of the right channel, s, and their coefficient.
+/// Allpasses of the left and of the right channel, s.
 const DIFFUSERS: [[f64; 3]; 2] = [[0.0017, 0.0041, 0.0089], [0.0019, 0.0045, 0.0083]];
-const DIFFUSION: f32 = 0.6;
 /// What is below this becomes 0: −240 dB.
 const FLOOR: f32 = 1e-12;
 /// Louder than any sound; a number beyond it is a fault that must not live on in the lines.
@@ -96,37 +98,15 @@ impl RoomSpec {
     }
 }
 
-/// One Schroeder allpass: y = v[n−m] − k v, v = x + k v[n−m].
-struct Allpass {
-    line: Vec<f32>,
-    at: usize,
-}
-
-impl Allpass {
-    #[inline(always)]
-    fn process(&mut self, x: f32) -> f32 {
-        let delayed = self.line[self.at];
-        let v = x + DIFFUSION * delayed;
-        self.line[self.at] = floored(v);
-        self.at = if self.at + 1 == self.line.len() { 0 } else { self.at + 1 };
-        delayed - DIFFUSION * v
-    }
-}
-
 /// A room that sounds.
 pub struct Room {
     /// Which instructions there are.
     simd: Level,
-    diffusers: [[Allpass; 3]; 2],
-    /// All lines one after the other; `ends` are their ends, `at` where each is read and written.
-    lines: Vec<f32>,
-    starts: [usize; LINES],
-    ends: [usize; LINES],
-    at: [usize; LINES],
-    absorption: Absorptions,
-    /// Two a shelf and line.
-    states: [[[f32; LINES]; 2]; SHELVES],
+    diffusers: [[Delay; 3]; 2],
+    network: Network,
     level: f32,
+    /// Most frames that go side by side: none of the delays is shorter.
+    chunk: usize,
     /// Frames for which nothing has gone into any line.
     quiet: usize,
     /// Frames after which nothing is left in any.
@@ -141,132 +121,75 @@ impl Room {
         }
         let lengths = lengths(sample_rate);
         let absorption = Absorptions::new(&lengths, &spec.t60, sample_rate)?;
-        let mut starts = [0; LINES];
-        let mut end = 0;
-        let ends = std::array::from_fn(|i| {
-            starts[i] = end;
-            end += lengths[i];
-            end
-        });
-        let allpass = |seconds: f64| Allpass { line: vec![0.0; prime((seconds * sample_rate) as usize)], at: 0 };
-        let longest = lengths.iter().max().copied().unwrap_or_default();
+        let allpass = |seconds: f64| Delay::new(prime((seconds * sample_rate) as usize));
+        let diffusers = DIFFUSERS.map(|channel| channel.map(allpass));
+        let delays = diffusers.iter().flatten().map(Delay::length).chain(lengths);
         Some(Self {
             simd: Level::new(),
-            diffusers: DIFFUSERS.map(|channel| channel.map(allpass)),
-            lines: vec![0.0; end],
-            starts,
-            ends,
-            at: starts,
-            absorption,
-            states: [[[0.0; LINES]; 2]; SHELVES],
+            chunk: delays.fold(CHUNK, usize::min),
+            diffusers,
+            network: Network::new(&lengths, absorption),
             level: (from_decibels(spec.level_db) / own_level(&lengths, spec.t60[MIDDLE], sample_rate)) as f32,
             quiet: usize::MAX,
-            forgets: longest,
+            forgets: lengths.into_iter().fold(0, usize::max),
         })
     }
 
-    /// The room's answer to a frame: what comes on top of the sound itself.
-    pub fn process(&mut self, frame: [f32; 2]) -> [f32; 2] {
-        dispatch!(self.simd, simd => self.answer(simd, frame))
+    /// The room's answer to these frames in their place: what comes on top of the sound itself. How they are cut into
+    /// calls does not matter.
+    pub fn answer(&mut self, frames: &mut [[f32; 2]]) {
+        dispatch!(self.simd, simd => self.answer_in(simd, frames));
     }
 
-    /// All lines go side by side through the widest registers that there are; each number is made as in any others.
     #[inline(always)]
-    fn answer<S: Simd>(&mut self, _: S, frame: [f32; 2]) -> [f32; 2] {
-        let frame = frame.map(|x| if x.is_finite() { x.clamp(-LOUDEST, LOUDEST) } else { 0.0 });
-        if self.quiet > self.forgets {
-            if frame == [0.0; 2] {
-                return [0.0; 2];
-            }
-            self.wake();
+    fn answer_in<S: Simd>(&mut self, simd: S, mut frames: &mut [[f32; 2]]) {
+        for frame in frames.iter_mut() {
+            *frame = frame.map(|x| if x.is_finite() { x.clamp(-LOUDEST, LOUDEST) } else { 0.0 });
         }
-        let mut fed = frame;
+        while !frames.is_empty() {
+            if self.quiet > self.forgets {
+                // What is silent already is its answer to silence.
+                let Some(first) = frames.iter().position(|frame| *frame != [0.0; 2]) else { return };
+                frames = &mut frames[first..];
+                self.wake();
+            }
+            // It falls asleep between two chunks.
+            let n = frames.len().min(self.chunk).min(self.forgets + 1 - self.quiet);
+            let (now, later) = frames.split_at_mut(n);
+            self.run(simd, now);
+            frames = later;
+        }
+    }
+
+    /// All frames of a chunk, and all lines, go side by side through the widest registers that there are.
+    #[inline(always)]
+    fn run<S: Simd>(&mut self, simd: S, frames: &mut [[f32; 2]]) {
+        let n = frames.len();
+        let mut sides = [[0.0; CHUNK]; 2];
+        for (k, frame) in frames.iter().enumerate() {
+            (sides[0][k], sides[1][k]) = (frame[0], frame[1]);
+        }
+        let mut fed: [f32x16<S>; 2] = sides.map(|side| side.simd_into(simd));
         for (x, allpasses) in fed.iter_mut().zip(&mut self.diffusers) {
             for allpass in allpasses {
-                *x = allpass.process(*x);
+                *x = allpass.diffuse(simd, *x, n);
             }
         }
-        let mut y: [f32; LINES] = std::array::from_fn(|i| self.lines[self.at[i]]);
-        self.absorb(&mut y);
-        let [mut left, mut right] = [0.0f32; 2];
-        for (i, y) in y.iter().enumerate() {
-            left += LEFT[i] * y;
-            right += RIGHT[i] * y;
-        }
-        mix(&mut y);
-        let mut anything = frame != [0.0; 2];
-        for i in 0..LINES {
-            let into = floored(y[i] + INTO[i] * fed[i % 2]);
-            anything |= into != 0.0;
-            self.lines[self.at[i]] = into;
-            self.at[i] = if self.at[i] + 1 == self.ends[i] { self.starts[i] } else { self.at[i] + 1 };
-        }
-        self.quiet = if anything { 0 } else { self.quiet + 1 };
-        [left * self.level, right * self.level]
-    }
-
-    #[inline(always)]
-    fn absorb(&mut self, y: &mut [f32; LINES]) {
-        let Absorptions { gain, shelves } = &self.absorption;
-        for i in 0..LINES {
-            y[i] *= gain[i];
-        }
-        for ([b0, b1, b2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut self.states) {
-            for i in 0..LINES {
-                let x = y[i];
-                y[i] = b0[i] * x + s1[i];
-                s1[i] = b1[i] * x - a1[i] * y[i] + s2[i];
-                s2[i] = b2[i] * x - a2[i] * y[i];
-            }
+        let (answer, into) = self.network.run(simd, fed, n);
+        let loud = (0..n).rposition(|k| frames[k] != [0.0; 2] || into[k] != 0.0);
+        self.quiet = loud.map_or(self.quiet + n, |last| n - 1 - last);
+        let [left, right]: [[f32; CHUNK]; 2] = answer.map(|side| (side * self.level).into());
+        for (k, frame) in frames.iter_mut().enumerate() {
+            *frame = [left[k], right[k]];
         }
     }
 
     /// Everything is so small by now that it counts as nothing.
     fn wake(&mut self) {
-        self.states = [[[0.0; LINES]; 2]; SHELVES];
-        self.diffusers.iter_mut().flatten().for_each(|allpass| allpass.line.fill(0.0));
+        self.network.still();
+        self.diffusers.iter_mut().flatten().for_each(Delay::clear);
         self.quiet = 0;
     }
-}
-
-/// Row of the Hadamard matrix H_ri = (−1)^popcount(r & i), times a factor.
-const fn row(r: usize, factor: f32) -> [f32; LINES] {
-    let mut out = [factor; LINES];
-    let mut i = 0;
-    while i < LINES {
-        if (r & i).count_ones() % 2 == 1 {
-            out[i] = -factor;
-        }
-        i += 1;
-    }
-    out
-}
-
-/// Into the lines: energy 1 for either side, which has eight of them (1/√8).
-const INTO: [f32; LINES] = row(6, 0.353_553_4);
-/// Out of the lines.
-const LEFT: [f32; LINES] = row(9, 0.25);
-const RIGHT: [f32; LINES] = row(12, 0.25);
-
-/// H/4 by the fast transform: sums and differences of pairs.
-#[inline(always)]
-fn mix(y: &mut [f32; LINES]) {
-    let mut half = LINES / 2;
-    while half > 0 {
-        for start in (0..LINES).step_by(2 * half) {
-            for i in start..start + half {
-                (y[i], y[i + half]) = (y[i] + y[i + half], y[i] - y[i + half]);
-            }
-        }
-        half /= 2;
-    }
-    y.iter_mut().for_each(|y| *y *= 0.25);
-}
-
-/// 0 for what is below [`FLOOR`]: rounding alone would keep the smallest numbers going round for ever.
-#[inline(always)]
-fn floored(x: f32) -> f32 {
-    if x.abs() < FLOOR { 0.0 } else { x }
 }
 
 /// Amplitude of the answer to an impulse at a level of 0 dB.

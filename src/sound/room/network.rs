@@ -1,0 +1,195 @@
+//! The inner loop of the room: delay lines, what absorbs in them and what mixes them, a chunk of frames at a time.
+//!
+//! No line is shorter than a chunk, so that nothing that leaves a line within one has gone in within it. Delays and the
+//! mixing go frame by frame side by side; the filters, which wait for their own last answer, line by line side by side:
+//! between the two the numbers are turned, rows for columns. Each number is made as it would be alone, so chunks of any
+//! lengths give the same bits.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x16};
+
+use super::absorption::{Absorptions, SHELVES};
+use super::{FLOOR, LINES};
+
+/// Most frames of a chunk, as many as lines.
+pub(super) const CHUNK: usize = LINES;
+/// A number of each frame of a chunk.
+pub(super) type Chunk = [f32; CHUNK];
+
+/// Coefficient of the allpasses.
+const DIFFUSION: f32 = 0.6;
+/// Into the lines: energy 1 for either side, which has eight of them (1/√8).
+const INTO: [f32; LINES] = row(6, 0.353_553_4);
+/// Out of the lines.
+const LEFT: [f32; LINES] = row(9, 0.25);
+const RIGHT: [f32; LINES] = row(12, 0.25);
+
+/// Row of the Hadamard matrix H_ri = (−1)^popcount(r & i), times a factor.
+const fn row(r: usize, factor: f32) -> [f32; LINES] {
+    let mut out = [factor; LINES];
+    let mut i = 0;
+    while i < LINES {
+        if (r & i).count_ones() % 2 == 1 {
+            out[i] = -factor;
+        }
+        i += 1;
+    }
+    out
+}
+
+/// A delay: what goes in comes out again after as many frames as it is long.
+pub(super) struct Delay {
+    samples: Vec<f32>,
+    at: usize,
+}
+
+impl Delay {
+    /// Silent, of so many frames; not less than [`CHUNK`], or no chunk may be longer.
+    pub fn new(frames: usize) -> Self {
+        Self { samples: vec![0.0; frames], at: 0 }
+    }
+
+    /// Frames.
+    pub fn length(&self) -> usize {
+        self.samples.len()
+    }
+
+    /// Silent.
+    pub fn clear(&mut self) {
+        self.samples.fill(0.0);
+    }
+
+    /// What comes out next.
+    #[inline(always)]
+    fn read(&self) -> Chunk {
+        match self.samples[self.at..].first_chunk() {
+            Some(chunk) => *chunk,
+            None => {
+                let (ahead, length) = (self.length() - self.at, self.length());
+                std::array::from_fn(|k| self.samples[if k < ahead { self.at + k } else { (k - ahead) % length }])
+            }
+        }
+    }
+
+    /// Takes in the first `n` of a chunk for those that came out.
+    #[inline(always)]
+    fn write(&mut self, chunk: &Chunk, n: usize) {
+        match self.samples[self.at..].first_chunk_mut() {
+            Some(place) if n == CHUNK => *place = *chunk,
+            _ => {
+                for (k, x) in chunk[..n].iter().enumerate() {
+                    let at = self.at + k;
+                    let wrapped = if at < self.samples.len() { at } else { at - self.samples.len() };
+                    self.samples[wrapped] = *x;
+                }
+            }
+        }
+        self.at += n;
+        if self.at >= self.samples.len() {
+            self.at -= self.samples.len();
+        }
+    }
+
+    /// One Schroeder allpass: y = v[n−m] − k v, v = x + k v[n−m].
+    #[inline(always)]
+    pub fn diffuse<S: Simd>(&mut self, simd: S, x: f32x16<S>, n: usize) -> f32x16<S> {
+        let delayed: f32x16<S> = self.read().simd_into(simd);
+        let v = x + delayed * DIFFUSION;
+        self.write(&floored(v).into(), n);
+        delayed - v * DIFFUSION
+    }
+}
+
+/// All lines, and their filters.
+pub(super) struct Network {
+    lines: [Delay; LINES],
+    absorption: Absorptions,
+    /// Two a shelf and line.
+    states: [[[f32; LINES]; 2]; SHELVES],
+}
+
+impl Network {
+    /// Silent.
+    pub fn new(lengths: &[usize; LINES], absorption: Absorptions) -> Self {
+        Self { lines: lengths.map(Delay::new), absorption, states: [[[0.0; LINES]; 2]; SHELVES] }
+    }
+
+    /// Forgets what is left in the filters.
+    pub fn still(&mut self) {
+        self.states = [[[0.0; LINES]; 2]; SHELVES];
+    }
+
+    /// Takes `n` frames of the left and of the right side in; answers what comes out on either, and the largest number of
+    /// each frame that has gone into any line.
+    #[inline(always)]
+    pub fn run<S: Simd>(&mut self, simd: S, fed: [f32x16<S>; 2], n: usize) -> ([f32x16<S>; 2], Chunk) {
+        let silence = f32x16::splat(simd, 0.0);
+        let by_lines: [f32x16<S>; LINES] = std::array::from_fn(|i| self.lines[i].read().simd_into(simd));
+        let mut frames = turned(by_lines);
+        self.absorb(simd, &mut frames[..n]);
+        let mut y = turned(frames);
+        let (mut left, mut right) = (silence, silence);
+        for i in 0..LINES {
+            left += y[i] * LEFT[i];
+            right += y[i] * RIGHT[i];
+        }
+        mix(&mut y);
+        let mut largest = silence;
+        for i in 0..LINES {
+            let into = floored(y[i] + fed[i % 2] * INTO[i]);
+            largest = largest.max(into.abs());
+            self.lines[i].write(&into.into(), n);
+        }
+        ([left, right], largest.into())
+    }
+
+    /// Each frame through the filters of the lines.
+    #[inline(always)]
+    fn absorb<S: Simd>(&mut self, simd: S, frames: &mut [f32x16<S>]) {
+        let load = |x: &[f32; LINES]| -> f32x16<S> { (*x).simd_into(simd) };
+        let gain = load(&self.absorption.gain);
+        let shelves = self.absorption.shelves.each_ref().map(|shelf| shelf.each_ref().map(load));
+        let mut states = self.states.each_ref().map(|state| state.each_ref().map(load));
+        for frame in frames {
+            let mut y = *frame * gain;
+            for ([b0, b1, b2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
+                let x = y;
+                y = *b0 * x + *s1;
+                *s1 = *b1 * x - *a1 * y + *s2;
+                *s2 = *b2 * x - *a2 * y;
+            }
+            *frame = y;
+        }
+        self.states = states.map(|state| state.map(Into::into));
+    }
+}
+
+/// H/4 by the fast transform: sums and differences of pairs.
+#[inline(always)]
+fn mix<S: Simd>(y: &mut [f32x16<S>; LINES]) {
+    for half in [8, 4, 2, 1] {
+        for i in (0..LINES).filter(|i| i & half == 0) {
+            (y[i], y[i + half]) = (y[i] + y[i + half], y[i] - y[i + half]);
+        }
+    }
+    y.iter_mut().for_each(|y| *y *= 0.25);
+}
+
+/// Rows for columns: each round takes the highest bit of a number's row for the lowest of its column.
+#[inline(always)]
+fn turned<S: Simd>(mut rows: [f32x16<S>; LINES]) -> [f32x16<S>; LINES] {
+    for _ in 0..LINES.ilog2() {
+        let before = rows;
+        for i in 0..LINES / 2 {
+            rows[2 * i] = before[i].zip_low(before[i + LINES / 2]);
+            rows[2 * i + 1] = before[i].zip_high(before[i + LINES / 2]);
+        }
+    }
+    rows
+}
+
+/// 0 for what is below [`FLOOR`]: rounding alone would keep the smallest numbers going round for ever.
+#[inline(always)]
+fn floored<S: Simd>(x: f32x16<S>) -> f32x16<S> {
+    x.abs().simd_lt(FLOOR).select(f32x16::splat(x.simd, 0.0), x)
+}

@@ -1,0 +1,69 @@
+//! What only trains feel: their answer in their own coordinates beside the dense solver's, which knows no trains.
+
+use soffio::articulation::block::{Vec6, dot};
+use soffio::articulation::{Method, System};
+use soffio::exhibit;
+use soffio::noise::Random;
+use soffio::simulation::{Settings, start_dynamics};
+
+use super::figures::wrench;
+
+/// Of the larger of the two rows' answers to themselves: the dense solver goes through 150 rows.
+const SOLVED: f64 = 1e-9;
+const SEED: u64 = 8;
+
+#[test]
+fn trains_answer_each_other_as_the_whole_figure_does() {
+    // A going train with a clutch, an anchor that a pendulum is looped to, a striking train, weights, levers.
+    let folder = exhibit::resolve("terry-clock").unwrap_or_else(|report| panic!("{report}"));
+    let clock = exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let bodies = start_dynamics(&clock, &Settings::default()).bodies;
+    let driven = vec![false; bodies.len()];
+    let [mut lean, mut whole] = [Method::Sparse, Method::Dense].map(|method| {
+        let mut system = System::new(&bodies, &driven, &clock.constraints, method);
+        system.activity.set_shares(0.0);
+        system.activity.set_time(0.0);
+        system.evaluate(&bodies);
+        system.factor();
+        system
+    });
+    let index = |name: &str| clock.bodies.iter().position(|body| body.name == name).expect("a body of the clock");
+    let pairs = [
+        ["EscapeWheel", "Anchor"],
+        ["Drum", "GreatWheel"],
+        ["Cannon", "Flirt"],
+        ["LockWheel", "CountLever"],
+        ["StrikeDrum", "StrikeWheel"],
+        ["Hammer", "PinWheel"],
+        ["Anchor", "CountWheel"],
+    ];
+    let mut random = Random::new(SEED);
+    let rows: Vec<[Option<(usize, Vec6)>; 2]> =
+        pairs.iter().map(|two| two.map(|name| Some((index(name), wrench(&mut random))))).collect();
+    let geared: Vec<_> = rows.iter().map(|row| lean.geared(row).expect("trains alone")).collect();
+    let mut answers = vec![vec![0.0; rows.len()]; rows.len()];
+    let mut expected = answers.clone();
+    for (j, row) in rows.iter().enumerate() {
+        lean.answer_geared(&geared[j]);
+        whole.b.fill([0.0; 6]);
+        row.iter().flatten().for_each(|(body, block)| whole.push_impulse(*body, block, 1.0));
+        whole.solve_impulse();
+        for i in 0..rows.len() {
+            answers[i][j] = lean.geared_rate(&geared[i]);
+            expected[i][j] = rows[i].iter().flatten().map(|(body, block)| dot(block, &whole.a[*body])).sum();
+        }
+    }
+    let mut together = 0;
+    for i in 0..rows.len() {
+        for j in 0..rows.len() {
+            let scale = expected[i][i].max(expected[j][j]);
+            let off = (answers[i][j] - expected[i][j]).abs();
+            assert!(off < SOLVED * scale, "seed {SEED}, {:?} by {:?}: {off} of {scale}", pairs[i], pairs[j]);
+            together += usize::from(i != j && expected[i][j].abs() > 1e-3 * scale);
+        }
+    }
+    assert!(together > 4, "the rows hardly feel each other");
+    // The pendulum is in no train.
+    let other = [Some((index("Pendulum"), wrench(&mut random))), Some((index("Anchor"), wrench(&mut random)))];
+    assert!(lean.geared(&other).is_none());
+}
