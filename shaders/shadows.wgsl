@@ -1,6 +1,8 @@
 // Soft shadows on the wall and the floor, as textures of the blocked fraction of each lamp (red: lamp 0, green: 1).
 //
-// Meshes: every triangle is projected onto the plane from N points of each lamp's disc, 1/N added per point. Within
+// Flat plates: closed form, in sheets.wgsl.
+//
+// Other meshes: every triangle is projected onto the plane from N points of each lamp's disc, 1/N added per point. Within
 // one point a texel must count once, however many triangles cover it: each point draws at its own depth, nearer than
 // the points before it, so its first triangle passes `less` and its others fail.
 //
