@@ -1,6 +1,8 @@
 // Soft shadows on the wall and the floor, as textures of the blocked fraction of each lamp (red: lamp 0, green: 1).
 //
-// Meshes: every triangle is projected onto the plane from N points of each lamp's disc, 1/N added per point. Within
+// Flat plates: closed form, in sheets.wgsl.
+//
+// Other meshes: every triangle is projected onto the plane from N points of each lamp's disc, 1/N added per point. Within
 // one point a texel must count once, however many triangles cover it: each point draws at its own depth, nearer than
 // the points before it, so its first triangle passes `less` and its others fail.
 //
@@ -95,6 +97,12 @@ fn disc_part(t: f32) -> f32 {
     return 0.5 + (x * sqrt(max(1.0 - x * x, 0.0)) + asin(x)) / PI;
 }
 
+// How far a unit disc with this axis reaches along a direction.
+fn seen_part(direction: vec3f, axis: vec3f) -> f32 {
+    let off = dot(direction, axis);
+    return sqrt(max(1.0 - off * off, 0.05));
+}
+
 @fragment
 fn wire_fragment(v: Strip) -> @location(0) vec4f {
     let lamp = globals.lamps[v.lamp];
@@ -120,8 +128,11 @@ fn wire_fragment(v: Strip) -> @location(0) vec4f {
     let t_cross = max(mix(ta, tb, s), 1e-4);
     let c = dot(v.a - v.position, side) / t_cross;
     let w = v.radius / t_cross;
-    let across = disc_part((c + w) / lamp.radius) - disc_part((c - w) / lamp.radius);
-    let ends = abs(disc_part(eb / lamp.radius) - disc_part(ea / lamp.radius));
+    // The disc is seen aslant, as an ellipse; a strip parts that as it parts a disc of the ellipse's reach across.
+    let across_disc = lamp.radius * seen_part(side, lamp.axis);
+    let along_disc = lamp.radius * seen_part(along, lamp.axis);
+    let across = disc_part((c + w) / across_disc) - disc_part((c - w) / across_disc);
+    let ends = abs(disc_part(eb / along_disc) - disc_part(ea / along_disc));
     return vec4f(lamp_channel(v.lamp) * across * ends, 0.0, 1.0);
 }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use glam::{Vec3, Vec4};
 
 use super::fixtures::{Fixtures, MAX_MOTES};
-use super::outlines::CONTOUR_ROW;
 use super::passes::{Pass, Plan};
 use super::pipelines::Pipelines;
 use super::resources::attachment;
@@ -137,6 +136,7 @@ impl Renderer {
             samples: self.options.msaa,
             format: self.options.format,
             planes: self.options.look.background.is_none().then_some(self.work.planes),
+            plane_draws: [self.work.plane_draws(); 2],
             map: MapCamera::size(self.options.quality),
             mesh_draws: self.work.parts.iter().map(draws).sum::<u32>() + self.work.outlines.most_draws(),
         }
@@ -149,12 +149,16 @@ impl Renderer {
         write(&self.fixtures.frames_buffer, bytemuck::cast_slice(&self.work.frames));
         write(&self.work.segments_buffer, bytemuck::cast_slice(&self.work.segments));
         write(&self.work.ribbons_buffer, bytemuck::cast_slice(&self.work.outlines.ribbons));
-        gpu.queue.write_texture(
-            self.work.contours.as_image_copy(),
-            bytemuck::cast_slice(&self.work.outlines.contours),
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * CONTOUR_ROW), rows_per_image: None },
-            self.work.contours.size(),
-        );
+        write(&self.work.shades_buffer, bytemuck::cast_slice(&self.work.sheets.shades));
+        let write_rows = |texture: &wgpu::Texture, rows: &[Vec4]| {
+            let width = texture.width();
+            let size = wgpu::Extent3d { width, height: rows.len() as u32 / width, depth_or_array_layers: 1 };
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * width), rows_per_image: None };
+            gpu.queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(rows), layout, size);
+        };
+        write_rows(&self.work.contours, &self.work.outlines.contours);
+        write_rows(&self.work.rims, &self.work.sheets.points);
         write(&self.fixtures.motes_buffer, bytemuck::cast_slice(&self.motes));
     }
 
@@ -205,13 +209,22 @@ impl Renderer {
                 ..Default::default()
             });
             pass.set_bind_group(0, &self.fixtures.frame_group, &[]);
-            pass.set_pipeline(&self.fixtures.pipelines.plane_meshes[plane]);
-            pass.set_vertex_buffer(0, self.work.vertices.slice(..));
-            pass.set_index_buffer(self.work.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..self.work.casters, 0, 0..2 * self.work.lamp_samples);
+            if !self.work.casters.is_empty() {
+                pass.set_pipeline(&self.fixtures.pipelines.plane_meshes[plane]);
+                pass.set_vertex_buffer(0, self.work.vertices.slice(..));
+                pass.set_index_buffer(self.work.indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(self.work.casters.clone(), 0, 0..2 * self.work.lamp_samples);
+            }
             pass.set_pipeline(&self.fixtures.pipelines.plane_wires[plane]);
             pass.set_vertex_buffer(0, self.work.segments_buffer.slice(..));
             pass.draw(0..12, 0..self.work.segments.len() as u32);
+            let shades = self.work.sheets.on(plane);
+            if !shades.is_empty() {
+                pass.set_pipeline(&self.fixtures.pipelines.plane_sheets[plane]);
+                pass.set_bind_group(1, &self.work.rims_group, &[]);
+                pass.set_vertex_buffer(0, self.work.shades_buffer.slice(..));
+                pass.draw(0..6, shades);
+            }
         }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow map"),

@@ -20,6 +20,7 @@
 //! | `textures` | materials and mip maps | |
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
+//! | `sheets` | shadows of flat plates on the planes, in closed form | `sheets.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
 //! | `outlines` | silhouettes of plates, and the ribbons along them | `outline.wgsl` |
 //! | `passes` | the list of passes: attachments, draws, bytes | |
@@ -63,6 +64,7 @@ pub mod scenario;
 mod scene;
 pub mod shaders;
 mod shadows;
+mod sheets;
 mod textures;
 mod wires;
 mod work;

@@ -20,7 +20,7 @@ use super::scene::Vertex;
 
 /// Texels along a row of the texture that holds the silhouettes.
 pub(super) const CONTOUR_ROW: u32 = 256;
-/// Most edges of a plate's mesh; each pixel of a plate looks at all that are on its silhouette.
+/// Most edges of an outlined plate's mesh; each of its pixels looks at all that are on its silhouette.
 const MAX_EDGES: usize = 900;
 /// Cosine between a plate's normal and those of its caps, at least.
 const CAP_COSINE: f32 = 0.99;
@@ -31,15 +31,15 @@ const CAP_SHARE: f32 = 0.75;
 pub(super) struct Plate {
     /// Index of the part that draws it.
     pub part: usize,
-    frame: usize,
-    corners: Vec<Vec3>,
+    pub frame: usize,
+    pub corners: Vec<Vec3>,
     /// Index of a vertex at each corner.
     vertices: Vec<u32>,
     faces: Vec<[u16; 3]>,
-    normals: Vec<Vec3>,
-    edges: Vec<Edge>,
+    pub normals: Vec<Vec3>,
+    pub edges: Vec<Edge>,
     /// Unit, of its caps.
-    normal: Vec3,
+    pub normal: Vec3,
     /// m.
     thickness: f32,
     /// Mean width of its caps, m: twice their area over their circumference.
@@ -48,10 +48,10 @@ pub(super) struct Plate {
 
 /// An edge from corner `a` to `b` as the first of its faces runs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Edge {
-    a: u16,
-    b: u16,
-    faces: [u16; 2],
+pub(super) struct Edge {
+    pub a: u16,
+    pub b: u16,
+    pub faces: [u16; 2],
 }
 
 /// One edge of a silhouette with what the plate looks like there, as `forward.wgsl` reads it.
@@ -93,7 +93,8 @@ impl Plate {
     /// body.
     pub fn of(vertices: &[Vertex], indices: &[u32]) -> Option<Self> {
         let frame = vertices.first()?.frame();
-        if frame == 0 || indices.len() / 3 * 3 / 2 > MAX_EDGES {
+        // Corners are counted with 16 bits.
+        if frame == 0 || indices.len() > usize::from(u16::MAX) {
             return None;
         }
         let mut known = BTreeMap::new();
@@ -136,7 +137,13 @@ impl Plate {
         let around: f32 = bounds.map(|e| corners[usize::from(e.a)].distance(corners[usize::from(e.b)])).sum();
         let width = 2.0 * caps / around.max(f32::MIN_POSITIVE);
         let vertices = sources;
-        Some(Self { part: 0, frame, corners, vertices, faces, normals, edges, normal, thickness: high - low, width })
+        let thickness = high - low;
+        Some(Self { part: 0, frame, corners, vertices, faces, normals, edges, normal, thickness, width })
+    }
+
+    /// Are its edges few enough that each of its pixels can look at them?
+    pub fn is_simple(&self) -> bool {
+        self.edges.len() <= MAX_EDGES
     }
 
     /// Takes its place in a scene: the part that draws it, and where its vertices begin.

@@ -46,6 +46,8 @@ pub struct Plan {
     pub format: wgpu::TextureFormat,
     /// Texels of the shadows on the wall and on the floor; none without a room.
     pub planes: Option<[(u32, u32); 2]>,
+    /// Draw calls on each of them.
+    pub plane_draws: [u32; 2],
     /// Texels along a side of the shadow map.
     pub map: u32,
     /// Draw calls of the meshes in the picture.
@@ -95,10 +97,10 @@ impl Plan {
     pub fn passes(&self) -> Vec<Pass> {
         let mut passes = Vec::new();
         let mut shadows = Vec::new();
-        for texels in self.planes.into_iter().flatten() {
+        for (texels, draws) in self.planes.into_iter().flatten().zip(self.plane_draws) {
             let writes = Self::plane(texels);
             shadows.push(writes[0]);
-            passes.push(Pass { label: "plane shadow", writes: writes.into(), reads: Vec::new(), draws: 2 });
+            passes.push(Pass { label: "plane shadow", writes: writes.into(), reads: Vec::new(), draws });
         }
         let map = Self::shadow_map(self.map);
         shadows.push(map[1]);

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::outlines::Ribbon;
 use super::scene::{State, Surface, Vertex};
 use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
+use super::sheets::Shade;
 use super::wires::Segment;
 use super::{Gpu, Options, Tonemap};
 
@@ -17,11 +18,12 @@ const RIBBON_ENTRY: &str = "ribbon_fragment";
 /// Depth is reversed.
 const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::Greater;
 
-/// Layouts of the three bind groups: frame, light, material.
+/// Layouts of the bind groups.
 pub(super) struct Layouts {
     pub frame: wgpu::BindGroupLayout,
     pub light: wgpu::BindGroupLayout,
     pub material: wgpu::BindGroupLayout,
+    pub rims: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
     pub stretch: wgpu::BindGroupLayout,
 }
@@ -43,6 +45,7 @@ pub(super) struct Pipelines {
     /// For the wall and the floor.
     pub plane_meshes: [wgpu::RenderPipeline; 2],
     pub plane_wires: [wgpu::RenderPipeline; 2],
+    pub plane_sheets: [wgpu::RenderPipeline; 2],
     pub shadow_map: wgpu::RenderPipeline,
     pub resolve: wgpu::RenderPipeline,
     pub stretch: wgpu::RenderPipeline,
@@ -71,6 +74,11 @@ const RIBBON: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
         6 => Uint32, 7 => Uint32
     ],
 };
+const SHADE: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Shade>() as u64,
+    step_mode: wgpu::VertexStepMode::Instance,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Uint32x4],
+};
 const MOTE: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: 16,
     step_mode: wgpu::VertexStepMode::Instance,
@@ -97,6 +105,7 @@ impl Layouts {
             multisampled,
         };
         let smooth = TextureSampleType::Float { filterable: true };
+        let numbers = TextureSampleType::Float { filterable: false };
         let image = (ShaderStages::FRAGMENT, texture(smooth, TextureViewDimension::D2, false));
         let fragment = ShaderStages::FRAGMENT;
         let sampler = (fragment, BindingType::Sampler(SamplerBindingType::Filtering));
@@ -113,10 +122,7 @@ impl Layouts {
                     image,
                     (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
                     (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
-                    (
-                        fragment,
-                        texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2, false),
-                    ),
+                    (fragment, texture(numbers, TextureViewDimension::D2, false)),
                 ],
             ),
             material: group(
@@ -124,10 +130,8 @@ impl Layouts {
                 &[(fragment, uniform), image, image, image, image, image, sampler, sampler, sampler, sampler, sampler],
             ),
             stretch: group("stretch", &[image, sampler]),
-            resolve: group(
-                "resolve",
-                &[(fragment, texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2, true))],
-            ),
+            rims: group("rims", &[(fragment, texture(numbers, TextureViewDimension::D2, false))]),
+            resolve: group("resolve", &[(fragment, texture(numbers, TextureViewDimension::D2, true))]),
         }
     }
 }
@@ -219,6 +223,7 @@ impl Pipelines {
             })
         };
         let shadow_layout = layout("shadow", &[&layouts.frame]);
+        let sheet_layout = layout("sheets", &[&layouts.frame, &layouts.rims]);
         let light_layout = layout("light", &[&layouts.frame, &layouts.light]);
         let resolve_layout = layout("resolve", &[&layouts.resolve]);
         let stretch_layout = layout("stretch", &[&layouts.stretch]);
@@ -244,31 +249,31 @@ impl Pipelines {
             let color = Some((options.format, blend));
             pipeline(device, Fixed { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
         };
-        let plane = |label, entries, buffer, plane: usize, compare, write| {
-            pipeline(
-                device,
-                Fixed {
-                    label,
-                    module: &shadows,
-                    layout: &shadow_layout,
-                    entries,
-                    buffer: Some(buffer),
-                    constants: &[("PLANE", plane as f64)],
-                    cull: None,
-                    depth: Some((ORDER_FORMAT, write, compare)),
-                    color: Some((PLANE_FORMAT, adding)),
-                    samples: 1,
-                },
-            )
+        // For the wall and the floor.
+        let plane = |label, entries, buffer: wgpu::VertexBufferLayout<'static>, layout, how: (_, bool), blend| {
+            [0.0, 1.0].map(|plane| {
+                pipeline(
+                    device,
+                    Fixed {
+                        label,
+                        module: &shadows,
+                        layout,
+                        entries,
+                        buffer: Some(buffer.clone()),
+                        constants: &[("PLANE", plane)],
+                        cull: None,
+                        depth: Some((ORDER_FORMAT, how.1, how.0)),
+                        color: Some((PLANE_FORMAT, blend)),
+                        samples: 1,
+                    },
+                )
+            })
         };
-        let plane_meshes = |p| {
-            let entries = ("mesh_vertex", Some("mesh_fragment"));
-            plane("plane meshes", entries, VERTEX, p, wgpu::CompareFunction::Less, true)
-        };
-        let plane_wires = |p| {
-            let entries = ("wire_vertex", Some("wire_fragment"));
-            plane("plane wires", entries, SEGMENT, p, wgpu::CompareFunction::Always, false)
-        };
+        let (once, always) = ((wgpu::CompareFunction::Less, true), (wgpu::CompareFunction::Always, false));
+        let mesh = ("mesh_vertex", Some("mesh_fragment"));
+        let wire = ("wire_vertex", Some("wire_fragment"));
+        let sheet = ("sheet_vertex", Some("sheet_fragment"));
+        let covering = blend(wgpu::BlendFactor::OneMinusDst, wgpu::BlendFactor::One);
         // A pass over the whole target.
         let whole = |label, module, layout| {
             pipeline(device, Fixed { label, module, layout, constants: &[], depth: None, samples: 1, ..base() })
@@ -293,8 +298,9 @@ impl Pipelines {
             ),
             wires: overlay("wires", &wires, SEGMENT, &constants, Some(wgpu::BlendState::ALPHA_BLENDING)),
             motes: overlay("motes", &motes, MOTE, &[], adding),
-            plane_meshes: [plane_meshes(0), plane_meshes(1)],
-            plane_wires: [plane_wires(0), plane_wires(1)],
+            plane_meshes: plane("plane meshes", mesh, VERTEX, &shadow_layout, once, adding),
+            plane_wires: plane("plane wires", wire, SEGMENT, &shadow_layout, always, adding),
+            plane_sheets: plane("plane sheets", sheet, SHADE, &sheet_layout, always, covering),
             shadow_map: pipeline(
                 device,
                 Fixed {
@@ -348,7 +354,7 @@ impl Pipelines {
 
     /// How many there are.
     pub fn count(&self) -> usize {
-        let fixed = self.room.len() + self.plane_meshes.len() + self.plane_wires.len() + 6;
+        let fixed = self.room.len() + self.plane_meshes.len() + self.plane_wires.len() + self.plane_sheets.len() + 6;
         fixed + self.ribbons.len() + self.forward.values().map(Vec::len).sum::<usize>()
     }
 

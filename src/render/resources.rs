@@ -7,7 +7,6 @@ use super::environment::{CUBE_MIPS, CUBE_SIZE, Environment};
 use super::fixtures::Fixtures;
 use super::gallery::Room;
 use super::occlusion::PLANE_MAP;
-use super::outlines::CONTOUR_ROW;
 use super::passes::Attachment;
 use super::radiosity::LIGHTMAP_SIZE;
 
@@ -86,11 +85,11 @@ pub(super) struct Light<'a> {
     pub contours: &'a wgpu::TextureView,
 }
 
-/// The texture of the silhouettes.
-pub(super) fn contours(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
+/// A texture of four numbers a texel, to be filled in each frame.
+pub(super) fn numbers(device: &wgpu::Device, label: &str, (width, height): (u32, u32)) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("contours"),
-        size: wgpu::Extent3d { width: CONTOUR_ROW, height: rows, depth_or_array_layers: 1 },
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -98,6 +97,17 @@ pub(super) fn contours(device: &wgpu::Device, rows: u32) -> wgpu::Texture {
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })
+}
+
+/// A texture alone.
+pub(super) fn single(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    texture: &wgpu::Texture,
+) -> wgpu::BindGroup {
+    let view = texture.create_view(&Default::default());
+    let entries = [wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) }];
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }
 
 /// Textures and samplers of the light.

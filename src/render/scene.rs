@@ -10,6 +10,7 @@ use glam::{DMat4, Mat4, Vec3, Vec4};
 use super::RenderError;
 use super::globals::PunctualUniform;
 use super::outlines::Plate;
+use super::sheets::Sheet;
 use crate::exhibit::Exhibit;
 use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
 use crate::math::Pose;
@@ -101,15 +102,19 @@ pub(super) struct Punctual {
 pub(super) struct Scene {
     pub vertices: Vec<Vertex>,
     pub indices: Vec<u32>,
-    /// Opaque parts first, then glass, then blended ones.
+    /// Opaque parts first, of these the plates whose shadows have a closed form, then glass, then blended ones.
     pub parts: Vec<Part>,
+    /// So many indices, from the first, throw shadows on the planes in closed form.
+    pub flat: u32,
     /// So many indices, from the first, are opaque.
     pub opaque: u32,
-    /// So many throw shadows on the planes.
+    /// So many throw shadows on the planes, those from `flat` on as triangles.
     pub casters: u32,
     pub lights: Vec<Punctual>,
     /// Of the outlined parts.
     pub plates: Vec<Plate>,
+    /// What the first indices are.
+    pub sheets: Vec<Sheet>,
 }
 
 impl Scene {
@@ -153,9 +158,9 @@ impl Scene {
             (State { outlined, ..state_of(model, p) }, p.material.unwrap_or(model.materials.len()))
         };
         // By state, so that neighbours merge into one draw.
-        pieces.sort_by_key(|(p, _, _, plate)| state(p, plate));
+        pieces.sort_by_key(|(p, _, _, (plate, sheet))| (sheet.is_none(), state(p, plate)));
         let mut scene = Self { lights, ..Self::default() };
-        for (primitive, frame, matrix, plate) in pieces {
+        for (primitive, frame, matrix, (plate, sheet)) in pieces {
             let (state, material) = state(primitive, &plate);
             let opacity = match state.surface {
                 Surface::Opaque => 1.0,
@@ -166,6 +171,10 @@ impl Scene {
             let base = scene.vertices.len() as u32;
             let center = scene.append(primitive, tag(frame, opacity), matrix);
             let end = scene.indices.len() as u32;
+            if let Some(sheet) = sheet {
+                scene.sheets.push(sheet);
+                scene.flat = end;
+            }
             match state.surface {
                 Surface::Opaque => (scene.opaque, scene.casters) = (end, end),
                 Surface::Glass => scene.casters = end,
@@ -253,15 +262,18 @@ fn tag(frame: usize, opacity: f32) -> u32 {
     frame as u32 | (255 << 16) | (((opacity * 255.0 + 0.5) as u32) << 24)
 }
 
-/// The plate that a primitive is, where it is one and hides what is behind all over.
-fn plate(model: &Model, primitive: &Primitive, frame: usize, matrix: Mat4) -> Option<Plate> {
+/// The plate that a primitive is, where it is one, hides what is behind all over and is drawn with a silhouette; and the sheet,
+/// where it is flat.
+fn plate(model: &Model, primitive: &Primitive, frame: usize, matrix: Mat4) -> (Option<Plate>, Option<Sheet>) {
     let holes = primitive.material.and_then(|m| model.materials.get(m)).is_some_and(|m| m.alpha != AlphaMode::Opaque);
     if holes || state_of(model, primitive).surface != Surface::Opaque {
-        return None;
+        return (None, None);
     }
     let mut alone = Scene::default();
     alone.append(primitive, tag(frame, 1.0), matrix);
-    Plate::of(&alone.vertices, &alone.indices)
+    let plate = Plate::of(&alone.vertices, &alone.indices);
+    let sheet = plate.as_ref().and_then(Sheet::of);
+    (plate.filter(Plate::is_simple), sheet)
 }
 
 /// Both sets of texture coordinates of a corner; a missing one repeats the other.

@@ -12,7 +12,7 @@ use wgpu::naga;
 const PARTS: [(&str, &[&str]); 7] = [
     ("forward", &["common", "lighting", "outline", "forward"]),
     ("room", &["common", "lighting", "room"]),
-    ("shadows", &["common", "shadows"]),
+    ("shadows", &["common", "shadows", "sheets"]),
     ("wires", &["common", "lighting", "wires"]),
     ("motes", &["common", "motes"]),
     ("resolve", &["resolve"]),
@@ -20,13 +20,14 @@ const PARTS: [(&str, &[&str]); 7] = [
 ];
 
 /// The files as they were when the program was built.
-const BUILT_IN: [(&str, &str); 10] = [
+const BUILT_IN: [(&str, &str); 11] = [
     ("common", include_str!("../../shaders/common.wgsl")),
     ("lighting", include_str!("../../shaders/lighting.wgsl")),
     ("outline", include_str!("../../shaders/outline.wgsl")),
     ("forward", include_str!("../../shaders/forward.wgsl")),
     ("room", include_str!("../../shaders/room.wgsl")),
     ("shadows", include_str!("../../shaders/shadows.wgsl")),
+    ("sheets", include_str!("../../shaders/sheets.wgsl")),
     ("wires", include_str!("../../shaders/wires.wgsl")),
     ("motes", include_str!("../../shaders/motes.wgsl")),
     ("resolve", include_str!("../../shaders/resolve.wgsl")),

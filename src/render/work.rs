@@ -10,11 +10,12 @@ use super::environment::Environment;
 use super::fixtures::Fixtures;
 use super::gallery::Room;
 use super::globals::Globals;
-use super::outlines::{Outlines, Ribbon};
+use super::outlines::{CONTOUR_ROW, Outlines, Ribbon};
 use super::passes::Plan;
-use super::resources::{Light, attachment, contours, light_group};
+use super::resources::{Light, attachment, light_group, numbers, single};
 use super::scene::{Part, Punctual, Scene, Surface, rows};
 use super::shadows::{MapCamera, ReceivingPlane};
+use super::sheets::{RIM_ROW, Shade, Sheets};
 use super::wires::{self, Segment};
 use super::{Frame, Gpu, Options, Quality, RenderError, occlusion, textures};
 use crate::exhibit::{Exhibit, Wire};
@@ -32,15 +33,19 @@ pub struct Work {
     pub(super) segments_buffer: wgpu::Buffer,
     pub(super) ribbons_buffer: wgpu::Buffer,
     pub(super) contours: wgpu::Texture,
+    pub(super) shades_buffer: wgpu::Buffer,
+    pub(super) rims: wgpu::Texture,
+    pub(super) rims_group: wgpu::BindGroup,
     pub(super) light_group: wgpu::BindGroup,
     pub(super) materials: Vec<wgpu::BindGroup>,
     pub(super) plane_views: [wgpu::TextureView; 2],
     pub(super) order_views: [wgpu::TextureView; 2],
     /// Texels of the shadows on wall and floor.
     pub(super) planes: [(u32, u32); 2],
-    /// So many indices, from the first, are opaque, and so many throw shadows on the planes.
+    /// So many indices, from the first, are opaque.
     pub(super) opaque: u32,
-    pub(super) casters: u32,
+    /// Those that throw shadows on the planes as triangles.
+    pub(super) casters: std::ops::Range<u32>,
     pub(super) lamp_samples: u32,
     radius: f32,
     /// Poses of bodies that a frame leaves out.
@@ -51,6 +56,7 @@ pub struct Work {
     pub(super) frames: Vec<[Vec4; 3]>,
     pub(super) segments: Vec<Segment>,
     pub(super) outlines: Outlines,
+    pub(super) sheets: Sheets,
     /// Squared distance and index of each blended part, the farthest first.
     pub(super) blended: Vec<(f32, usize)>,
     drawn_frames: Vec<[Vec4; 3]>,
@@ -95,8 +101,10 @@ impl Work {
         let sampled = |of| attachment(device, of, wgpu::TextureUsages::TEXTURE_BINDING);
         let [plane_views, order_views] = [0, 1].map(|which| planes.map(|p| sampled(Plan::plane(p.texels)[which])));
         let ambient = occlusion::planes(&scene, exhibit, &planes, room.radius);
+        let sheets = Sheets::new(std::mem::take(&mut scene.sheets), room.lamps, planes);
+        let rims = numbers(device, "rims", (RIM_ROW, sheets.rows()));
         let outlines = Outlines::new(std::mem::take(&mut scene.plates), &scene.vertices);
-        let contours = contours(device, outlines.rows());
+        let contours = numbers(device, "contours", (CONTOUR_ROW, outlines.rows()));
         let light = Light {
             environment: &environment,
             room: &room,
@@ -127,6 +135,9 @@ impl Work {
             segments_buffer: filled_later("segments", segment_count.max(1) * size_of::<Segment>()),
             ribbons_buffer: filled_later("ribbons", outlines.most().max(1) * size_of::<Ribbon>()),
             contours,
+            shades_buffer: filled_later("shades", sheets.most().max(1) * size_of::<Shade>()),
+            rims_group: single(device, &fixtures.layouts.rims, &rims),
+            rims,
             materials: textures::materials(gpu, &exhibit.model, fixtures),
             globals,
             light_group,
@@ -134,7 +145,7 @@ impl Work {
             order_views,
             planes: planes.map(|plane| plane.texels),
             opaque: scene.opaque,
-            casters: scene.casters,
+            casters: scene.flat..scene.casters,
             lamp_samples,
             radius: room.radius,
             rest: exhibit.bodies.iter().map(|body| body.pose).collect(),
@@ -144,6 +155,7 @@ impl Work {
             frames: Vec::with_capacity(frame_count),
             segments: Vec::with_capacity(segment_count),
             outlines,
+            sheets,
             blended: Vec::with_capacity(blended),
             drawn_frames: Vec::with_capacity(frame_count),
         })
@@ -163,6 +175,7 @@ impl Work {
         });
         wires::fill(&self.wires, &self.rest, frame.poses, self.globals.eye, &mut self.segments);
         self.outlines.find(&self.frames, &self.globals, frame.size);
+        self.sheets.find(&self.frames);
         self.sort_blended();
     }
 
@@ -171,6 +184,11 @@ impl Work {
         let rests = self.frames == self.drawn_frames;
         self.drawn_frames.clone_from(&self.frames);
         rests
+    }
+
+    /// Draw calls on the wall or the floor, at most.
+    pub(super) fn plane_draws(&self) -> u32 {
+        1 + u32::from(!self.casters.is_empty()) + u32::from(!self.sheets.is_empty())
     }
 
     /// Has the shadows drawn with the next frame.

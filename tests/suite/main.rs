@@ -28,6 +28,8 @@ mod modal;
 mod models;
 mod motion;
 #[cfg(feature = "kiosk")]
+mod penumbrae;
+#[cfg(feature = "kiosk")]
 mod picture_bars;
 #[cfg(feature = "kiosk")]
 mod pictures;
