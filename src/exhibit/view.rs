@@ -11,7 +11,7 @@
 //! picture, since the vertical angle is widened until the horizontal one is the same.
 
 use super::Exhibit;
-use crate::math::{DMat4, DVec3, PI, atan2, sin, sincos};
+use crate::math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
 
 /// A perspective camera in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,17 @@ impl View {
         (self.eye, (forward + right * across + up * along).normalize())
     }
 
+    /// The view from elsewhere on the sphere about the target: `yaw` moves the eye to the right about the vertical, `pitch`
+    /// moves it up, rad. With neither it is the same view to the bit.
+    pub fn turned(self, [yaw, pitch]: [f64; 2]) -> Self {
+        if [yaw, pitch] == [0.0; 2] {
+            return self;
+        }
+        let (right, ..) = self.axes();
+        let turn = rotation(DVec3::Y * yaw) * rotation(right * -pitch);
+        Self { eye: self.target + turn * (self.eye - self.target), up: turn * self.up, ..self }
+    }
+
     /// Height of the picture at a distance along the view, m.
     pub fn height_at(&self, depth: f64) -> f64 {
         2.0 * depth * half_height(self.fovy)
@@ -67,6 +78,24 @@ impl View {
         Some([0.5 + 0.5 * offset.dot(right) / (t * aspect), 0.5 - 0.5 * offset.dot(up) / t])
     }
 }
+
+/// How far a visitor may look round a work from its own view, rad: to either side, down and up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Leeway {
+    /// To the left and to the right.
+    pub aside: f64,
+    /// Down; not below the lowest point of the work.
+    pub down: f64,
+    /// Up; not over the work's head.
+    pub up: f64,
+}
+
+/// A third of a circle in all, a little down, well up.
+const ASIDE: f64 = PI / 3.0;
+const DOWN: f64 = PI / 18.0;
+const UP: f64 = 5.0 * PI / 18.0;
+/// Highest place of the eye over the target, rad: from straight above there is no upright.
+const STEEPEST: f64 = 4.0 * PI / 9.0;
 
 /// tan(fovy / 2).
 fn half_height(fovy: f64) -> f64 {
@@ -121,6 +150,20 @@ impl Exhibit {
         match camera {
             Some((world, camera)) => self.through(world, camera, aspect),
             None => self.framed(aspect),
+        }
+    }
+
+    /// How far a visitor may look round it from the view in a picture of this aspect.
+    pub fn leeway(&self, aspect: f64) -> Leeway {
+        let View { eye, target, .. } = self.view(aspect);
+        let from = eye - target;
+        let elevation = |height: f64| asin((height / from.length()).clamp(-1.0, 1.0));
+        let bounds = self.bounds(false);
+        let lowest = if bounds.is_empty() { target.y } else { bounds.min.y };
+        Leeway {
+            aside: ASIDE,
+            down: (elevation(from.y) - elevation(lowest - target.y)).clamp(0.0, DOWN),
+            up: (STEEPEST - elevation(from.y)).clamp(0.0, UP),
         }
     }
 
@@ -219,6 +262,26 @@ mod tests {
             let back = view().project(origin + direction * 3.7, aspect).expect("in front");
             assert!((back[0] - at[0]).abs() < ROUNDING && (back[1] - at[1]).abs() < ROUNDING, "{at:?} {back:?}");
         }
+    }
+
+    #[test]
+    fn a_turned_view_keeps_its_distance_and_its_target_and_goes_the_way_it_is_told() {
+        let own = View { eye: DVec3::new(0.0, 0.0, 2.0), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.5 };
+        let (s, c) = sincos(0.7);
+        let right = own.turned([0.7, 0.0]);
+        assert!((right.eye - 2.0 * DVec3::new(s, 0.0, c)).length() < ROUNDING, "{right:?}");
+        let above = own.turned([0.0, 0.7]);
+        assert!((above.eye - 2.0 * DVec3::new(0.0, s, c)).length() < ROUNDING, "{above:?}");
+        for turn in [[0.3, -0.1], [-1.0, 0.8]] {
+            let turned = view().turned(turn);
+            let way = |view: &View| (view.eye - view.target).length();
+            assert!((way(&turned) - way(&view())).abs() < ROUNDING && turned.target == view().target);
+            assert_eq!(
+                turned.project(turned.target, 1.5).map(|at| at.map(|x| (x - 0.5).abs() < ROUNDING)),
+                Some([true; 2])
+            );
+        }
+        assert_eq!(view().turned([0.0; 2]), view());
     }
 
     #[test]

@@ -269,6 +269,7 @@ fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     items.push((Item::Word(own.press_once, scene.needs.press_once), Request::PressOnce));
     items.push((Item::Word(own.dwell, scene.needs.dwell), Request::Dwell));
     items.push((Item::Word(own.calm, scene.needs.calm), Request::Calm));
+    items.push((Item::Word(own.round, scene.needs.round), Request::Round));
     if scene.volume {
         items.push((Item::Sign("\u{2212}"), Request::Louder(-1)));
         items.push((Item::Sign("+"), Request::Louder(1)));

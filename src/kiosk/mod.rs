@@ -35,6 +35,7 @@ pub mod microphone;
 pub mod moments;
 pub mod mqtt;
 pub mod needs;
+pub mod orbit;
 pub mod overlay;
 pub mod pace;
 pub mod page;

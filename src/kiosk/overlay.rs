@@ -121,12 +121,21 @@ impl Overlay {
         if let Some(said) = given::said(label, scene.given) {
             page.text(page.picture.left_top(), Align2::LEFT_TOP, &said, 1.1, INK, line(&page));
         }
-        let said = if self.rests { words(code).rest.to_owned() } else { invitation(scene) };
-        let opacity = if self.rests { 1.0 } else { self.invitation as f32 };
+        let own = words(code);
+        let (said, opacity) = match (self.rests, scene.needs.round) {
+            (true, _) => (own.rest.to_owned(), 1.0),
+            (false, true) => (scene.needs.how_round(own).to_owned(), 1.0),
+            (false, false) => (invitation(scene), self.invitation as f32),
+        };
         invite(&page, &said, opacity);
-        let more = page.word(page.picture.right_bottom(), words(code).more, false);
+        let more = page.word(page.picture.right_bottom(), own.more, false);
+        let mut last = more;
+        if scene.needs.round {
+            last = page.word(pos2(more.left() - 0.5 * page.em, more.bottom()), own.round, true);
+            buttons.push((last, Request::Round));
+        }
         if let Some(left) = scene.leaves_in {
-            leaving(&page, left, more, if scene.hears { words(code).stay } else { words(code).stay_touch });
+            leaving(&page, left, last, if scene.hears { own.stay } else { own.stay_touch });
         }
         buttons.push((more, Request::Menu));
         rest(&page, picture, scene);

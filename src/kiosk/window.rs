@@ -412,7 +412,7 @@ impl App<'_> {
             let seconds = now.duration_since(last).as_secs_f64().min(LONGEST_GIFT);
             self.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
         }
-        let rest = frame.exhibit.view(show.screen.aspect());
+        let rest = frame.exhibit.view(show.screen.aspect()).turned(moment.turn);
         let sways = frame.attracts && !self.needs.calm;
         let view = self.drift.view(rest, self.clock.seconds(shown), sways);
         let size = show.screen.size();
@@ -570,11 +570,13 @@ impl App<'_> {
                 self.work_says = None;
                 self.fleet.read_anew(true, None);
                 self.given.leave();
+                self.needs.round = false;
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
                     show.screen.prepare(&exhibit);
                     show.live.controls().exhibit = Some(exhibit);
                 }
+                self.tell();
             }
             News::Failed(report) => {
                 self.turning = false;
@@ -675,7 +677,9 @@ impl App<'_> {
             Request::Large => self.needs.reading.large ^= true,
             Request::Contrast => self.needs.reading.contrast ^= true,
             Request::Listen => self.listens = !self.listens,
-            Request::PressOnce | Request::Dwell | Request::Calm | Request::Speak => self.choose(request),
+            Request::PressOnce | Request::Dwell | Request::Calm | Request::Round | Request::Speak => {
+                self.choose(request);
+            }
             Request::Look(way) => {
                 self.menu.look(way, &self.buttons);
                 self.aloud.reach(self.menu.marked(&self.buttons));
@@ -710,7 +714,7 @@ impl App<'_> {
         controls.lifts.extend(lifts);
         controls.keyed = self.visitor.keyed();
         controls.press_once = self.needs.once() && !self.menu.open;
-        controls.calm = self.needs.calm;
+        (controls.calm, controls.round) = (self.needs.calm, self.needs.round);
         controls.activity = self.visitor.activity();
         controls.deaf = !self.listens;
         controls.closed = !self.house.is_open();

@@ -542,6 +542,8 @@ mod house;
 mod needs;
 mod opening;
 #[cfg(feature = "kiosk")]
+mod orbit;
+#[cfg(feature = "kiosk")]
 mod pages;
 mod pin;
 #[cfg(feature = "kiosk")]
