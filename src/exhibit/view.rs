@@ -220,6 +220,27 @@ impl Exhibit {
         bounds
     }
 
+    /// How far the meshes and wires of each body reach from its node, m.
+    pub fn reaches(&self) -> Vec<f64> {
+        let mut reaches = vec![0.0_f64; self.bodies.len()];
+        for (node, carrier) in self.model.nodes.iter().zip(self.carriers()) {
+            let (Some(body), Some(mesh)) = (carrier, node.mesh.and_then(|m| self.model.meshes.get(m))) else {
+                continue;
+            };
+            let at = self.model.nodes[self.bodies[body].node].world.w_axis.truncate();
+            for position in mesh.primitives.iter().flat_map(|p| &p.positions) {
+                let point = node.world.transform_point3(glam::Vec3::from_array(*position).as_dvec3());
+                reaches[body] = reaches[body].max(point.distance(at));
+            }
+        }
+        for wire in &self.wires {
+            if let Some(reach) = wire.body.and_then(|body| reaches.get_mut(body)) {
+                *reach = wire.points.iter().map(|point| point.length() + wire.radius).fold(*reach, f64::max);
+            }
+        }
+        reaches
+    }
+
     /// For each node of the model the body that carries it: its own, or its nearest ancestor's.
     pub fn carriers(&self) -> Vec<Option<usize>> {
         let mut own = vec![None; self.model.nodes.len()];

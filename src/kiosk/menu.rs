@@ -77,6 +77,11 @@ impl Menu {
         }
     }
 
+    /// Does its arc close?
+    pub fn closes(&self, time: f64) -> bool {
+        self.open && time - self.touched > CLOSES - COUNTDOWN
+    }
+
     /// Moves the mark of the keys to the next button that way (right and down); the first key shows it.
     pub fn look(&mut self, way: [i32; 2], buttons: &[(Rect, Request)]) {
         let pressable = |i: &usize| buttons[*i].1 != Request::Nothing;

@@ -41,6 +41,7 @@ pub mod pace;
 pub mod page;
 pub mod pointing;
 pub mod recording;
+pub mod rest;
 pub mod rhythm;
 pub mod screen;
 pub mod shelf;

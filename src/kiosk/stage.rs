@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::audio_io::Words;
-use crate::exhibit::{Exhibit, Leeway};
+use crate::exhibit::{Exhibit, Leeway, View};
 use crate::offline::feed::WavFeed;
 use crate::simulation::{
     Command, Inspection, Look, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation,
@@ -268,6 +268,11 @@ impl Stage {
     /// The present moment.
     pub fn snapshot(&self) -> &Snapshot {
         &self.snapshot
+    }
+
+    /// The camera of the last step.
+    pub fn sight(&self) -> &View {
+        self.simulation.sight()
     }
 
     /// Constants of the run.

@@ -448,6 +448,11 @@ impl Simulation {
         self.exhibit.view(aspect).turned(self.eye.turn)
     }
 
+    /// The camera of the last step.
+    pub fn sight(&self) -> &View {
+        &self.eye.view
+    }
+
     /// One word that says whether two runs are the same run.
     pub fn state_hash(&self) -> u64 {
         let mut hash = StateHash::default();

@@ -549,6 +549,8 @@ mod pin;
 #[cfg(feature = "kiosk")]
 mod record;
 #[cfg(feature = "kiosk")]
+mod rest;
+#[cfg(feature = "kiosk")]
 mod rhythm;
 #[cfg(feature = "kiosk")]
 mod screens;
