@@ -33,6 +33,8 @@ pub struct Model {
     pub lights: Vec<Light>,
     /// Key frames.
     pub animations: Vec<Animation>,
+    /// Meshes that follow joints; the mesh of each one's node is as it stands at rest.
+    pub skins: Vec<Skin>,
     /// Nodes that are not drawn, sorted: hidden by KHR_node_visibility, or below one that is.
     pub hidden: Vec<usize>,
 }
@@ -67,6 +69,22 @@ pub struct Mesh {
     pub primitives: Vec<Primitive>,
 }
 
+/// A mesh that follows joints (glTF 2.0, 3.7.3).
+#[derive(Clone, Debug, Default)]
+pub struct Skin {
+    /// The node that shows it.
+    pub node: usize,
+    /// Nodes that it follows.
+    pub joints: Vec<usize>,
+    /// For each joint, what takes the mesh as it is bound to the joint's frame.
+    pub inverse_bind: Vec<DMat4>,
+    /// The primitives of the node's mesh as they are bound, corner by corner.
+    pub bound: Vec<Primitive>,
+}
+
+/// Joints of its skin that a corner follows, and by which shares: their sum is 1, or 0 where it follows none.
+pub type Influences = [(u16, f32); 4];
+
 /// Triangles with one material.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
@@ -82,6 +100,8 @@ pub struct Primitive {
     pub second_uvs: Vec<[f32; 2]>,
     /// Linear RGBA per vertex; empty where the file has none.
     pub colors: Vec<[f32; 4]>,
+    /// Joints of a bound primitive's corners; empty elsewhere.
+    pub influences: Vec<Influences>,
     /// Three per triangle.
     pub indices: Vec<u32>,
     /// Index of the appearance.

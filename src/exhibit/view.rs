@@ -233,6 +233,19 @@ impl Exhibit {
                 reaches[body] = reaches[body].max(point.distance(at));
             }
         }
+        // What follows joints reaches as far as all of it lies from each.
+        let carriers = self.carriers();
+        for skin in &self.model.skins {
+            let shown = &self.model.nodes[skin.node];
+            let Some(mesh) = shown.mesh.and_then(|m| self.model.meshes.get(m)) else { continue };
+            for body in skin.joints.iter().filter_map(|&joint| carriers[joint]) {
+                let at = self.model.nodes[self.bodies[body].node].world.w_axis.truncate();
+                for position in mesh.primitives.iter().flat_map(|p| &p.positions) {
+                    let point = shown.world.transform_point3(glam::Vec3::from_array(*position).as_dvec3());
+                    reaches[body] = reaches[body].max(point.distance(at));
+                }
+            }
+        }
         for wire in &self.wires {
             if let Some(reach) = wire.body.and_then(|body| reaches.get_mut(body)) {
                 *reach = wire.points.iter().map(|point| point.length() + wire.radius).fold(*reach, f64::max);

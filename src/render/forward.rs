@@ -9,7 +9,7 @@ use super::outlines::CONTOUR_ROW;
 use super::passes::{Pass, Plan};
 use super::pipelines::Pipelines;
 use super::resources::attachment;
-use super::scene::{Part, Surface};
+use super::scene::{Part, Surface, Vertex};
 use super::shadows::MapCamera;
 use super::work::Work;
 use super::{Finish, Frame, Gpu, Options, RenderError, Shaders};
@@ -155,6 +155,12 @@ impl Renderer {
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * CONTOUR_ROW), rows_per_image: None },
             self.work.contours.size(),
         );
+        if self.work.moves() {
+            for skin in &self.work.skins {
+                let place = u64::from(skin.first) * size_of::<Vertex>() as u64;
+                gpu.queue.write_buffer(&self.work.vertices, place, bytemuck::cast_slice(&skin.vertices));
+            }
+        }
         write(&self.fixtures.motes_buffer, bytemuck::cast_slice(&self.motes));
     }
 

@@ -21,6 +21,7 @@
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
+//! | `skins` | meshes that follow joints | |
 //! | `outlines` | silhouettes of plates, and the ribbons along them | `outline.wgsl` |
 //! | `passes` | the list of passes: attachments, draws, bytes | |
 //! | `resources` | textures and bind groups of the light | |
@@ -63,6 +64,7 @@ pub mod scenario;
 mod scene;
 pub mod shaders;
 mod shadows;
+mod skins;
 mod textures;
 mod wires;
 mod work;

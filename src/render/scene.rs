@@ -10,6 +10,7 @@ use glam::{DMat4, Mat4, Vec3, Vec4};
 use super::RenderError;
 use super::globals::PunctualUniform;
 use super::outlines::Plate;
+use super::skins::Skinned;
 use crate::exhibit::Exhibit;
 use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
 use crate::math::Pose;
@@ -110,6 +111,8 @@ pub(super) struct Scene {
     pub lights: Vec<Punctual>,
     /// Of the outlined parts.
     pub plates: Vec<Plate>,
+    /// Parts that follow joints.
+    pub skins: Vec<Skinned>,
 }
 
 impl Scene {
@@ -121,18 +124,28 @@ impl Scene {
         let mut pieces = Vec::new();
         let mut lights = Vec::new();
         let shown = shown(model);
-        for (index, (node, carrier)) in model.nodes.iter().zip(exhibit.carriers()).enumerate() {
+        let carriers = exhibit.carriers();
+        for (index, (node, carrier)) in model.nodes.iter().zip(carriers.iter().copied()).enumerate() {
             if !shown[index] {
                 continue;
             }
+            // A skin is where its joints are, whatever carries the node that shows it.
+            let skin = model.skins.iter().find(|skin| skin.node == index);
+            let leader = skin.and_then(|skin| skin.joints.iter().find_map(|&joint| carriers[joint]));
+            let (skin, carrier) = (skin.filter(|_| leader.is_some()), leader.or(carrier));
             let frame_from_node = match carrier {
-                Some(body) => rigid(model.nodes[exhibit.bodies[body].node].world).inverse() * node.world,
+                Some(body) => rigid_of(exhibit, body).inverse() * node.world,
                 None => node.world,
             };
             let frame = carrier.map_or(0, |body| body + 1);
             if let Some(mesh) = node.mesh.and_then(|m| model.meshes.get(m)) {
                 let matrix = frame_from_node.as_mat4();
-                pieces.extend(mesh.primitives.iter().map(|p| (p, frame, matrix, plate(model, p, frame, matrix))));
+                for (index, p) in mesh.primitives.iter().enumerate() {
+                    let bound = skin.and_then(|skin| Some((skin, skin.bound.get(index)?)));
+                    // What bends is no plate.
+                    let plate = if bound.is_none() { plate(model, p, frame, matrix) } else { None };
+                    pieces.push((p, frame, matrix, plate, bound));
+                }
             }
             if let Some(light) = node.light.and_then(|l| model.lights.get(l))
                 && lights.len() < MAX_PUNCTUAL
@@ -153,9 +166,9 @@ impl Scene {
             (State { outlined, ..state_of(model, p) }, p.material.unwrap_or(model.materials.len()))
         };
         // By state, so that neighbours merge into one draw.
-        pieces.sort_by_key(|(p, _, _, plate)| state(p, plate));
+        pieces.sort_by_key(|(p, _, _, plate, _)| state(p, plate));
         let mut scene = Self { lights, ..Self::default() };
-        for (primitive, frame, matrix, plate) in pieces {
+        for (primitive, frame, matrix, plate, bound) in pieces {
             let (state, material) = state(primitive, &plate);
             let opacity = match state.surface {
                 Surface::Opaque => 1.0,
@@ -166,6 +179,10 @@ impl Scene {
             let base = scene.vertices.len() as u32;
             let center = scene.append(primitive, tag(frame, opacity), matrix);
             let end = scene.indices.len() as u32;
+            if let Some((skin, bound)) = bound {
+                let place = (base, frame - 1, matrix.determinant() < 0.0);
+                scene.skins.push(Skinned::new(exhibit, skin, bound, place, &carriers));
+            }
             match state.surface {
                 Surface::Opaque => (scene.opaque, scene.casters) = (end, end),
                 Surface::Glass => scene.casters = end,
@@ -308,6 +325,11 @@ impl Punctual {
             cone,
         }
     }
+}
+
+/// Where the frame of a body is at rest.
+pub(super) fn rigid_of(exhibit: &Exhibit, body: usize) -> DMat4 {
+    rigid(exhibit.model.nodes[exhibit.bodies[body].node].world)
 }
 
 /// The rotation and translation of a node's world matrix, its scale left out.

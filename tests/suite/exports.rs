@@ -150,6 +150,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
         colors: vec![[0.25, 0.5, 0.75, 1.0]; 3],
         indices: vec![0, 1, 2],
         material: Some(0),
+        ..Primitive::default()
     };
     let local = soffio::math::DMat4::from_scale_rotation_translation(
         DVec3::new(2.0, 0.5, 1.0),

@@ -41,6 +41,8 @@ mod robust;
 mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;
+#[cfg(feature = "kiosk")]
+mod skins;
 mod sound;
 mod space;
 mod spheres;

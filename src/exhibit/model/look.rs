@@ -152,6 +152,10 @@ pub fn flatten(primitive: &mut Primitive) {
     if !colors.is_empty() {
         primitive.colors = indices.iter().map(|&i| colors[i as usize]).collect();
     }
+    let influences = std::mem::take(&mut primitive.influences);
+    if !influences.is_empty() {
+        primitive.influences = indices.iter().map(|&i| influences[i as usize]).collect();
+    }
     // Tangents without normals mean nothing (3.7.2.1).
     primitive.tangents.clear();
     primitive.positions = indices.iter().map(|&i| positions[i as usize]).collect();
