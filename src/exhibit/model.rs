@@ -159,6 +159,53 @@ pub struct Appearance {
     pub sheen: [f32; 3],
     /// Perceptual.
     pub sheen_roughness: f32,
+    /// Textures of these layers.
+    pub details: Details,
+}
+
+/// Textures of the extensions' layers: each multiplies the factor of its name, by the channels that the extension says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Details {
+    /// Red.
+    pub transmission: Option<TextureUse>,
+    /// Green.
+    pub thickness: Option<TextureUse>,
+    /// Alpha.
+    pub specular: Option<TextureUse>,
+    /// Colour.
+    pub specular_color: Option<TextureUse>,
+    /// Red.
+    pub coat: Option<TextureUse>,
+    /// Green.
+    pub coat_roughness: Option<TextureUse>,
+    /// Of the coat alone, with its scale.
+    pub coat_normal: Option<(TextureUse, f32)>,
+    /// Colour.
+    pub sheen: Option<TextureUse>,
+    /// Alpha.
+    pub sheen_roughness: Option<TextureUse>,
+}
+
+impl Details {
+    /// All of them, in the order of `forward.wgsl`.
+    pub fn all(&self) -> [Option<TextureUse>; 9] {
+        [
+            self.transmission,
+            self.thickness,
+            self.specular,
+            self.specular_color,
+            self.coat,
+            self.coat_roughness,
+            self.coat_normal.map(|(texture, _)| texture),
+            self.sheen,
+            self.sheen_roughness,
+        ]
+    }
+
+    /// Are there none?
+    pub fn is_empty(&self) -> bool {
+        self.all().iter().all(Option::is_none)
+    }
 }
 
 impl Default for Appearance {
@@ -188,6 +235,7 @@ impl Default for Appearance {
             coat_roughness: 0.0,
             sheen: [0.0; 3],
             sheen_roughness: 0.0,
+            details: Details::default(),
         }
     }
 }

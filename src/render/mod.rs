@@ -17,7 +17,7 @@
 //! | `occlusion` | ambient visibility of corners and planes, by rays at load | |
 //! | `bounce`, `refine` | what surfaces of a still scene send one another, baked into its corners, which are made finer | |
 //! | `casters` | what the shadow map of a still scene is drawn around | |
-//! | `textures` | materials and mip maps | |
+//! | `textures`, `details` | materials and mip maps; textures of extensions, packed | |
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
@@ -46,6 +46,7 @@ use crate::simulation::Mote;
 
 mod bounce;
 mod casters;
+mod details;
 pub mod environment;
 mod fixtures;
 mod forward;

@@ -98,6 +98,7 @@ impl Layouts {
         };
         let smooth = TextureSampleType::Float { filterable: true };
         let image = (ShaderStages::FRAGMENT, texture(smooth, TextureViewDimension::D2, false));
+        let images = (ShaderStages::FRAGMENT, texture(smooth, TextureViewDimension::D2Array, false));
         let fragment = ShaderStages::FRAGMENT;
         let sampler = (fragment, BindingType::Sampler(SamplerBindingType::Filtering));
         Self {
@@ -111,8 +112,8 @@ impl Layouts {
                     image,
                     image,
                     image,
-                    (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
-                    (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
+                    images,
+                    images,
                     (
                         fragment,
                         texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2, false),
@@ -121,7 +122,23 @@ impl Layouts {
             ),
             material: group(
                 "material",
-                &[(fragment, uniform), image, image, image, image, image, sampler, sampler, sampler, sampler, sampler],
+                &[
+                    (fragment, uniform),
+                    image,
+                    image,
+                    image,
+                    image,
+                    image,
+                    sampler,
+                    sampler,
+                    sampler,
+                    sampler,
+                    sampler,
+                    // With these two a fragment reads 15 textures; 16 is what every device has.
+                    images,
+                    images,
+                    sampler,
+                ],
             ),
             stretch: group("stretch", &[image, sampler]),
             resolve: group(
@@ -373,8 +390,8 @@ impl Pipelines {
         let [a, b, c] = constants(options);
         let flag = |set| if set { 1.0 } else { 0.0 };
         let ribbon = how.entry == RIBBON_ENTRY;
-        let constants =
-            [a, b, c, ("LAYERS", flag(state.layers)), ("OUTLINED", flag(state.outlined)), ("RIBBON", flag(ribbon))];
+        let (layers, details) = (("LAYERS", flag(state.layers)), ("DETAILS", flag(state.details)));
+        let constants = [a, b, c, layers, details, ("OUTLINED", flag(state.outlined)), ("RIBBON", flag(ribbon))];
         pipeline(
             device,
             Fixed {

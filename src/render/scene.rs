@@ -69,6 +69,8 @@ pub(super) struct State {
     pub double_sided: bool,
     /// A clear coat or a sheen.
     pub layers: bool,
+    /// Textures of what extensions add.
+    pub details: bool,
     /// Plates with a silhouette of their own.
     pub outlined: bool,
 }
@@ -247,7 +249,8 @@ impl Scene {
 }
 
 impl State {
-    const PLAIN: Self = Self { surface: Surface::Opaque, double_sided: false, layers: false, outlined: false };
+    const PLAIN: Self =
+        Self { surface: Surface::Opaque, double_sided: false, layers: false, details: false, outlined: false };
 
     fn of(look: &Appearance) -> Self {
         let surface = match look.alpha {
@@ -256,7 +259,8 @@ impl State {
             _ => Surface::Opaque,
         };
         let layers = look.coat > 0.0 || look.sheen.iter().any(|c| *c > 0.0);
-        Self { surface, double_sided: look.double_sided, layers, outlined: false }
+        let details = !look.details.is_empty();
+        Self { surface, double_sided: look.double_sided, layers, details, outlined: false }
     }
 }
 

@@ -10,6 +10,8 @@ mod clock;
 mod collision;
 mod contacts;
 mod curator;
+#[cfg(feature = "kiosk")]
+mod details;
 mod dynamics;
 mod escapement;
 mod exhibit;

@@ -160,7 +160,7 @@ impl Reader {
             meshes,
             skins,
             hidden,
-            materials: document.materials().map(|m| look::appearance(&m, |what| self.warn(what))).collect(),
+            materials: document.materials().map(|m| look::appearance(&m, &document, |what| self.warn(what))).collect(),
             images: self.images(&document, &buffers)?,
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
