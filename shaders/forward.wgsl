@@ -9,6 +9,15 @@ const ROUGH: u32 = 1u;
 const NORMAL: u32 = 2u;
 const OCCLUSION: u32 = 3u;
 const GLOW: u32 = 4u;
+const TRANSMISSION: u32 = 5u;
+const THICKNESS: u32 = 6u;
+const SPECULAR: u32 = 7u;
+const SPECULAR_COLOR: u32 = 8u;
+const COAT: u32 = 9u;
+const COAT_ROUGHNESS: u32 = 10u;
+const COAT_NORMAL: u32 = 11u;
+const SHEEN: u32 = 12u;
+const SHEEN_ROUGHNESS: u32 = 13u;
 
 struct Material {
     base_color: vec4f,
@@ -29,8 +38,9 @@ struct Material {
     coat: f32,
     coat_roughness: f32,
     unlit: f32,
-    spare: vec3f,
-    uv: array<vec4f, 10>, // two rows of each texture's transform; w of the first: which set of coordinates
+    coat_normal_scale: f32, // 0 without a normal map of the coat
+    spare: vec2f,
+    uv: array<vec4f, 28>, // two rows of each texture's transform; w of the first: which set of coordinates
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -44,6 +54,13 @@ struct Material {
 @group(2) @binding(8) var normal_sampler: sampler;
 @group(2) @binding(9) var occlusion_sampler: sampler;
 @group(2) @binding(10) var emissive_sampler: sampler;
+// Textures of extensions, packed as `details.rs` says.
+@group(2) @binding(11) var detail_colors: texture_2d_array<f32>;
+@group(2) @binding(12) var detail_data: texture_2d_array<f32>;
+@group(2) @binding(13) var detail_sampler: sampler;
+
+// A constant of the pipeline: few surfaces have any of them.
+override DETAILS: bool = false;
 
 struct Vertex {
     @location(0) position: vec3f,
@@ -144,6 +161,32 @@ struct Seen {
     surface: Surface,
     base: vec4f,
     glow: vec3f,
+    thickness: f32,
+}
+
+fn detail_color(v: Varying, texture: u32, layer: u32) -> vec4f {
+    return textureSample(detail_colors, detail_sampler, place(v, texture), layer);
+}
+
+fn detail_of(v: Varying, texture: u32, layer: u32) -> vec4f {
+    return textureSample(detail_data, detail_sampler, place(v, texture), layer);
+}
+
+// A normal n bent by a normal map that lies on the surface as `at` says. Without tangents in the file the frame is that from
+// the derivatives of position and texture (Schüler 2006).
+fn bent(v: Varying, n: vec3f, bump: vec3f, scale: f32, dp_x: vec3f, dp_y: vec3f, at_x: vec2f, at_y: vec2f) -> vec3f {
+    var t = v.tangent.xyz;
+    var b = cross(n, t) * v.tangent.w;
+    if v.tangent.w == 0.0 {
+        let px = cross(n, dp_x);
+        let py = cross(dp_y, n);
+        t = py * at_x.x + px * at_y.x;
+        b = py * at_x.y + px * at_y.y;
+        let unit = inverseSqrt(max(max(dot(t, t), dot(b, b)), 1e-30));
+        t *= unit;
+        b *= unit;
+    }
+    return normalize(t * bump.x * scale + b * bump.y * scale + n * bump.z);
 }
 
 fn seen(v: Varying) -> Seen {
@@ -174,20 +217,9 @@ fn seen(v: Varying) -> Seen {
     // How fast the normal turns from pixel to pixel, before the normal map adds its own grain.
     let dn_x = dpdx(n);
     let dn_y = dpdy(n);
+    let smooth_normal = n;
     if material.normal_scale != 0.0 {
-        var t = v.tangent.xyz;
-        var b = cross(n, t) * v.tangent.w;
-        if v.tangent.w == 0.0 {
-            // No tangents in the file: the frame from the derivatives of position and texture (Schüler 2006).
-            let px = cross(n, dp_x);
-            let py = cross(dp_y, n);
-            t = py * duv_x.x + px * duv_y.x;
-            b = py * duv_x.y + px * duv_y.y;
-            let scale = inverseSqrt(max(max(dot(t, t), dot(b, b)), 1e-30));
-            t *= scale;
-            b *= scale;
-        }
-        n = normalize(t * bump.x * material.normal_scale + b * bump.y * material.normal_scale + n * bump.z);
+        n = bent(v, n, bump, material.normal_scale, dp_x, dp_y, duv_x, duv_y);
     }
     s.normal = n;
     s.facing = facing;
@@ -206,7 +238,28 @@ fn seen(v: Varying) -> Seen {
     s.sheen = material.sheen;
     s.sheen_roughness = material.sheen_roughness;
     s.coat = material.coat;
-    s.coat_roughness = sqrt(sqrt(min(pow(max(material.coat_roughness, 0.045), 4.0) + turn, 1.0)));
+    s.coat_normal = n;
+    var coat_roughness = material.coat_roughness;
+    out.thickness = material.thickness;
+    if DETAILS {
+        let strength = detail_color(v, SPECULAR, 0u).a;
+        s.f0 *= detail_color(v, SPECULAR_COLOR, 0u).rgb * strength;
+        s.f90 *= strength;
+        s.sheen *= detail_color(v, SHEEN, 1u).rgb;
+        s.sheen_roughness *= detail_color(v, SHEEN_ROUGHNESS, 1u).a;
+        s.transmission *= detail_of(v, TRANSMISSION, 0u).r;
+        out.thickness *= detail_of(v, THICKNESS, 0u).g;
+        s.coat *= detail_of(v, COAT, 0u).b;
+        coat_roughness *= detail_of(v, COAT_ROUGHNESS, 0u).a;
+        let at = place(v, COAT_NORMAL);
+        let coat_bump = detail_of(v, COAT_NORMAL, 1u).xyz * 2.0 - 1.0;
+        let at_x = dpdx(at);
+        let at_y = dpdy(at);
+        if material.coat_normal_scale != 0.0 {
+            s.coat_normal = bent(v, smooth_normal, coat_bump, material.coat_normal_scale, dp_x, dp_y, at_x, at_y);
+        }
+    }
+    s.coat_roughness = sqrt(sqrt(min(pow(max(coat_roughness, 0.045), 4.0) + turn, 1.0)));
     out.surface = s;
     return out;
 }
@@ -254,7 +307,7 @@ fn tint_fragment(v: Varying) -> @location(0) vec4f {
     let refracted = sqrt(max(1.0 - (1.0 - nv * nv) / (material.ior * material.ior), 0.05));
     let way = (1.0 / refracted) + 4.0 * x * x * x;
     // The base colour is that of a whole pane, two crossings.
-    let color = pow(max(it.base.rgb, vec3f(1e-3)), vec3f(0.5 * way)) * exp(-material.absorption * material.thickness * way);
+    let color = pow(max(it.base.rgb, vec3f(1e-3)), vec3f(0.5 * way)) * exp(-material.absorption * it.thickness * way);
     let through = s.transmission * (1.0 - s.metallic) * (1.0 - fresnel) * color;
     return vec4f(through, 1.0);
 }

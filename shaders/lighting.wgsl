@@ -36,6 +36,7 @@ struct Surface {
     sheen_roughness: f32,
     coat: f32,
     coat_roughness: f32,
+    coat_normal: vec3f,
 }
 
 // A surface of plain paint or metal.
@@ -324,6 +325,7 @@ fn shade(s: Surface, lit: f32) -> vec3f {
     coat.albedo = vec3f(0.0);
     coat.metallic = 0.0;
     coat.roughness = s.coat_roughness;
+    coat.normal = s.coat_normal;
     let above = reflector(coat);
     return sum * (1.0 - s.coat * (0.04 * above.ab.x + above.ab.y)) + s.coat * shade_layer(coat, lit);
 }

@@ -37,7 +37,7 @@ pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use model::Model;
 pub use paths::{ids, resolve, shelf};
 pub use resolve::{load, plain};
-pub use view::View;
+pub use view::{Leeway, View};
 
 /// File name of the sidecar in an exhibit folder.
 pub const SIDECAR: &str = "exhibit.toml";

@@ -33,6 +33,8 @@ pub struct Model {
     pub lights: Vec<Light>,
     /// Key frames.
     pub animations: Vec<Animation>,
+    /// Meshes that follow joints; the mesh of each one's node is as it stands at rest.
+    pub skins: Vec<Skin>,
     /// Nodes that are not drawn, sorted: hidden by KHR_node_visibility, or below one that is.
     pub hidden: Vec<usize>,
 }
@@ -67,6 +69,22 @@ pub struct Mesh {
     pub primitives: Vec<Primitive>,
 }
 
+/// A mesh that follows joints (glTF 2.0, 3.7.3).
+#[derive(Clone, Debug, Default)]
+pub struct Skin {
+    /// The node that shows it.
+    pub node: usize,
+    /// Nodes that it follows.
+    pub joints: Vec<usize>,
+    /// For each joint, what takes the mesh as it is bound to the joint's frame.
+    pub inverse_bind: Vec<DMat4>,
+    /// The primitives of the node's mesh as they are bound, corner by corner.
+    pub bound: Vec<Primitive>,
+}
+
+/// Joints of its skin that a corner follows, and by which shares: their sum is 1, or 0 where it follows none.
+pub type Influences = [(u16, f32); 4];
+
 /// Triangles with one material.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
@@ -82,6 +100,8 @@ pub struct Primitive {
     pub second_uvs: Vec<[f32; 2]>,
     /// Linear RGBA per vertex; empty where the file has none.
     pub colors: Vec<[f32; 4]>,
+    /// Joints of a bound primitive's corners; empty elsewhere.
+    pub influences: Vec<Influences>,
     /// Three per triangle.
     pub indices: Vec<u32>,
     /// Index of the appearance.
@@ -139,6 +159,53 @@ pub struct Appearance {
     pub sheen: [f32; 3],
     /// Perceptual.
     pub sheen_roughness: f32,
+    /// Textures of these layers.
+    pub details: Details,
+}
+
+/// Textures of the extensions' layers: each multiplies the factor of its name, by the channels that the extension says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Details {
+    /// Red.
+    pub transmission: Option<TextureUse>,
+    /// Green.
+    pub thickness: Option<TextureUse>,
+    /// Alpha.
+    pub specular: Option<TextureUse>,
+    /// Colour.
+    pub specular_color: Option<TextureUse>,
+    /// Red.
+    pub coat: Option<TextureUse>,
+    /// Green.
+    pub coat_roughness: Option<TextureUse>,
+    /// Of the coat alone, with its scale.
+    pub coat_normal: Option<(TextureUse, f32)>,
+    /// Colour.
+    pub sheen: Option<TextureUse>,
+    /// Alpha.
+    pub sheen_roughness: Option<TextureUse>,
+}
+
+impl Details {
+    /// All of them, in the order of `forward.wgsl`.
+    pub fn all(&self) -> [Option<TextureUse>; 9] {
+        [
+            self.transmission,
+            self.thickness,
+            self.specular,
+            self.specular_color,
+            self.coat,
+            self.coat_roughness,
+            self.coat_normal.map(|(texture, _)| texture),
+            self.sheen,
+            self.sheen_roughness,
+        ]
+    }
+
+    /// Are there none?
+    pub fn is_empty(&self) -> bool {
+        self.all().iter().all(Option::is_none)
+    }
 }
 
 impl Default for Appearance {
@@ -168,6 +235,7 @@ impl Default for Appearance {
             coat_roughness: 0.0,
             sheen: [0.0; 3],
             sheen_roughness: 0.0,
+            details: Details::default(),
         }
     }
 }

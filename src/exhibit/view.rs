@@ -11,7 +11,7 @@
 //! picture, since the vertical angle is widened until the horizontal one is the same.
 
 use super::Exhibit;
-use crate::math::{DMat4, DVec3, PI, atan2, sin, sincos};
+use crate::math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
 
 /// A perspective camera in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,17 @@ impl View {
         (self.eye, (forward + right * across + up * along).normalize())
     }
 
+    /// The view from elsewhere on the sphere about the target: `yaw` moves the eye to the right about the vertical, `pitch`
+    /// moves it up, rad. With neither it is the same view to the bit.
+    pub fn turned(self, [yaw, pitch]: [f64; 2]) -> Self {
+        if [yaw, pitch] == [0.0; 2] {
+            return self;
+        }
+        let (right, ..) = self.axes();
+        let turn = rotation(DVec3::Y * yaw) * rotation(right * -pitch);
+        Self { eye: self.target + turn * (self.eye - self.target), up: turn * self.up, ..self }
+    }
+
     /// Height of the picture at a distance along the view, m.
     pub fn height_at(&self, depth: f64) -> f64 {
         2.0 * depth * half_height(self.fovy)
@@ -67,6 +78,24 @@ impl View {
         Some([0.5 + 0.5 * offset.dot(right) / (t * aspect), 0.5 - 0.5 * offset.dot(up) / t])
     }
 }
+
+/// How far a visitor may look round a work from its own view, rad: to either side, down and up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Leeway {
+    /// To the left and to the right.
+    pub aside: f64,
+    /// Down; not below the lowest point of the work.
+    pub down: f64,
+    /// Up; not over the work's head.
+    pub up: f64,
+}
+
+/// A third of a circle in all, a little down, well up.
+const ASIDE: f64 = PI / 3.0;
+const DOWN: f64 = PI / 18.0;
+const UP: f64 = 5.0 * PI / 18.0;
+/// Highest place of the eye over the target, rad: from straight above there is no upright.
+const STEEPEST: f64 = 4.0 * PI / 9.0;
 
 /// tan(fovy / 2).
 fn half_height(fovy: f64) -> f64 {
@@ -124,6 +153,20 @@ impl Exhibit {
         }
     }
 
+    /// How far a visitor may look round it from the view in a picture of this aspect.
+    pub fn leeway(&self, aspect: f64) -> Leeway {
+        let View { eye, target, .. } = self.view(aspect);
+        let from = eye - target;
+        let elevation = |height: f64| asin((height / from.length()).clamp(-1.0, 1.0));
+        let bounds = self.bounds(false);
+        let lowest = if bounds.is_empty() { target.y } else { bounds.min.y };
+        Leeway {
+            aside: ASIDE,
+            down: (elevation(from.y) - elevation(lowest - target.y)).clamp(0.0, DOWN),
+            up: (STEEPEST - elevation(from.y)).clamp(0.0, UP),
+        }
+    }
+
     /// The view through a camera node.
     fn through(&self, world: DMat4, camera: super::model::Camera, aspect: f64) -> View {
         let eye = world.w_axis.truncate();
@@ -177,6 +220,40 @@ impl Exhibit {
         bounds
     }
 
+    /// How far the meshes and wires of each body reach from its node, m.
+    pub fn reaches(&self) -> Vec<f64> {
+        let mut reaches = vec![0.0_f64; self.bodies.len()];
+        for (node, carrier) in self.model.nodes.iter().zip(self.carriers()) {
+            let (Some(body), Some(mesh)) = (carrier, node.mesh.and_then(|m| self.model.meshes.get(m))) else {
+                continue;
+            };
+            let at = self.model.nodes[self.bodies[body].node].world.w_axis.truncate();
+            for position in mesh.primitives.iter().flat_map(|p| &p.positions) {
+                let point = node.world.transform_point3(glam::Vec3::from_array(*position).as_dvec3());
+                reaches[body] = reaches[body].max(point.distance(at));
+            }
+        }
+        // What follows joints reaches as far as all of it lies from each.
+        let carriers = self.carriers();
+        for skin in &self.model.skins {
+            let shown = &self.model.nodes[skin.node];
+            let Some(mesh) = shown.mesh.and_then(|m| self.model.meshes.get(m)) else { continue };
+            for body in skin.joints.iter().filter_map(|&joint| carriers[joint]) {
+                let at = self.model.nodes[self.bodies[body].node].world.w_axis.truncate();
+                for position in mesh.primitives.iter().flat_map(|p| &p.positions) {
+                    let point = shown.world.transform_point3(glam::Vec3::from_array(*position).as_dvec3());
+                    reaches[body] = reaches[body].max(point.distance(at));
+                }
+            }
+        }
+        for wire in &self.wires {
+            if let Some(reach) = wire.body.and_then(|body| reaches.get_mut(body)) {
+                *reach = wire.points.iter().map(|point| point.length() + wire.radius).fold(*reach, f64::max);
+            }
+        }
+        reaches
+    }
+
     /// For each node of the model the body that carries it: its own, or its nearest ancestor's.
     pub fn carriers(&self) -> Vec<Option<usize>> {
         let mut own = vec![None; self.model.nodes.len()];
@@ -219,6 +296,26 @@ mod tests {
             let back = view().project(origin + direction * 3.7, aspect).expect("in front");
             assert!((back[0] - at[0]).abs() < ROUNDING && (back[1] - at[1]).abs() < ROUNDING, "{at:?} {back:?}");
         }
+    }
+
+    #[test]
+    fn a_turned_view_keeps_its_distance_and_its_target_and_goes_the_way_it_is_told() {
+        let own = View { eye: DVec3::new(0.0, 0.0, 2.0), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.5 };
+        let (s, c) = sincos(0.7);
+        let right = own.turned([0.7, 0.0]);
+        assert!((right.eye - 2.0 * DVec3::new(s, 0.0, c)).length() < ROUNDING, "{right:?}");
+        let above = own.turned([0.0, 0.7]);
+        assert!((above.eye - 2.0 * DVec3::new(0.0, s, c)).length() < ROUNDING, "{above:?}");
+        for turn in [[0.3, -0.1], [-1.0, 0.8]] {
+            let turned = view().turned(turn);
+            let way = |view: &View| (view.eye - view.target).length();
+            assert!((way(&turned) - way(&view())).abs() < ROUNDING && turned.target == view().target);
+            assert_eq!(
+                turned.project(turned.target, 1.5).map(|at| at.map(|x| (x - 0.5).abs() < ROUNDING)),
+                Some([true; 2])
+            );
+        }
+        assert_eq!(view().turned([0.0; 2]), view());
     }
 
     #[test]

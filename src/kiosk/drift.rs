@@ -6,7 +6,7 @@
 //! there is none.
 
 use crate::exhibit::View;
-use crate::math::{DQuat, DVec3, PI, sin};
+use crate::math::{PI, sin};
 
 /// Largest angles, rad: aside (3.5°), and up or down.
 const ASIDE: f64 = 0.061;
@@ -38,8 +38,6 @@ impl Drift {
         }
         let share = self.grown * self.grown * (3.0 - 2.0 * self.grown);
         let [aside, tilt] = PERIODS.map(|period| share * sin(2.0 * PI * time / period));
-        let (right, _, _) = rest.axes();
-        let turn = DQuat::from_axis_angle(DVec3::Y, ASIDE * aside) * DQuat::from_axis_angle(right, TILT * tilt);
-        View { eye: rest.target + turn * (rest.eye - rest.target), ..rest }
+        rest.turned([ASIDE * aside, -TILT * tilt])
     }
 }

@@ -8,9 +8,14 @@
 //! A swipe is a press that came down where nothing can be taken and left again soon, far to one side: faster than anybody
 //! steers a breath. What pulls a body is never a swipe.
 //!
+//! Whoever looks round the work pulls at the air beside it: there a press neither blows nor swipes, it turns the camera. On
+//! the work everything is as it was.
+//!
 //! Whoever cannot hold presses once: what comes up without having taken or swiped begins a breath, and the next one ends
-//! it. A hand that is not steady may slide a little meanwhile.
+//! it. A hand that is not steady may slide a little meanwhile. Looking round, a press beside the work turns by so much
+//! towards where it lies.
 
+use super::orbit;
 use crate::simulation::{Hand, STEPS_PER_SECOND};
 
 /// A pointer button or finger that is down.
@@ -46,6 +51,8 @@ pub struct Touch<'a> {
     pub keyed: u64,
     /// Does a press begin the breath and the next one end it?
     pub once: bool,
+    /// Does the visitor look round the work?
+    pub round: bool,
     /// Width over height of the picture.
     pub aspect: f64,
 }
@@ -67,6 +74,7 @@ enum Meaning {
     Waits(u64),
     Blows,
     Takes,
+    Turns,
 }
 
 /// A press and where it began.
@@ -74,6 +82,8 @@ enum Meaning {
 struct Known {
     id: u64,
     from: [f64; 2],
+    /// Where it was when it was seen last.
+    at: [f64; 2],
     meaning: Meaning,
     /// Did it come down beside everything that can be taken?
     free: bool,
@@ -92,6 +102,7 @@ pub struct Gestures {
     keyed: u64,
     hold: bool,
     turned: i64,
+    pulled: [f64; 2],
 }
 
 impl Gestures {
@@ -99,17 +110,22 @@ impl Gestures {
     /// where the first press that blows is.
     pub fn step(&mut self, touch: &Touch, mut takeable: impl FnMut([f64; 2]) -> bool) -> Option<[f64; 2]> {
         self.switch(touch);
+        self.pulled = [0.0; 2];
         for lift in touch.lifts {
             self.lift(lift, touch, &mut takeable);
         }
         self.known.retain(|known| touch.presses.iter().any(|press| press.id == known.id));
         self.hands.clear();
-        let mut blows = None;
+        let (mut blows, mut turns) = (None, None);
         for press in touch.presses {
             let index = self.known.iter().position(|known| known.id == press.id).unwrap_or_else(|| {
                 let free = !takeable(press.at);
-                let meaning = if free { Meaning::Blows } else { Meaning::Waits(0) };
-                self.known.push(Known { id: press.id, from: press.at, meaning, free, age: 0, held: 0 });
+                let meaning = match (free, touch.round) {
+                    (true, true) => Meaning::Turns,
+                    (true, false) => Meaning::Blows,
+                    (false, _) => Meaning::Waits(0),
+                };
+                self.known.push(Known { id: press.id, from: press.at, at: press.at, meaning, free, age: 0, held: 0 });
                 self.known.len() - 1
             });
             let known = &mut self.known[index];
@@ -132,8 +148,14 @@ impl Gestures {
                     self.hands.push(Hand { id: press.id, at, body: None });
                 }
                 Meaning::Blows if !touch.once => blows = blows.or(Some(press.at)),
+                // The first finger turns; another beside it would turn twice as far.
+                Meaning::Turns => turns = turns.or(Some(way(known.at, press.at, touch.aspect))),
                 Meaning::Blows | Meaning::Waits(_) => {}
             }
+            known.at = press.at;
+        }
+        if let Some(way) = turns {
+            self.pull(way);
         }
         blows
     }
@@ -158,6 +180,17 @@ impl Gestures {
         self.turned
     }
 
+    /// What presses beside the work turned in the last step, to the right and up, rad.
+    pub fn pulled(&self) -> [f64; 2] {
+        self.pulled
+    }
+
+    /// Turns by a way of a finger, picture heights: what is seen follows it, so the eye goes against it.
+    fn pull(&mut self, [x, y]: [f64; 2]) {
+        self.pulled[0] -= orbit::TURN * x;
+        self.pulled[1] += orbit::TURN * y;
+    }
+
     /// Keys, switches and controllers of whoever presses once: each press counts, however short, and none must be held.
     fn switch(&mut self, touch: &Touch) {
         let keyed = touch.keyed.wrapping_sub(self.keyed);
@@ -171,6 +204,17 @@ impl Gestures {
         let known = self.known.iter().find(|known| known.id == lift.id);
         if known.is_some_and(|known| known.meaning == Meaning::Takes) {
             return;
+        }
+        let turns = known.map_or_else(|| touch.round && !takeable(lift.from), |known| known.meaning == Meaning::Turns);
+        if turns {
+            let [x, y] = way(lift.from, lift.at, touch.aspect);
+            if touch.once && x.hypot(y) < UNSTEADY_PULL {
+                let [x, y] = way([0.5, 0.5], lift.at, touch.aspect);
+                let aside =
+                    if x.abs() > y.abs() { [orbit::PRESS.copysign(x), 0.0] } else { [0.0, -orbit::PRESS.copysign(y)] };
+                self.pulled = std::array::from_fn(|i| self.pulled[i] + aside[i]);
+            }
+            return self.pull(way(known.map_or(lift.from, |known| known.at), lift.at, touch.aspect));
         }
         let (free, age) = known.map_or_else(|| (!takeable(lift.from), 0), |known| (known.free, known.age));
         let [x, y] = way(lift.from, lift.at, touch.aspect);

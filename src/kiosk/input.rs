@@ -92,6 +92,8 @@ pub enum Request {
     Dwell,
     /// Less motion, or as much as there is.
     Calm,
+    /// Look round the work, or back at it as it is shown.
+    Round,
     /// Read aloud what is written, or hush.
     Speak,
     /// Mark the next button that way, right and down.

@@ -31,6 +31,7 @@ use super::microphone::MicrophoneHealth;
 use super::moments::{BEHIND, Moments};
 use super::pace::Pacer;
 use super::recording::Recording;
+use super::rest::Stillness;
 use super::site::Site;
 use super::stage::{Controls, Stage};
 use super::voice::{Guest, Trial, Voice};
@@ -70,6 +71,8 @@ pub struct Frame {
     pub moments: Moments,
     /// When the last step was due.
     pub due: Instant,
+    /// Has nothing in the picture moved for a while?
+    pub still: bool,
     /// Is attract mode playing?
     pub attracts: bool,
     /// Text key that attract mode shows.
@@ -141,6 +144,7 @@ impl Frame {
             current: moments.newest().clone(),
             moments,
             due: Instant::now(),
+            still: false,
             attracts: false,
             attract_text: None,
             attract_rounds: 0,
@@ -208,8 +212,9 @@ struct Shared {
 }
 
 impl Live {
-    /// Starts the thread, for a picture of this shape (width over height).
-    pub fn start(options: Options, aspect: f64) -> Result<Self, String> {
+    /// Starts the thread, for a picture of this shape (width over height). `wake` is called in the step in which what stood
+    /// still begins to move.
+    pub fn start(options: Options, aspect: f64, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
         let site = &options.site;
         let settings = Settings { clock: local_time(), ..site.settings };
         let stage = Stage::new(options.exhibit.clone(), settings, options.recording.clone(), site.idle_s);
@@ -235,7 +240,7 @@ impl Live {
         let theirs = shared.clone();
         let thread = std::thread::Builder::new()
             .name("simulation".into())
-            .spawn(move || Thread::new(stage, (trace, record), options, theirs).run())
+            .spawn(move || Thread::new(stage, (trace, record), options, (theirs, Box::new(wake))).run())
             .map_err(|error| format!("the simulation thread does not start: {error}"))?;
         Ok(Self { shared, thread: Some(thread) })
     }
@@ -293,6 +298,10 @@ struct Thread {
     loudness: Loudness,
     controllers: Controllers,
     shared: Arc<Shared>,
+    wake: Box<dyn Fn() + Send>,
+    stillness: Stillness,
+    /// Was everything still when it was last published?
+    still: bool,
     limit: u64,
     recorded: bool,
     moments: Moments,
@@ -317,7 +326,7 @@ impl Thread {
         stage: Stage,
         (trace, record): (Option<TraceWriter>, Option<Recording>),
         options: Options,
-        shared: Arc<Shared>,
+        (shared, wake): (Arc<Shared>, Box<dyn Fn() + Send>),
     ) -> Self {
         let site = options.site;
         let voice = voice(&site);
@@ -337,6 +346,9 @@ impl Thread {
             controllers: Controllers::start(&site.controllers),
             site,
             shared,
+            wake,
+            stillness: Stillness::default(),
+            still: false,
             limit: options.steps.unwrap_or(u64::MAX),
             recorded: options.recording.is_some(),
             heard: Heard::default(),
@@ -426,6 +438,7 @@ impl Thread {
             let worked = ThreadTime::now();
             self.stage.step(&controls, microphone);
             self.moments.push(self.stage.snapshot());
+            self.stillness.note(self.stage.exhibit(), self.stage.snapshot(), self.stage.sight());
             self.govern(worked.elapsed().as_secs_f64());
             controls.commands.clear();
             if let Some(record) = &mut self.record {
@@ -511,7 +524,12 @@ impl Thread {
             onset.at = Instant::now();
         }
         self.published = self.stage.snapshot().step;
+        // In attract mode the camera sways.
+        let still = self.stillness.is_still() && !self.stage.attracts();
+        let wakes = self.still && !still;
+        self.still = still;
         let frame = Arc::new(Frame {
+            still,
             exhibit: self.stage.exhibit().clone(),
             current: self.moments.newest().clone(),
             moments: self.moments.clone(),
@@ -530,6 +548,9 @@ impl Thread {
             inspection: self.inspection.clone(),
         });
         *lock(&self.shared.frame) = frame;
+        if wakes {
+            (self.wake)();
+        }
     }
 }
 

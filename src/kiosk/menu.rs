@@ -77,6 +77,11 @@ impl Menu {
         }
     }
 
+    /// Does its arc close?
+    pub fn closes(&self, time: f64) -> bool {
+        self.open && time - self.touched > CLOSES - COUNTDOWN
+    }
+
     /// Moves the mark of the keys to the next button that way (right and down); the first key shows it.
     pub fn look(&mut self, way: [i32; 2], buttons: &[(Rect, Request)]) {
         let pressable = |i: &usize| buttons[*i].1 != Request::Nothing;
@@ -269,6 +274,7 @@ fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     items.push((Item::Word(own.press_once, scene.needs.press_once), Request::PressOnce));
     items.push((Item::Word(own.dwell, scene.needs.dwell), Request::Dwell));
     items.push((Item::Word(own.calm, scene.needs.calm), Request::Calm));
+    items.push((Item::Word(own.round, scene.needs.round), Request::Round));
     if scene.volume {
         items.push((Item::Sign("\u{2212}"), Request::Louder(-1)));
         items.push((Item::Sign("+"), Request::Louder(1)));

@@ -1,5 +1,5 @@
 //! What a visitor needs otherwise, for this visit: larger type, more contrast, a breath that need not be held, a pointer that
-//! need not press, less motion.
+//! need not press, less motion, a look round the work.
 //!
 //! The site says what everybody finds; a visitor changes it on the page behind "More"; whoever comes next finds the
 //! site's again.
@@ -19,6 +19,8 @@ pub struct Needs {
     pub dwell: bool,
     /// No change of scene in which parts fly together, no dust in the air, gentler attract mode.
     pub calm: bool,
+    /// Looks round the work: a pull beside it turns the camera.
+    pub round: bool,
 }
 
 impl Needs {
@@ -36,8 +38,14 @@ impl Needs {
         }
     }
 
+    /// How one looks round.
+    pub fn how_round(&self, own: &Words) -> &'static str {
+        if self.once() { own.round_press } else { own.round_pull }
+    }
+
     /// As the site has it.
     pub fn of(site: &Visit) -> Self {
-        Self { reading: Reading::default(), press_once: site.press_once, dwell: site.dwell, calm: site.calm }
+        let Visit { press_once, dwell, calm, .. } = *site;
+        Self { reading: Reading::default(), press_once, dwell, calm, round: false }
     }
 }

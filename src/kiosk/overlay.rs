@@ -23,6 +23,8 @@ use super::words::words;
 const INVITE_AGAIN: f64 = 8.0;
 /// Time in which the invitation fades, s.
 const FADE: f64 = 0.5;
+/// What is left of a fade that nobody sees: half a level of 255.
+const FADED: f64 = 0.002;
 /// Hard blowing after which a rest is proposed, s within about a minute, and until it has worn off to this: whoever blows
 /// on and on becomes light-headed.
 const TOO_MUCH: f64 = 12.0;
@@ -94,11 +96,13 @@ pub struct Overlay {
     /// Hard blowing lately, s, and whether it was too much.
     blown: f64,
     rests: bool,
+    /// Is something on its way: a fade, an arc?
+    moves: bool,
 }
 
 impl Default for Overlay {
     fn default() -> Self {
-        Self { invitation: 0.0, last_breath: f64::NEG_INFINITY, time: 0.0, blown: 0.0, rests: false }
+        Self { invitation: 0.0, last_breath: f64::NEG_INFINITY, time: 0.0, blown: 0.0, rests: false, moves: false }
     }
 }
 
@@ -110,6 +114,7 @@ impl Overlay {
         let Some(label) = scene.exhibit.labels.get(code) else { return Vec::new() };
         let page = Page::new(painter, picture, scene.points_per_mm, scene.needs.reading);
         let mut buttons = Vec::new();
+        self.moves |= scene.leaves_in.is_some() || scene.rests.is_some() || menu.closes(scene.time);
         if menu.open {
             menu.paint(&page, scene, &mut buttons);
             rest(&page, picture, scene);
@@ -121,12 +126,21 @@ impl Overlay {
         if let Some(said) = given::said(label, scene.given) {
             page.text(page.picture.left_top(), Align2::LEFT_TOP, &said, 1.1, INK, line(&page));
         }
-        let said = if self.rests { words(code).rest.to_owned() } else { invitation(scene) };
-        let opacity = if self.rests { 1.0 } else { self.invitation as f32 };
+        let own = words(code);
+        let (said, opacity) = match (self.rests, scene.needs.round) {
+            (true, _) => (own.rest.to_owned(), 1.0),
+            (false, true) => (scene.needs.how_round(own).to_owned(), 1.0),
+            (false, false) => (invitation(scene), self.invitation as f32),
+        };
         invite(&page, &said, opacity);
-        let more = page.word(page.picture.right_bottom(), words(code).more, false);
+        let more = page.word(page.picture.right_bottom(), own.more, false);
+        let mut last = more;
+        if scene.needs.round {
+            last = page.word(pos2(more.left() - 0.5 * page.em, more.bottom()), own.round, true);
+            buttons.push((last, Request::Round));
+        }
         if let Some(left) = scene.leaves_in {
-            leaving(&page, left, more, if scene.hears { words(code).stay } else { words(code).stay_touch });
+            leaving(&page, left, last, if scene.hears { own.stay } else { own.stay_touch });
         }
         buttons.push((more, Request::Menu));
         rest(&page, picture, scene);
@@ -144,9 +158,15 @@ impl Overlay {
         let shown = attracts || scene.time - self.last_breath > INVITE_AGAIN;
         let target = if shown { 1.0 } else { 0.0 };
         self.invitation += (target - self.invitation) * (1.0 - (-dt / FADE).exp());
+        self.moves = (target - self.invitation).abs() > FADED;
         let hard = scene.hears && !attracts && scene.moment.breath.meter > HARD;
         self.blown += if hard { dt } else { -self.blown * dt / WEARS_OFF };
         self.rests = self.blown > if self.rests { RESTED } else { TOO_MUCH };
+    }
+
+    /// Did something on the last page fade, fill or close?
+    pub fn moves(&self) -> bool {
+        self.moves
     }
 
     /// Is a rest proposed?

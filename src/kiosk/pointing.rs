@@ -16,8 +16,9 @@ pub struct Pointing {
 }
 
 impl Pointing {
-    /// The aim of this step, picture coordinates; `None` is the centre.
-    pub fn step(&mut self, controls: &Controls) -> Option<[f64; 2]> {
+    /// The aim of this step, picture coordinates; `None` is the centre. `stick` is what pushes it on, right and down,
+    /// picture heights/s.
+    pub fn step(&mut self, controls: &Controls, stick: [f64; 2]) -> Option<[f64; 2]> {
         if controls.aim != self.pointer {
             self.pointer = controls.aim;
             self.at = controls.aim;
@@ -27,9 +28,9 @@ impl Pointing {
         {
             (self.at, self.named) = (Some(place), count);
         }
-        if controls.stick != [0.0; 2] {
+        if stick != [0.0; 2] {
             let [x, y] = self.at.unwrap_or(CENTRE);
-            let step = controls.stick.map(|speed| speed / STEPS_PER_SECOND as f64);
+            let step = stick.map(|speed| speed / STEPS_PER_SECOND as f64);
             let aspect = if controls.aspect > 0.0 { controls.aspect } else { 1.0 };
             self.at = Some([(x + step[0] / aspect).clamp(0.0, 1.0), (y + step[1]).clamp(0.0, 1.0)]);
         }
@@ -53,24 +54,28 @@ mod tests {
     fn whoever_moved_last_aims() {
         let mut pointing = Pointing::default();
         let mut controls = Controls { aspect: 2.0, ..Controls::default() };
-        assert_eq!(pointing.step(&controls), None);
+        assert_eq!(pointing.step(&controls, controls.stick), None);
         controls.stick = [0.4, -0.2];
         for _ in 0..STEPS_PER_SECOND {
-            pointing.step(&controls);
+            pointing.step(&controls, controls.stick);
         }
         controls.stick = [0.0; 2];
-        let [x, y] = pointing.step(&controls).expect("an aim");
+        let [x, y] = pointing.step(&controls, controls.stick).expect("an aim");
         assert!((x - 0.7).abs() < ROUNDING && (y - 0.3).abs() < ROUNDING, "as far on the glass each way: {x} {y}");
         controls.aim = Some([0.1, 0.9]);
-        assert_eq!(pointing.step(&controls), Some([0.1, 0.9]));
+        assert_eq!(pointing.step(&controls, controls.stick), Some([0.1, 0.9]));
         controls.named = Some(([0.6, 0.6], 1));
-        assert_eq!(pointing.step(&controls), Some([0.6, 0.6]));
-        assert_eq!(pointing.step(&controls), Some([0.6, 0.6]), "a pointer that lies still does not take it back");
+        assert_eq!(pointing.step(&controls, controls.stick), Some([0.6, 0.6]));
+        assert_eq!(
+            pointing.step(&controls, controls.stick),
+            Some([0.6, 0.6]),
+            "a pointer that lies still does not take it back"
+        );
         controls.stick = [9.0, 9.0];
-        (0..STEPS_PER_SECOND).for_each(|_| _ = pointing.step(&controls));
-        assert_eq!(pointing.step(&controls), Some([1.0, 1.0]));
+        (0..STEPS_PER_SECOND).for_each(|_| _ = pointing.step(&controls, controls.stick));
+        assert_eq!(pointing.step(&controls, controls.stick), Some([1.0, 1.0]));
         controls.stick = [0.0; 2];
         pointing.forget();
-        assert_eq!(pointing.step(&controls), None);
+        assert_eq!(pointing.step(&controls, controls.stick), None);
     }
 }

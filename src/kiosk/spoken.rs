@@ -45,6 +45,7 @@ pub fn button(request: Request, scene: &Scene) -> Vec<Said> {
         Request::PressOnce => switch(own.press_once, scene.needs.press_once),
         Request::Dwell => switch(own.dwell, scene.needs.dwell),
         Request::Calm => switch(own.calm, scene.needs.calm),
+        Request::Round => switch(own.round, scene.needs.round),
         Request::Listen => switch(own.ear, scene.listens),
         Request::Speak => own.speak.to_owned(),
         // Each language by its own name, in its own voice.

@@ -7,16 +7,18 @@
 use std::sync::Arc;
 
 use crate::audio_io::Words;
-use crate::exhibit::Exhibit;
+use crate::exhibit::{Exhibit, Leeway, View};
 use crate::offline::feed::WavFeed;
 use crate::simulation::{
-    Command, Inspection, Look, Microphone, MotionMode, SAMPLES_PER_STEP, Settings, Simulation, Snapshot, StepInput,
+    Command, Inspection, Look, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation,
+    Snapshot, StepInput,
 };
 use crate::sound::SoundCommand;
 
 use super::attract::Attract;
 use super::gesture::{Gestures, Lift, Press, Touch};
 use super::loudness::Wishes;
+use super::orbit::{self, Orbit};
 use super::pointing::Pointing;
 use super::site::Site;
 use super::voice::Trial;
@@ -40,6 +42,8 @@ pub struct Controls {
     pub keyed: u64,
     /// Does a press begin the breath and the next one end it?
     pub press_once: bool,
+    /// Does the visitor look round the work? Then presses beside it, sticks and arrow keys turn the camera.
+    pub round: bool,
     /// Less motion: no change of scene in which parts fly together, gentler attract mode.
     pub calm: bool,
     /// How hard a breath controller is blown, 0 … 1.
@@ -87,6 +91,7 @@ impl Controls {
 struct Told {
     pointer: Option<[f64; 2]>,
     aspect: f64,
+    turn: [f64; 2],
     mode: Option<MotionMode>,
     commands: Vec<Command>,
 }
@@ -105,6 +110,9 @@ pub struct Stage {
     activity: u64,
     pointing: Pointing,
     gestures: Gestures,
+    orbit: Orbit,
+    /// How far it goes, for a picture of that shape; `None` until somebody asks.
+    leeway: Option<(f64, Leeway)>,
     holds: bool,
     /// What the last step was told beside breath and hands.
     told: Told,
@@ -130,6 +138,8 @@ impl Stage {
             activity: 0,
             pointing: Pointing::default(),
             gestures: Gestures::default(),
+            orbit: Orbit::default(),
+            leeway: None,
             holds: false,
             told: Told::default(),
             calm: false,
@@ -165,23 +175,28 @@ impl Stage {
             hold: controls.hold,
             keyed: controls.keyed,
             once: controls.press_once,
+            round: controls.round,
             aspect: controls.aspect,
         };
         let blows = self.gestures.step(&touch, takeable);
-        let aim = self.pointing.step(controls);
+        // Whoever looks round turns with the stick; the aim stays.
+        let stick = if controls.round { [0.0; 2] } else { controls.stick };
+        let aim = self.pointing.step(controls, stick);
         if cue.active {
             self.pointing.forget();
             self.gestures.unlatch();
         }
         self.holds = controls.hold && !controls.press_once || blows.is_some() || self.gestures.latched();
 
+        let turn = self.turn(controls, !cue.active && controls.round);
         self.told = Told {
             pointer: if cue.active { cue.aim } else { blows.or(aim) },
             aspect: controls.aspect,
+            turn,
             mode: controls.mode,
             commands: cue.commands,
         };
-        let Told { pointer, aspect, mode, ref commands } = self.told;
+        let Told { pointer, aspect, turn, mode, ref commands } = self.told;
         self.simulation.step(&StepInput {
             microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone).filter(|_| !controls.inert),
             hold: self.holds,
@@ -189,11 +204,27 @@ impl Stage {
             strength: controls.strength,
             pointer,
             aspect,
+            turn,
             mode,
             commands,
         });
         self.steps += 1;
         self.snapshot = self.simulation.snapshot();
+    }
+
+    /// Goes on with the camera: as the visitor pulls and pushes, or home.
+    fn turn(&mut self, controls: &Controls, round: bool) -> [f64; 2] {
+        let leeway = match self.leeway {
+            Some((aspect, leeway)) if aspect == controls.aspect => leeway,
+            // Nobody has looked round yet: there is nothing to measure.
+            None if !round => return [0.0; 2],
+            _ => self.simulation.exhibit().leeway(controls.aspect),
+        };
+        self.leeway = Some((controls.aspect, leeway));
+        let [right, up] = self.gestures.pulled();
+        // A stick to the right or down leads the eye there.
+        let [x, y] = controls.stick.map(|speed| orbit::TURN * speed / STEPS_PER_SECOND as f64);
+        self.orbit.step(round.then_some([right + x, up - y]), &leeway, self.calm)
     }
 
     /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start. `clock` is the time of
@@ -202,6 +233,7 @@ impl Stage {
         let another = exhibit.id != self.exhibit().id;
         self.called = (another && !self.calm).then_some(Command::Gather(self.steps));
         self.gestures.unlatch();
+        (self.orbit, self.leeway) = (Orbit::default(), None);
         self.attract = self.attract.take().map(|before| {
             let next = Attract::new(exhibit.attract.clone(), self.idle_s);
             if before.is_active() { next.go_on() } else { next }
@@ -238,6 +270,11 @@ impl Stage {
         &self.snapshot
     }
 
+    /// The camera of the last step.
+    pub fn sight(&self) -> &View {
+        self.simulation.sight()
+    }
+
     /// Constants of the run.
     pub fn settings(&self) -> &Settings {
         self.simulation.settings()
@@ -250,8 +287,8 @@ impl Stage {
 
     /// What the last step was told; the breath is in the snapshot's speed.
     pub fn told(&self) -> StepInput<'_> {
-        let Told { pointer, aspect, mode, ref commands } = self.told;
-        StepInput { pointer, aspect, mode, commands, hands: self.gestures.hands(), ..StepInput::default() }
+        let Told { pointer, aspect, turn, mode, ref commands } = self.told;
+        StepInput { pointer, aspect, turn, mode, commands, hands: self.gestures.hands(), ..StepInput::default() }
     }
 
     /// Did a press, a key or a switch blow in the last step?

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::keyboard::ModifiersState;
 use winit::window::{Fullscreen, Window, WindowId};
 
@@ -34,6 +34,7 @@ use super::loudness::Wishes;
 use super::menu::{Menu, tiles};
 use super::needs::Needs;
 use super::overlay::{Overlay, Scene};
+use super::rest::{PICTURE_S, Rest, Signs};
 use super::screen::{Drawn, Screen};
 use super::shelf::{News, Offer, Places, Shelf, id};
 use super::site::{Overrides, SiteFile};
@@ -157,9 +158,13 @@ pub fn run(
         deaf: false,
         mute: false,
         clock: Clock::default(),
+        rest: Rest::default(),
+        inputs: 0,
+        waker: events.create_proxy(),
         #[cfg(target_os = "linux")]
         watchdog: super::watchdog::Watchdog::default(),
         pictures_shown: 0,
+        pictures_at_rest: 0,
         sight: FirstSight::default(),
         drift: Drift::default(),
         moment: Snapshot::default(),
@@ -177,6 +182,7 @@ pub fn run(
         app.fleet.end();
         return Err(missing);
     }
+    tracing::info!("{} pictures were shown, {} of them at rest", app.pictures_shown, app.pictures_at_rest);
     let report = app.show.map_or_else(|| Ok(Report::default()), |show| show.live.finish());
     // A run that failed has not ended in order: what is kept says that it died.
     Ok(match (app.failure, looped.and(report)) {
@@ -251,9 +257,16 @@ struct App<'a> {
     deaf: bool,
     mute: bool,
     clock: Clock,
+    rest: Rest,
+    /// Events of the window so far, but for its own pictures.
+    inputs: u64,
+    /// Lets the simulation end a rest.
+    waker: EventLoopProxy<()>,
     #[cfg(target_os = "linux")]
     watchdog: super::watchdog::Watchdog,
+    /// Pictures so far, and those after which the next one waited because nothing moved.
     pictures_shown: u64,
+    pictures_at_rest: u64,
     sight: FirstSight,
     drift: Drift,
     /// What is shown; kept so that a picture needs no new memory for it.
@@ -274,7 +287,7 @@ impl ApplicationHandler for App<'_> {
             .and_then(|w| Screen::new(self.instance.clone(), w, &options.exhibit).map_err(Missing::Graphics));
         match screen {
             // The motion begins when there is a window to see it in, in the shape of its picture.
-            Ok(screen) => match Live::start(options, screen.aspect()) {
+            Ok(screen) => match Live::start(options, screen.aspect(), self.wakes()) {
                 Ok(live) => {
                     tracing::info!("{:?} pixels on {}", screen.size(), screen.adapter().0);
                     live.controls().loudness = self.fleet.wishes();
@@ -289,7 +302,15 @@ impl ApplicationHandler for App<'_> {
         }
     }
 
+    fn user_event(&mut self, _: &ActiveEventLoop, (): ()) {
+        self.wake();
+    }
+
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        if event != WindowEvent::RedrawRequested {
+            self.inputs += 1;
+            self.wake();
+        }
         let desk = self.on_desk();
         let time = self.clock.seconds(Instant::now());
         // Nothing that is wiped over while the glass is cleaned reaches anything.
@@ -378,6 +399,21 @@ impl App<'_> {
         !self.config.screen.fullscreen
     }
 
+    /// What the simulation calls when something begins to move. A window that is gone needs no waking.
+    fn wakes(&self) -> impl Fn() + Send + use<> {
+        let waker = self.waker.clone();
+        move || {
+            let _ = waker.send_event(());
+        }
+    }
+
+    /// The picture that waits because nothing moved is due at once.
+    fn wake(&mut self) {
+        if self.rest.rests() {
+            self.clock.next = Instant::now();
+        }
+    }
+
     fn draw(&mut self, events: &ActiveEventLoop) {
         let desk = self.on_desk();
         let Some(show) = &mut self.show else { return };
@@ -391,7 +427,9 @@ impl App<'_> {
             (true, false) => self.tiers.tier().least,
         };
         let asked = least.max(show.screen.refresh().unwrap_or(COMMON_REFRESH));
-        if open && self.tiers.note(now.duration_since(last).as_secs_f64(), asked) {
+        // The way to a picture that had time says nothing of the machine.
+        let rested = self.rest.rests();
+        if open && !rested && self.tiers.note(now.duration_since(last).as_secs_f64(), asked) {
             let tier = self.tiers.tier();
             tracing::info!(
                 "pictures are drawn with {} of their pixels and {} samples from here",
@@ -401,8 +439,11 @@ impl App<'_> {
             show.screen.set_finish(tier.finish);
         }
         self.clock.rhythm.set_refresh(show.screen.refresh());
-        let shown = self.clock.tick(now, least);
         let frame = show.live.frame();
+        let signs =
+            Signs { still: frame.still, page_moves: self.overlay.moves() || self.staff.is_open(), inputs: self.inputs };
+        let rests = self.rest.note(self.clock.seconds(now), signs);
+        let shown = self.clock.tick(now, if rests { least.max(PICTURE_S) } else { least });
         let mut moment = std::mem::take(&mut self.moment);
         frame.set_moment(shown, &mut moment);
         if self.needs.calm {
@@ -412,7 +453,7 @@ impl App<'_> {
             let seconds = now.duration_since(last).as_secs_f64().min(LONGEST_GIFT);
             self.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
         }
-        let rest = frame.exhibit.view(show.screen.aspect());
+        let rest = frame.exhibit.view(show.screen.aspect()).turned(moment.turn);
         let sways = frame.attracts && !self.needs.calm;
         let view = self.drift.view(rest, self.clock.seconds(shown), sways);
         let size = show.screen.size();
@@ -492,7 +533,8 @@ impl App<'_> {
         if drawn == Drawn::Shown {
             self.sight.note(&frame, &moment, now);
             self.pictures_shown += 1;
-            if self.house.is_open() {
+            self.pictures_at_rest += u64::from(rests);
+            if self.house.is_open() && !rested {
                 self.fleet.picture(now.duration_since(last).as_secs_f64());
             }
             #[cfg(target_os = "linux")]
@@ -570,11 +612,13 @@ impl App<'_> {
                 self.work_says = None;
                 self.fleet.read_anew(true, None);
                 self.given.leave();
+                self.needs.round = false;
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
                     show.screen.prepare(&exhibit);
                     show.live.controls().exhibit = Some(exhibit);
                 }
+                self.tell();
             }
             News::Failed(report) => {
                 self.turning = false;
@@ -675,7 +719,9 @@ impl App<'_> {
             Request::Large => self.needs.reading.large ^= true,
             Request::Contrast => self.needs.reading.contrast ^= true,
             Request::Listen => self.listens = !self.listens,
-            Request::PressOnce | Request::Dwell | Request::Calm | Request::Speak => self.choose(request),
+            Request::PressOnce | Request::Dwell | Request::Calm | Request::Round | Request::Speak => {
+                self.choose(request);
+            }
             Request::Look(way) => {
                 self.menu.look(way, &self.buttons);
                 self.aloud.reach(self.menu.marked(&self.buttons));
@@ -710,7 +756,7 @@ impl App<'_> {
         controls.lifts.extend(lifts);
         controls.keyed = self.visitor.keyed();
         controls.press_once = self.needs.once() && !self.menu.open;
-        controls.calm = self.needs.calm;
+        (controls.calm, controls.round) = (self.needs.calm, self.needs.round);
         controls.activity = self.visitor.activity();
         controls.deaf = !self.listens;
         controls.closed = !self.house.is_open();

@@ -52,6 +52,12 @@ pub struct Words {
     pub dwell: &'static str,
     /// Less motion, as what is switched.
     pub calm: &'static str,
+    /// Looking round the work, as what is switched.
+    pub round: &'static str,
+    /// How to look round.
+    pub round_pull: &'static str,
+    /// The same for whoever presses once.
+    pub round_press: &'static str,
     /// Reads aloud.
     pub speak: &'static str,
     /// The work makes no sound.
@@ -72,7 +78,7 @@ pub struct Words {
 
 impl Words {
     /// All of them, for whoever checks that none is missing.
-    pub fn all(&self) -> [&'static str; 32] {
+    pub fn all(&self) -> [&'static str; 35] {
         [
             self.code,
             self.name,
@@ -98,6 +104,9 @@ impl Words {
             self.dwells,
             self.dwell,
             self.calm,
+            self.round,
+            self.round_pull,
+            self.round_press,
             self.speak,
             self.no_sound,
             self.louder,
@@ -159,6 +168,9 @@ pub const WORDS: &[Words] = &[
         dwells: "Rest the pointer to blow, move and rest again to stop",
         dwell: "Rest to press",
         calm: "Less motion",
+        round: "Look round",
+        round_pull: "Drag beside the work to look round it",
+        round_press: "Press beside the work to look round it",
         speak: "Read aloud",
         no_sound: "This work makes no sound.",
         louder: "Louder",
@@ -193,6 +205,9 @@ pub const WORDS: &[Words] = &[
         dwells: "Zeiger ruhen lassen zum Pusten, bewegen und ruhen lassen zum Beenden",
         dwell: "Ruhen statt drücken",
         calm: "Weniger Bewegung",
+        round: "Herumschauen",
+        round_pull: "Neben dem Werk ziehen, um es von der Seite zu sehen",
+        round_press: "Neben das Werk drücken, um es von der Seite zu sehen",
         speak: "Vorlesen",
         no_sound: "Dieses Werk macht keinen Ton.",
         louder: "Lauter",
@@ -227,6 +242,9 @@ pub const WORDS: &[Words] = &[
         dwells: "Laissez le pointeur immobile pour souffler, encore ailleurs pour arrêter",
         dwell: "Pointer sans appuyer",
         calm: "Moins de mouvement",
+        round: "Tourner autour",
+        round_pull: "Glissez à côté de l’œuvre pour tourner autour",
+        round_press: "Appuyez à côté de l’œuvre pour tourner autour",
         speak: "Lire à voix haute",
         no_sound: "Cette œuvre ne fait aucun son.",
         louder: "Plus fort",
@@ -261,6 +279,9 @@ pub const WORDS: &[Words] = &[
         dwells: "Tieni fermo il puntatore per soffiare, di nuovo altrove per smettere",
         dwell: "Puntare senza premere",
         calm: "Meno movimento",
+        round: "Girare intorno",
+        round_pull: "Trascina accanto all’opera per girarle intorno",
+        round_press: "Premi accanto all’opera per girarle intorno",
         speak: "Leggi ad alta voce",
         no_sound: "Quest’opera non fa suoni.",
         louder: "Più forte",
@@ -295,6 +316,9 @@ pub const WORDS: &[Words] = &[
         dwells: "Deja quieto el puntero para soplar, y otra vez en otro sitio para parar",
         dwell: "Apuntar sin pulsar",
         calm: "Menos movimiento",
+        round: "Mirar alrededor",
+        round_pull: "Arrastra junto a la obra para verla desde otro lado",
+        round_press: "Pulsa junto a la obra para verla desde otro lado",
         speak: "Leer en voz alta",
         no_sound: "Esta obra no suena.",
         louder: "Más alto",
@@ -329,6 +353,9 @@ pub const WORDS: &[Words] = &[
         dwells: "포인터를 멈추면 바람이 불고, 옮겨서 다시 멈추면 그칩니다",
         dwell: "멈춰서 누르기",
         calm: "움직임 줄이기",
+        round: "둘러보기",
+        round_pull: "작품 옆을 끌면 다른 쪽에서 볼 수 있습니다",
+        round_press: "작품 옆을 누르면 다른 쪽에서 볼 수 있습니다",
         speak: "소리 내어 읽기",
         no_sound: "이 작품은 소리가 나지 않습니다.",
         louder: "소리 크게",
@@ -363,6 +390,9 @@ pub const WORDS: &[Words] = &[
         dwells: "ポインターを止めると風が吹き、動かしてまた止めると止まります",
         dwell: "止めて押す",
         calm: "動きを減らす",
+        round: "まわりから見る",
+        round_pull: "作品の横を引くと、まわりから見られます",
+        round_press: "作品の横を押すと、まわりから見られます",
         speak: "読み上げ",
         no_sound: "この作品は音が出ません。",
         louder: "音を大きく",

@@ -27,9 +27,9 @@ impl Pictures {
         Ok(Self { renderer: ImageRenderer::new(exhibit, |_| ())?.finer(FINER), exhibit: exhibit.clone(), size })
     }
 
-    /// Draws a moment as the exhibit's camera sees it.
+    /// Draws a moment as its camera sees it.
     pub fn draw(&mut self, snapshot: &Snapshot) -> Result<RgbaImage, RenderError> {
-        let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1));
+        let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1)).turned(snapshot.turn);
         let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size: self.size, exposure: 1.0 };
         self.renderer.draw(&frame)
     }

@@ -13,7 +13,7 @@ use super::resources::{attachment, half4, light_texture, sampler};
 use super::scene::MAX_FRAMES;
 use super::shadows::MapCamera;
 use super::textures;
-use super::{Gpu, Options};
+use super::{Gpu, Options, details};
 use crate::exhibit::model::Sampler;
 
 /// Most motes drawn.
@@ -35,6 +35,8 @@ pub(super) struct Fixtures {
     pub map_views: [wgpu::TextureView; 2],
     /// Texture of what has none.
     pub white: wgpu::TextureView,
+    /// The same for the textures of extensions: colours, and data.
+    pub no_details: [wgpu::TextureView; 2],
     /// Of the materials.
     pub samplers: BTreeMap<Sampler, wgpu::Sampler>,
 }
@@ -74,6 +76,7 @@ impl Fixtures {
             smooth: sampler(device),
             map_views: map.map(|of| attachment(device, of, wgpu::TextureUsages::TEXTURE_BINDING)),
             white: textures::white(gpu),
+            no_details: details::none(gpu),
             samplers: BTreeMap::new(),
         }
     }

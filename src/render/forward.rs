@@ -8,7 +8,7 @@ use super::fixtures::{Fixtures, MAX_MOTES};
 use super::passes::{Pass, Plan};
 use super::pipelines::Pipelines;
 use super::resources::attachment;
-use super::scene::{Part, Surface};
+use super::scene::{Part, Surface, Vertex};
 use super::shadows::MapCamera;
 use super::work::Work;
 use super::{Finish, Frame, Gpu, Options, RenderError, Shaders};
@@ -159,6 +159,12 @@ impl Renderer {
         };
         write_rows(&self.work.contours, &self.work.outlines.contours);
         write_rows(&self.work.rims, &self.work.sheets.points);
+        if self.work.moves() {
+            for skin in &self.work.skins {
+                let place = u64::from(skin.first) * size_of::<Vertex>() as u64;
+                gpu.queue.write_buffer(&self.work.vertices, place, bytemuck::cast_slice(&skin.vertices));
+            }
+        }
         write(&self.fixtures.motes_buffer, bytemuck::cast_slice(&self.motes));
     }
 

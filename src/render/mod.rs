@@ -17,11 +17,12 @@
 //! | `occlusion` | ambient visibility of corners and planes, by rays at load | |
 //! | `bounce`, `refine` | what surfaces of a still scene send one another, baked into its corners, which are made finer | |
 //! | `casters` | what the shadow map of a still scene is drawn around | |
-//! | `textures` | materials and mip maps | |
+//! | `textures`, `details` | materials and mip maps; textures of extensions, packed | |
 //! | `globals` | the frame's uniforms | `common.wgsl` |
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
 //! | `sheets` | shadows of flat plates on the planes, in closed form | `sheets.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
+//! | `skins` | meshes that follow joints | |
 //! | `outlines` | silhouettes of plates, and the ribbons along them | `outline.wgsl` |
 //! | `passes` | the list of passes: attachments, draws, bytes | |
 //! | `resources` | textures and bind groups of the light | |
@@ -46,6 +47,7 @@ use crate::simulation::Mote;
 
 mod bounce;
 mod casters;
+mod details;
 pub mod environment;
 mod fixtures;
 mod forward;
@@ -65,6 +67,7 @@ mod scene;
 pub mod shaders;
 mod shadows;
 mod sheets;
+mod skins;
 mod textures;
 mod wires;
 mod work;

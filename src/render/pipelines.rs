@@ -107,6 +107,7 @@ impl Layouts {
         let smooth = TextureSampleType::Float { filterable: true };
         let numbers = TextureSampleType::Float { filterable: false };
         let image = (ShaderStages::FRAGMENT, texture(smooth, TextureViewDimension::D2, false));
+        let images = (ShaderStages::FRAGMENT, texture(smooth, TextureViewDimension::D2Array, false));
         let fragment = ShaderStages::FRAGMENT;
         let sampler = (fragment, BindingType::Sampler(SamplerBindingType::Filtering));
         Self {
@@ -120,14 +121,30 @@ impl Layouts {
                     image,
                     image,
                     image,
-                    (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
-                    (fragment, texture(smooth, TextureViewDimension::D2Array, false)),
+                    images,
+                    images,
                     (fragment, texture(numbers, TextureViewDimension::D2, false)),
                 ],
             ),
             material: group(
                 "material",
-                &[(fragment, uniform), image, image, image, image, image, sampler, sampler, sampler, sampler, sampler],
+                &[
+                    (fragment, uniform),
+                    image,
+                    image,
+                    image,
+                    image,
+                    image,
+                    sampler,
+                    sampler,
+                    sampler,
+                    sampler,
+                    sampler,
+                    // With these two a fragment reads 15 textures; 16 is what every device has.
+                    images,
+                    images,
+                    sampler,
+                ],
             ),
             stretch: group("stretch", &[image, sampler]),
             rims: group("rims", &[(fragment, texture(numbers, TextureViewDimension::D2, false))]),
@@ -379,8 +396,8 @@ impl Pipelines {
         let [a, b, c] = constants(options);
         let flag = |set| if set { 1.0 } else { 0.0 };
         let ribbon = how.entry == RIBBON_ENTRY;
-        let constants =
-            [a, b, c, ("LAYERS", flag(state.layers)), ("OUTLINED", flag(state.outlined)), ("RIBBON", flag(ribbon))];
+        let (layers, details) = (("LAYERS", flag(state.layers)), ("DETAILS", flag(state.details)));
+        let constants = [a, b, c, layers, details, ("OUTLINED", flag(state.outlined)), ("RIBBON", flag(ribbon))];
         pipeline(
             device,
             Fixed {

@@ -11,6 +11,7 @@ use super::RenderError;
 use super::globals::PunctualUniform;
 use super::outlines::Plate;
 use super::sheets::Sheet;
+use super::skins::Skinned;
 use crate::exhibit::Exhibit;
 use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
 use crate::math::Pose;
@@ -69,6 +70,8 @@ pub(super) struct State {
     pub double_sided: bool,
     /// A clear coat or a sheen.
     pub layers: bool,
+    /// Textures of what extensions add.
+    pub details: bool,
     /// Plates with a silhouette of their own.
     pub outlined: bool,
 }
@@ -115,6 +118,8 @@ pub(super) struct Scene {
     pub plates: Vec<Plate>,
     /// What the first indices are.
     pub sheets: Vec<Sheet>,
+    /// Parts that follow joints.
+    pub skins: Vec<Skinned>,
 }
 
 impl Scene {
@@ -126,18 +131,28 @@ impl Scene {
         let mut pieces = Vec::new();
         let mut lights = Vec::new();
         let shown = shown(model);
-        for (index, (node, carrier)) in model.nodes.iter().zip(exhibit.carriers()).enumerate() {
+        let carriers = exhibit.carriers();
+        for (index, (node, carrier)) in model.nodes.iter().zip(carriers.iter().copied()).enumerate() {
             if !shown[index] {
                 continue;
             }
+            // A skin is where its joints are, whatever carries the node that shows it.
+            let skin = model.skins.iter().find(|skin| skin.node == index);
+            let leader = skin.and_then(|skin| skin.joints.iter().find_map(|&joint| carriers[joint]));
+            let (skin, carrier) = (skin.filter(|_| leader.is_some()), leader.or(carrier));
             let frame_from_node = match carrier {
-                Some(body) => rigid(model.nodes[exhibit.bodies[body].node].world).inverse() * node.world,
+                Some(body) => rigid_of(exhibit, body).inverse() * node.world,
                 None => node.world,
             };
             let frame = carrier.map_or(0, |body| body + 1);
             if let Some(mesh) = node.mesh.and_then(|m| model.meshes.get(m)) {
                 let matrix = frame_from_node.as_mat4();
-                pieces.extend(mesh.primitives.iter().map(|p| (p, frame, matrix, plate(model, p, frame, matrix))));
+                for (index, p) in mesh.primitives.iter().enumerate() {
+                    let bound = skin.and_then(|skin| Some((skin, skin.bound.get(index)?)));
+                    // What bends is no plate.
+                    let flat = if bound.is_none() { plate(model, p, frame, matrix) } else { (None, None) };
+                    pieces.push((p, frame, matrix, flat, bound));
+                }
             }
             if let Some(light) = node.light.and_then(|l| model.lights.get(l))
                 && lights.len() < MAX_PUNCTUAL
@@ -158,9 +173,9 @@ impl Scene {
             (State { outlined, ..state_of(model, p) }, p.material.unwrap_or(model.materials.len()))
         };
         // By state, so that neighbours merge into one draw.
-        pieces.sort_by_key(|(p, _, _, (plate, sheet))| (sheet.is_none(), state(p, plate)));
+        pieces.sort_by_key(|(p, _, _, (plate, sheet), _)| (sheet.is_none(), state(p, plate)));
         let mut scene = Self { lights, ..Self::default() };
-        for (primitive, frame, matrix, (plate, sheet)) in pieces {
+        for (primitive, frame, matrix, (plate, sheet), bound) in pieces {
             let (state, material) = state(primitive, &plate);
             let opacity = match state.surface {
                 Surface::Opaque => 1.0,
@@ -174,6 +189,10 @@ impl Scene {
             if let Some(sheet) = sheet {
                 scene.sheets.push(sheet);
                 scene.flat = end;
+            }
+            if let Some((skin, bound)) = bound {
+                let place = (base, frame - 1, matrix.determinant() < 0.0);
+                scene.skins.push(Skinned::new(exhibit, skin, bound, place, &carriers));
             }
             match state.surface {
                 Surface::Opaque => (scene.opaque, scene.casters) = (end, end),
@@ -239,7 +258,8 @@ impl Scene {
 }
 
 impl State {
-    const PLAIN: Self = Self { surface: Surface::Opaque, double_sided: false, layers: false, outlined: false };
+    const PLAIN: Self =
+        Self { surface: Surface::Opaque, double_sided: false, layers: false, details: false, outlined: false };
 
     fn of(look: &Appearance) -> Self {
         let surface = match look.alpha {
@@ -248,7 +268,8 @@ impl State {
             _ => Surface::Opaque,
         };
         let layers = look.coat > 0.0 || look.sheen.iter().any(|c| *c > 0.0);
-        Self { surface, double_sided: look.double_sided, layers, outlined: false }
+        let details = !look.details.is_empty();
+        Self { surface, double_sided: look.double_sided, layers, details, outlined: false }
     }
 }
 
@@ -320,6 +341,11 @@ impl Punctual {
             cone,
         }
     }
+}
+
+/// Where the frame of a body is at rest.
+pub(super) fn rigid_of(exhibit: &Exhibit, body: usize) -> DMat4 {
+    rigid(exhibit.model.nodes[exhibit.bodies[body].node].world)
 }
 
 /// The rotation and translation of a node's world matrix, its scale left out.

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
 use super::fixtures::Fixtures;
+use super::{Gpu, details};
 use crate::exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
 
 /// `Material` of `forward.wgsl`.
@@ -33,13 +33,17 @@ struct MaterialUniform {
     coat: f32,
     coat_roughness: f32,
     unlit: f32,
-    spare: [f32; 7],
-    uv: [[f32; 4]; 10],
+    coat_normal_scale: f32,
+    spare: [f32; 2],
+    uv: [[f32; 4]; 2 * PLACES],
 }
+
+/// Textures that have a place of their own on a surface.
+const PLACES: usize = 5 + 9;
 
 /// Bind groups of all appearances of a model, and last of the default one.
 pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Vec<wgpu::BindGroup> {
-    let Fixtures { layouts, white, samplers, .. } = fixtures;
+    let Fixtures { layouts, white, no_details, samplers, .. } = fixtures;
     let mut textures = Textures { gpu, images: &model.images, made: BTreeMap::new(), samplers };
     let default = Appearance { metallic: 0.0, roughness: 0.6, ..Appearance::default() };
     model
@@ -58,9 +62,14 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Ve
                 contents: bytemuck::bytes_of(&uniform(look)),
                 usage: wgpu::BufferUsages::UNIFORM,
             });
+            let detail_views = details::views(gpu, &model.images, &look.details, no_details);
+            let first = look.details.all().into_iter().flatten().next();
+            let detail_sampler = textures.sampler(first.map_or(Sampler::default(), |texture| texture.sampler));
             let entries: Vec<_> = std::iter::once(uniform.as_entire_binding())
                 .chain(views.iter().map(wgpu::BindingResource::TextureView))
                 .chain(samplers.iter().map(wgpu::BindingResource::Sampler))
+                .chain(detail_views.iter().map(wgpu::BindingResource::TextureView))
+                .chain([wgpu::BindingResource::Sampler(&detail_sampler)])
                 .zip(0..)
                 .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
                 .collect();
@@ -99,8 +108,8 @@ fn uniform(look: &Appearance) -> MaterialUniform {
     let mirror = (look.ior - 1.0) / (look.ior + 1.0);
     let f0 = look.specular_color.map(|c| (mirror * mirror * c).min(1.0) * look.specular);
     let absorption = look.attenuation_color.map(|c| -c.clamp(1e-4, 1.0).ln() / look.attenuation_distance);
-    let mut uv = [[0.0; 4]; 10];
-    for (i, texture) in uses(look).iter().enumerate() {
+    let mut uv = [[0.0; 4]; 2 * PLACES];
+    for (i, texture) in uses(look).iter().chain(&look.details.all()).enumerate() {
         let TextureUse { transform: [u, v], set, .. } = texture.unwrap_or(TextureUse::of(0));
         uv[2 * i] = [u[0], u[1], u[2], set as f32];
         uv[2 * i + 1] = [v[0], v[1], v[2], 0.0];
@@ -124,7 +133,8 @@ fn uniform(look: &Appearance) -> MaterialUniform {
         coat: look.coat,
         coat_roughness: look.coat_roughness,
         unlit: if look.unlit { 1.0 } else { 0.0 },
-        spare: [0.0; 7],
+        coat_normal_scale: look.details.coat_normal.map_or(0.0, |(_, scale)| scale),
+        spare: [0.0; 2],
         uv,
     }
 }
@@ -185,24 +195,28 @@ impl Textures<'_> {
 
 /// An image and its smaller levels.
 fn upload(gpu: &Gpu, image: &Image, srgb: bool) -> wgpu::TextureView {
-    let levels = mip_chain(image, srgb);
-    let format = if srgb { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
-    let texture = gpu.device.create_texture_with_data(
+    texture(gpu, std::slice::from_ref(image), srgb).create_view(&Default::default())
+}
+
+/// Images of one size as the layers of a texture, each with its smaller levels.
+pub(super) fn texture(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::Texture {
+    let chains: Vec<Vec<Vec<u8>>> = layers.iter().map(|image| mip_chain(image, srgb)).collect();
+    let (width, height) = layers.first().map_or((1, 1), |image| (image.width, image.height));
+    gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {
             label: Some("material image"),
-            size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
-            mip_level_count: levels.len() as u32,
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: layers.len() as u32 },
+            mip_level_count: chains.first().map_or(1, |levels| levels.len() as u32),
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format,
+            format: if srgb { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm },
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },
         wgpu::util::TextureDataOrder::LayerMajor,
-        &levels.concat(),
-    );
-    texture.create_view(&Default::default())
+        &chains.concat().concat(),
+    )
 }
 
 /// The image and its halves down to one pixel, each the box average of the one before.

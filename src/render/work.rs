@@ -16,6 +16,7 @@ use super::resources::{Light, attachment, light_group, numbers, single};
 use super::scene::{Part, Punctual, Scene, Surface, rows};
 use super::shadows::{MapCamera, ReceivingPlane};
 use super::sheets::{RIM_ROW, Shade, Sheets};
+use super::skins::Skinned;
 use super::wires::{self, Segment};
 use super::{Frame, Gpu, Options, Quality, RenderError, occlusion, textures};
 use crate::exhibit::{Exhibit, Wire};
@@ -57,6 +58,7 @@ pub struct Work {
     pub(super) segments: Vec<Segment>,
     pub(super) outlines: Outlines,
     pub(super) sheets: Sheets,
+    pub(super) skins: Vec<Skinned>,
     /// Squared distance and index of each blended part, the farthest first.
     pub(super) blended: Vec<(f32, usize)>,
     drawn_frames: Vec<[Vec4; 3]>,
@@ -103,6 +105,8 @@ impl Work {
         let ambient = occlusion::planes(&scene, exhibit, &planes, room.radius);
         let sheets = Sheets::new(std::mem::take(&mut scene.sheets), room.lamps, planes);
         let rims = numbers(device, "rims", (RIM_ROW, sheets.rows()));
+        let mut skins = std::mem::take(&mut scene.skins);
+        skins.iter_mut().for_each(|skin| skin.dress(&scene.vertices));
         let outlines = Outlines::new(std::mem::take(&mut scene.plates), &scene.vertices);
         let contours = numbers(device, "contours", (CONTOUR_ROW, outlines.rows()));
         let light = Light {
@@ -129,8 +133,9 @@ impl Work {
         let segment_count = wires::count(&exhibit.wires);
         let blended = scene.parts.iter().filter(|part| part.state.surface == Surface::Blend).count();
         let frame_count = exhibit.bodies.len() + 1;
+        let vertex_usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
         Ok(Self {
-            vertices: filled("vertices", bytemuck::cast_slice(&scene.vertices), wgpu::BufferUsages::VERTEX),
+            vertices: filled("vertices", bytemuck::cast_slice(&scene.vertices), vertex_usage),
             indices: filled("indices", bytemuck::cast_slice(&scene.indices), wgpu::BufferUsages::INDEX),
             segments_buffer: filled_later("segments", segment_count.max(1) * size_of::<Segment>()),
             ribbons_buffer: filled_later("ribbons", outlines.most().max(1) * size_of::<Ribbon>()),
@@ -156,6 +161,7 @@ impl Work {
             segments: Vec::with_capacity(segment_count),
             outlines,
             sheets,
+            skins,
             blended: Vec::with_capacity(blended),
             drawn_frames: Vec::with_capacity(frame_count),
         })
@@ -176,12 +182,20 @@ impl Work {
         wires::fill(&self.wires, &self.rest, frame.poses, self.globals.eye, &mut self.segments);
         self.outlines.find(&self.frames, &self.globals, frame.size);
         self.sheets.find(&self.frames);
+        if self.moves() {
+            self.skins.iter_mut().for_each(|skin| skin.place(&self.frames));
+        }
         self.sort_blended();
+    }
+
+    /// Has something moved since the last frame was drawn?
+    pub(super) fn moves(&self) -> bool {
+        self.frames != self.drawn_frames
     }
 
     /// Has nothing moved since this was last asked, so that the shadows still hold? After [`Self::forget`] they do not.
     pub(super) fn rests(&mut self) -> bool {
-        let rests = self.frames == self.drawn_frames;
+        let rests = !self.moves();
         self.drawn_frames.clone_from(&self.frames);
         rests
     }

@@ -124,6 +124,8 @@ pub struct StepInput<'a> {
     pub pointer: Option<[f64; 2]>,
     /// Width over height of the picture; 0 is 16:9.
     pub aspect: f64,
+    /// How far the camera is turned about its target from the exhibit's own view: to the right and up, rad.
+    pub turn: [f64; 2],
     /// Commands, carried out in order before the step.
     pub commands: &'a [Command],
     /// What moves the figure in this step; `None` is the exhibit's own choice.

@@ -8,6 +8,7 @@ mod aim;
 mod carrying;
 mod contact_sound;
 mod event;
+mod eye;
 mod gather;
 mod hands;
 mod input;
@@ -40,6 +41,7 @@ use aim::{Aim, AimTarget};
 use carrying::Carrying;
 use contact_sound::{ContactSound, Scene};
 pub use event::{Event, EventKind, Part};
+use eye::Eye;
 use gather::Gathering;
 pub use gather::LASTS as GATHERING_LASTS;
 pub use hands::Hand;
@@ -105,7 +107,7 @@ pub struct Simulation {
     speed: f64,
     estimate: BlowEstimate,
     report: WindReport,
-    view: (f64, View),
+    eye: Eye,
     impact_count: u64,
     fault_count: u64,
 }
@@ -113,7 +115,7 @@ pub struct Simulation {
 impl Simulation {
     /// The exhibit at rest in its start pose.
     pub fn new(exhibit: Arc<Exhibit>, settings: Settings) -> Self {
-        let view = exhibit.view(DEFAULT_ASPECT);
+        let eye = Eye::new(&exhibit);
         let dynamics = start_dynamics(&exhibit, &settings);
         Self {
             carrying: carrying(&exhibit, &settings, &dynamics.bodies),
@@ -129,9 +131,9 @@ impl Simulation {
             hands: Hands::new(&exhibit),
             mode: MotionMode::of(&exhibit),
             gathering: None,
-            motes: Motes::new(view.target, settings.seed),
+            motes: Motes::new(eye.view.target, settings.seed),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
-            view: (DEFAULT_ASPECT, view),
+            eye,
             aim_targets: Vec::with_capacity(exhibit.wind_surfaces.len()),
             aim_balls: aim_balls(&exhibit),
             contact_sound: ContactSound::new(&exhibit),
@@ -184,7 +186,7 @@ impl Simulation {
 
     /// Moves the figure.
     fn advance(&mut self, input: &StepInput) {
-        let view = (&self.view.1, self.view.0);
+        let view = (&self.eye.view, self.eye.aspect);
         let driven = self.dynamics.system().driven();
         self.hands.follow(input.hands, view, &mut self.wind, (&self.exhibit, &self.dynamics.bodies, driven));
         self.mode = input.mode.unwrap_or(MotionMode::of(&self.exhibit));
@@ -280,10 +282,7 @@ impl Simulation {
 
     /// Points the breath.
     fn take_aim(&mut self, input: &StepInput) {
-        let aspect = if input.aspect > 0.0 { input.aspect } else { DEFAULT_ASPECT };
-        if aspect != self.view.0 {
-            self.view = (aspect, self.exhibit.view(aspect));
-        }
+        self.eye.look(&self.exhibit, input.aspect, input.turn);
         self.aim_targets.clear();
         let bodies = &self.dynamics.bodies;
         let target = |&(body, center, radius): &(usize, DVec3, f64)| AimTarget {
@@ -293,7 +292,7 @@ impl Simulation {
         self.aim_targets.extend(self.aim_balls.iter().map(target));
         let pointer = input.pointer.unwrap_or([0.5, 0.5]);
         let Settings { distance, profile, .. } = self.settings;
-        let view = &self.view.1;
+        let Eye { aspect, ref view, .. } = self.eye;
         self.aim.follow(view, view.ray(pointer, aspect), distance, profile, &self.aim_targets, DT);
     }
 
@@ -312,7 +311,7 @@ impl Simulation {
 
     /// Turns what happened into events and sounds.
     fn tell(&mut self, fault: Option<usize>) {
-        let listener = Listener::new(&self.view.1);
+        let listener = Listener::new(&self.eye.view);
         let began = self.step as f64 * DT;
         let (exhibit, bodies) = (&*self.exhibit, &self.dynamics.bodies);
         let scene = Scene { exhibit, bodies, listener: &listener };
@@ -388,7 +387,7 @@ impl Simulation {
     /// Would a hand at this place of the picture take something?
     pub fn can_be_taken(&mut self, at: [f64; 2], aspect: f64) -> bool {
         let aspect = if aspect > 0.0 { aspect } else { DEFAULT_ASPECT };
-        let view = self.exhibit.view(aspect);
+        let view = self.view(aspect);
         let driven = self.dynamics.system().driven();
         self.hands.would_take(at, (&view, aspect), &mut self.wind, (&self.exhibit, &self.dynamics.bodies, driven))
     }
@@ -424,6 +423,7 @@ impl Simulation {
                 meter: (self.speed / FULL_METER).clamp(0.0, 1.0),
             },
             motes: self.motes.view().collect(),
+            turn: self.eye.turn,
             diagnostics: Diagnostics {
                 joint_error: self.dynamics.joint_error(),
                 energy: self.dynamics.energy(),
@@ -439,7 +439,7 @@ impl Simulation {
 
     /// The breath's own width where it is aimed, or a fingertip where a hand holds.
     fn aim_ring(&self) -> AimRing {
-        let view = &self.view.1;
+        let view = &self.eye.view;
         if let Some(center) = self.hands.first(&self.dynamics.bodies) {
             let forward = view.axes().2;
             let radius = 0.5 * HAND_RING * view.height_at((center - view.eye).dot(forward));
@@ -450,9 +450,14 @@ impl Simulation {
         AimRing { center: self.aim.target, axis: self.aim.direction, radius }
     }
 
-    /// The camera of the exhibit for a picture of this aspect (width / height).
+    /// The camera for a picture of this aspect (width / height), turned as the last step was told.
     pub fn view(&self, aspect: f64) -> View {
-        self.exhibit.view(aspect)
+        self.exhibit.view(aspect).turned(self.eye.turn)
+    }
+
+    /// The camera of the last step.
+    pub fn sight(&self) -> &View {
+        &self.eye.view
     }
 
     /// One word that says whether two runs are the same run.

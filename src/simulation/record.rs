@@ -8,6 +8,7 @@
 //! {"begin": {"exhibit": "steel-fish", "settings": {"profile": "gallery", …}}}     steps count from here
 //! {"told": {"step": 0, "aspect": 1.7777777777777777}}
 //! {"told": {"step": 812, "speed": 3.25, "pointer": [0.4, 0.5]}}                    m/s; picture coordinates
+//! {"told": {"step": 850, "turn": [0.2, -0.1]}}                                     rad, of the camera
 //! {"told": {"step": 900, "commands": ["reset"]}}                                   this step's alone
 //! {"end": {"steps": 4800, "state": "00f3…"}}                                       what it came to
 //! ```
@@ -83,6 +84,9 @@ struct Change {
     pointer: Option<[f64; 2]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     aspect: Option<f64>,
+    /// Of the camera, rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    turn: Option<[f64; 2]>,
     /// A solver's name, or "auto": the exhibit's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     solver: Option<String>,
@@ -99,13 +103,14 @@ struct Told {
     speed: f64,
     pointer: [f64; 2],
     aspect: f64,
+    turn: [f64; 2],
     mode: Option<MotionMode>,
     hands: Vec<Hand>,
 }
 
 impl Default for Told {
     fn default() -> Self {
-        Self { speed: 0.0, pointer: CENTRE, aspect: 0.0, mode: None, hands: Vec::new() }
+        Self { speed: 0.0, pointer: CENTRE, aspect: 0.0, turn: [0.0; 2], mode: None, hands: Vec::new() }
     }
 }
 
@@ -138,6 +143,7 @@ impl Recorder {
             speed: (speed != told.speed).then_some(speed),
             pointer: (pointer != told.pointer).then_some(pointer),
             aspect: (input.aspect != told.aspect).then_some(input.aspect),
+            turn: (input.turn != told.turn).then_some(input.turn),
             solver: (input.mode != told.mode).then(|| input.mode.map_or("auto", MotionMode::name).into()),
             hands: (input.hands != told.hands).then(|| input.hands.to_vec()),
             commands: lasting.copied().collect(),
@@ -145,7 +151,8 @@ impl Recorder {
         if change == (Change { step, ..Change::default() }) {
             return None;
         }
-        (told.speed, told.pointer, told.aspect, told.mode) = (speed, pointer, input.aspect, input.mode);
+        (told.speed, told.pointer, told.mode) = (speed, pointer, input.mode);
+        (told.aspect, told.turn) = (input.aspect, input.turn);
         told.hands.clear();
         told.hands.extend_from_slice(input.hands);
         Some(text(&Line::Told(change)))
@@ -199,6 +206,7 @@ impl Part {
             }
             told.pointer = change.pointer.unwrap_or(told.pointer);
             told.aspect = change.aspect.unwrap_or(told.aspect);
+            told.turn = change.turn.unwrap_or(told.turn);
             told.mode = self.modes[self.next].unwrap_or(told.mode);
             if let Some(hands) = &change.hands {
                 told.hands.clone_from(hands);
@@ -206,8 +214,9 @@ impl Part {
             self.commands.extend_from_slice(&change.commands);
             self.next += 1;
         }
-        let Told { pointer, aspect, mode, ref hands, .. } = self.told;
-        StepInput { pointer: Some(pointer), aspect, mode, hands, commands: &self.commands, ..StepInput::default() }
+        let Told { pointer, aspect, turn, mode, ref hands, .. } = self.told;
+        let commands = &self.commands;
+        StepInput { pointer: Some(pointer), aspect, turn, mode, hands, commands, ..StepInput::default() }
     }
 
     /// Takes in a line of the part.
@@ -269,6 +278,15 @@ mod tests {
             (0.0, StepInput { aspect: 16.0 / 9.0, ..StepInput::default() }),
             (5e-324, StepInput { aspect: 16.0 / 9.0, pointer: Some(odd), ..StepInput::default() }),
             (5e-324, StepInput { aspect: 16.0 / 9.0, pointer: Some(odd), ..StepInput::default() }),
+            (
+                5e-324,
+                StepInput {
+                    aspect: 16.0 / 9.0,
+                    pointer: Some(odd),
+                    turn: [-1.0 / 3.0, 5e-324],
+                    ..StepInput::default()
+                },
+            ),
             (7.3, StepInput { hands: &hands, mode: Some(MotionMode::PositionBased), ..StepInput::default() }),
             (0.0, StepInput { commands: &[Command::Gather(u64::MAX), Command::Reset], ..StepInput::default() }),
             (0.0, StepInput::default()),
@@ -277,11 +295,11 @@ mod tests {
         let settings = Settings { seed: u64::MAX, breath_gain: 0.1 + 0.7, ..Settings::default() };
         let mut lines = vec![Recorder::head(), recorder.begin("chains", settings)];
         lines.extend(inputs.iter().zip(0..).filter_map(|((speed, input), step)| recorder.step(step, input, *speed)));
-        assert_eq!(lines.len(), 2 + 4, "two steps have nothing new");
-        lines.push(Recorder::end(6, 0xf3));
+        assert_eq!(lines.len(), 2 + 5, "two steps have nothing new");
+        lines.push(Recorder::end(7, 0xf3));
         let mut parts = parse(&(lines.join("\n") + "\n")).expect("a good record");
         let [part] = &mut parts[..] else { panic!("{} parts", parts.len()) };
-        assert_eq!((&*part.begin.exhibit, part.begin.settings, part.steps()), ("chains", settings, 6));
+        assert_eq!((&*part.begin.exhibit, part.begin.settings, part.steps()), ("chains", settings, 7));
         let mut speed = 0.0;
         for ((blown, told), step) in inputs.iter().zip(0..) {
             let again = part.input(step);
@@ -293,6 +311,7 @@ mod tests {
             assert_eq!(speed, *blown, "step {step}");
             assert_eq!(again.pointer, Some(told.pointer.unwrap_or(CENTRE)));
             assert_eq!((again.aspect, again.mode, again.hands), (told.aspect, told.mode, told.hands));
+            assert_eq!(again.turn, told.turn);
             let lasting = again.commands.iter().filter(|command| !matches!(command, Command::Blow(_)));
             assert!(lasting.eq(told.commands), "step {step}");
         }

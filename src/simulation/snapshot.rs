@@ -77,6 +77,8 @@ pub struct Snapshot {
     pub breath: BreathView,
     /// Dust.
     pub motes: Vec<Mote>,
+    /// How far the camera is turned from the exhibit's own view: to the right and up, rad.
+    pub turn: [f64; 2],
     /// Numbers for staff.
     pub diagnostics: Diagnostics,
 }
@@ -94,8 +96,9 @@ impl Snapshot {
 
     /// Becomes the moment between two snapshots, in the memory that it has.
     pub fn set_between(&mut self, first: &Self, next: &Self, alpha: f64) {
-        let Self { step, poses, breath, motes, diagnostics } = self;
+        let Self { step, poses, breath, motes, turn, diagnostics } = self;
         (*step, *breath, *diagnostics) = (next.step, next.breath, next.diagnostics);
+        *turn = std::array::from_fn(|i| first.turn[i] + (next.turn[i] - first.turn[i]) * alpha);
         poses.clone_from(&next.poses);
         motes.clone_from(&next.motes);
         for (pose, before) in poses.iter_mut().zip(&first.poses) {

@@ -123,6 +123,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
             levels: Levels::None,
         },
     };
+    let plain = TextureUse { set: 1, ..TextureUse::of(0) };
     let look = Appearance {
         name: "all".into(),
         base_color_texture: Some(texture),
@@ -138,6 +139,17 @@ fn textures_lights_and_layers_read_back_as_they_were() {
         coat: 0.5,
         sheen: [0.25, 0.5, 0.75],
         specular: 0.5,
+        details: model::Details {
+            transmission: Some(plain),
+            thickness: Some(plain),
+            specular: Some(plain),
+            specular_color: Some(plain),
+            coat: Some(plain),
+            coat_roughness: Some(plain),
+            coat_normal: Some((plain, 0.5)),
+            sheen: Some(plain),
+            sheen_roughness: Some(plain),
+        },
         ..Appearance::default()
     };
     let corner = |x: f32, y: f32| [x, y, 0.0];
@@ -150,6 +162,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
         colors: vec![[0.25, 0.5, 0.75, 1.0]; 3],
         indices: vec![0, 1, 2],
         material: Some(0),
+        ..Primitive::default()
     };
     let local = soffio::math::DMat4::from_scale_rotation_translation(
         DVec3::new(2.0, 0.5, 1.0),

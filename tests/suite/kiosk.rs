@@ -542,10 +542,14 @@ mod house;
 mod needs;
 mod opening;
 #[cfg(feature = "kiosk")]
+mod orbit;
+#[cfg(feature = "kiosk")]
 mod pages;
 mod pin;
 #[cfg(feature = "kiosk")]
 mod record;
+#[cfg(feature = "kiosk")]
+mod rest;
 #[cfg(feature = "kiosk")]
 mod rhythm;
 #[cfg(feature = "kiosk")]

@@ -10,6 +10,8 @@ mod clock;
 mod collision;
 mod contacts;
 mod curator;
+#[cfg(feature = "kiosk")]
+mod details;
 mod dynamics;
 mod escapement;
 mod exhibit;
@@ -43,6 +45,8 @@ mod robust;
 mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;
+#[cfg(feature = "kiosk")]
+mod skins;
 mod sound;
 mod space;
 mod spheres;

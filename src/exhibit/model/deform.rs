@@ -2,13 +2,15 @@
 //! the pose of their joints (3.7.3.3).
 //!
 //! A body is rigid, so what deforms is frozen once: `p = Σ wⱼ Jⱼ Iⱼ (p₀ + Σ ωₜ dₜ)`, with J a joint's node to world and I
-//! its inverse bind matrix. The result is stored in the frame of the node that shows it.
+//! its inverse bind matrix. The result is stored in the frame of the node that shows it. Where bodies carry the joints the
+//! picture goes on with the same formula (`render/skins.rs`), from what [`bind`] keeps: p₀ + Σ ωₜ dₜ, and of the shares w the
+//! four that weigh most.
 
 use gltf::Semantic;
 use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
 
 use super::accessor::{self, Broken};
-use super::{Node, Primitive};
+use super::{Influences, Node, Primitive};
 use crate::math::{DMat3, DMat4, DVec3};
 
 /// Most targets that one primitive morphs to.
@@ -34,6 +36,48 @@ pub fn deform(
     buffers: &[Vec<u8>],
     out: &mut Primitive,
 ) -> Result<(), Broken> {
+    morph(node, source, buffers, out)?;
+    if let Some(skin) = node.skin() {
+        pose(&skin, source, nodes[node.index()].world, nodes, buffers, out)?;
+    }
+    for normal in &mut out.normals {
+        *normal = DVec3::from(normal.map(f64::from)).try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
+    }
+    Ok(())
+}
+
+/// Makes `out`, the primitive as stored and not yet flattened, what the joints of a skin move.
+pub fn bind(
+    node: &gltf::Node,
+    skin: &gltf::Skin,
+    source: &gltf::Primitive,
+    buffers: &[Vec<u8>],
+    out: &mut Primitive,
+) -> Result<(), Broken> {
+    morph(node, source, buffers, out)?;
+    let joints = skin.joints().count();
+    let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); out.positions.len()];
+    shares(source, all.len(), buffers, |corner, joint, share| {
+        let index = u16::try_from(joint).ok().filter(|_| joint < joints).ok_or(NO_JOINT)?;
+        all[corner].push((index, share));
+        Ok(())
+    })?;
+    out.influences = all.into_iter().map(heaviest).collect();
+    Ok(())
+}
+
+/// The four that weigh most, their sum 1.
+fn heaviest(mut all: Vec<(u16, f32)>) -> Influences {
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    all.truncate(4);
+    let total: f32 = all.iter().map(|(_, share)| share).sum();
+    std::array::from_fn(|i| {
+        all.get(i).filter(|_| total > 0.0).map_or((0, 0.0), |(joint, share)| (*joint, share / total))
+    })
+}
+
+/// Adds the morph targets at their weights.
+fn morph(node: &gltf::Node, source: &gltf::Primitive, buffers: &[Vec<u8>], out: &mut Primitive) -> Result<(), Broken> {
     let weights = weights(node);
     for (target, weight) in source.morph_targets().take(MAX_TARGETS).zip(&weights) {
         if !weight.is_finite() {
@@ -41,12 +85,6 @@ pub fn deform(
         }
         add(target.positions(), *weight, buffers, &mut out.positions, "morphed positions")?;
         add(target.normals(), *weight, buffers, &mut out.normals, "morphed normals")?;
-    }
-    if let Some(skin) = node.skin() {
-        pose(&skin, source, nodes[node.index()].world, nodes, buffers, out)?;
-    }
-    for normal in &mut out.normals {
-        *normal = DVec3::from(normal.map(f64::from)).try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
     }
     Ok(())
 }
@@ -72,6 +110,45 @@ fn add(
     Ok(())
 }
 
+const NO_JOINT: &str = "a vertex names a joint that the skin does not have";
+
+/// For each joint of a skin what takes the bound mesh to its frame.
+pub fn inverse_bind(skin: &gltf::Skin, buffers: &[Vec<u8>]) -> Result<Vec<DMat4>, Broken> {
+    let joints = skin.joints().count();
+    let Some(inverse) = skin.inverse_bind_matrices() else { return Ok(vec![DMat4::IDENTITY; joints]) };
+    let inverse = accessor::vectors::<16>(&inverse, buffers, &[Mat4], 0.0)?;
+    if inverse.len() < joints {
+        return Err("a skin has fewer inverse bind matrices than joints".into());
+    }
+    Ok(inverse.iter().take(joints).map(|matrix| DMat4::from_cols_array(&matrix.map(f64::from))).collect())
+}
+
+/// Tells every share that is not zero: corner, joint and weight.
+fn shares(
+    source: &gltf::Primitive,
+    corners: usize,
+    buffers: &[Vec<u8>],
+    mut tell: impl FnMut(usize, usize, f32) -> Result<(), Broken>,
+) -> Result<(), Broken> {
+    for set in 0.. {
+        let (Some(joints), Some(shares)) = (source.get(&Semantic::Joints(set)), source.get(&Semantic::Weights(set)))
+        else {
+            break;
+        };
+        let joints = accessor::vectors::<4>(&joints, buffers, &[Vec4], 0.0)?;
+        let shares = accessor::vectors::<4>(&shares, buffers, &[Vec4], 0.0)?;
+        if joints.len() != corners || shares.len() != corners {
+            return Err("joints, weights and positions differ in number".into());
+        }
+        for (corner, (joints, shares)) in joints.iter().zip(&shares).enumerate() {
+            for (joint, share) in joints.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
+                tell(corner, *joint as usize, *share)?;
+            }
+        }
+    }
+    Ok(())
+}
+
 fn pose(
     skin: &gltf::Skin,
     source: &gltf::Primitive,
@@ -85,36 +162,16 @@ fn pose(
         return Err("a skinned node has a scale of zero".into());
     }
     let mut matrices: Vec<DMat4> = skin.joints().map(|joint| node_from_world * nodes[joint.index()].world).collect();
-    if let Some(inverse) = skin.inverse_bind_matrices() {
-        let inverse = accessor::vectors::<16>(&inverse, buffers, &[Mat4], 0.0)?;
-        if inverse.len() < matrices.len() {
-            return Err("a skin has fewer inverse bind matrices than joints".into());
-        }
-        for (matrix, inverse) in matrices.iter_mut().zip(&inverse) {
-            *matrix *= DMat4::from_cols_array(&inverse.map(f64::from));
-        }
+    for (matrix, inverse) in matrices.iter_mut().zip(inverse_bind(skin, buffers)?) {
+        *matrix *= inverse;
     }
     let mut blended = vec![DMat4::ZERO; out.positions.len()];
     let mut total = vec![0.0; blended.len()];
-    for set in 0.. {
-        let (Some(joints), Some(shares)) = (source.get(&Semantic::Joints(set)), source.get(&Semantic::Weights(set)))
-        else {
-            break;
-        };
-        let joints = accessor::vectors::<4>(&joints, buffers, &[Vec4], 0.0)?;
-        let shares = accessor::vectors::<4>(&shares, buffers, &[Vec4], 0.0)?;
-        if joints.len() != blended.len() || shares.len() != blended.len() {
-            return Err("joints, weights and positions differ in number".into());
-        }
-        for (i, (joints, shares)) in joints.iter().zip(&shares).enumerate() {
-            for (joint, share) in joints.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
-                let matrix =
-                    matrices.get(*joint as usize).ok_or("a vertex names a joint that the skin does not have")?;
-                blended[i] += *matrix * f64::from(*share);
-                total[i] += f64::from(*share);
-            }
-        }
-    }
+    shares(source, total.len(), buffers, |corner, joint, share| {
+        blended[corner] += *matrices.get(joint).ok_or(NO_JOINT)? * f64::from(share);
+        total[corner] += f64::from(share);
+        Ok(())
+    })?;
     for (i, matrix) in blended.iter().enumerate().filter(|(i, _)| total[*i] > 0.0) {
         // Weights that were rounded do not sum to one.
         let matrix = *matrix * (1.0 / total[i]);

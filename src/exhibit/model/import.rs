@@ -11,7 +11,7 @@ use super::super::codes::{self, Code};
 use super::super::diagnostic::{Diagnostic, Report};
 use super::super::paths;
 use super::primitive::{decode, is_drawn};
-use super::{Animation, Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, animation, deform, look};
+use super::{Animation, Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, Skin, animation, deform, look};
 use crate::math::{DMat4, DQuat, DVec3};
 
 /// Most bytes of a model file or of a buffer beside it.
@@ -153,13 +153,14 @@ impl Reader {
         let (mut nodes, roots) = self.nodes(&document)?;
         let hidden = hidden(&document, &nodes);
         let mut meshes = self.meshes(&document, &buffers)?;
-        self.frozen(&document, &buffers, &mut nodes, &mut meshes)?;
+        let skins = self.frozen(&document, &buffers, &mut nodes, &mut meshes)?;
         Ok(Model {
             nodes,
             roots,
             meshes,
+            skins,
             hidden,
-            materials: document.materials().map(|m| look::appearance(&m, |what| self.warn(what))).collect(),
+            materials: document.materials().map(|m| look::appearance(&m, &document, |what| self.warn(what))).collect(),
             images: self.images(&document, &buffers)?,
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
@@ -271,15 +272,16 @@ impl Reader {
         Ok(meshes)
     }
 
-    /// Nodes that morph or have a skin get a mesh of their own, frozen as it stands at rest.
+    /// Nodes that morph or have a skin get a mesh of their own, frozen as it stands at rest. What follows joints is returned as
+    /// it is bound, too.
     fn frozen(
         &mut self,
         document: &gltf::Document,
         buffers: &[Vec<u8>],
         nodes: &mut [Node],
         meshes: &mut Vec<Mesh>,
-    ) -> Outcome<()> {
-        let mut triangles = 0;
+    ) -> Outcome<Vec<Skin>> {
+        let (mut triangles, mut skins) = (0, Vec::new());
         for node in document.nodes().filter(deform::deforms) {
             let Some(mesh) = node.mesh() else { continue };
             let primitives = mesh.primitives().filter(is_drawn).map(|primitive| {
@@ -295,10 +297,22 @@ impl Reader {
                     self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_TRIANGLES} triangles in skins"))
                 );
             }
+            if let Some(skin) = node.skin() {
+                let bound = mesh.primitives().filter(is_drawn).map(|primitive| {
+                    decode(&primitive, buffers, |out| deform::bind(&node, &skin, &primitive, buffers, out))
+                });
+                let broken = |what| self.broken(format_args!("node \"{name}\": {what}"));
+                skins.push(Skin {
+                    node: node.index(),
+                    joints: skin.joints().map(|joint| joint.index()).collect(),
+                    inverse_bind: deform::inverse_bind(&skin, buffers).map_err(broken)?,
+                    bound: bound.collect::<Result<_, _>>().map_err(broken)?,
+                });
+            }
             nodes[node.index()].mesh = Some(meshes.len());
             meshes.push(Mesh { name, primitives });
         }
-        Ok(())
+        Ok(skins)
     }
 
     fn images(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Image>> {

@@ -6,17 +6,9 @@ use gltf::json::Value;
 use gltf::material::AlphaMode as GltfAlpha;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
-use super::{AlphaMode, Appearance, Levels, Primitive, Sampler, TextureUse, Wrap};
+use super::{AlphaMode, Appearance, Details, Levels, Primitive, Sampler, TextureUse, Wrap};
 use crate::math::{self, DVec3};
 
-/// Textures of extensions that are not drawn: their factor alone counts.
-const UNDRAWN: [(&str, &[&str]); 5] = [
-    ("KHR_materials_transmission", &["transmissionTexture"]),
-    ("KHR_materials_volume", &["thicknessTexture"]),
-    ("KHR_materials_specular", &["specularTexture", "specularColorTexture"]),
-    ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]),
-    ("KHR_materials_sheen", &["sheenColorTexture", "sheenRoughnessTexture"]),
-];
 /// Layers of a surface that are not drawn at all.
 const IGNORED: [&str; 4] = [
     "KHR_materials_anisotropy",
@@ -25,8 +17,8 @@ const IGNORED: [&str; 4] = [
     "KHR_materials_diffuse_transmission",
 ];
 
-/// The metallic–roughness appearance of a glTF material; `note` is told what is not drawn.
-pub fn appearance(material: &gltf::Material, mut note: impl FnMut(String)) -> Appearance {
+/// The metallic–roughness appearance of a glTF material of `document`; `note` is told what is not drawn.
+pub fn appearance(material: &gltf::Material, document: &gltf::Document, mut note: impl FnMut(String)) -> Appearance {
     let surface = material.pbr_metallic_roughness();
     let strength = material.emissive_strength().unwrap_or(1.0);
     let name = material.name().unwrap_or_default().to_owned();
@@ -54,6 +46,34 @@ pub fn appearance(material: &gltf::Material, mut note: impl FnMut(String)) -> Ap
     let occlusion_texture = material
         .occlusion_texture()
         .map(|t| (texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.strength()));
+    // Textures of extensions are named by index: one that does not exist is none.
+    let mut detail = |extension: &str, key: &str| {
+        let info = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key))?;
+        let index = info.get("index")?.as_u64()? as usize;
+        let set = info.get("texCoord").and_then(Value::as_u64).unwrap_or(0) as u32;
+        let moved = info.get("extensions").and_then(|e| e.get(MOVED));
+        let scale = info.get("scale").and_then(Value::as_f64).unwrap_or(1.0) as f32;
+        Some((texture(document.textures().nth(index)?, set, moved), scale))
+    };
+    let coat_normal = detail("clearcoat", "clearcoatNormalTexture");
+    let mut detail = |extension: &str, key: &str| detail(extension, key).map(|(texture, _)| texture);
+    let details = Details {
+        transmission: detail("transmission", "transmissionTexture"),
+        thickness: detail("volume", "thicknessTexture"),
+        specular: detail("specular", "specularTexture"),
+        specular_color: detail("specular", "specularColorTexture"),
+        coat: detail("clearcoat", "clearcoatTexture"),
+        coat_roughness: detail("clearcoat", "clearcoatRoughnessTexture"),
+        coat_normal,
+        sheen: detail("sheen", "sheenColorTexture"),
+        sheen_roughness: detail("sheen", "sheenRoughnessTexture"),
+    };
+    let mut samplers = details.all().into_iter().flatten().map(|texture| texture.sampler);
+    if samplers.next().is_some_and(|first| samplers.any(|other| other != first)) {
+        note(format!(
+            "material \"{name}\": the textures of its extensions are all wrapped and filtered like the first"
+        ));
+    }
     let number = |extension: &str, key: &str, default: f64| {
         let value = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_f64());
         value.filter(|v| v.is_finite()).unwrap_or(default) as f32
@@ -63,13 +83,6 @@ pub fn appearance(material: &gltf::Material, mut note: impl FnMut(String)) -> Ap
         std::array::from_fn(|i| list.and_then(|l| l.get(i)?.as_f64()).unwrap_or(default) as f32)
     };
     let share = |x: f32| x.clamp(0.0, 1.0);
-    for (extension, keys) in UNDRAWN {
-        for key in keys {
-            if material.extension_value(extension).is_some_and(|e| e.get(key).is_some()) {
-                note(format!("material \"{name}\": {key} of {extension} is not drawn, its factor is"));
-            }
-        }
-    }
     for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
         note(format!("material \"{name}\": {extension} is not drawn"));
     }
@@ -103,6 +116,7 @@ pub fn appearance(material: &gltf::Material, mut note: impl FnMut(String)) -> Ap
         coat_roughness: share(number("clearcoat", "clearcoatRoughnessFactor", 0.0)),
         sheen: color("sheen", "sheenColorFactor", 0.0),
         sheen_roughness: share(number("sheen", "sheenRoughnessFactor", 0.0)),
+        details,
         name: name.clone(),
     }
 }
@@ -151,6 +165,10 @@ pub fn flatten(primitive: &mut Primitive) {
     let colors = std::mem::take(&mut primitive.colors);
     if !colors.is_empty() {
         primitive.colors = indices.iter().map(|&i| colors[i as usize]).collect();
+    }
+    let influences = std::mem::take(&mut primitive.influences);
+    if !influences.is_empty() {
+        primitive.influences = indices.iter().map(|&i| influences[i as usize]).collect();
     }
     // Tangents without normals mean nothing (3.7.2.1).
     primitive.tangents.clear();

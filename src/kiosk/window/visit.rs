@@ -86,6 +86,12 @@ impl App<'_> {
             Request::PressOnce => self.needs.press_once ^= true,
             Request::Dwell => self.needs.dwell ^= true,
             Request::Calm => self.needs.calm ^= true,
+            Request::Round => {
+                self.needs.round ^= true;
+                // Whoever wants to look round wants to see the work.
+                self.menu.open = false;
+                self.visitor.let_go();
+            }
             Request::Speak => {
                 let hush = self.aloud.press();
                 self.utter(hush);

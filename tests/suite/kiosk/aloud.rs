@@ -125,6 +125,7 @@ fn keys_that_move_the_mark_are_told_the_button_once_something_was_read() {
     for (request, name, language) in [
         (Request::Large, "Large text: on", "en"),
         (Request::Calm, "Less motion: off", "en"),
+        (Request::Round, "Look round: off", "en"),
         (Request::Menu, "Back to the work", "en"),
         (Request::Work(2), "Work 2", "en"),
         (Request::Language(2), "Italiano", "it"),

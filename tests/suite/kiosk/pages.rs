@@ -204,6 +204,7 @@ fn every_button_is_large_enough_apart_and_on_the_glass_in_every_language() {
             for reading in READINGS {
                 let mut visitor = Before::new(&exhibit, glass);
                 visitor.needs.reading = reading;
+                visitor.needs.round = reading.contrast;
                 for language in visitor.languages.clone() {
                     visitor.language = language.clone();
                     for open in [false, true] {
@@ -246,7 +247,7 @@ fn the_page_is_reached_and_left_by_finger_and_everything_on_it_is_found() {
         }
         let languages = (0..visitor.languages.len()).map(Request::Language);
         let rest = [Request::Louder(1), Request::Louder(-1), Request::Large, Request::Contrast, Request::Listen];
-        let rest = rest.into_iter().chain([Request::PressOnce, Request::Calm, Request::Speak]);
+        let rest = rest.into_iter().chain([Request::PressOnce, Request::Calm, Request::Round, Request::Speak]);
         for wanted in (0..visitor.works).map(Request::Work).chain(languages).chain(rest).chain([Request::Menu]) {
             assert!(found.contains(&wanted), "{glass:?}: {wanted:?} is nowhere");
         }

@@ -28,13 +28,23 @@ const SCREENS: [Screen; 5] = [
     ("hold-languages", |visitor| visitor.hears = false),
     ("more-languages", |visitor| visitor.menu.open = true),
     ("front-large", |visitor| {
-        visitor.needs =
-            Needs { reading: Reading { large: true, contrast: true }, press_once: true, dwell: true, calm: true };
+        visitor.needs = Needs {
+            reading: Reading { large: true, contrast: true },
+            press_once: true,
+            dwell: true,
+            calm: true,
+            round: false,
+        };
     }),
     ("more-large", |visitor| {
         visitor.menu.open = true;
-        visitor.needs =
-            Needs { reading: Reading { large: true, contrast: true }, press_once: true, dwell: true, calm: true };
+        visitor.needs = Needs {
+            reading: Reading { large: true, contrast: true },
+            press_once: true,
+            dwell: true,
+            calm: true,
+            round: false,
+        };
     }),
 ];
 

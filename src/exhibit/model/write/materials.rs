@@ -60,7 +60,14 @@ impl Writer {
         if look.emissive != [0.0; 3] {
             out["emissiveFactor"] = json!(look.emissive.map(|c| c / strength));
         }
-        for (name, value) in extensions(look, strength) {
+        for (name, mut value) in extensions(look, strength) {
+            for (key, at, scale) in details(look, name) {
+                let Some(mut info) = self.texture(model, at, images) else { continue };
+                if let Some(scale) = scale {
+                    info["scale"] = json!(scale);
+                }
+                value[key] = info;
+            }
             out["extensions"][name] = value;
             self.used.push(name);
         }
@@ -132,6 +139,24 @@ fn moved([u, v]: [[f32; 3]; 2]) -> Value {
     json!({ "offset": [x, y], "rotation": atan2(-c, a), "scale": [width, height] })
 }
 
+/// Textures of an extension, by their names there; of normals with their scale.
+fn details(look: &Appearance, extension: &str) -> Vec<(&'static str, TextureUse, Option<f32>)> {
+    let of = &look.details;
+    let named: Vec<(&'static str, Option<TextureUse>)> = match extension {
+        "KHR_materials_transmission" => vec![("transmissionTexture", of.transmission)],
+        "KHR_materials_volume" => vec![("thicknessTexture", of.thickness)],
+        "KHR_materials_specular" => vec![("specularTexture", of.specular), ("specularColorTexture", of.specular_color)],
+        "KHR_materials_clearcoat" => {
+            vec![("clearcoatTexture", of.coat), ("clearcoatRoughnessTexture", of.coat_roughness)]
+        }
+        "KHR_materials_sheen" => vec![("sheenColorTexture", of.sheen), ("sheenRoughnessTexture", of.sheen_roughness)],
+        _ => Vec::new(),
+    };
+    let normal = of.coat_normal.filter(|_| extension == "KHR_materials_clearcoat");
+    let normal = normal.map(|(at, scale)| ("clearcoatNormalTexture", at, Some(scale)));
+    named.into_iter().filter_map(|(key, at)| Some((key, at?, None))).chain(normal).collect()
+}
+
 /// What the core of glTF has no words for.
 fn extensions(look: &Appearance, strength: f32) -> Vec<(&'static str, Value)> {
     let mut out = Vec::new();
@@ -146,7 +171,8 @@ fn extensions(look: &Appearance, strength: f32) -> Vec<(&'static str, Value)> {
     if look.ior != plain.ior {
         out.push(("KHR_materials_ior", json!({ "ior": look.ior })));
     }
-    if look.specular != plain.specular || look.specular_color != plain.specular_color {
+    let tinted = look.details.specular.or(look.details.specular_color).is_some();
+    if tinted || look.specular != plain.specular || look.specular_color != plain.specular_color {
         let (factor, color) = (look.specular, look.specular_color);
         out.push(("KHR_materials_specular", json!({ "specularFactor": factor, "specularColorFactor": color })));
     }

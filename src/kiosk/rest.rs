@@ -1,0 +1,134 @@
+//! Fewer pictures while nothing in them changes, and all of them again with the first breath, touch or motion.
+//!
+//! Two look on. [`Stillness`], on the simulation's thread, sees every step: nobody blows, no hand holds, no bright dust is in
+//! the air, the camera stands, and neither a body nor the ring of the aim has gone a quarter of a pixel of a large picture
+//! within a tenth of a second, for half a second. [`Rest`], in the window, adds what it alone knows: that nobody touches
+//! anything and nothing on the page fades, fills or closes. Only where both are at rest the next picture may wait for
+//! [`PICTURE_S`]; the step in which the first ends wakes the window from that wait.
+//!
+//! A point of a body at r from its node has gone at most |Δp| + r |Δφ|, and is seen to have gone that over the height of the
+//! picture at its distance.
+
+use std::sync::Arc;
+
+use crate::exhibit::{Exhibit, View};
+use crate::math::{DVec3, Pose};
+use crate::simulation::{AimRing, STEPS_PER_SECOND, Snapshot};
+
+/// From picture to picture at rest, s.
+pub const PICTURE_S: f64 = 0.1;
+/// All must have been quiet for so long, s.
+pub const QUIET_S: f64 = 0.5;
+/// What nobody sees to have moved, picture heights: a quarter of a pixel of 2160.
+pub const UNSEEN: f64 = 0.25 / 2160.0;
+/// Dust that is brighter is seen to fly. What floats in still air is fainter, a twelfth of white, and goes a pixel or two from
+/// picture to picture.
+pub const BRIGHT: f32 = 0.08;
+/// Nearer to the eye than this nothing is taken for, m.
+const NEAREST: f64 = 0.05;
+
+/// Steps between two pictures at rest, and steps of quiet.
+const LOOK: u64 = (PICTURE_S * STEPS_PER_SECOND as f64) as u64;
+const QUIET: u64 = (QUIET_S * STEPS_PER_SECOND as f64) as u64;
+
+/// Whether an exhibit stands still, step by step.
+#[derive(Clone, Debug, Default)]
+pub struct Stillness {
+    exhibit: Option<Arc<Exhibit>>,
+    /// How far each body reaches from its node, m.
+    reaches: Vec<f64>,
+    /// What is compared with: poses, ring and turn some steps ago.
+    poses: Vec<Pose>,
+    ring: AimRing,
+    turn: [f64; 2],
+    age: u64,
+    quiet: u64,
+}
+
+impl Stillness {
+    /// Takes notice of a step, seen from `view`.
+    pub fn note(&mut self, exhibit: &Arc<Exhibit>, now: &Snapshot, view: &View) {
+        if self.exhibit.as_ref().is_none_or(|known| !Arc::ptr_eq(known, exhibit)) {
+            *self = Self { exhibit: Some(exhibit.clone()), reaches: exhibit.reaches(), ..Self::default() };
+            self.remember(now);
+        }
+        self.age += 1;
+        self.quiet += 1;
+        let breath = &now.breath;
+        let flies = now.motes.iter().any(|mote| mote.brightness > BRIGHT);
+        let blown = breath.speed > 0.0 || breath.estimate.speed > 0.0;
+        if blown || flies || now.diagnostics.hands > 0 || now.turn != self.turn || self.moved(now, view) > UNSEEN {
+            self.quiet = 0;
+            self.remember(now);
+        } else if self.age >= LOOK {
+            self.remember(now);
+        }
+    }
+
+    /// Has nothing moved for a while?
+    pub fn is_still(&self) -> bool {
+        self.quiet >= QUIET
+    }
+
+    fn remember(&mut self, now: &Snapshot) {
+        self.poses.clone_from(&now.poses);
+        (self.ring, self.turn, self.age) = (now.breath.ring, now.turn, 0);
+    }
+
+    /// The farthest that anything has gone since, picture heights.
+    fn moved(&self, now: &Snapshot, view: &View) -> f64 {
+        let forward = view.axes().2;
+        let seen = |at: DVec3, reach: f64, way: f64| {
+            let depth = ((at - view.eye).dot(forward) - reach).max(NEAREST);
+            way / view.height_at(depth)
+        };
+        let body = |((before, pose), reach): ((&Pose, &Pose), &f64)| {
+            // The chord of the half-angle: |Δφ| = 2 asin of it, at most π/2 times as much as twice the chord.
+            let turned = (before.rotation.conjugate() * pose.rotation).xyz().length();
+            let way = before.position.distance(pose.position) + reach * std::f64::consts::PI * turned;
+            seen(pose.position, *reach, way)
+        };
+        let bodies = self.poses.iter().zip(&now.poses).zip(&self.reaches).map(body);
+        let (before, ring) = (&self.ring, &now.breath.ring);
+        let tilt = ring.radius * before.axis.distance(ring.axis);
+        let ring_way = before.center.distance(ring.center) + (before.radius - ring.radius).abs() + tilt;
+        bodies.fold(seen(ring.center, ring.radius, ring_way), f64::max)
+    }
+}
+
+/// What the window knows when it draws a picture.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Signs {
+    /// Does the exhibit stand still?
+    pub still: bool,
+    /// Does something on the page fade, fill or close, or is a panel open?
+    pub page_moves: bool,
+    /// Inputs so far, of any kind.
+    pub inputs: u64,
+}
+
+/// Whether pictures may wait.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rest {
+    inputs: u64,
+    /// When something was last seen to happen, s.
+    busy: f64,
+    rests: bool,
+}
+
+impl Rest {
+    /// Takes notice of a picture at `time`, s; says whether the next one may wait.
+    pub fn note(&mut self, time: f64, signs: Signs) -> bool {
+        if !signs.still || signs.page_moves || signs.inputs != self.inputs {
+            (self.busy, self.inputs) = (time, signs.inputs);
+        }
+        // The exhibit has been quiet for its own while already.
+        self.rests = signs.still && time - self.busy >= QUIET_S;
+        self.rests
+    }
+
+    /// Does the next picture wait?
+    pub fn rests(&self) -> bool {
+        self.rests
+    }
+}
