@@ -16,6 +16,9 @@ const QUIET: usize = (QUIET_S * STEPS_PER_SECOND as f64) as usize;
 /// Steps between two pictures at rest.
 const LOOK: f64 = PICTURE_S * STEPS_PER_SECOND as f64;
 
+/// Something that ends a rest, by its name.
+type Sign = (&'static str, fn(&mut Snapshot));
+
 /// Somebody looks on at a work whose moments are made.
 struct Watch {
     exhibit: Arc<Exhibit>,
@@ -53,7 +56,7 @@ impl Watch {
 fn what_stands_still_is_at_rest_after_half_a_second_and_each_sign_ends_it_in_its_step() {
     let mut watch = Watch::new("pendulum");
     assert!(!watch.steps(QUIET - 1, |_| ()) && watch.step(|_| ()));
-    let signs: [(&str, fn(&mut Snapshot)); 8] = [
+    let signs: [Sign; 8] = [
         ("a breath", |moment| moment.breath.speed = 0.1),
         ("the detector", |moment| moment.breath.estimate.speed = 0.1),
         ("a hand", |moment| moment.diagnostics.hands = 1),
