@@ -1,8 +1,9 @@
 // The gallery around the work: six inner faces of a box. Static light comes from a baked map, lamps are evaluated
 // here, and their shadows on the wall behind the work and on the floor are read from the textures of shadows.wgsl.
 
-// Which shadow the faces drawn receive: 0 the wall's, 1 the floor's, 2 none.
-override RECEIVER: u32 = 2u;
+// Only these two faces receive shadows.
+const WALL: u32 = 0u;
+const FLOOR: u32 = 1u;
 
 // Perceptual; oiled boards, long walked on.
 const FLOOR_ROUGHNESS: f32 = 0.42;
@@ -80,19 +81,19 @@ fn bicubic_layer(t: texture_2d_array<f32>, at: vec2f, layer: i32) -> f32 {
     return k.g0.y * top + k.g1.y * low;
 }
 
-// Place on the receiving plane's textures.
-fn plane_place(p: vec3f) -> vec2f {
-    let q = globals.planes[RECEIVER & 1u];
+// Place on a receiving plane's textures.
+fn plane_place(p: vec3f, face: u32) -> vec2f {
+    let q = globals.planes[face];
     return vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
 }
 
 // Part of the room's own light that static parts leave.
-fn open_sky(p: vec3f) -> f32 {
-    if RECEIVER > 1u {
+fn open_sky(p: vec3f, face: u32) -> f32 {
+    if face > FLOOR {
         return 1.0;
     }
-    let at = plane_place(p);
-    let open = bicubic_layer(ambient, at, i32(RECEIVER & 1u));
+    let at = plane_place(p, face);
+    let open = bicubic_layer(ambient, at, i32(face));
     return select(1.0, open, all(at >= vec2f(0.0)) && all(at <= vec2f(1.0)));
 }
 
@@ -122,13 +123,13 @@ fn floor_gloss(p: vec3f, normal: vec3f) -> vec3f {
     return textureSampleLevel(environment, smooth_sampler, seen, FLOOR_ROUGHNESS * globals.env_lods).rgb * (0.04 * ab.x + ab.y);
 }
 
-fn blocked(p: vec3f) -> vec2f {
-    if RECEIVER > 1u {
+fn blocked(p: vec3f, face: u32) -> vec2f {
+    if face > FLOOR {
         return vec2f(0.0);
     }
-    let at = plane_place(p);
+    let at = plane_place(p, face);
     var hidden: vec2f;
-    if RECEIVER == 0u {
+    if face == WALL {
         hidden = bicubic(wall_shadow, at);
     } else {
         hidden = bicubic(floor_shadow, at);
@@ -150,21 +151,21 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     }
     let map = textureSampleLevel(lightmap, smooth_sampler, uv * 0.5 + 0.5, i32(v.face), 0.0);
     // The map's fourth channel is the radiance of a luminous field.
-    let albedo = select(globals.wall_albedo, globals.floor_albedo, v.face == 1u);
-    let hidden = blocked(v.position);
-    let open = open_sky(v.position);
+    let albedo = select(globals.wall_albedo, globals.floor_albedo, v.face == FLOOR);
+    let hidden = blocked(v.position, v.face);
+    let open = open_sky(v.position, v.face);
     var irradiance = map.rgb * open;
     for (var i = 0u; i < globals.lamp_count; i++) {
         let towards = normalize(globals.lamps[i].position - v.position);
         irradiance += lamp_beam(i, v.position) * max(dot(normal, towards), 0.0) * (1.0 - hidden[i]);
     }
     var radiance = albedo / PI * irradiance + vec3f(map.a);
-    if RECEIVER == 1u {
+    if v.face == FLOOR {
         let pixel = globals.pixel_angle * length(globals.eye - v.position);
         radiance *= boards(v.local.x * globals.room_half.x, pixel);
         radiance += floor_gloss(v.position, normal) * open;
     }
-    if RECEIVER != 1u {
+    if v.face != FLOOR {
         // The walls end a finger above the floor: a dark line, covered in parts of pixels.
         let away = globals.eye - v.position;
         let pixel = globals.pixel_angle * length(away) / globals.room_half.y;

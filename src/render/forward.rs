@@ -272,10 +272,8 @@ impl Renderer {
             pass.set_pipeline(&self.fixtures.pipelines.backdrop);
             pass.draw(0..3, 0..1);
         } else {
-            for (pipeline, corners) in self.fixtures.pipelines.room.iter().zip([0..6, 6..12, 12..36]) {
-                pass.set_pipeline(pipeline);
-                pass.draw(corners, 0..1);
-            }
+            pass.set_pipeline(&self.fixtures.pipelines.room);
+            pass.draw(0..36, 0..1);
         }
         pass.set_vertex_buffer(0, self.work.ribbons_buffer.slice(..));
         for (part, ribbons) in &self.work.outlines.draws {

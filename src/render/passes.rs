@@ -105,8 +105,8 @@ impl Plan {
         let map = Self::shadow_map(self.map);
         shadows.push(map[1]);
         passes.push(Pass { label: "shadow map", writes: map.into(), reads: Vec::new(), draws: 1 });
-        // The room's three pipelines or the backdrop, the wires, the motes.
-        let draws = self.mesh_draws + if self.planes.is_some() { 3 } else { 1 } + 2;
+        // The room or the backdrop, the wires, the motes.
+        let draws = self.mesh_draws + 3;
         let writes = self.picture();
         passes.push(Pass { label: "picture", writes: writes.into(), reads: shadows, draws });
         if self.samples > 1 {

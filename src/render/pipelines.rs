@@ -37,8 +37,8 @@ pub(super) struct Pipelines {
     /// What those are made of.
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
-    /// Wall, floor, and the four faces that receive no shadow.
-    pub room: [wgpu::RenderPipeline; 3],
+    /// All six faces.
+    pub room: wgpu::RenderPipeline,
     pub backdrop: wgpu::RenderPipeline,
     pub wires: wgpu::RenderPipeline,
     pub motes: wgpu::RenderPipeline,
@@ -300,10 +300,7 @@ impl Pipelines {
             ribbons: BTreeMap::new(),
             module: module("forward"),
             layout: layout("material", &[&layouts.frame, &layouts.light, &layouts.material]),
-            room: [0.0, 1.0, 2.0].map(|receiver| {
-                let constants = [constants[0], constants[1], constants[2], ("RECEIVER", receiver)];
-                pipeline(device, Fixed { constants: &constants, ..base() })
-            }),
+            room: pipeline(device, base()),
             backdrop: pipeline(
                 device,
                 Fixed {
@@ -371,7 +368,7 @@ impl Pipelines {
 
     /// How many there are.
     pub fn count(&self) -> usize {
-        let fixed = self.room.len() + self.plane_meshes.len() + self.plane_wires.len() + self.plane_sheets.len() + 6;
+        let fixed = self.plane_meshes.len() + self.plane_wires.len() + self.plane_sheets.len() + 7;
         fixed + self.ribbons.len() + self.forward.values().map(Vec::len).sum::<usize>()
     }
 

@@ -19,8 +19,9 @@ const DETECTION_5_DB: f64 = 22.0 / 24.0;
 /// deviations). The goal is 0.75, on recordings; the set has four of these, of which three are heard, too few to hold anything
 /// to.
 const DETECTION_0_DB: f64 = 0.4;
-/// Of made breaths that the kiosk answers, as loudly as it can.
-const DETECTION_ANSWERED: f64 = 0.85;
+/// Of made breaths that the kiosk answers, as loudly as it can, half of them while it rings from before: 0.85 is reached over
+/// hours, less what three dozen may scatter by.
+const DETECTION_ANSWERED: f64 = 0.72;
 /// Wind without breath, per hour of speech, crowd, steps, music, rain, thunder and machines: the goal. The set holds some
 /// five minutes of it, so that one trigger is 11 an hour.
 const FALSE_PER_HOUR: f64 = 12.0;
@@ -122,11 +123,14 @@ fn a_made_breath_is_heard_and_a_made_museum_is_not() {
     assert!(drowned.share() >= DETECTION_0_DB, "{drowned}");
     assert!(scenes(Condition::Museum, 3, PLAIN).ghosts <= MUSEUM_GHOSTS);
     assert_eq!(scenes(Condition::Impulses, 6, PLAIN).ghosts, 0, "knocks, claps, pops, doors");
+    let (mut heard, mut blown) = (0, 0);
     for room in 0..3 {
         assert_eq!(scenes(Condition::OwnVoice(room), 1, PLAIN).ghosts, 0, "the kiosk in room {room}");
-        let answered = scenes(Condition::Answered(room), 8, PLAIN);
-        assert!(answered.share() >= DETECTION_ANSWERED, "what the kiosk answers in room {room}: {answered}");
+        let answered = scenes(Condition::Answered(room), 10, PLAIN);
+        (heard, blown) = (heard + answered.heard.0, blown + answered.heard.1);
     }
+    let share = heard as f64 / blown as f64;
+    assert!(share >= DETECTION_ANSWERED, "{heard} of {blown} that the kiosk answers");
 }
 
 #[test]
