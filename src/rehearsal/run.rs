@@ -1,5 +1,6 @@
 //! The day, step by step.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::day::{Day, Duty, Task};
@@ -92,6 +93,8 @@ struct Course<'a> {
     answers: Vec<(usize, Option<judge::Answer>)>,
     /// Entries whose doing made wind, and after how long, s.
     heard: Vec<(usize, f64)>,
+    /// What the ear said in the second after each entry's onset, and how often.
+    ear: Vec<BTreeMap<String, u32>>,
     shuffled: Vec<(f64, bool)>,
     phantoms: Vec<Nobody>,
     /// When attract mode last played, and when there last was wind inside the kiosk, s.
@@ -104,6 +107,7 @@ impl<'a> Course<'a> {
     fn new(rehearsal: &'a Rehearsal, day: Day, house: House) -> Result<Self, RehearsalError> {
         let eyes = Eyes::new(&rehearsal.works)?;
         let machine = Machine::new(rehearsal.works[0].clone(), &rehearsal.site);
+        let entries = day.entries.len();
         Ok(Self {
             rehearsal,
             duties: day.duties.iter().map(|duty| (*duty, true)).collect(),
@@ -125,6 +129,7 @@ impl<'a> Course<'a> {
             woke: Vec::new(),
             answers: Vec::new(),
             heard: Vec::new(),
+            ear: vec![BTreeMap::new(); entries],
             shuffled: Vec::new(),
             phantoms: Vec::new(),
             attracted: f64::NEG_INFINITY,
@@ -239,10 +244,10 @@ impl<'a> Course<'a> {
     /// Does the kiosk blow within a second of what the visitor does?
     fn note_heard(&mut self, now: f64) {
         let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
-        if let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now))
-            && self.machine.stage.snapshot().breath.speed > 0.0
-            && self.heard.last().is_none_or(|(entry, _)| *entry != self.current)
-        {
+        let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now)) else { return };
+        let breath = &self.machine.stage.snapshot().breath;
+        *self.ear[self.current].entry(format!("{:?}", breath.estimate.reason)).or_default() += 1;
+        if breath.speed > 0.0 && self.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
             self.heard.push((self.current, now - onset));
         }
     }
@@ -309,6 +314,7 @@ impl<'a> Course<'a> {
                 onset_s: onset,
                 since_s: last.is_finite().then_some(onset - last),
                 work: rehearsal.works[entry.work].id.clone(),
+                ear: most_frequent(&self.ear[*index]),
                 heard_after_s: self.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
                 changed_after_s: answer.and_then(|a| a.changed).map(after),
                 seen_after_s: answer.and_then(|a| a.seen).map(after),
@@ -352,6 +358,13 @@ impl<'a> Course<'a> {
         }
         .conclude(&self.shuffled)
     }
+}
+
+/// The most frequent first.
+fn most_frequent(counts: &BTreeMap<String, u32>) -> Vec<(String, u32)> {
+    let mut counts: Vec<_> = counts.iter().map(|(said, count)| (said.clone(), *count)).collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    counts
 }
 
 /// Is this the step in which `at` lies?
