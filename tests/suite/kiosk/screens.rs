@@ -23,28 +23,23 @@ const SHRUNK: (u32, u32) = (800, 450);
 /// A screen: its name, and how a visitor has come there.
 type Screen = (&'static str, fn(&mut Before));
 
+/// Of a visitor who needs much.
+const MANY: Needs = Needs {
+    reading: Reading { large: true, contrast: true },
+    press_once: true,
+    dwell: true,
+    calm: true,
+    round: false,
+};
+
 const SCREENS: [Screen; 5] = [
     ("front-languages", |_| ()),
     ("hold-languages", |visitor| visitor.hears = false),
     ("more-languages", |visitor| visitor.menu.open = true),
-    ("front-large", |visitor| {
-        visitor.needs = Needs {
-            reading: Reading { large: true, contrast: true },
-            press_once: true,
-            dwell: true,
-            calm: true,
-            round: false,
-        };
-    }),
+    ("front-large", |visitor| visitor.needs = MANY),
     ("more-large", |visitor| {
         visitor.menu.open = true;
-        visitor.needs = Needs {
-            reading: Reading { large: true, contrast: true },
-            press_once: true,
-            dwell: true,
-            calm: true,
-            round: false,
-        };
+        visitor.needs = MANY;
     }),
 ];
 
