@@ -59,6 +59,12 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let exhibit = super::open(&args.exhibit)?;
+    if !exhibit.shapes.is_empty() {
+        eprintln!(
+            "left out: key frames of scales and morph weights ({}): shapes stay as they are at rest",
+            exhibit.shapes.len()
+        );
+    }
     if let Some(path) = &args.mjcf {
         let left_out = mjcf::write(&exhibit, path).map_err(Failure::input)?;
         left_out.iter().for_each(|what| eprintln!("left out: {what}"));

@@ -29,6 +29,7 @@ mod paths;
 pub mod quantity;
 mod resolve;
 pub mod shape;
+pub mod shapes;
 pub mod sidecar;
 mod source;
 pub mod view;
@@ -69,6 +70,8 @@ pub struct Exhibit {
     pub springs: Vec<Spring>,
     /// Bodies that follow key frames or a path.
     pub drives: Vec<Drive>,
+    /// Key frames of shapes, which the picture alone shows.
+    pub shapes: Vec<shapes::ShapeTrack>,
     /// Length of one run, s; may be infinite.
     pub duration: f64,
     /// Does it gather itself from scattered parts when it comes on?

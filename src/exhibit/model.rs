@@ -35,6 +35,8 @@ pub struct Model {
     pub animations: Vec<Animation>,
     /// Meshes that follow joints; the mesh of each one's node is as it stands at rest.
     pub skins: Vec<Skin>,
+    /// Meshes without joints whose weights key frames change; the mesh of each one's node is as it stands at rest.
+    pub morphs: Vec<Morph>,
     /// Nodes that are not drawn, sorted: hidden by KHR_node_visibility, or below one that is.
     pub hidden: Vec<usize>,
 }
@@ -78,8 +80,28 @@ pub struct Skin {
     pub joints: Vec<usize>,
     /// For each joint, what takes the mesh as it is bound to the joint's frame.
     pub inverse_bind: Vec<DMat4>,
-    /// The primitives of the node's mesh as they are bound, corner by corner.
+    /// The primitives of the node's mesh as they are bound, corner by corner; not morphed where key frames change its weights.
     pub bound: Vec<Primitive>,
+}
+
+/// A mesh whose morph weights key frames change (glTF 2.0, 3.7.2.2).
+#[derive(Clone, Debug, Default)]
+pub struct Morph {
+    /// The node that shows it.
+    pub node: usize,
+    /// The primitives of its mesh before any target is added, with their targets.
+    pub primitives: Vec<Primitive>,
+}
+
+/// A morph target: what is added to each corner for a weight of one. A list is empty where the file has none.
+#[derive(Clone, Debug, Default)]
+pub struct MorphTarget {
+    /// m.
+    pub positions: Vec<[f32; 3]>,
+    /// To unit normals.
+    pub normals: Vec<[f32; 3]>,
+    /// To unit tangents.
+    pub tangents: Vec<[f32; 3]>,
 }
 
 /// Joints of its skin that a corner follows, and by which shares: their sum is 1, or 0 where it follows none.
@@ -102,6 +124,10 @@ pub struct Primitive {
     pub colors: Vec<[f32; 4]>,
     /// Joints of a bound primitive's corners; empty elsewhere.
     pub influences: Vec<Influences>,
+    /// What key frames morph it to; empty elsewhere.
+    pub targets: Vec<MorphTarget>,
+    /// Has the file no normals? Then they are those of the triangles, none of which shares a corner.
+    pub flat: bool,
     /// Three per triangle.
     pub indices: Vec<u32>,
     /// Index of the appearance.

@@ -1,7 +1,7 @@
 //! Fewer pictures while nothing in them changes, and all of them again with the first breath, touch or motion.
 //!
-//! Two look on. [`Stillness`], on the simulation's thread, sees every step: nobody blows, no hand holds, no bright dust is in
-//! the air, the camera stands, and neither a body nor the ring of the aim has gone a quarter of a pixel of a large picture
+//! Two look on. [`Stillness`], on the simulation's thread, sees every step: nobody blows, no hand holds, no key frames
+//! change a shape, no bright dust is in the air, the camera stands, and neither a body nor the ring of the aim has gone a quarter of a pixel of a large picture
 //! within a tenth of a second, for half a second. [`Rest`], in the window, adds what it alone knows: that nobody touches
 //! anything and nothing on the page fades, fills or closes. Only where both are at rest the next picture may wait for
 //! [`PICTURE_S`]; the step in which the first ends wakes the window from that wait.
@@ -55,9 +55,16 @@ impl Stillness {
         self.age += 1;
         self.quiet += 1;
         let breath = &now.breath;
+        let shaped = exhibit.shapes.iter().any(|track| track.moves(now.time));
         let flies = now.motes.iter().any(|mote| mote.brightness > BRIGHT);
         let blown = breath.speed > 0.0 || breath.estimate.speed > 0.0;
-        if blown || flies || now.diagnostics.hands > 0 || now.turn != self.turn || self.moved(now, view) > UNSEEN {
+        if blown
+            || shaped
+            || flies
+            || now.diagnostics.hands > 0
+            || now.turn != self.turn
+            || self.moved(now, view) > UNSEEN
+        {
             self.quiet = 0;
             self.remember(now);
         } else if self.age >= LOOK {

@@ -30,7 +30,14 @@ impl Pictures {
     /// Draws a moment as its camera sees it.
     pub fn draw(&mut self, snapshot: &Snapshot) -> Result<RgbaImage, RenderError> {
         let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1)).turned(snapshot.turn);
-        let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size: self.size, exposure: 1.0 };
+        let frame = Frame {
+            poses: &snapshot.poses,
+            motes: &snapshot.motes,
+            view,
+            size: self.size,
+            exposure: 1.0,
+            time: snapshot.time,
+        };
         self.renderer.draw(&frame)
     }
 }

@@ -11,7 +11,7 @@ use super::judge::{Answer, BEFORE, FPS, Picture, answer};
 use crate::exhibit::Exhibit;
 use crate::math::Pose;
 use crate::render::{Frame, ImageRenderer, Look, RenderError};
-use crate::simulation::STEPS_PER_SECOND;
+use crate::simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// Pixels: 4 mm each on a 55-inch screen, whose edges four samples a pixel make a millimetre fine.
 pub const SIZE: (u32, u32) = (320, 180);
@@ -25,7 +25,8 @@ const KEPT: usize = 3 * FPS as usize;
 /// The onlooker.
 pub struct Eyes {
     works: Vec<(Arc<Exhibit>, ImageRenderer)>,
-    moments: VecDeque<(u64, usize, Vec<Pose>)>,
+    /// Number, work, time since its reset, poses.
+    moments: VecDeque<(u64, usize, f64, Vec<Pose>)>,
     /// Pictures drawn so far.
     pub drawn: u64,
 }
@@ -47,9 +48,9 @@ impl Eyes {
     }
 
     /// Takes notice of the moment after a step, with the work on show.
-    pub fn look(&mut self, step: u64, work: usize, poses: &[Pose]) {
+    pub fn look(&mut self, step: u64, work: usize, now: &Snapshot) {
         if step.is_multiple_of(EVERY) {
-            self.moments.push_back((step / EVERY, work, poses.to_vec()));
+            self.moments.push_back((step / EVERY, work, now.time, now.poses.clone()));
             while self.moments.len() > KEPT {
                 self.moments.pop_front();
             }
@@ -61,23 +62,23 @@ impl Eyes {
     pub fn judge(&mut self, middle: u64, alone: &[Vec<Pose>]) -> Result<Option<Answer>, RenderError> {
         let span = middle.saturating_sub(BEFORE as u64)..=middle + BEFORE as u64;
         let kept = self.moments.iter().filter(|(number, ..)| span.contains(number)).collect::<Vec<_>>();
-        let work = kept.first().map_or(0, |(_, work, _)| *work);
-        if kept.len() != 2 * BEFORE + 1 || kept.iter().any(|(_, other, _)| *other != work) {
+        let work = kept.first().map_or(0, |(_, work, ..)| *work);
+        if kept.len() != 2 * BEFORE + 1 || kept.iter().any(|(_, other, ..)| *other != work) {
             return Ok(None);
         }
         let (exhibit, renderer) = &mut self.works[work];
         let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-        let mut draw = |poses: &[Pose]| -> Result<Picture, RenderError> {
-            let picture = renderer.draw(&Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0 })?;
+        let mut draw = |poses: &[Pose], time: f64| -> Result<Picture, RenderError> {
+            let picture = renderer.draw(&Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0, time })?;
             Ok(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect()))
         };
-        let pictures = kept.iter().map(|(.., poses)| draw(poses)).collect::<Result<Vec<_>, _>>()?;
+        let pictures = kept.iter().map(|(.., time, poses)| draw(poses, *time)).collect::<Result<Vec<_>, _>>()?;
         // Bodies that stand alike look alike: most visits begin so, and are drawn once.
         let mut drawn = pictures.len();
         let mut beside = Vec::with_capacity(alone.len());
-        for ((poses, (.., own)), picture) in alone.iter().zip(&kept[BEFORE + 1..]).zip(&pictures[BEFORE + 1..]) {
+        for ((poses, (.., time, own)), picture) in alone.iter().zip(&kept[BEFORE + 1..]).zip(&pictures[BEFORE + 1..]) {
             let alike = poses == own;
-            beside.push(if alike { picture.clone() } else { draw(poses)? });
+            beside.push(if alike { picture.clone() } else { draw(poses, *time)? });
             drawn += usize::from(!alike);
         }
         self.drawn += drawn as u64;

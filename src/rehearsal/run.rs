@@ -163,7 +163,7 @@ impl<'a> Course<'a> {
         }
         self.note_heard(now);
         self.watch_staff(now);
-        self.eyes.look(step + 1, self.work, &self.machine.stage.snapshot().poses);
+        self.eyes.look(step + 1, self.work, self.machine.stage.snapshot());
         self.judge((step + 1) * FPS / STEPS_PER_SECOND)
     }
 

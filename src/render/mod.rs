@@ -22,7 +22,7 @@
 //! | `shadows` | soft shadows on the planes and the shadow map | `shadows.wgsl` |
 //! | `sheets` | shadows of flat plates on the planes, in closed form | `sheets.wgsl` |
 //! | `wires` | capsule segments | `wires.wgsl` |
-//! | `skins` | meshes that follow joints | |
+//! | `skins` | meshes that follow joints, or key frames of their shape | |
 //! | `outlines` | silhouettes of plates, and the ribbons along them | `outline.wgsl` |
 //! | `passes` | the list of passes: attachments, draws, bytes | |
 //! | `resources` | textures and bind groups of the light | |
@@ -221,4 +221,6 @@ pub struct Frame<'a> {
     pub size: (u32, u32),
     /// Linear multiplier.
     pub exposure: f32,
+    /// Since the reset, s: when the model's key frames of shapes are seen.
+    pub time: f64,
 }

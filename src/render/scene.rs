@@ -11,7 +11,7 @@ use super::RenderError;
 use super::globals::PunctualUniform;
 use super::outlines::Plate;
 use super::sheets::Sheet;
-use super::skins::Skinned;
+use super::skins::{Bound, Skinned};
 use crate::exhibit::Exhibit;
 use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
 use crate::math::Pose;
@@ -118,7 +118,7 @@ pub(super) struct Scene {
     pub plates: Vec<Plate>,
     /// What the first indices are.
     pub sheets: Vec<Sheet>,
-    /// Parts that follow joints.
+    /// Parts that follow joints, or key frames of their shape.
     pub skins: Vec<Skinned>,
 }
 
@@ -137,9 +137,8 @@ impl Scene {
                 continue;
             }
             // A skin is where its joints are, whatever carries the node that shows it.
-            let skin = model.skins.iter().find(|skin| skin.node == index);
-            let leader = skin.and_then(|skin| skin.joints.iter().find_map(|&joint| carriers[joint]));
-            let (skin, carrier) = (skin.filter(|_| leader.is_some()), leader.or(carrier));
+            let bound = Bound::of(exhibit, index, &carriers).map(std::rc::Rc::new);
+            let carrier = bound.as_ref().map_or(carrier, |bound| bound.leader(&carriers));
             let frame_from_node = match carrier {
                 Some(body) => rigid_of(exhibit, body).inverse() * node.world,
                 None => node.world,
@@ -148,7 +147,7 @@ impl Scene {
             if let Some(mesh) = node.mesh.and_then(|m| model.meshes.get(m)) {
                 let matrix = frame_from_node.as_mat4();
                 for (index, p) in mesh.primitives.iter().enumerate() {
-                    let bound = skin.and_then(|skin| Some((skin, skin.bound.get(index)?)));
+                    let bound = bound.clone().filter(|b| index < b.primitives.len()).map(|b| (b, index));
                     // What bends is no plate.
                     let flat = if bound.is_none() { plate(model, p, frame, matrix) } else { (None, None) };
                     pieces.push((p, frame, matrix, flat, bound));
@@ -190,9 +189,9 @@ impl Scene {
                 scene.sheets.push(sheet);
                 scene.flat = end;
             }
-            if let Some((skin, bound)) = bound {
-                let place = (base, frame - 1, matrix.determinant() < 0.0);
-                scene.skins.push(Skinned::new(exhibit, skin, bound, place, &carriers));
+            if let Some((bound, number)) = bound {
+                let place = (base, frame, matrix.determinant() < 0.0);
+                scene.skins.push(Skinned::new(exhibit, &bound, number, place, &carriers));
             }
             match state.surface {
                 Surface::Opaque => (scene.opaque, scene.casters) = (end, end),

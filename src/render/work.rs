@@ -62,6 +62,10 @@ pub struct Work {
     /// Squared distance and index of each blended part, the farthest first.
     pub(super) blended: Vec<(f32, usize)>,
     drawn_frames: Vec<[Vec4; 3]>,
+    /// Do key frames change shapes? Then the times shown, s, and drawn.
+    keyed: bool,
+    time: f64,
+    drawn_time: f64,
 }
 
 impl Work {
@@ -82,7 +86,7 @@ impl Work {
             None => Environment::new(|direction| room.radiance(direction)).into(),
         };
         // What moves takes its corners along, and the light on them would be wrong.
-        let still = exhibit.bodies.is_empty() && look.background.is_some();
+        let still = exhibit.bodies.is_empty() && exhibit.shapes.is_empty() && look.background.is_some();
         if still {
             let (env_intensity, area) = (look.env_intensity, look.area_light);
             let light = bounce::Light { environment: &environment, env_intensity, area };
@@ -161,6 +165,9 @@ impl Work {
             segments: Vec::with_capacity(segment_count),
             outlines,
             sheets,
+            keyed: skins.iter().any(Skinned::is_keyed),
+            time: 0.0,
+            drawn_time: f64::NEG_INFINITY,
             skins,
             blended: Vec::with_capacity(blended),
             drawn_frames: Vec::with_capacity(frame_count),
@@ -174,6 +181,7 @@ impl Work {
         for (index, rest) in self.rest.iter().enumerate() {
             self.frames.push(rows(frame.poses.get(index).unwrap_or(rest)));
         }
+        self.time = frame.time;
         self.globals.set_frame(frame, self.radius);
         let frames = &self.frames;
         self.globals.set_lights(&self.lights, |i| {
@@ -183,20 +191,21 @@ impl Work {
         self.outlines.find(&self.frames, &self.globals, frame.size);
         self.sheets.find(&self.frames);
         if self.moves() {
-            self.skins.iter_mut().for_each(|skin| skin.place(&self.frames));
+            self.skins.iter_mut().for_each(|skin| skin.place(&self.frames, frame.time));
         }
         self.sort_blended();
     }
 
     /// Has something moved since the last frame was drawn?
     pub(super) fn moves(&self) -> bool {
-        self.frames != self.drawn_frames
+        self.frames != self.drawn_frames || (self.keyed && self.time != self.drawn_time)
     }
 
     /// Has nothing moved since this was last asked, so that the shadows still hold? After [`Self::forget`] they do not.
     pub(super) fn rests(&mut self) -> bool {
         let rests = !self.moves();
         self.drawn_frames.clone_from(&self.frames);
+        self.drawn_time = self.time;
         rests
     }
 

@@ -412,6 +412,7 @@ impl Simulation {
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             step: self.step,
+            time: self.dynamics.time(),
             poses: self.dynamics.bodies.iter().map(RigidBody::pose).collect(),
             breath: BreathView {
                 speed: self.speed,

@@ -71,6 +71,8 @@ pub struct Diagnostics {
 pub struct Snapshot {
     /// Steps done.
     pub step: u64,
+    /// Since the reset, s.
+    pub time: f64,
     /// World pose of each moving body's glTF node, in the order of the exhibit's bodies.
     pub poses: Vec<Pose>,
     /// The breath.
@@ -96,8 +98,10 @@ impl Snapshot {
 
     /// Becomes the moment between two snapshots, in the memory that it has.
     pub fn set_between(&mut self, first: &Self, next: &Self, alpha: f64) {
-        let Self { step, poses, breath, motes, turn, diagnostics } = self;
+        let Self { step, time, poses, breath, motes, turn, diagnostics } = self;
         (*step, *breath, *diagnostics) = (next.step, next.breath, next.diagnostics);
+        // After a reset there is nothing between.
+        *time = if next.time < first.time { next.time } else { first.time + (next.time - first.time) * alpha };
         *turn = std::array::from_fn(|i| first.turn[i] + (next.turn[i] - first.turn[i]) * alpha);
         poses.clone_from(&next.poses);
         motes.clone_from(&next.motes);

@@ -66,7 +66,7 @@ fn turned(exhibit: &Exhibit, angle: f64) -> Vec<Pose> {
 
 fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], motes: &'a [Mote]) -> Frame<'a> {
     let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-    Frame { poses, motes, view, size: SIZE, exposure: 1.0 }
+    Frame { poses, motes, view, size: SIZE, exposure: 1.0, time: 0.0 }
 }
 
 #[test]

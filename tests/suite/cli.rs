@@ -530,6 +530,29 @@ fn a_mobile_of_127_joints_is_dragged_in_three_passes_a_frame_with_the_joints_clo
     assert!(number(beside, "position_based_ratio") < 1.0, "{beside}");
 }
 
+#[cfg(feature = "kiosk")]
+#[test]
+fn pictures_are_measured_by_the_processor_time_of_all_threads() {
+    const NO_DRIVER: Option<i32> = Some(3);
+    let args = ["bench", "pendulum", "--picture", "320x180", "--seconds", "0.1", "--json"];
+    let desk = Desk::new();
+    desk.soffio(&args).refused(3, &["no graphics adapter", "mesa-vulkan-drivers"]);
+    desk.soffio(&["bench", "--picture", "0x5"]).refused(2, &["no size"]);
+    desk.soffio(&["bench", "--picture", "320x180", "--wind"]).refused(2, &["--wind"]);
+    // With a driver, where the machine has one.
+    let run = Command::new(env!("CARGO_BIN_EXE_soffio")).args(args).output().expect("the program starts");
+    if run.status.code() == NO_DRIVER {
+        return eprintln!("skipped: {}", String::from_utf8_lossy(&run.stderr));
+    }
+    let row: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    println!("{row}");
+    assert_eq!((&row["exhibit"], &row["pictures"], &row["msaa"]), (&"pendulum".into(), &6.into(), &4.into()));
+    assert_eq!((&row["width"], &row["height"]), (&320.into(), &180.into()));
+    for key in ["light_cpu_ms", "light_ms", "full_cpu_ms", "full_ms"] {
+        assert!(row[key].as_f64().is_some_and(|ms| ms > 0.0 && ms.is_finite()), "{key}: {row}");
+    }
+}
+
 #[test]
 fn a_scene_that_is_none_is_refused() {
     let desk = Desk::new();

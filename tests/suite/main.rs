@@ -45,6 +45,7 @@ mod robust;
 mod scene;
 #[cfg(feature = "kiosk")]
 mod shaders;
+mod shapes;
 #[cfg(feature = "kiosk")]
 mod skins;
 mod sound;

@@ -116,7 +116,7 @@ fn formula(poses: &[Pose; 2]) -> Vec<DVec3> {
 }
 
 /// Middle of what is red, pixels, and how many pixels are.
-fn red(picture: &image::RgbaImage) -> ([f64; 2], f64) {
+pub fn red(picture: &image::RgbaImage) -> ([f64; 2], f64) {
     let (mut sum, mut count) = ([0.0; 2], 0.0);
     for (x, y, pixel) in picture.enumerate_pixels() {
         let [r, g, b, _] = pixel.0.map(f64::from);
@@ -168,7 +168,7 @@ fn a_skin_follows_the_bodies_that_carry_its_joints_as_the_formula_says() {
     ];
     let mut pictures = Vec::new();
     for (i, poses) in scenes.iter().enumerate() {
-        let frame = Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0 };
+        let frame = Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
             picture.save(std::path::Path::new(&folder).join(format!("skin-{i}.png"))).expect("a writable folder");

@@ -1,6 +1,8 @@
 //! `soffio bench`.
 
 mod exhibits;
+#[cfg(feature = "kiosk")]
+mod picture;
 mod procedural;
 mod scenes;
 mod sound;
@@ -12,20 +14,25 @@ use clap::ValueEnum;
 
 use super::Outcome;
 use super::play::parse_seconds;
+#[cfg(feature = "kiosk")]
+use super::play::parse_size;
 use crate::dynamics::{Integrator, Solver};
 use crate::offline::scene::Limits;
 
 /// Simulated seconds of an exhibit where nothing else is said.
 const EXHIBIT_SECONDS: f64 = 10.0;
+/// And of its pictures, sixty a second.
+#[cfg(feature = "kiosk")]
+const PICTURE_SECONDS: f64 = 2.0;
 
 /// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, and its sound), of an
 /// articulated scene beside how well it keeps energy and joints, of a body as figures grow, of wind on many parts, of
-/// thousands of partials that ring, or of motion by places.
+/// thousands of partials that ring, of motion by places, or of pictures.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
                         soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound\n  \
-                        soffio bench --procedural"
+                        soffio bench --procedural\n  soffio bench steel-fish --picture 1920x1080"
 )]
 pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
@@ -46,6 +53,10 @@ pub struct Args {
     /// What motion by places costs: a mobile of 127 joints dragged by hand, and exhibits beside the laws.
     #[arg(long, conflicts_with_all = ["scene", "linear", "wind", "sound"])]
     procedural: bool,
+    /// What a picture of this size costs in a hard breath: processor time of the whole program, a software driver's too.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
+    picture: Option<(u32, u32)>,
     /// Step of a scene, s; default are those that it names.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
     dt: Option<f64>,
@@ -55,7 +66,7 @@ pub struct Args {
     /// Which linear solver a scene uses.
     #[arg(long, value_enum, default_value_t = SolverArg::Sparse)]
     solver: SolverArg,
-    /// Simulated seconds: of each measurement of an exhibit (10 if not given), at most of a scene.
+    /// Simulated seconds: of each measurement of an exhibit (10 if not given; 2 of pictures), at most of a scene.
     #[arg(long, value_parser = parse_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
     /// Processor time after which the pass that measures a scene's accuracy ends, s.
@@ -93,6 +104,10 @@ pub fn run(args: Args) -> Outcome {
     }
     if args.procedural {
         return procedural::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);
+    }
+    #[cfg(feature = "kiosk")]
+    if let Some(size) = args.picture {
+        return picture::run(&args.exhibits, size, args.seconds.unwrap_or(PICTURE_SECONDS), args.json);
     }
     if args.scene.is_empty() {
         return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);

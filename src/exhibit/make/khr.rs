@@ -198,7 +198,8 @@ impl Reader<'_> {
     fn bodies(&mut self) {
         for node in 0..self.model.nodes.len() {
             let Some(motion) = self.own(node).and_then(|own| own.get("motion")).cloned() else { continue };
-            let animated = self.model.animations.iter().any(|a| a.channels.iter().any(|c| c.node == node));
+            let animated =
+                self.model.animations.iter().any(|a| a.channels.iter().any(|c| c.node == node && !c.shapes()));
             let mut table = format!("[[body]]\nnode = {}\n", quoted(&called(self.model, node)));
             let kinematic = motion["isKinematic"].as_bool() == Some(true);
             let infinite = motion["mass"].as_f64() == Some(0.0);

@@ -1,5 +1,5 @@
-//! Key frames of nodes: translation and rotation channels of glTF 2.0 (section 3.11 and appendix C), decoded, and the
-//! world pose of a node at any time.
+//! Key frames of nodes: the channels of glTF 2.0 (section 3.11 and appendix C), decoded, and the world pose of a node at any
+//! time.
 //!
 //! A cubic channel has an in-tangent a, a value v and an out-tangent b at each key; with d the span and s in 0 … 1
 //!
@@ -53,13 +53,15 @@ pub enum Track {
     Translation(Vec<DVec3>),
     /// Of the node in its parent; cubic ones are not of unit length.
     Rotation(Vec<DQuat>),
+    /// Of the node in its parent, beside the rotation and the translation (m) that it has at rest: a matrix whose scale is zero
+    /// tells of neither.
+    Scale(Vec<DVec3>, DQuat, DVec3),
+    /// Of the morph targets of the node's mesh, each list one weight a target.
+    Weights(Vec<Vec<f64>>),
 }
 
-/// Decodes a channel; `None` for a property that rigid bodies do not have.
-pub(super) fn channel(
-    source: &gltf::animation::Channel,
-    buffers: &[Vec<u8>],
-) -> Result<Option<Channel>, accessor::Broken> {
+/// Decodes a channel.
+pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) -> Result<Channel, accessor::Broken> {
     let (target, sampler) = (source.target(), source.sampler());
     let output = sampler.output();
     let track = match target.property() {
@@ -71,7 +73,26 @@ pub(super) fn channel(
             let values = accessor::vectors::<4>(&output, buffers, &[Dimensions::Vec4], 0.0)?;
             Track::Rotation(values.iter().map(|v| DQuat::from_array(v.map(f64::from))).collect())
         }
-        Property::Scale | Property::MorphTargetWeights => return Ok(None),
+        Property::Scale => {
+            let values = accessor::vectors::<3>(&output, buffers, &[Dimensions::Vec3], 0.0)?;
+            let (translation, rotation, _) = target.node().transform().decomposed();
+            let rotation = DQuat::from_array(rotation.map(f64::from)).normalize();
+            let values = values.iter().map(|v| DVec3::from(v.map(f64::from))).collect();
+            Track::Scale(values, rotation, DVec3::from(translation.map(f64::from)))
+        }
+        Property::MorphTargetWeights => {
+            let values = accessor::vectors::<1>(&output, buffers, &[Dimensions::Scalar], 0.0)?;
+            let targets = super::deform::targets(&target.node());
+            let name = target.node().name().map_or_else(|| format!("#{}", target.node().index()), str::to_owned);
+            if targets == 0 {
+                return Err(format!("it morphs node \"{name}\", which has no morph targets"));
+            }
+            if values.len() % targets != 0 {
+                let count = values.len();
+                return Err(format!("{count} weights of node \"{name}\" are not {targets} a key, one a morph target"));
+            }
+            Track::Weights(values.chunks(targets).map(|key| key.iter().map(|[w]| f64::from(*w)).collect()).collect())
+        }
     };
     let times = accessor::vectors::<1>(&sampler.input(), buffers, &[Dimensions::Scalar], 0.0)?;
     let times: Vec<f64> = times.iter().map(|[t]| f64::from(*t)).collect();
@@ -82,7 +103,8 @@ pub(super) fn channel(
     };
     let (values, each) = (track.len(), if curve == Curve::Cubic { 3 } else { 1 });
     if times.is_empty() || values != each * times.len() {
-        return Err(format!("{} keys have {values} values", times.len()));
+        let what = if matches!(track, Track::Weights(_)) { "lists of weights" } else { "values" };
+        return Err(format!("{} keys have {values} {what}", times.len()));
     }
     if times[0] < 0.0 || times.windows(2).any(|pair| pair[0] >= pair[1]) {
         return Err("its keys are not in the order of time".into());
@@ -93,7 +115,7 @@ pub(super) fn channel(
     {
         return Err("a rotation has no length".into());
     }
-    Ok(Some(Channel { node: target.node().index(), curve, times, track }))
+    Ok(Channel { node: target.node().index(), curve, times, track })
 }
 
 impl Track {
@@ -101,6 +123,8 @@ impl Track {
         match self {
             Self::Translation(values) => values.len(),
             Self::Rotation(values) => values.len(),
+            Self::Scale(values, ..) => values.len(),
+            Self::Weights(values) => values.len(),
         }
     }
 }
@@ -127,13 +151,39 @@ impl Channel {
         [2.0 * s3 - 3.0 * s2 + 1.0, d * (s3 - 2.0 * s2 + s), 3.0 * s2 - 2.0 * s3, d * (s3 - s2)]
     }
 
-    fn translation(&self, values: &[DVec3], t: f64) -> DVec3 {
+    fn vector(&self, values: &[DVec3], t: f64) -> DVec3 {
         let place @ (from, to, s) = self.place(t);
         if self.curve == Curve::Cubic {
             let [v, b, w, a] = self.hermite(place);
             return v * values[3 * from + 1] + b * values[3 * from + 2] + w * values[3 * to + 1] + a * values[3 * to];
         }
         values[from].lerp(values[to], s)
+    }
+
+    /// The scale at `t` seconds; `None` of another channel.
+    pub fn scale(&self, t: f64) -> Option<DVec3> {
+        let Track::Scale(values, ..) = &self.track else { return None };
+        Some(self.vector(values, t))
+    }
+
+    /// Sets the weights to those at `t` seconds, in the memory that they have; another channel leaves them.
+    pub fn weigh(&self, t: f64, weights: &mut [f64]) {
+        let Track::Weights(values) = &self.track else { return };
+        let place @ (from, to, s) = self.place(t);
+        let [v, b, w, a] = if self.curve == Curve::Cubic { self.hermite(place) } else { [1.0 - s, 0.0, s, 0.0] };
+        let key = |index: usize| if self.curve == Curve::Cubic { 3 * index + 1 } else { index };
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let of = |list: usize| values[list].get(i).copied().unwrap_or_default();
+            *weight = v * of(key(from)) + w * of(key(to));
+            if self.curve == Curve::Cubic {
+                *weight += b * of(3 * from + 2) + a * of(3 * to);
+            }
+        }
+    }
+
+    /// Does it change a shape, and not a place?
+    pub fn shapes(&self) -> bool {
+        matches!(self.track, Track::Scale(..) | Track::Weights(_))
     }
 
     fn rotation(&self, values: &[DQuat], t: f64) -> DQuat {
@@ -151,29 +201,40 @@ impl Channel {
 }
 
 impl Animation {
-    /// The channels that move a node, its ancestors' included.
+    /// The channels that move a node, its ancestors' included: of scales those of ancestors alone.
     pub fn channels_of<'a>(&'a self, model: &Model, node: usize) -> Vec<&'a Channel> {
         let above: Vec<usize> = std::iter::successors(Some(node), |&n| model.nodes[n].parent).collect();
-        self.channels.iter().filter(|channel| above.contains(&channel.node)).collect()
+        let moves = |channel: &&Channel| match channel.track {
+            Track::Translation(_) | Track::Rotation(_) => above.contains(&channel.node),
+            Track::Scale(..) => above[1..].contains(&channel.node),
+            Track::Weights(_) => false,
+        };
+        self.channels.iter().filter(moves).collect()
     }
 
-    /// Node to world at `t` seconds.
+    /// Node to world at `t` seconds, its own scale that at rest.
     pub fn world(&self, model: &Model, node: usize, t: f64) -> DMat4 {
         let above = std::iter::successors(Some(node), |&n| model.nodes[n].parent);
-        above.fold(DMat4::IDENTITY, |below, n| self.local(model, n, t) * below)
+        above.fold(DMat4::IDENTITY, |below, n| self.local(model, n, n != node, t) * below)
     }
 
-    fn local(&self, model: &Model, node: usize, t: f64) -> DMat4 {
+    fn local(&self, model: &Model, node: usize, grows: bool, t: f64) -> DMat4 {
         let local = model.nodes[node].local;
-        let mut own = self.channels.iter().filter(|channel| channel.node == node).peekable();
-        if own.peek().is_none() {
+        let own = || self.channels.iter().filter(|channel| channel.node == node && (grows || !channel.shapes()));
+        if own().next().is_none() {
             return local;
         }
-        let (scale, mut rotation, mut translation) = local.to_scale_rotation_translation();
-        for channel in own {
+        let (mut scale, mut rotation, mut translation) = local.to_scale_rotation_translation();
+        for channel in own() {
+            if let Track::Scale(values, turned, placed) = &channel.track {
+                (scale, rotation, translation) = (channel.vector(values, t), *turned, *placed);
+            }
+        }
+        for channel in own() {
             match &channel.track {
-                Track::Translation(values) => translation = channel.translation(values, t),
+                Track::Translation(values) => translation = channel.vector(values, t),
                 Track::Rotation(values) => rotation = channel.rotation(values, t),
+                Track::Scale(..) | Track::Weights(_) => {}
             }
         }
         DMat4::from_scale_rotation_translation(scale, rotation, translation)

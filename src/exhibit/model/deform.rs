@@ -2,15 +2,15 @@
 //! the pose of their joints (3.7.3.3).
 //!
 //! A body is rigid, so what deforms is frozen once: `p = Σ wⱼ Jⱼ Iⱼ (p₀ + Σ ωₜ dₜ)`, with J a joint's node to world and I
-//! its inverse bind matrix. The result is stored in the frame of the node that shows it. Where bodies carry the joints the
-//! picture goes on with the same formula (`render/skins.rs`), from what [`bind`] keeps: p₀ + Σ ωₜ dₜ, and of the shares w the
-//! four that weigh most.
+//! its inverse bind matrix. The result is stored in the frame of the node that shows it. Where bodies carry the joints, or key
+//! frames change a scale or the weights ω, the picture goes on with the same formula (`render/skins.rs`), from what [`bind`]
+//! keeps: p₀ + Σ ωₜ dₜ, or p₀ and the d where the ω change, and of the shares w the four that weigh most.
 
 use gltf::Semantic;
 use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
 
 use super::accessor::{self, Broken};
-use super::{Influences, Node, Primitive};
+use super::{Influences, MorphTarget, Node, Primitive};
 use crate::math::{DMat3, DMat4, DVec3};
 
 /// Most targets that one primitive morphs to.
@@ -26,6 +26,12 @@ pub fn deforms(node: &gltf::Node) -> bool {
 fn weights(node: &gltf::Node) -> Vec<f32> {
     let own = node.weights().filter(|w| !w.is_empty());
     own.or_else(|| node.mesh().and_then(|m| m.weights())).unwrap_or_default().to_vec()
+}
+
+/// Morph targets of the mesh of a node; those of its first primitive, as all have the same number.
+pub fn targets(node: &gltf::Node) -> usize {
+    let first = node.mesh().and_then(|mesh| mesh.primitives().next());
+    first.map_or(0, |primitive| primitive.morph_targets().take(MAX_TARGETS).count())
 }
 
 /// Deforms `out`, the primitive as stored and not yet flattened, for `node`.
@@ -46,15 +52,31 @@ pub fn deform(
     Ok(())
 }
 
-/// Makes `out`, the primitive as stored and not yet flattened, what the joints of a skin move.
+/// Makes `out`, the primitive as stored and not yet flattened, what the joints of a skin move, if it has one, and what key frames
+/// morph where `morphs` says that there are such.
 pub fn bind(
     node: &gltf::Node,
-    skin: &gltf::Skin,
+    morphs: bool,
     source: &gltf::Primitive,
     buffers: &[Vec<u8>],
     out: &mut Primitive,
 ) -> Result<(), Broken> {
-    morph(node, source, buffers, out)?;
+    if morphs {
+        out.targets = source
+            .morph_targets()
+            .take(MAX_TARGETS)
+            .map(|target| {
+                Ok(MorphTarget {
+                    positions: differences(target.positions(), out.positions.len(), buffers, POSITIONS)?,
+                    normals: differences(target.normals(), out.normals.len(), buffers, NORMALS)?,
+                    tangents: differences(target.tangents(), out.tangents.len(), buffers, TANGENTS)?,
+                })
+            })
+            .collect::<Result<_, Broken>>()?;
+    } else {
+        morph(node, source, buffers, out)?;
+    }
+    let Some(skin) = node.skin() else { return Ok(()) };
     let joints = skin.joints().count();
     let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); out.positions.len()];
     shares(source, all.len(), buffers, |corner, joint, share| {
@@ -83,31 +105,40 @@ fn morph(node: &gltf::Node, source: &gltf::Primitive, buffers: &[Vec<u8>], out: 
         if !weight.is_finite() {
             return Err("a morph weight is not finite".into());
         }
-        add(target.positions(), *weight, buffers, &mut out.positions, "morphed positions")?;
-        add(target.normals(), *weight, buffers, &mut out.normals, "morphed normals")?;
+        let positions = differences(target.positions(), out.positions.len(), buffers, POSITIONS)?;
+        add(*weight, &positions, &mut out.positions);
+        let normals = differences(target.normals(), out.normals.len(), buffers, NORMALS)?;
+        add(*weight, &normals, &mut out.normals);
+        let tangents = differences(target.tangents(), out.tangents.len(), buffers, TANGENTS)?;
+        add(*weight, &tangents, &mut out.tangents);
     }
     Ok(())
 }
 
-/// Adds weighted differences to what there is; a primitive without normals gets flat ones afterwards.
-fn add(
+const POSITIONS: &str = "morphed positions";
+const NORMALS: &str = "morphed normals";
+const TANGENTS: &str = "morphed tangents";
+
+/// What a target adds to a list of `count`; nothing where there is no such list. A primitive without normals gets flat ones
+/// afterwards.
+fn differences(
     source: Option<gltf::Accessor>,
-    weight: f32,
+    count: usize,
     buffers: &[Vec<u8>],
-    to: &mut [[f32; 3]],
     what: &str,
-) -> Result<(), Broken> {
-    let Some(source) = source.filter(|_| !to.is_empty()) else { return Ok(()) };
+) -> Result<Vec<[f32; 3]>, Broken> {
+    let Some(source) = source.filter(|_| count > 0) else { return Ok(Vec::new()) };
     let differences = accessor::vectors::<3>(&source, buffers, &[Vec3], 0.0)?;
-    if differences.len() != to.len() {
-        return Err(format!("{what} differ in number"));
-    }
-    for (to, difference) in to.iter_mut().zip(&differences) {
+    if differences.len() == count { Ok(differences) } else { Err(format!("{what} differ in number")) }
+}
+
+/// Adds weighted differences; a tangent's sign stays.
+fn add<const LANES: usize>(weight: f32, differences: &[[f32; 3]], to: &mut [[f32; LANES]]) {
+    for (to, difference) in to.iter_mut().zip(differences) {
         for (to, difference) in to.iter_mut().zip(difference) {
             *to += weight * difference;
         }
     }
-    Ok(())
 }
 
 const NO_JOINT: &str = "a vertex names a joint that the skin does not have";

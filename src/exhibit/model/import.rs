@@ -11,7 +11,9 @@ use super::super::codes::{self, Code};
 use super::super::diagnostic::{Diagnostic, Report};
 use super::super::paths;
 use super::primitive::{decode, is_drawn};
-use super::{Animation, Camera, Image, Light, LightKind, Mesh, Model, Node, Primitive, Skin, animation, deform, look};
+use super::{
+    Animation, Camera, Image, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, deform, look,
+};
 use crate::math::{DMat4, DQuat, DVec3};
 
 /// Most bytes of a model file or of a buffer beside it.
@@ -153,12 +155,13 @@ impl Reader {
         let (mut nodes, roots) = self.nodes(&document)?;
         let hidden = hidden(&document, &nodes);
         let mut meshes = self.meshes(&document, &buffers)?;
-        let skins = self.frozen(&document, &buffers, &mut nodes, &mut meshes)?;
+        let (skins, morphs) = self.frozen(&document, &buffers, &mut nodes, &mut meshes)?;
         Ok(Model {
             nodes,
             roots,
             meshes,
             skins,
+            morphs,
             hidden,
             materials: document.materials().map(|m| look::appearance(&m, &document, |what| self.warn(what))).collect(),
             images: self.images(&document, &buffers)?,
@@ -272,18 +275,32 @@ impl Reader {
         Ok(meshes)
     }
 
-    /// Nodes that morph or have a skin get a mesh of their own, frozen as it stands at rest. What follows joints is returned as
-    /// it is bound, too.
+    /// Nodes that morph or have a skin get a mesh of their own, frozen as it stands at rest. What follows joints, or key frames
+    /// that morph, is returned as it is bound, too.
     fn frozen(
         &mut self,
         document: &gltf::Document,
         buffers: &[Vec<u8>],
         nodes: &mut [Node],
         meshes: &mut Vec<Mesh>,
-    ) -> Outcome<Vec<Skin>> {
-        let (mut triangles, mut skins) = (0, Vec::new());
-        for node in document.nodes().filter(deform::deforms) {
+    ) -> Outcome<(Vec<Skin>, Vec<Morph>)> {
+        let channels = document.animations().flat_map(|animation| animation.channels());
+        let morphing: Vec<usize> = channels
+            .filter(|channel| channel.target().property() == gltf::animation::Property::MorphTargetWeights)
+            .map(|channel| channel.target().node().index())
+            .collect();
+        let (mut triangles, mut skins, mut morphs) = (0, Vec::new(), Vec::new());
+        for node in document.nodes() {
             let Some(mesh) = node.mesh() else { continue };
+            let keyed = morphing.contains(&node.index());
+            if !keyed && !deform::deforms(&node) {
+                continue;
+            }
+            if keyed && mesh.primitives().any(|p| p.morph_targets().count() != deform::targets(&node)) {
+                let what =
+                    format!("node \"{}\": its primitives differ in their morph targets", nodes[node.index()].name);
+                return Err(self.broken(what));
+            }
             let primitives = mesh.primitives().filter(is_drawn).map(|primitive| {
                 decode(&primitive, buffers, |out| deform::deform(&node, &primitive, nodes, buffers, out))
             });
@@ -297,22 +314,24 @@ impl Reader {
                     self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_TRIANGLES} triangles in skins"))
                 );
             }
+            let broken = |what| self.broken(format_args!("node \"{name}\": {what}"));
+            let bound = mesh.primitives().filter(is_drawn).map(|primitive| {
+                decode(&primitive, buffers, |out| deform::bind(&node, keyed, &primitive, buffers, out))
+            });
             if let Some(skin) = node.skin() {
-                let bound = mesh.primitives().filter(is_drawn).map(|primitive| {
-                    decode(&primitive, buffers, |out| deform::bind(&node, &skin, &primitive, buffers, out))
-                });
-                let broken = |what| self.broken(format_args!("node \"{name}\": {what}"));
                 skins.push(Skin {
                     node: node.index(),
                     joints: skin.joints().map(|joint| joint.index()).collect(),
                     inverse_bind: deform::inverse_bind(&skin, buffers).map_err(broken)?,
                     bound: bound.collect::<Result<_, _>>().map_err(broken)?,
                 });
+            } else if keyed {
+                morphs.push(Morph { node: node.index(), primitives: bound.collect::<Result<_, _>>().map_err(broken)? });
             }
             nodes[node.index()].mesh = Some(meshes.len());
             meshes.push(Mesh { name, primitives });
         }
-        Ok(skins)
+        Ok((skins, morphs))
     }
 
     fn images(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Image>> {
@@ -354,18 +373,14 @@ impl Reader {
         Ok(images)
     }
 
-    fn animations(&mut self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Animation>> {
+    fn animations(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Animation>> {
         let mut animations = Vec::new();
         for source in document.animations() {
             let name = source.name().map_or_else(|| format!("#{}", source.index()), str::to_owned);
             let mut channels = Vec::new();
             for channel in source.channels() {
-                let decoded = animation::channel(&channel, buffers)
-                    .map_err(|what| self.broken(format_args!("animation \"{name}\": {what}")))?;
-                match decoded {
-                    Some(channel) => channels.push(channel),
-                    None => self.warn(format_args!("animation \"{name}\" scales or morphs, which bodies do not")),
-                }
+                let decoded = animation::channel(&channel, buffers);
+                channels.push(decoded.map_err(|what| self.broken(format_args!("animation \"{name}\": {what}")))?);
             }
             animations.push(Animation { name, channels });
         }

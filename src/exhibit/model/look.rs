@@ -170,6 +170,14 @@ pub fn flatten(primitive: &mut Primitive) {
     if !influences.is_empty() {
         primitive.influences = indices.iter().map(|&i| influences[i as usize]).collect();
     }
+    for target in &mut primitive.targets {
+        (target.normals, target.tangents) = (Vec::new(), Vec::new());
+        target.positions = match target.positions.as_slice() {
+            [] => Vec::new(),
+            shared => indices.iter().map(|&i| shared[i as usize]).collect(),
+        };
+    }
+    primitive.flat = true;
     // Tangents without normals mean nothing (3.7.2.1).
     primitive.tangents.clear();
     primitive.positions = indices.iter().map(|&i| positions[i as usize]).collect();

@@ -204,10 +204,6 @@ impl Writer {
             let (mut channels, mut samplers) = (Vec::new(), Vec::new());
             for channel in &animation.channels {
                 let Some(node) = place[channel.node] else { continue };
-                let times: Vec<[f32; 1]> = channel.times.iter().map(|t| [*t as f32]).collect();
-                let input = self.vectors(&times, "SCALAR", None);
-                self.accessors[input]["min"] = json!(times.first());
-                self.accessors[input]["max"] = json!(times.last());
                 let (path, output) = match &channel.track {
                     Track::Translation(values) => {
                         let values: Vec<[f32; 3]> = values.iter().map(|v| v.as_vec3().to_array()).collect();
@@ -217,7 +213,17 @@ impl Writer {
                         let values: Vec<[f32; 4]> = values.iter().map(|q| q.as_quat().to_array()).collect();
                         ("rotation", self.vectors(&values, "VEC4", None))
                     }
+                    Track::Scale(values, ..) => {
+                        let values: Vec<[f32; 3]> = values.iter().map(|v| v.as_vec3().to_array()).collect();
+                        ("scale", self.vectors(&values, "VEC3", None))
+                    }
+                    // Meshes are written as they stand.
+                    Track::Weights(_) => continue,
                 };
+                let times: Vec<[f32; 1]> = channel.times.iter().map(|t| [*t as f32]).collect();
+                let input = self.vectors(&times, "SCALAR", None);
+                self.accessors[input]["min"] = json!(times.first());
+                self.accessors[input]["max"] = json!(times.last());
                 let interpolation = match channel.curve {
                     Curve::Step => "STEP",
                     Curve::Linear => "LINEAR",

@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostic, Report, quoted};
 use super::model::{Imported, Model, Node, import};
+use super::shapes::shapes;
 use super::sidecar::{self, Sidecar, Target};
 use super::source::Source;
 use super::{Body, Exhibit, Material, Motion, Origin, SIDECAR, Touch, codes, paths, shape};
@@ -127,6 +128,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
     Exhibit {
         id: String::new(),
         folder,
+        shapes: shapes(&model, |_| None),
         model,
         gravity: GRAVITY,
         camera_node: None,
@@ -214,6 +216,8 @@ struct Context<'a> {
     starts: Vec<Pose>,
     /// Bodies that follow a given motion.
     drives: Vec<Drive>,
+    /// Moving body, the model's animation that it follows, and whether over and over.
+    followed: Vec<(usize, usize, bool)>,
     /// Moving body that each node belongs to.
     owner: Vec<Option<usize>>,
 }
@@ -232,6 +236,7 @@ impl<'a> Context<'a> {
             poses: Vec::new(),
             starts: Vec::new(),
             drives: Vec::new(),
+            followed: Vec::new(),
             owner: vec![None; model.nodes.len()],
         }
     }
@@ -279,6 +284,10 @@ impl<'a> Context<'a> {
             limits,
             springs,
             drives,
+            shapes: shapes(self.model, |node| {
+                let followed = self.followed.iter().find(|(body, ..)| self.owner[node] == Some(*body));
+                followed.map(|&(_, animation, repeat)| (animation, repeat))
+            }),
             duration: self.duration(),
             gathers: self.sidecar.scene.gathers.unwrap_or(true),
             motion: self.motion(),

@@ -52,8 +52,8 @@ impl Context<'_> {
         let found = model
             .animations
             .iter()
-            .find(|a| wanted.is_none_or(|name| a.name == name) && !a.channels_of(model, node).is_empty());
-        let Some(animation) = found else {
+            .position(|a| wanted.is_none_or(|name| a.name == name) && !a.channels_of(model, node).is_empty());
+        let Some(found) = found else {
             let message = match wanted {
                 Some(name) => format!("no animation \"{name}\" of the model moves \"{}\"", body.node),
                 None => format!("kinematic body \"{}\" has neither a path nor an animation", body.node),
@@ -67,10 +67,12 @@ impl Context<'_> {
             self.report(at, Diagnostic::new(codes::NO_MOTION, message).help(help));
             return rest;
         };
+        let animation = &model.animations[found];
         let (keys, interpolation) = self.sampled(animation, node, at);
         let shown = format!("animation {}, {} poses, {interpolation:?}", animation.name, keys.len());
         self.trace(&of, "motion", shown, &format!("{at}/motion"), "");
         let repeat = body.animation.as_ref().is_none_or(|a| a.repeat);
+        self.followed.push((self.body_nodes.len() - 1, found, repeat));
         self.push_drive(Motion { keys, interpolation, repeat })
     }
 

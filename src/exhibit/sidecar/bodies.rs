@@ -79,7 +79,7 @@ pub enum Motion {
     Static,
 }
 
-/// How a kinematic body follows the model's animation.
+/// How a kinematic body follows the model's animation; morph weights and scales of the same animation go with it.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Animation {

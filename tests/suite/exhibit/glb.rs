@@ -106,8 +106,22 @@ impl Scene {
         mesh
     }
 
-    /// Adds an animation named `name` of one channel: `path` is "translation" or "rotation", `keys` hold a time and its
-    /// numbers (three times as many where `interpolation` is "CUBICSPLINE").
+    /// Adds morph targets to a mesh: what each adds to its positions.
+    pub fn morph(&mut self, mesh: usize, targets: &[Vec<[f32; 3]>]) {
+        let mut list = Vec::new();
+        for target in targets {
+            let bytes: Vec<u8> = target.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+            let (lo, hi) = target.iter().fold(([f32::MAX; 3], [f32::MIN; 3]), |(lo, hi), p| {
+                ([0, 1, 2].map(|k| lo[k].min(p[k])), [0, 1, 2].map(|k| hi[k].max(p[k])))
+            });
+            let vectors = json!({ "componentType": 5126, "type": "VEC3", "count": target.len(), "min": lo, "max": hi });
+            list.push(json!({ "POSITION": self.accessor(&bytes, vectors) }));
+        }
+        self.meshes[mesh]["primitives"][0]["targets"] = json!(list);
+    }
+
+    /// Adds an animation named `name` of one channel: `path` is "translation", "rotation", "scale" or "weights", `keys` hold a
+    /// time and its numbers (three times as many where `interpolation` is "CUBICSPLINE").
     pub fn animate(&mut self, name: &str, node: usize, path: &str, interpolation: &str, keys: &[(f32, Vec<f32>)]) {
         let times: Vec<u8> = keys.iter().flat_map(|(t, _)| t.to_le_bytes()).collect();
         let (first, last) = (keys[0].0, keys[keys.len() - 1].0);
@@ -116,14 +130,34 @@ impl Scene {
         });
         let input = self.accessor(&times, scalar);
         let values: Vec<u8> = keys.iter().flat_map(|(_, v)| v.iter().flat_map(|x| x.to_le_bytes())).collect();
-        let (shape, lanes) = if path == "rotation" { ("VEC4", 4) } else { ("VEC3", 3) };
-        let count = keys.len() * keys[0].1.len() / lanes;
+        let (shape, lanes) = match path {
+            "rotation" => ("VEC4", 4),
+            "weights" => ("SCALAR", 1),
+            _ => ("VEC3", 3),
+        };
+        let count = keys.iter().map(|(_, v)| v.len()).sum::<usize>() / lanes;
         let output = self.accessor(&values, json!({ "componentType": 5126, "type": shape, "count": count }));
         self.animations.push(json!({
             "name": name,
             "samplers": [{ "input": input, "output": output, "interpolation": interpolation }],
             "channels": [{ "sampler": 0, "target": { "node": node, "path": path } }],
         }));
+    }
+
+    /// Makes all animations of this name one.
+    pub fn merge(&mut self, name: &str) {
+        let (same, mut kept): (Vec<Value>, Vec<Value>) =
+            std::mem::take(&mut self.animations).into_iter().partition(|animation| animation["name"] == name);
+        let mut one = json!({ "name": name, "samplers": [], "channels": [] });
+        for (index, animation) in same.iter().enumerate() {
+            let mut channel = animation["channels"][0].clone();
+            channel["sampler"] = json!(index);
+            for (list, item) in [("samplers", animation["samplers"][0].clone()), ("channels", channel)] {
+                one[list].as_array_mut().expect("a list").push(item);
+            }
+        }
+        kept.push(one);
+        self.animations = kept;
     }
 
     fn accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
