@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 use super::{Kind, Take};
 use crate::math::{PI, cos, exp};
 use crate::noise::Random;
-use crate::wind::blow::features::{COUNT, NAMES};
+use crate::wind::blow::features::{COUNT, MEANS_S, MEASURED, NAMES};
 use crate::wind::blow::model::{B, C, FIRST, Model, PARAMETERS, SECOND};
 use crate::wind::blow::{BlowDetector, BlowSettings};
 
@@ -28,6 +28,8 @@ const GHOST_WEIGHT: f32 = 5.0;
 const UNHEARD_WEIGHT: f32 = 3.0;
 const EARLY_WEIGHT: f32 = 5.0;
 const EARLY_S: f64 = 0.15;
+/// What is left of a breath after its end may still sound like one, s.
+const TAIL_S: f64 = 0.25;
 /// Log-odds beyond which a right answer is a matter of course, nats; and one of how many such frames is kept.
 const SURE: f64 = 4.0;
 const SPARED: u64 = 8;
@@ -66,7 +68,7 @@ pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
         }
         frames = heard.frames;
         let t = i as f64 / f64::from(take.sample_rate);
-        let breath = take.breaths.iter().find(|b| t > b.onset - 0.02 && t < b.offset + 0.4);
+        let breath = take.breaths.iter().find(|b| t > b.onset - 0.02 && t < b.offset + TAIL_S);
         let is_breath = match breath {
             Some(b) if t > b.onset + 0.025 && t < b.offset - 0.1 => true,
             Some(_) => continue,
@@ -201,8 +203,9 @@ pub fn table(model: &Model) -> String {
          /// The trained model.\n#[rustfmt::skip]\n\
          #[allow(clippy::approx_constant)] // what was learnt, whatever it resembles\npub static TRAINED: Model = Model {\n    scale: [\n",
     );
-    for ([mean, deviation], name) in model.scale.iter().zip(NAMES) {
-        let _ = writeln!(out, "        [{mean:.4}, {deviation:.4}], // {name}");
+    for (i, ([mean, deviation], name)) in model.scale.iter().zip(NAMES.iter().cycle()).enumerate() {
+        let over = i.checked_sub(MEASURED).map(|i| format!(", mean of {} s", MEANS_S[i / MEASURED]));
+        let _ = writeln!(out, "        [{mean:.4}, {deviation:.4}], // {name}{}", over.unwrap_or_default());
     }
     out.push_str("    ],\n    weights: [\n");
     for row in model.weights.chunks(11) {

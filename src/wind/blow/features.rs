@@ -1,4 +1,5 @@
-//! What tells a breath from a room: some forty numbers per frame, none of which knows the microphone's gain.
+//! What tells a breath from a room: forty numbers per frame, none of which knows the microphone's gain, and the means of
+//! each over the last tenth and the last half of a second.
 //!
 //! The room is a power spectrum that follows the microphone slowly and stands still while somebody blows. What rises
 //! above it (the *excess*, power subtraction after Boll 1979) is judged by shape, by its last quarter of a second, and by
@@ -14,11 +15,15 @@ use super::past::{Past, Present};
 use super::spectrum::{BINS, FRAME_S, Power, TRANSFORM, band};
 use crate::math::{PI, cos, exp, ln, log10};
 
-/// Number of features.
-pub const COUNT: usize = 40;
+/// What is measured in each frame.
+pub const MEASURED: usize = 40;
+/// Number of features: what is measured, and its means over [`MEANS_S`].
+pub const COUNT: usize = MEASURED * (1 + MEANS_S.len());
+/// A frame alone is doubtful; what it was like lately makes it clear. Time constants of the means, s.
+pub const MEANS_S: [f64; 2] = [0.1, 0.5];
 
-/// Names of the features, in order.
-pub const NAMES: [&str; COUNT] = [
+/// Names of what is measured, in order.
+pub const NAMES: [&str; MEASURED] = [
     "rise of 31–94 Hz over the room, 10 dB",
     "rise of 94–203 Hz",
     "rise of 203–406 Hz",
@@ -61,7 +66,7 @@ pub const NAMES: [&str; COUNT] = [
     "peakedness of the treble over 0.16 s",
 ];
 
-/// One frame's features, in the order of [`NAMES`].
+/// One frame's features: what is measured in the order of [`NAMES`], then its means, the shorter one first.
 pub type Features = [f64; COUNT];
 
 /// Index of the periodicity over 80 ms.
@@ -119,6 +124,7 @@ pub(super) struct Listener {
     /// Over 40 ms and over 0.16 s.
     peakedness: [f64; 2],
     past: Past,
+    means: [[f64; MEASURED]; MEANS_S.len()],
     cosine: Vec<f64>,
 }
 
@@ -170,6 +176,7 @@ impl Listener {
             risen_for: 0.0,
             peakedness: [0.0; 2],
             past: Past::new(),
+            means: [[0.0; MEASURED]; MEANS_S.len()],
             cosine: (0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect(),
         }
     }
@@ -199,7 +206,7 @@ impl Listener {
         for (slow, e) in self.slow.iter_mut().zip(&self.excess) {
             *slow += blend(0.08) * (e - *slow);
         }
-        let (features, levels) = self.measure(own, still);
+        let (measured, levels) = self.measure(own, still);
         if !still.room {
             for (unrest, rise) in self.unrest_db.iter_mut().zip([levels.rise_db, levels.middle_rise_db]) {
                 // A room that has become quieter is another room: its old unrest is forgotten.
@@ -207,7 +214,19 @@ impl Listener {
                 *unrest += blend(2.0) * (now - *unrest).min(6.0);
             }
         }
-        (features, levels)
+        (self.with_means(&measured), levels)
+    }
+
+    /// What is measured now, and what it was like lately.
+    fn with_means(&mut self, measured: &[f64; MEASURED]) -> Features {
+        for (means, seconds) in self.means.iter_mut().zip(MEANS_S) {
+            let blend = if self.frames == 1 { 1.0 } else { blend(seconds) };
+            means.iter_mut().zip(measured).for_each(|(mean, x)| *mean += blend * (x - *mean));
+        }
+        let mut features = [0.0; COUNT];
+        let rows = std::iter::once(measured).chain(&self.means);
+        features.chunks_exact_mut(MEASURED).zip(rows).for_each(|(out, row)| out.copy_from_slice(row));
+        features
     }
 
     /// Has it heard the room for less than a third of a second?
@@ -233,7 +252,7 @@ impl Listener {
         }
     }
 
-    fn measure(&mut self, own: &Power, still: Still) -> (Features, Levels) {
+    fn measure(&mut self, own: &Power, still: Still) -> ([f64; MEASURED], Levels) {
         // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
         let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + QUIETEST;
         let cleaned = |from: usize, to: usize| {
@@ -272,7 +291,7 @@ impl Listener {
             Present { level, rises: [low_rise, middle_rise], periodicity: self.periodicity, power: &self.smooth };
         let past = self.past.push(&present, still.past);
         let [low, middle] = past.trends;
-        let features = [
+        let measured = [
             rises[0],
             rises[1],
             rises[2],
@@ -315,7 +334,7 @@ impl Listener {
             10.0 * self.peakedness[1],
         ]
         .map(|x| 0.1 * x.clamp(-60.0, 60.0));
-        (features, levels)
+        (measured, levels)
     }
 
     /// Highest peak of the autocorrelation between the lags of 400 and 80 Hz, 0 … 1, of the excess between 94 and

@@ -10,9 +10,9 @@
 use super::features::{COUNT, Features};
 
 /// Width of the first layer.
-pub const FIRST: usize = 48;
+pub const FIRST: usize = 64;
 /// Width of the second layer.
-pub const SECOND: usize = 20;
+pub const SECOND: usize = 24;
 /// Parameters that are trained.
 pub const PARAMETERS: usize = FIRST * (COUNT + 1) + SECOND * (FIRST + 1) + SECOND + 1;
 /// Standardised features are cut here: what was never met in training says no more than the farthest that was.
