@@ -47,6 +47,11 @@ pub struct LoopRow {
 }
 
 impl LoopRow {
+    /// Is it between bodies that sleep?
+    pub fn sleeps(&self, asleep: &[bool]) -> bool {
+        self.parts.iter().any(|(body, _)| asleep[*body])
+    }
+
     /// Adds the Γ of the `k`th acting row to a matrix.
     pub fn add_compliance(&self, k: usize, matrix: &mut Cholesky) {
         for (l, gamma) in self.compliance[..=self.place].iter().enumerate() {

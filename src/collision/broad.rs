@@ -63,6 +63,9 @@ pub struct BroadPhase {
     ends: Vec<[(Pose, DMat3); 2]>,
     /// Swept boxes of the colliders whose turn it was to be looked at.
     swept: Vec<Option<Bounds>>,
+    /// Which units sleep (what never moves does), and which of their boxes are known.
+    asleep: Vec<bool>,
+    known: Vec<bool>,
 }
 
 /// A half-space that stands still.
@@ -128,11 +131,20 @@ impl BroadPhase {
             ends: vec![[(Pose::IDENTITY, DMat3::IDENTITY); 2]; count],
             colliders: boxes,
             bodies,
+            asleep: (0..units.len()).map(|unit| unit >= count).collect(),
+            known: vec![false; units.len()],
             pairs: pairs.to_vec(),
             sorted,
             runs,
             units,
             order,
+        }
+    }
+
+    /// Lets bodies sleep: their sweeps stay what they will next be, and what sleeps does not meet what sleeps.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        for (unit, asleep) in asleep.iter().enumerate().take(self.bodies.len()) {
+            (self.asleep[unit], self.known[unit]) = (*asleep, false);
         }
     }
 
@@ -143,15 +155,21 @@ impl BroadPhase {
             return;
         }
         for &unit in &self.order {
+            if self.known[unit] {
+                continue;
+            }
             if let Some(&(middle, half)) = self.bodies.get(unit) {
                 self.ends[unit] = sweeps[unit].ends();
                 self.units[unit] = swept(&sweeps[unit], &self.ends[unit], middle, half);
             }
         }
         for (swept, (body, _)) in self.swept.iter_mut().zip(&self.shapes) {
-            if body.is_some() {
+            if body.is_some_and(|body| !self.known[body]) {
                 *swept = None;
             }
+        }
+        for (known, asleep) in self.known.iter_mut().zip(&self.asleep) {
+            *known = *asleep;
         }
         let axis = self.widest_axis();
         let units = &self.units;
@@ -170,7 +188,7 @@ impl BroadPhase {
                 if self.units[other].low[axis] > self.units[one].high[axis] {
                     break;
                 }
-                if self.units[one].meets(&self.units[other]) {
+                if !(self.asleep[one] && self.asleep[other]) && self.units[one].meets(&self.units[other]) {
                     self.tell_apart((one.min(other), one.max(other)), sweeps, out);
                 }
             }

@@ -24,7 +24,7 @@ use super::rows::coupling::{self, Gauge};
 use super::spatial::response;
 use super::trains::{Asked, Trains};
 use super::tree::{Form, JointRows, Link, Tree};
-use super::{Axis, Constraint, ConstraintKind, Measure};
+use super::{Axis, Constraint, ConstraintKind, Groups, Measure};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 pub use geared::Geared;
@@ -115,6 +115,9 @@ pub struct System {
     /// Rotation matrices, where a row asks for them.
     frames: Vec<DMat3>,
     driven: Vec<bool>,
+    /// Which bodies sleep, and those of them that the tree may go through all the same.
+    asleep: Vec<bool>,
+    still: Vec<usize>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
     /// Wanted J a per row.
@@ -172,7 +175,11 @@ impl System {
         }
         // To the tree a train is ground that moves.
         let given: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || trains.has(body)).collect();
-        let tree = Tree::new(level, &given, &links, &at, &points);
+        let mut groups = Groups::new(bodies.len());
+        for constraint in constraints {
+            groups.join_all((0..bodies.len()).filter(|&body| !driven[body] && constraint.kind.touches(body)));
+        }
+        let tree = Tree::new(level, &given, &links, (&at, &points), &groups);
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
@@ -257,6 +264,8 @@ impl System {
             dense,
             frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
             driven: driven.to_vec(),
+            asleep: vec![false; n],
+            still: Vec::with_capacity(n),
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
             a: vec![[0.0; 6]; n],
@@ -341,20 +350,25 @@ impl System {
         self.hung.evaluate(self.quads.all(), &mut self.tree);
         self.told = false;
         for (body, frame) in self.frames.iter_mut().enumerate() {
-            *frame = self.quads.frame(body);
+            if !self.asleep[body] {
+                *frame = self.quads.frame(body);
+            }
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
         let asked = if all { self.various.len() } else { self.outside_trains };
         for &index in &self.various[..asked] {
             let joint = &mut self.joints[index];
+            if self.asleep[joint.link.a] {
+                continue;
+            }
             joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
         for coupling in &mut self.couplings {
             let share = self.activity.share(coupling.constraint);
             let slot = &mut outside[coupling.outside];
-            if slot.held && !all {
+            if (slot.held && !all) || slot.sleeps(&self.asleep) {
                 continue;
             }
             slot.active = share > 0.0 && !slot.held;
@@ -369,10 +383,44 @@ impl System {
         }
     }
 
+    /// Leaves these bodies out: they stand still, with all that is joined to them, until they wake. Rows and factor are to be
+    /// made anew.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        self.asleep.copy_from_slice(asleep);
+        self.quads.let_sleep(asleep);
+        self.tree.let_sleep(asleep);
+        self.trains.let_sleep(asleep);
+        self.still.clear();
+        self.still.extend((0..asleep.len()).filter(|&body| asleep[body] && !self.trains.has(body)));
+        for (body, a) in self.a.iter_mut().enumerate().filter(|(body, _)| asleep[*body]) {
+            (*a, self.b[body]) = ([0.0; 6], [0.0; 6]);
+        }
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        for row in outside.iter_mut().filter(|row| row.sleeps(asleep)) {
+            row.active = false;
+        }
+    }
+
+    /// Does a joint sleep?
+    pub fn joint_sleeps(&self, joint: usize) -> bool {
+        self.asleep[self.joints[joint].link.a]
+    }
+
+    /// Does what a constraint is between sleep?
+    pub fn constraint_sleeps(&self, constraint: usize) -> bool {
+        let kind = &self.constraints[constraint].kind;
+        self.asleep.iter().enumerate().any(|(body, asleep)| *asleep && kind.touches(body))
+    }
+
+    /// Is any row being drawn together?
+    pub fn gathers(&self) -> bool {
+        self.gathering
+    }
+
     /// Adds the soft rows of pivot friction for a time `h` (s), with the loads (N) that the joints carry.
     pub fn add_friction(&mut self, bodies: &[RigidBody], loads: &[f64], h: f64) {
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
-        for (joint, &load) in self.joints.iter_mut().zip(loads) {
+        for (joint, &load) in self.joints.iter_mut().zip(loads).filter(|(joint, _)| !self.asleep[joint.link.a]) {
             joint.add_friction(&self.constraints, bodies, load, h, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
@@ -510,7 +558,11 @@ impl System {
 
     /// Counts the turns of couplings up to this state; once a step.
     pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+        let outside = self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows);
         for coupling in &mut self.couplings {
+            if outside[coupling.outside].sleeps(&self.asleep) {
+                continue;
+            }
             for (gauge, _) in &mut coupling.terms {
                 gauge.count(bodies);
             }

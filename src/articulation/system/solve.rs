@@ -17,6 +17,9 @@ impl System {
         self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
         self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
         self.trains.push(self.loops.pushes(), &mut self.a);
+        for &body in &self.still {
+            self.a[body] = [0.0; 6];
+        }
         self.asked = Asked::Impulse;
     }
 

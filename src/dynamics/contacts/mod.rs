@@ -6,6 +6,7 @@
 //! forces over the whole substep (`rest`) until it has opened by more than [`RELEASE_GAP`].
 
 mod hit;
+mod asleep;
 mod leap;
 mod met;
 mod open;
@@ -30,6 +31,7 @@ pub use hit::{Strike, Struck, strike};
 pub use met::{ENDS, Met, couple_rows};
 pub(super) use rest::Verdict;
 pub(super) use row::Row;
+pub(super) use sweep::Hit;
 pub use touching::Touching;
 pub use twist::Resistance;
 
@@ -153,6 +155,10 @@ pub struct Contacts {
     held: Vec<Held>,
     /// Those before them.
     former: Vec<Held>,
+    /// Whether each body sleeps, how many of the pairs and bounds at rest are between such, and the forces there.
+    asleep: Vec<bool>,
+    asleep_at_rest: usize,
+    kept: Vec<Held>,
     /// 1/ω₀ of the figure's stabiliser, s.
     gathering_time: f64,
     /// Length of the substep that they are laid out for, s.
@@ -208,6 +214,9 @@ impl Contacts {
             limits,
             held: Vec::with_capacity(problem.touches.capacity()),
             former: Vec::with_capacity(problem.touches.capacity()),
+            asleep: vec![false; bodies.len()],
+            asleep_at_rest: 0,
+            kept: Vec::with_capacity(problem.touches.capacity()),
             gathering_time: joints.1,
             span: 0.0,
             problem,
@@ -258,6 +267,8 @@ impl Contacts {
         self.resting.fill(false);
         self.depth.fill(0.0);
         self.held.clear();
+        self.kept.clear();
+        self.asleep_at_rest = 0;
         self.at_rest.clear();
         self.bounds_at_rest = 0;
         self.limits.forget(bodies);
