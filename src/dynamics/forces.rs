@@ -81,7 +81,8 @@ impl Springs {
     /// Leaves out springs of bodies that sleep.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
         let Self { springs, acting, .. } = self;
-        let idle = |spring: &Spring| asleep.iter().enumerate().any(|(body, asleep)| *asleep && spring.kind.touches(body));
+        let idle =
+            |spring: &Spring| asleep.iter().enumerate().any(|(body, asleep)| *asleep && spring.kind.touches(body));
         acting.clear();
         acting.extend((0..springs.len()).filter(|&spring| !idle(&springs[spring])));
     }

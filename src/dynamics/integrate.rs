@@ -141,7 +141,8 @@ impl Dynamics {
     /// Accelerations at the quads' present state, rows and factor made anew.
     fn accelerate(&mut self, t: f64) {
         self.carry_driven(t);
-        self.evaluate_quads();
+        self.show_where_asked();
+        self.system.evaluate_motion(&self.bodies);
         self.system.factor();
         self.solve_forces(t);
     }
@@ -168,10 +169,14 @@ impl Dynamics {
 
     /// Evaluates the rows at the quads' present state.
     fn evaluate_quads(&mut self) {
+        self.show_where_asked();
+        self.system.evaluate_quads(&self.bodies);
+    }
+
+    fn show_where_asked(&mut self) {
         if self.system.asks_bodies() || !self.springs.is_empty() {
             self.by_quads(Show);
         }
-        self.system.evaluate_quads(&self.bodies);
     }
 
     /// Closes the joints of the bodies in place and speed; leaves the system factored there. Is it `factored` for these

@@ -35,7 +35,7 @@ use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
 use clutches::Clutches;
-use contacts::{Hit, Verdict};
+use contacts::Verdict;
 pub use contacts::{
     Contacts, ENDS, Impact, ImpactKind, Met, Resistance, Strike, Struck, SurfacePair, Touching, couple_rows, strike,
 };
@@ -43,7 +43,7 @@ use course::{Course, Rate};
 pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
 pub use moved::Moved;
-use passes::{Begin, Return, SLOWEST};
+use passes::{Begin, Return};
 use sleep::Sleep;
 
 /// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
@@ -493,65 +493,6 @@ impl Dynamics {
     pub fn disturb(&mut self) {
         self.wake_all();
         self.known = Known::Nothing;
-    }
-
-    /// Does a body sleep: at rest, and left out until something touches or pushes it?
-    pub fn sleeps(&self, body: usize) -> bool {
-        self.sleep.asleep()[body]
-    }
-
-    /// Lets fall asleep what has rested for long enough; what it still had of speed is gone.
-    fn fall_asleep(&mut self) {
-        self.sleep.watch(self.dt, &self.bodies, &self.given);
-        let waits = self.system.gathers() || self.clutches.slipping() > 0;
-        if waits || !self.sleep.fall(self.contacts.leaning()) {
-            return;
-        }
-        for (index, body) in self.bodies.iter_mut().enumerate().filter(|(index, _)| self.sleep.asleep()[*index]) {
-            self.contacts.lose(body.kinetic_energy());
-            (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-            self.before[index] = *body;
-            self.norms[index] = [0.0, body.properties.mass * SLOWEST * SLOWEST];
-        }
-        self.tell_who_sleeps();
-    }
-
-    /// Wakes a body with its island.
-    fn wake(&mut self, body: usize) {
-        if self.sleep.wake(body, self.contacts.leaning()) {
-            self.tell_who_sleeps();
-        }
-    }
-
-    fn wake_all(&mut self) {
-        if self.sleep.wake_all() {
-            self.tell_who_sleeps();
-        }
-    }
-
-    /// Wakes all that a hit will be felt by.
-    fn wake_for(&mut self, hit: &Hit) {
-        while self.sleep.any()
-            && let Some(body) = self.contacts.shaken(hit, &self.bodies)
-        {
-            self.wake(body);
-        }
-    }
-
-    fn tell_who_sleeps(&mut self) {
-        let asleep = self.sleep.asleep();
-        self.system.let_sleep(asleep);
-        self.springs.let_sleep(asleep);
-        self.contacts.let_sleep(asleep, &self.bodies);
-        self.known = Known::Nothing;
-    }
-
-    /// What sleeps stays where it is to the bit: turning by nothing may round.
-    fn keep_asleep(&mut self) {
-        if self.sleep.any() {
-            let all = self.bodies.iter_mut().zip(&self.before).zip(self.sleep.asleep());
-            all.filter(|(_, asleep)| **asleep).for_each(|((body, before), _)| *body = *before);
-        }
     }
 
     /// Constraints that broke in the last step.

@@ -19,9 +19,13 @@
 //! What a function of time acts on, or what is joined to a driven body or lies on one, never sleeps. Waking goes on to what leans on
 //! what wakes. What it had left of energy is entered with the work of its contacts.
 
+use super::contacts::Hit;
+use super::passes::SLOWEST;
+use super::{Dynamics, Known};
 use crate::articulation::block::{Vec6, angular, linear};
 use crate::articulation::{Constraint, ConstraintKind, Function, Groups, Limit, Spring};
 use crate::bodies::RigidBody;
+use crate::math::DVec3;
 
 /// Slower than this is rest, m/s: less than a tenth of a millimetre in a day, and a hundred times what rounding leaves to what
 /// rests on others.
@@ -119,8 +123,7 @@ impl Sleep {
             return;
         }
         for (index, body) in bodies.iter().enumerate().filter(|(index, _)| !self.asleep[*index]) {
-            let square =
-                body.velocity.length_squared() + self.gyration[index] * body.angular_velocity.length_squared();
+            let square = body.velocity.length_squared() + self.gyration[index] * body.angular_velocity.length_squared();
             if square < SLOW * SLOW && !self.pushed(index, body, &push[index]) {
                 self.quiet[index] += dt;
             } else {
@@ -149,7 +152,8 @@ impl Sleep {
     /// Lets fall asleep what is quiet with all that leans on it. Did anything?
     pub fn fall(&mut self, leaning: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
         let n = self.asleep.len();
-        let tired = |sleep: &Self, body: usize| sleep.quiet[body] >= QUIET && !sleep.asleep[body] && !sleep.driven[body];
+        let tired =
+            |sleep: &Self, body: usize| sleep.quiet[body] >= QUIET && !sleep.asleep[body] && !sleep.driven[body];
         if !(0..n).any(|body| tired(self, body)) {
             return false;
         }
@@ -203,6 +207,67 @@ impl Sleep {
                 (true, _) => self.stays[b] = true,
                 (_, true) => self.stays[a] = true,
             }
+        }
+    }
+}
+
+impl Dynamics {
+    /// Does a body sleep: at rest, and left out until something touches or pushes it?
+    pub fn sleeps(&self, body: usize) -> bool {
+        self.sleep.asleep()[body]
+    }
+
+    /// Lets fall asleep what has rested for long enough; what it still had of speed is gone.
+    pub(super) fn fall_asleep(&mut self) {
+        self.sleep.watch(self.dt, &self.bodies, &self.given);
+        let waits = self.system.gathers() || self.clutches.slipping() > 0;
+        if waits || !self.sleep.fall(self.contacts.leaning()) {
+            return;
+        }
+        for (index, body) in self.bodies.iter_mut().enumerate().filter(|(index, _)| self.sleep.asleep()[*index]) {
+            self.contacts.lose(body.kinetic_energy());
+            (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+            self.before[index] = *body;
+            self.norms[index] = [0.0, body.properties.mass * SLOWEST * SLOWEST];
+        }
+        self.tell_who_sleeps();
+    }
+
+    /// Wakes a body with its island.
+    pub(super) fn wake(&mut self, body: usize) {
+        if self.sleep.wake(body, self.contacts.leaning()) {
+            self.tell_who_sleeps();
+        }
+    }
+
+    pub(super) fn wake_all(&mut self) {
+        if self.sleep.wake_all() {
+            self.tell_who_sleeps();
+        }
+    }
+
+    /// Wakes all that a hit will be felt by.
+    pub(super) fn wake_for(&mut self, hit: &Hit) {
+        while self.sleep.any()
+            && let Some(body) = self.contacts.shaken(hit, &self.bodies)
+        {
+            self.wake(body);
+        }
+    }
+
+    fn tell_who_sleeps(&mut self) {
+        let asleep = self.sleep.asleep();
+        self.system.let_sleep(asleep, &self.bodies);
+        self.springs.let_sleep(asleep);
+        self.contacts.let_sleep(asleep, &self.bodies);
+        self.known = Known::Nothing;
+    }
+
+    /// What sleeps stays where it is to the bit: turning by nothing may round.
+    pub(super) fn keep_asleep(&mut self) {
+        if self.sleep.any() {
+            let all = self.bodies.iter_mut().zip(&self.before).zip(self.sleep.asleep());
+            all.filter(|(_, asleep)| **asleep).for_each(|((body, before), _)| *body = *before);
         }
     }
 }

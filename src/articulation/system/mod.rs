@@ -118,6 +118,9 @@ pub struct System {
     /// Which bodies sleep, and those of them that the tree may go through all the same.
     asleep: Vec<bool>,
     still: Vec<usize>,
+    /// Which constraints are between such, and the largest error of a length among them, m.
+    idle: Vec<bool>,
+    asleep_gap: f64,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
     /// Wanted J a per row.
@@ -266,6 +269,8 @@ impl System {
             driven: driven.to_vec(),
             asleep: vec![false; n],
             still: Vec::with_capacity(n),
+            idle: vec![false; constraints.len()],
+            asleep_gap: 0.0,
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
             a: vec![[0.0; 6]; n],
@@ -328,24 +333,29 @@ impl System {
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
-        self.evaluate_rows(bodies, true);
+        self.evaluate_rows(bodies, true, true);
         self.tell_values();
     }
 
     /// The same for the laws of motion, which do not ask for what trains hold of themselves.
     pub fn evaluate_lean(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
-        self.evaluate_rows(bodies, false);
+        self.evaluate_rows(bodies, false, true);
         self.tell_values();
     }
 
     /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
     pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
-        self.evaluate_rows(bodies, false);
+        self.evaluate_rows(bodies, false, true);
     }
 
-    /// Evaluates rows where the quads are, with those of trains or without.
-    fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool) {
+    /// The same for accelerations alone: C of couplings stays what it was, unless rows are drawn together by it.
+    pub fn evaluate_motion(&mut self, bodies: &[RigidBody]) {
+        self.evaluate_rows(bodies, false, self.gathering);
+    }
+
+    /// Evaluates rows where the quads are, with those of trains or without, and with C of couplings or without.
+    fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool, values: bool) {
         self.trains.evaluate(&self.quads);
         self.hung.evaluate(self.quads.all(), &mut self.tree);
         self.told = false;
@@ -373,8 +383,12 @@ impl System {
             }
             slot.active = share > 0.0 && !slot.held;
             slot.compliance[0] = 0.0;
-            let mut row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
-            row.value -= coupling.offset;
+            let mut row = coupling::motion(&scene, &coupling.terms, &mut slot.parts);
+            row.value = if values {
+                coupling::value(&scene, &coupling.terms) - coupling.offset
+            } else {
+                self.states[coupling.at].value
+            };
             self.states[coupling.at].set(&row, coupling.constraint, share);
         }
         // Whoever draws open joints together, or lets them yield, asks how far they are open.
@@ -385,8 +399,12 @@ impl System {
 
     /// Leaves these bodies out: they stand still, with all that is joined to them, until they wake. Rows and factor are to be
     /// made anew.
-    pub fn let_sleep(&mut self, asleep: &[bool]) {
+    pub fn let_sleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
         self.asleep.copy_from_slice(asleep);
+        for (idle, constraint) in self.idle.iter_mut().zip(&self.constraints) {
+            *idle = (0..asleep.len()).any(|body| asleep[body] && constraint.kind.touches(body));
+        }
+        self.asleep_gap = self.largest_length(bodies, true);
         self.quads.let_sleep(asleep);
         self.tree.let_sleep(asleep);
         self.trains.let_sleep(asleep);
@@ -408,8 +426,7 @@ impl System {
 
     /// Does what a constraint is between sleep?
     pub fn constraint_sleeps(&self, constraint: usize) -> bool {
-        let kind = &self.constraints[constraint].kind;
-        self.asleep.iter().enumerate().any(|(body, asleep)| *asleep && kind.touches(body))
+        self.idle[constraint]
     }
 
     /// Is any row being drawn together?

@@ -57,7 +57,9 @@ impl Contacts {
             let pair = self.near[near];
             let Some(sleeper) = self.sleeper(pair) else { continue };
             let touches = |manifold: Manifold| manifold.points().iter().any(|at| at.gap <= TOUCH);
-            if hit.source == Source::Pair(pair) || (self.may_touch(pair, bodies) && touches(self.manifold(pair, bodies))) {
+            if hit.source == Source::Pair(pair)
+                || (self.may_touch(pair, bodies) && touches(self.manifold(pair, bodies)))
+            {
                 return Some(sleeper);
             }
         }

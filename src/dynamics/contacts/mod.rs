@@ -5,8 +5,8 @@
 //! meets slower than [`REST_SPEED`], or slowly and again within [`CHATTER_TIME`], *rests*: from then on it is held by
 //! forces over the whole substep (`rest`) until it has opened by more than [`RELEASE_GAP`].
 
-mod hit;
 mod asleep;
+mod hit;
 mod leap;
 mod met;
 mod open;
