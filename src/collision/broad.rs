@@ -5,7 +5,7 @@
 //! next, so insertion sort is linear. Bodies whose boxes overlap are then told apart collider by collider. What
 //! stands still has a box of its own for each collider.
 
-use super::advance::{Sweep, TOUCH};
+use super::advance::{Size, Sweep, TOUCH};
 use super::pairs::Pair;
 use super::shape::{Collider, Shape};
 use crate::math::{DMat3, DVec3, Pose};
@@ -61,8 +61,11 @@ pub struct BroadPhase {
     order: Vec<usize>,
     /// Where each body is at the two ends of its way.
     ends: Vec<[(Pose, DMat3); 2]>,
-    /// Swept boxes of the colliders whose turn it was to be looked at.
+    /// Swept boxes of the colliders whose turn it was to be looked at, and before that cubes around these.
     swept: Vec<Option<Bounds>>,
+    rough: Vec<Option<Bounds>>,
+    /// Sizes of the boxes that have been asked for.
+    sizes: Vec<Option<Size>>,
     /// Which units sleep (what never moves does), and which of their boxes are known.
     asleep: Vec<bool>,
     known: Vec<bool>,
@@ -128,6 +131,8 @@ impl BroadPhase {
         Self {
             shapes: colliders.iter().map(|c| (c.body, c.body.map_or_else(|| Plane::of(&c.shape), |_| None))).collect(),
             swept: vec![None; colliders.len()],
+            rough: vec![None; colliders.len()],
+            sizes: vec![None; colliders.len()],
             ends: vec![[(Pose::IDENTITY, DMat3::IDENTITY); 2]; count],
             colliders: boxes,
             bodies,
@@ -163,9 +168,9 @@ impl BroadPhase {
                 self.units[unit] = swept(&sweeps[unit], &self.ends[unit], middle, half);
             }
         }
-        for (swept, (body, _)) in self.swept.iter_mut().zip(&self.shapes) {
+        for (collider, (body, _)) in self.shapes.iter().enumerate() {
             if body.is_some_and(|body| !self.known[body]) {
-                *swept = None;
+                (self.swept[collider], self.rough[collider]) = (None, None);
             }
         }
         for (known, asleep) in self.known.iter_mut().zip(&self.asleep) {
@@ -217,16 +222,32 @@ impl BroadPhase {
         for at in first..end {
             let index = self.sorted[at];
             let Pair { a, b } = self.pairs[index];
-            let (of_a, of_b) = (self.bounds(a, sweeps), self.bounds(b, sweeps));
             let meet = match (self.shapes[a].1, self.shapes[b].1) {
-                (Some(plane), None) => plane.meets(&of_b),
-                (None, Some(plane)) => plane.meets(&of_a),
-                _ => of_a.meets(&of_b),
+                (Some(plane), None) => plane.meets(&self.bounds(b, sweeps)),
+                (None, Some(plane)) => plane.meets(&self.bounds(a, sweeps)),
+                _ => {
+                    self.cube(a, sweeps).meets(&self.cube(b, sweeps))
+                        && self.bounds(a, sweeps).meets(&self.bounds(b, sweeps))
+                }
             };
             if meet {
                 out.push(index);
             }
         }
+    }
+
+    /// A cube that a collider's swept box lies in, for less: of a wheel's teeth few are near anything.
+    fn cube(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {
+        let ((middle, half), (body, _)) = (self.colliders[collider], self.shapes[collider]);
+        *self.rough[collider].get_or_insert_with(|| match body {
+            Some(body) => {
+                let (pose, axes) = &self.ends[body][0];
+                let size = self.sizes[collider].get_or_insert_with(|| sweeps[body].size(middle, half));
+                let reach = size.half + sweeps[body].stray(size) + TOUCH;
+                Bounds::about(pose.position + *axes * middle, DVec3::splat(reach))
+            }
+            None => Bounds::about(middle, half),
+        })
     }
 
     fn bounds(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {
