@@ -351,7 +351,7 @@ impl Dynamics {
         self.press();
         self.ensure_rates(t);
         if self.clutches.rub(h, &mut self.system, &self.bodies) {
-            self.project(false);
+            self.project();
         }
         self.known = Known::Nothing;
     }
@@ -377,12 +377,17 @@ impl Dynamics {
                 self.keep_asleep();
                 return h;
             }
-            self.prepare_impulses();
+            // Rows and factor of the substep's end serve: joints have closed since by less than what matters to them.
+            self.known = Known::Nothing;
             let (before, system) = (&self.before, &mut self.system);
             match self.contacts.settle((h, pass, h > 2.0 * least), before, system, &mut self.bodies) {
                 Verdict::Stands { moved } => {
-                    // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
-                    self.project(!moved);
+                    // Contacts move bodies by first-order steps through the joints: what is left of second order goes here.
+                    if moved {
+                        self.project()
+                    } else {
+                        self.look_at_rates()
+                    }
                     self.keep_asleep();
                     return h;
                 }

@@ -149,7 +149,7 @@ impl Contacts {
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
     /// Where the substep stands, velocities and places are put right. The joints must be factored at
-    /// the bodies' present state.
+    /// the bodies' present state, or as near to it as a substep ends.
     pub(in crate::dynamics) fn settle(
         &mut self,
         (h, pass, shortens): (f64, usize, bool),
@@ -171,7 +171,7 @@ impl Contacts {
         if stands {
             self.slip = self.problem.largest_slip();
             self.recent_work = self.pressed(start, bodies) + straightened + self.problem.work();
-            self.problem.apply(system, bodies);
+            self.problem.apply_closing(system, bodies);
         }
         self.hold((h, settled, stands), start, bodies);
         if !stands {
