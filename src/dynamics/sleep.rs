@@ -16,7 +16,8 @@
 //! - a window opens or closes anywhere, or something breaks;
 //! - bodies are set from outside, or moved by places.
 //!
-//! What a function of time acts on, or what is joined to a driven body or lies on one, never sleeps. Waking goes on to what leans on
+//! Nobody falls asleep while a row is drawn together, acts in part or waits for its window, or while a clutch slips. What a
+//! function of time acts on, or what is joined to a driven body or lies on one, never sleeps. Waking goes on to what leans on
 //! what wakes. What it had left of energy is entered with the work of its contacts.
 
 use super::contacts::Hit;
@@ -138,7 +139,7 @@ impl Sleep {
         let slight = body.properties.mass * SLIGHT;
         let square = linear(&change).length_squared() + angular(&change).length_squared() / self.gyration[index];
         // What is no number is a push.
-        !(square <= slight * slight)
+        square.is_nan() || square > slight * slight
     }
 
     /// A body that sleeps and is pushed, or no longer where it fell asleep (`placed`).
