@@ -148,18 +148,15 @@ impl Network {
     fn absorb<S: Simd>(&mut self, simd: S, frames: &mut [f32x16<S>]) {
         let load = |x: &[f32; LINES]| -> f32x16<S> { (*x).simd_into(simd) };
         let gain = load(&self.absorption.gain);
-        let shelves = self.absorption.shelves.each_ref().map(|shelf| {
-            let [b0, b1, b2, a1, a2] = shelf.each_ref().map(load);
-            [b0, b1, b2, -a1, -a2]
-        });
+        let shelves = self.absorption.shelves.each_ref().map(|shelf| shelf.each_ref().map(load));
         let mut states = self.states.each_ref().map(|state| state.each_ref().map(load));
         for frame in frames {
             let mut y = *frame * gain;
             for ([b0, b1, b2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
                 let x = y;
-                y = b0.mul_add_precise(x, *s1);
-                *s1 = a1.mul_add_precise(y, b1.mul_add_precise(x, *s2));
-                *s2 = a2.mul_add_precise(y, *b2 * x);
+                y = *b0 * x + *s1;
+                *s1 = *b1 * x - *a1 * y + *s2;
+                *s2 = *b2 * x - *a2 * y;
             }
             *frame = y;
         }
