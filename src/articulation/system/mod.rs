@@ -121,6 +121,8 @@ pub struct System {
     /// Which constraints are between such, and the largest error of a length among them, m.
     idle: Vec<bool>,
     asleep_gap: f64,
+    /// Room for that search.
+    lent: Vec<DMat3>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
     /// Wanted J a per row.
@@ -271,6 +273,7 @@ impl System {
             still: Vec::with_capacity(n),
             idle: vec![false; constraints.len()],
             asleep_gap: 0.0,
+            lent: vec![DMat3::IDENTITY; n],
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
             a: vec![[0.0; 6]; n],
@@ -404,7 +407,9 @@ impl System {
         for (idle, constraint) in self.idle.iter_mut().zip(&self.constraints) {
             *idle = (0..asleep.len()).any(|body| asleep[body] && constraint.kind.touches(body));
         }
-        self.asleep_gap = self.largest_length(bodies, true);
+        let mut lent = std::mem::take(&mut self.lent);
+        self.asleep_gap = self.largest_length(bodies, true, &mut lent);
+        self.lent = lent;
         self.quads.let_sleep(asleep);
         self.tree.let_sleep(asleep);
         self.trains.let_sleep(asleep);

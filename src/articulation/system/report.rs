@@ -101,16 +101,16 @@ impl System {
     /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,
     /// slips of couplings.
     pub fn largest_gap(&self, bodies: &[RigidBody]) -> f64 {
-        self.largest_length(bodies, false).max(self.asleep_gap)
+        let mut frames = vec![DMat3::IDENTITY; bodies.len()];
+        self.largest_length(bodies, false, &mut frames).max(self.asleep_gap)
     }
 
-    /// The same of what sleeps alone, or of all else.
-    pub(super) fn largest_length(&self, bodies: &[RigidBody], sleeps: bool) -> f64 {
-        let mut frames = vec![DMat3::IDENTITY; bodies.len()];
+    /// The same of what sleeps alone, or of all else; `frames` lends a matrix a body.
+    pub(super) fn largest_length(&self, bodies: &[RigidBody], sleeps: bool, frames: &mut [DMat3]) -> f64 {
         for (body, frame) in frames.iter_mut().enumerate().filter(|(body, _)| self.asleep[*body] == sleeps) {
             *frame = matrix(bodies[body].rotation);
         }
-        let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
+        let scene = Scene { bodies, frames, time: self.activity.time() };
         let is_length = |c: &Constraint| !matches!(c.kind, ConstraintKind::Orientation { .. });
         let asked = |index: &usize| self.idle[*index] == sleeps && is_length(&self.constraints[*index]);
         (0..self.constraints.len()).filter(asked).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)

@@ -42,6 +42,8 @@ const CHATTER_TIME: f64 = 5e-3;
 const CHATTER_SPEED: f64 = 0.03;
 /// What rests and opens farther than this is apart again, m or rad.
 const RELEASE_GAP: f64 = 5e-5;
+/// Room for forces of what sleeps, and of what wakes again: sixteen times as many as are solved for at once.
+const MOST_KEPT: usize = 1024;
 /// Hits resolved at their own time in one step; what is hit further rests.
 const MOST_IMPACTS: usize = 64;
 
@@ -212,11 +214,11 @@ impl Contacts {
             colliders: colliders.to_vec(),
             pairs,
             limits,
-            held: Vec::with_capacity(problem.touches.capacity()),
+            held: Vec::with_capacity(touches.min(MOST_KEPT)),
             former: Vec::with_capacity(problem.touches.capacity()),
             asleep: vec![false; bodies.len()],
             asleep_at_rest: 0,
-            kept: Vec::with_capacity(problem.touches.capacity()),
+            kept: Vec::with_capacity(touches.min(MOST_KEPT)),
             gathering_time: joints.1,
             span: 0.0,
             problem,
