@@ -47,6 +47,11 @@ pub struct LoopRow {
 }
 
 impl LoopRow {
+    /// Is it between bodies that sleep?
+    pub fn sleeps(&self, asleep: &[bool]) -> bool {
+        self.parts.iter().any(|(body, _)| asleep[*body])
+    }
+
     /// Adds the Γ of the `k`th acting row to a matrix.
     pub fn add_compliance(&self, k: usize, matrix: &mut Cholesky) {
         for (l, gamma) in self.compliance[..=self.place].iter().enumerate() {
@@ -67,6 +72,8 @@ pub struct Loops {
     pub rows: Vec<LoopRow>,
     driven: Vec<bool>,
     skeleton: Vec<usize>,
+    /// Which rows touch the skeleton, and not trains alone.
+    hangs: Vec<bool>,
     /// Numbers of the joints by which the skeleton's bodies hang.
     numbers: Vec<Range<usize>>,
     /// Bodies of trains that rows touch, how many trains there are, and f of the active rows, row by row.
@@ -98,7 +105,9 @@ impl Loops {
         let touched = own.flat_map(|row| row.parts.iter().map(|(body, _)| *body));
         let ways = tree.paths(touched);
         let (carried, skeleton): (Vec<usize>, Vec<usize>) = ways.into_iter().partition(|&body| trains.has(body));
+        let hangs = rows.iter().map(|row| row.parts.iter().any(|(body, _)| skeleton.contains(body))).collect();
         Self {
+            hangs,
             numbers: skeleton.iter().filter_map(|&body| tree.joint_of(body)).map(numbers).collect(),
             skeleton,
             carried,
@@ -144,14 +153,16 @@ impl Loops {
                 self.b[body] = [0.0; 6];
                 self.a[body] = [0.0; 6];
             }
-            for (body, block) in &self.rows[self.active[l]].parts {
-                add_scaled(&mut self.b[*body], 1.0, block);
-            }
-            for &body in self.skeleton.iter().rev() {
-                tree.up(body, &mut self.b, None, &mut self.h);
-            }
-            for &body in &self.skeleton {
-                tree.down(body, &self.b, None, &mut self.h, &mut self.a);
+            if self.hangs[self.active[l]] {
+                for (body, block) in &self.rows[self.active[l]].parts {
+                    add_scaled(&mut self.b[*body], 1.0, block);
+                }
+                for &body in self.skeleton.iter().rev() {
+                    tree.up(body, &mut self.b, None, &mut self.h);
+                }
+                for &body in &self.skeleton {
+                    tree.down(body, &self.b, None, &mut self.h, &mut self.a);
+                }
             }
             for k in l..n {
                 let both = (0..self.trains).map(|train| {

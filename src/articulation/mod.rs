@@ -8,6 +8,7 @@ pub mod block;
 mod cholesky;
 mod dense;
 pub mod function;
+mod groups;
 mod hung;
 mod loops;
 pub mod quads;
@@ -23,6 +24,7 @@ pub mod tree;
 pub use activity::{Activity, Break};
 pub use cholesky::Cholesky;
 pub use function::{Function, Interpolation, Jet3};
+pub use groups::Groups;
 pub use schedule::{Breaking, Schedule, Trigger, Window};
 pub use system::{Geared, Joint, Method, RowState, System};
 

@@ -38,6 +38,11 @@ impl Members {
         Self { bodies: [body; WIDTH], count: 1 }
     }
 
+    /// All of them.
+    pub fn all(&self) -> &[usize] {
+        &self.bodies[..self.count]
+    }
+
     /// One more.
     pub fn push(&mut self, body: usize) {
         self.bodies[self.count] = body;
@@ -128,6 +133,8 @@ pub struct Quads {
     level: Level,
     members: Vec<Members>,
     slots: Vec<Slot>,
+    /// Indices of the quads in which somebody is awake.
+    moving: Vec<usize>,
     /// One more than `members`.
     quads: Vec<Quad>,
 }
@@ -145,7 +152,7 @@ impl Quads {
                 quads[quad].own_inertia.put(One(lane), &Sym3::lower(&properties.inertia));
             }
         }
-        Self { level, members: members.to_vec(), slots, quads }
+        Self { level, members: members.to_vec(), slots, moving: (0..members.len()).collect(), quads }
     }
 
     /// Which instructions there are.
@@ -156,6 +163,18 @@ impl Quads {
     /// The quads, the world's last.
     pub fn all(&self) -> &[Quad] {
         &self.quads
+    }
+
+    /// Leaves quads whose bodies all sleep as they are.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        let idle = |members: &Members| members.all().iter().all(|&body| asleep[body]);
+        self.moving.clear();
+        self.moving.extend((0..self.members.len()).filter(|&quad| !idle(&self.members[quad])));
+    }
+
+    /// Indices of the quads in which somebody is awake.
+    pub fn moving(&self) -> &[usize] {
+        &self.moving
     }
 
     /// Who is in which quad.
@@ -214,8 +233,8 @@ impl Quads {
 
     /// Takes over where the bodies are.
     pub fn look(&mut self, bodies: &[RigidBody]) {
-        let (members, quads) = (&self.members, &mut self.quads);
-        dispatch!(self.level, simd => look(simd, members, quads, bodies));
+        let (moving, members, quads) = (&self.moving, &self.members, &mut self.quads);
+        dispatch!(self.level, simd => look(simd, moving, members, quads, bodies));
     }
 
     /// Takes over where one body is.
@@ -227,42 +246,45 @@ impl Quads {
 
     /// Turns frames and inertias to where the bodies are, after [`Quads::displace`].
     pub fn turn(&mut self) {
-        let quads = &mut self.quads;
-        dispatch!(self.level, simd => turn(simd, quads));
+        let (moving, quads) = (&self.moving, &mut self.quads);
+        dispatch!(self.level, simd => turn(simd, moving, quads));
     }
 
     /// Adds displacements: of the centres (m) and rotation vectors (rad, world axes). Frames and inertias stay.
     pub fn displace(&mut self, by: &[Vec6]) {
-        let (members, quads) = (&self.members, &mut self.quads);
-        dispatch!(self.level, simd => displace(simd, members, quads, by));
+        let (moving, members, quads) = (&self.moving, &self.members, &mut self.quads);
+        dispatch!(self.level, simd => displace(simd, moving, members, quads, by));
     }
 
     /// Adds to the velocities.
     pub fn push(&mut self, by: &[Vec6]) {
-        let (members, quads) = (&self.members, &mut self.quads);
-        dispatch!(self.level, simd => push(simd, members, quads, by));
+        let (moving, members, quads) = (&self.moving, &self.members, &mut self.quads);
+        dispatch!(self.level, simd => push(simd, moving, members, quads, by));
     }
 }
 
 #[inline(always)]
-fn look<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], bodies: &[RigidBody]) {
-    for (four, quad) in members.iter().zip(quads) {
+fn look<S: Simd>(simd: S, moving: &[usize], members: &[Members], quads: &mut [Quad], bodies: &[RigidBody]) {
+    for &index in moving {
+        let (four, quad) = (&members[index], &mut quads[index]);
         quad.put(All(simd), &State::of(All(simd), |k| &bodies[four.bodies[k]]));
     }
 }
 
 #[inline(always)]
-fn turn<S: Simd>(simd: S, quads: &mut [Quad]) {
-    for quad in quads {
+fn turn<S: Simd>(simd: S, moving: &[usize], quads: &mut [Quad]) {
+    for &index in moving {
+        let quad = &mut quads[index];
         let state = quad.state.get(All(simd));
         quad.put(All(simd), &state);
     }
 }
 
 #[inline(always)]
-fn displace<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
+fn displace<S: Simd>(simd: S, moving: &[usize], members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
     let lanes = All(simd);
-    for (four, quad) in members.iter().zip(quads) {
+    for &index in moving {
+        let (four, quad) = (&members[index], &mut quads[index]);
         let by = Twist::gather(lanes, |k| &by[four.bodies[k]]);
         let state = &mut quad.state;
         let position = state.position.get(lanes) + by.linear;
@@ -273,9 +295,10 @@ fn displace<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], by: &[Vec
 }
 
 #[inline(always)]
-fn push<S: Simd>(simd: S, members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
+fn push<S: Simd>(simd: S, moving: &[usize], members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
     let lanes = All(simd);
-    for (four, quad) in members.iter().zip(quads) {
+    for &index in moving {
+        let (four, quad) = (&members[index], &mut quads[index]);
         let by = Twist::gather(lanes, |k| &by[four.bodies[k]]);
         let state = &mut quad.state;
         let (velocity, spin) = (state.velocity.get(lanes) + by.linear, state.spin.get(lanes) + by.angular);

@@ -27,8 +27,8 @@ impl Tree {
                 self.articulated[members.bodies[lane]] = *mass;
             });
         }
-        for index in (0..self.steps.len()).rev() {
-            match self.steps[index] {
+        for index in (0..self.awake.len()).rev() {
+            match self.awake[index] {
                 Step::Quad(quad) => self.factor_balls(All(simd), quad),
                 Step::Point(Slot { quad, lane }) => self.factor_balls(One(lane), quad),
                 Step::Body(body) => self.factor_one(body, form),
@@ -83,7 +83,7 @@ impl Tree {
 
     #[inline(always)]
     fn up_in<S: Simd>(&self, simd: S, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
-        for step in self.steps.iter().rev() {
+        for step in self.awake.iter().rev() {
             match *step {
                 Step::Quad(quad) => self.up_balls(All(simd), quad, b, Some(g), lambda),
                 Step::Point(Slot { quad, lane }) => self.up_balls(One(lane), quad, b, Some(g), lambda),
@@ -99,7 +99,7 @@ impl Tree {
 
     #[inline(always)]
     fn down_in<S: Simd>(&self, simd: S, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
-        for step in &self.steps {
+        for step in &self.awake {
             match *step {
                 Step::Quad(quad) => self.down_balls(All(simd), quad, b, Some(g), lambda, a),
                 Step::Point(Slot { quad, lane }) => self.down_balls(One(lane), quad, b, Some(g), lambda, a),

@@ -91,6 +91,9 @@ pub struct Trains {
     trains: Vec<Train>,
     /// Which wheel a body is.
     of_body: Vec<Option<usize>>,
+    /// Wheels and trains that are awake.
+    turning: Vec<usize>,
+    running: Vec<usize>,
     /// Whether each constraint is one of a train's.
     own: Vec<bool>,
 }
@@ -208,7 +211,17 @@ impl Trains {
             }
             all.trains.push(Train { mass, leader, angle: 0.0, turns: 0, rate: 0.0, told: f64::INFINITY });
         }
+        (all.turning, all.running) = ((0..all.wheels.len()).collect(), (0..all.trains.len()).collect());
         all
+    }
+
+    /// Leaves out trains that sleep: a whole train does, or none of it.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        let Self { wheels, trains, turning, running, .. } = self;
+        turning.clear();
+        turning.extend((0..wheels.len()).filter(|&wheel| !asleep[wheels[wheel].body]));
+        running.clear();
+        running.extend((0..trains.len()).filter(|&train| !asleep[wheels[trains[train].leader].body]));
     }
 
     /// Are there none?
@@ -290,7 +303,8 @@ impl Trains {
 
     /// Lays out the twists where the bodies are.
     pub fn evaluate(&mut self, quads: &Quads) {
-        for wheel in &mut self.wheels {
+        for &index in &self.turning {
+            let wheel = &mut self.wheels[index];
             if let Freedom::Turn { .. } = wheel.freedom {
                 wheel.twist = wheel.along(quads.frame(wheel.body) * wheel.arm);
             }
@@ -308,7 +322,8 @@ impl Trains {
         for train in &mut self.trains {
             train.rate = 0.0;
         }
-        for wheel in &mut self.wheels {
+        for &index in &self.turning {
+            let wheel = &mut self.wheels[index];
             let train = &mut self.trains[wheel.train];
             wheel.given = match asked {
                 Asked::Impulse => [0.0; 6],
@@ -333,7 +348,8 @@ impl Trains {
         for train in &mut self.trains {
             train.rate /= train.mass;
         }
-        for wheel in &self.wheels {
+        for &index in &self.turning {
+            let wheel = &self.wheels[index];
             a[wheel.body] = wheel.given;
             add_scaled(&mut a[wheel.body], wheel.ratio * self.trains[wheel.train].rate, &wheel.twist);
         }
@@ -370,7 +386,8 @@ impl Trains {
 
     /// Adds the answer to impulses (or forces) `f` along each train's coordinate.
     pub fn push(&self, f: &[f64], a: &mut [Vec6]) {
-        for wheel in &self.wheels {
+        for &index in &self.turning {
+            let wheel = &self.wheels[index];
             let more = f[wheel.train];
             if more != 0.0 {
                 let rate = wheel.ratio * more / self.trains[wheel.train].mass;
@@ -381,7 +398,8 @@ impl Trains {
 
     /// Counts q of every train up to where the bodies are.
     fn count_turns(&mut self, quads: &Quads) {
-        for train in &mut self.trains {
+        for &index in &self.running {
+            let train = &mut self.trains[index];
             let wheel = &self.wheels[train.leader];
             match wheel.freedom {
                 Freedom::Turn { about, .. } => {

@@ -31,6 +31,7 @@
 
 use fearless_simd::Level;
 
+use super::Groups;
 use super::ball::Ball;
 use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, mul, pseudo_inverse};
 use super::quads::{Members, Slot};
@@ -134,8 +135,9 @@ pub struct Tree {
     pub(super) level: Level,
     /// Roots first.
     order: Vec<usize>,
-    /// The same by quads, without what is driven; reversed it is the elimination order.
+    /// The same by quads, without what is driven; reversed it is the elimination order. Then those of them whose bodies are awake.
     pub(super) steps: Vec<Step>,
+    pub(super) awake: Vec<Step>,
     pub(super) hang: Vec<Hang>,
     pub(super) driven: Vec<bool>,
     loops: Vec<usize>,
@@ -154,8 +156,14 @@ impl Tree {
     /// The elimination order of bodies joined by `links`: breadth first from the ground (the world and what is
     /// driven), then each piece that floats from its first body. `at` is where each link's numbers begin, `points`
     /// whether it is never anything but a point. Links that would close a loop are left out, see [`Tree::loops`].
-    /// `level` says which instructions there are.
-    pub fn new(level: Level, driven: &[bool], links: &[Link], at: &[usize], points: &[bool]) -> Self {
+    /// `level` says which instructions there are, `groups` which bodies stand beside each other where they may.
+    pub fn new(
+        level: Level,
+        driven: &[bool],
+        links: &[Link],
+        (at, points): (&[usize], &[bool]),
+        groups: &Groups,
+    ) -> Self {
         let bodies = driven.len();
         let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies];
         for (joint, link) in links.iter().enumerate() {
@@ -208,7 +216,8 @@ impl Tree {
         for (hang, &driven) in hang.iter_mut().zip(driven) {
             hang.ball = !driven && hang.joint.is_some_and(|joint| points[joint]);
         }
-        order.sort_by_key(|&body| hang[body].depth);
+        // What sleeps is left out quad by quad, so groups share as few as they can; sums come out the same.
+        order.sort_by_key(|&body| (hang[body].depth, groups.first(body)));
         let blank = || {
             Box::new(General {
                 rows: 0,
@@ -237,6 +246,7 @@ impl Tree {
         Self {
             level,
             general: hang.iter().map(|hang| (!hang.ball).then(blank)).collect(),
+            awake: steps.clone(),
             steps,
             hooks: members.iter().map(hooks).collect(),
             slots,
@@ -248,6 +258,19 @@ impl Tree {
             driven: driven.to_vec(),
             loops: (0..links.len()).filter(|&joint| !in_tree[joint]).collect(),
         }
+    }
+
+    /// Leaves out the steps whose bodies all sleep.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        let Self { steps, awake, members, .. } = self;
+        let of = |slot: &Slot| asleep[members[slot.quad].bodies[slot.lane]];
+        let idle = |step: &Step| match step {
+            Step::Quad(quad) => members[*quad].all().iter().all(|&body| asleep[body]),
+            Step::Point(slot) => of(slot),
+            Step::Body(body) => asleep[*body],
+        };
+        awake.clear();
+        awake.extend(steps.iter().filter(|step| !idle(step)));
     }
 
     /// Who stands beside whom.

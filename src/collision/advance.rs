@@ -38,6 +38,13 @@ pub struct Sweep {
     turn: f64,
 }
 
+/// Half a box's diagonal, and its farthest corner from the centre of mass at most, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Size {
+    pub half: f64,
+    reach: f64,
+}
+
 impl Sweep {
     /// What stands still.
     pub const STILL: Self = Self {
@@ -82,6 +89,16 @@ impl Sweep {
     /// height of its arc over the chord, as it may be before or behind by as much.
     pub(super) fn sag(&self, middle: DVec3, half: DVec3) -> f64 {
         0.25 * self.turn * self.turn * (middle.distance(self.center) + half.length())
+    }
+
+    /// The size of a box of the node frame, which is the same on every way of its body.
+    pub(super) fn size(&self, middle: DVec3, half: DVec3) -> Size {
+        Size { half: half.length(), reach: middle.distance(self.center) + half.length() }
+    }
+
+    /// Farthest that a point of such a box can be from where it was at the start, m, [`Sweep::sag`] included.
+    pub(super) fn stray(&self, size: &Size) -> f64 {
+        self.travel(size.reach) + 0.25 * self.turn * self.turn * size.reach
     }
 
     /// Farthest that a point at `reach` (m) from the centre of mass can travel, m.

@@ -5,7 +5,7 @@
 //! next, so insertion sort is linear. Bodies whose boxes overlap are then told apart collider by collider. What
 //! stands still has a box of its own for each collider.
 
-use super::advance::{Sweep, TOUCH};
+use super::advance::{Size, Sweep, TOUCH};
 use super::pairs::Pair;
 use super::shape::{Collider, Shape};
 use crate::math::{DMat3, DVec3, Pose};
@@ -61,8 +61,14 @@ pub struct BroadPhase {
     order: Vec<usize>,
     /// Where each body is at the two ends of its way.
     ends: Vec<[(Pose, DMat3); 2]>,
-    /// Swept boxes of the colliders whose turn it was to be looked at.
+    /// Swept boxes of the colliders whose turn it was to be looked at, and before that cubes around these.
     swept: Vec<Option<Bounds>>,
+    rough: Vec<Option<Bounds>>,
+    /// Sizes of the boxes that have been asked for.
+    sizes: Vec<Option<Size>>,
+    /// Which units sleep (what never moves does), and which of their boxes are known.
+    asleep: Vec<bool>,
+    known: Vec<bool>,
 }
 
 /// A half-space that stands still.
@@ -125,14 +131,25 @@ impl BroadPhase {
         Self {
             shapes: colliders.iter().map(|c| (c.body, c.body.map_or_else(|| Plane::of(&c.shape), |_| None))).collect(),
             swept: vec![None; colliders.len()],
+            rough: vec![None; colliders.len()],
+            sizes: vec![None; colliders.len()],
             ends: vec![[(Pose::IDENTITY, DMat3::IDENTITY); 2]; count],
             colliders: boxes,
             bodies,
+            asleep: (0..units.len()).map(|unit| unit >= count).collect(),
+            known: vec![false; units.len()],
             pairs: pairs.to_vec(),
             sorted,
             runs,
             units,
             order,
+        }
+    }
+
+    /// Lets bodies sleep: their sweeps stay what they will next be, and what sleeps does not meet what sleeps.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        for (unit, asleep) in asleep.iter().enumerate().take(self.bodies.len()) {
+            (self.asleep[unit], self.known[unit]) = (*asleep, false);
         }
     }
 
@@ -143,15 +160,21 @@ impl BroadPhase {
             return;
         }
         for &unit in &self.order {
+            if self.known[unit] {
+                continue;
+            }
             if let Some(&(middle, half)) = self.bodies.get(unit) {
                 self.ends[unit] = sweeps[unit].ends();
                 self.units[unit] = swept(&sweeps[unit], &self.ends[unit], middle, half);
             }
         }
-        for (swept, (body, _)) in self.swept.iter_mut().zip(&self.shapes) {
-            if body.is_some() {
-                *swept = None;
+        for (collider, (body, _)) in self.shapes.iter().enumerate() {
+            if body.is_some_and(|body| !self.known[body]) {
+                (self.swept[collider], self.rough[collider]) = (None, None);
             }
+        }
+        for (known, asleep) in self.known.iter_mut().zip(&self.asleep) {
+            *known = *asleep;
         }
         let axis = self.widest_axis();
         let units = &self.units;
@@ -170,7 +193,7 @@ impl BroadPhase {
                 if self.units[other].low[axis] > self.units[one].high[axis] {
                     break;
                 }
-                if self.units[one].meets(&self.units[other]) {
+                if !(self.asleep[one] && self.asleep[other]) && self.units[one].meets(&self.units[other]) {
                     self.tell_apart((one.min(other), one.max(other)), sweeps, out);
                 }
             }
@@ -199,16 +222,32 @@ impl BroadPhase {
         for at in first..end {
             let index = self.sorted[at];
             let Pair { a, b } = self.pairs[index];
-            let (of_a, of_b) = (self.bounds(a, sweeps), self.bounds(b, sweeps));
             let meet = match (self.shapes[a].1, self.shapes[b].1) {
-                (Some(plane), None) => plane.meets(&of_b),
-                (None, Some(plane)) => plane.meets(&of_a),
-                _ => of_a.meets(&of_b),
+                (Some(plane), None) => plane.meets(&self.bounds(b, sweeps)),
+                (None, Some(plane)) => plane.meets(&self.bounds(a, sweeps)),
+                _ => {
+                    self.cube(a, sweeps).meets(&self.cube(b, sweeps))
+                        && self.bounds(a, sweeps).meets(&self.bounds(b, sweeps))
+                }
             };
             if meet {
                 out.push(index);
             }
         }
+    }
+
+    /// A cube that a collider's swept box lies in, for less: of a wheel's teeth few are near anything.
+    fn cube(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {
+        let ((middle, half), (body, _)) = (self.colliders[collider], self.shapes[collider]);
+        *self.rough[collider].get_or_insert_with(|| match body {
+            Some(body) => {
+                let (pose, axes) = &self.ends[body][0];
+                let size = self.sizes[collider].get_or_insert_with(|| sweeps[body].size(middle, half));
+                let reach = size.half + sweeps[body].stray(size) + TOUCH;
+                Bounds::about(pose.position + *axes * middle, DVec3::splat(reach))
+            }
+            None => Bounds::about(middle, half),
+        })
     }
 
     fn bounds(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {

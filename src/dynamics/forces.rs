@@ -45,6 +45,8 @@ pub struct Springs {
     gauges: Vec<Option<Gauge>>,
     /// Which act now.
     pub activity: Activity,
+    /// Springs of bodies that are awake.
+    acting: Vec<usize>,
     frames: Vec<DMat3>,
 }
 
@@ -65,6 +67,7 @@ impl Springs {
         Self {
             gauges: springs.iter().map(gauge).collect(),
             activity: Activity::of_springs(springs),
+            acting: (0..springs.len()).collect(),
             springs: springs.to_vec(),
             frames: vec![DMat3::IDENTITY; if springs.is_empty() { 0 } else { bodies.len() }],
         }
@@ -75,10 +78,22 @@ impl Springs {
         self.springs.is_empty()
     }
 
+    /// Leaves out springs of bodies that sleep.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        let Self { springs, acting, .. } = self;
+        let idle =
+            |spring: &Spring| asleep.iter().enumerate().any(|(body, asleep)| *asleep && spring.kind.touches(body));
+        acting.clear();
+        acting.extend((0..springs.len()).filter(|&spring| !idle(&springs[spring])));
+    }
+
     /// Adds their forces at the time `t` to `b`.
     pub fn push(&mut self, bodies: &[RigidBody], t: f64, b: &mut [Vec6]) {
+        if self.acting.is_empty() {
+            return;
+        }
         self.look(bodies);
-        for index in 0..self.springs.len() {
+        for &index in &self.acting {
             let (force, stretch) = self.force(index, bodies, t);
             for (body, wrench) in &stretch.ends {
                 if let Some(body) = body {

@@ -119,7 +119,7 @@ impl Dynamics {
     /// Closes the joints at the new state, at the time `t`, and finds the rate there.
     fn arrive(&mut self, t: f64) {
         self.carry_driven(t);
-        self.close_joints(false);
+        self.close_joints();
         self.solve_forces(t);
     }
 
@@ -141,7 +141,8 @@ impl Dynamics {
     /// Accelerations at the quads' present state, rows and factor made anew.
     fn accelerate(&mut self, t: f64) {
         self.carry_driven(t);
-        self.evaluate_quads();
+        self.show_where_asked();
+        self.system.evaluate_motion(&self.bodies);
         self.system.factor();
         self.solve_forces(t);
     }
@@ -168,26 +169,35 @@ impl Dynamics {
 
     /// Evaluates the rows at the quads' present state.
     fn evaluate_quads(&mut self) {
-        if self.system.asks_bodies() || !self.springs.is_empty() {
-            self.by_quads(Show);
-        }
+        self.show_where_asked();
         self.system.evaluate_quads(&self.bodies);
     }
 
-    /// Closes the joints of the bodies in place and speed; leaves the system factored there. Is it `factored` for these
-    /// places already?
-    pub(super) fn project(&mut self, factored: bool) {
+    fn show_where_asked(&mut self) {
+        if self.system.asks_bodies() || !self.springs.is_empty() {
+            self.by_quads(Show);
+        }
+    }
+
+    /// Closes the joints of the bodies in place and speed; leaves the system factored there.
+    pub(super) fn project(&mut self) {
         self.system.quads_mut().look(&self.bodies);
-        self.close_joints(factored);
+        self.close_joints();
         self.known = Known::Factor;
     }
 
-    /// The same where the quads are; the bodies follow.
-    fn close_joints(&mut self, factored: bool) {
+    /// Takes over the velocities of bodies whose joints are closed, and factored there.
+    pub(super) fn look_at_rates(&mut self) {
+        self.system.quads_mut().look(&self.bodies);
         self.evaluate_quads();
-        if !factored {
-            self.system.factor();
-        }
+        self.system.look_for_gaps();
+        self.known = Known::Factor;
+    }
+
+    /// The same as [`Dynamics::project`] where the quads are; the bodies follow.
+    fn close_joints(&mut self) {
+        self.evaluate_quads();
+        self.system.factor();
         if self.system.states().is_empty() {
             self.by_quads(Show);
             return;

@@ -53,6 +53,8 @@ pub(super) struct Limits {
     gauges: Vec<[Option<Gauge>; 2]>,
     /// Greatest value of each ratchet so far.
     most: Vec<f64>,
+    /// Whether what each limit is between sleeps.
+    asleep: Vec<bool>,
     bounds: Vec<Bound>,
 }
 
@@ -89,6 +91,7 @@ impl Limits {
         Self {
             gauges: limits.iter().map(gauges).collect(),
             most: vec![0.0; limits.len()],
+            asleep: vec![false; limits.len()],
             limits: limits.to_vec(),
             bounds,
         }
@@ -101,7 +104,8 @@ impl Limits {
 
     /// Follows turns and ways, and lets pawls fall behind the teeth that have passed.
     pub fn follow(&mut self, bodies: &[RigidBody]) {
-        for (gauges, most) in self.gauges.iter_mut().zip(&mut self.most) {
+        let all = self.gauges.iter_mut().zip(&mut self.most).zip(&self.asleep);
+        for ((gauges, most), _) in all.filter(|(_, asleep)| !**asleep) {
             gauges.iter_mut().flatten().for_each(|gauge| gauge.count(bodies));
             if let Some(first) = &gauges[0] {
                 *most = most.max(first.total(bodies));
@@ -113,6 +117,18 @@ impl Limits {
     pub fn forget(&mut self, bodies: &[RigidBody]) {
         self.bounds.iter_mut().for_each(|bound| bound.resting = false);
         self.follow(bodies);
+    }
+
+    /// Leaves out what is between bodies that sleep.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        for (sleeps, limit) in self.asleep.iter_mut().zip(&self.limits) {
+            *sleeps = asleep.iter().enumerate().any(|(body, asleep)| *asleep && limit.kind.touches(body));
+        }
+    }
+
+    /// Is a bound left out?
+    pub fn sleeps(&self, bound: usize) -> bool {
+        self.asleep[self.bounds[bound].limit]
     }
 
     /// Does a bound rest?

@@ -23,6 +23,7 @@ mod limits;
 mod moved;
 mod pace;
 mod passes;
+mod sleep;
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::block::{Vec6, angular, linear, vec6};
@@ -43,6 +44,7 @@ pub use drive::{Drive, Instant, Motion};
 use forces::{Damping, Springs};
 pub use moved::Moved;
 use passes::{Begin, Return};
+use sleep::Sleep;
 
 /// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
 /// such a mode holds next to none of the energy, and at 1 it loses what little it has within some ten periods.
@@ -144,6 +146,7 @@ pub struct Dynamics {
     /// The same joints without trains, for movers by places.
     plain: Option<Box<System>>,
     contacts: Contacts,
+    sleep: Sleep,
     /// Wrenches from outside, and with those of resting contacts.
     given: Vec<Vec6>,
     external: Vec<Vec6>,
@@ -200,6 +203,10 @@ impl Dynamics {
             Integrator::Precise => true,
             Integrator::Fast | Integrator::RungeKutta => false,
         };
+        // The other methods are there to be measured by.
+        let sleeps = !precise && settings.integrator != Integrator::Fast && settings.solver == Solver::Sparse;
+        let ties = (figure.constraints, figure.limits, figure.springs);
+        let sleep = Sleep::new(&bodies, &driven, ties, sleeps);
         let damping = if settings.friction { figure.damping } else { vec![Damping::default(); n] };
         let members = system.quads().members();
         let stages = || vec![Rate::default(); if precise { members.len() } else { 0 }];
@@ -208,6 +215,7 @@ impl Dynamics {
             loads: vec![0.0; system.joints().len()],
             levers: levers(&system, &bodies),
             contacts,
+            sleep,
             precise,
             rubs: settings.friction && figure.constraints.iter().any(|constraint| constraint.friction.is_some()),
             before_step: vec![State::default(); n],
@@ -247,6 +255,9 @@ impl Dynamics {
             *before = State::of(One(0), |_| body);
         }
         self.given.copy_from_slice(external);
+        while let Some(body) = self.sleep.roused(&self.bodies, &self.before, &self.given) {
+            self.wake(body);
+        }
         self.dt = dt;
         self.contacts.begin_step(self.time);
         self.begin_happenings();
@@ -277,6 +288,7 @@ impl Dynamics {
             self.rub(dt);
         }
         let lost = self.end_step(dt, already, impacts);
+        self.fall_asleep();
         bad + lost
     }
 
@@ -288,7 +300,7 @@ impl Dynamics {
         }
         self.by_quads(Begin);
         let collides = !self.contacts.is_empty();
-        if collides {
+        if collides || self.sleep.any() {
             self.before.copy_from_slice(&self.bodies);
         }
         let now = self.time + done;
@@ -312,10 +324,14 @@ impl Dynamics {
                 }
                 // A substep that had to be shorter still comes upon the hit again.
                 if used >= until {
+                    self.wake_for(&hit);
                     self.prepare_impulses();
                     let at = (done + used, h);
                     self.contacts.resolve_hit(&hit, at, &mut self.system, &mut self.bodies, impacts);
                 }
+            }
+            while let Some(body) = self.contacts.leant_on() {
+                self.wake(body);
             }
             self.contacts.end_substep(&self.bodies);
             // What the joints carry: the last solve was of impulses.
@@ -335,7 +351,7 @@ impl Dynamics {
         self.press();
         self.ensure_rates(t);
         if self.clutches.rub(h, &mut self.system, &self.bodies) {
-            self.project(false);
+            self.project();
         }
         self.known = Known::Nothing;
     }
@@ -343,7 +359,9 @@ impl Dynamics {
     /// Notes what the joints carry.
     fn weigh(&mut self) {
         for (joint, load) in self.loads.iter_mut().enumerate() {
-            *load = self.system.load(joint);
+            if !self.system.joint_sleeps(joint) {
+                *load = self.system.load(joint);
+            }
         }
     }
 
@@ -356,14 +374,21 @@ impl Dynamics {
             self.press();
             h = self.integrate(t, h, if sure || pass > 1 { h } else { least });
             if !self.contacts.anything_rests() {
+                self.keep_asleep();
                 return h;
             }
-            self.prepare_impulses();
+            // Rows and factor of the substep's end serve: joints have closed since by less than what matters to them.
+            self.known = Known::Nothing;
             let (before, system) = (&self.before, &mut self.system);
             match self.contacts.settle((h, pass, h > 2.0 * least), before, system, &mut self.bodies) {
                 Verdict::Stands { moved } => {
-                    // Contacts move bodies by first-order steps through the joints; what is left of second order goes here.
-                    self.project(!moved);
+                    // Contacts move bodies by first-order steps through the joints: what is left of second order goes here.
+                    if moved {
+                        self.project()
+                    } else {
+                        self.look_at_rates()
+                    }
+                    self.keep_asleep();
                     return h;
                 }
                 Verdict::Again => pass += 1,
@@ -429,6 +454,7 @@ impl Dynamics {
 
     fn set_shares(&mut self, t: f64) {
         if self.system.activity.set_shares(t) | self.springs.activity.set_shares(t) {
+            self.wake_all();
             self.known = Known::Nothing;
         }
     }
@@ -438,11 +464,15 @@ impl Dynamics {
         self.springs.break_overloaded(&self.bodies, t);
         for k in 0..self.system.activity.fragile().len() {
             let index = self.system.activity.fragile()[k];
+            if self.system.constraint_sleeps(index) {
+                continue;
+            }
             let load = self.system.carried(index);
             let together = self.system.is_together(index);
             self.system.activity.mended(index, together);
             if self.system.activity.overloaded(index, load, false) {
                 self.system.activity.break_at(index, t);
+                self.wake_all();
                 self.known = Known::Nothing;
             }
         }
@@ -466,6 +496,7 @@ impl Dynamics {
 
     /// Says that bodies were moved from outside.
     pub fn disturb(&mut self) {
+        self.wake_all();
         self.known = Known::Nothing;
     }
 
@@ -536,6 +567,7 @@ impl Dynamics {
     /// How points of the figure (body, world place, m) answer impulses, joints held: block i n + j is the velocity of point
     /// i for an impulse at point j, 1/kg.
     pub fn answers(&mut self, points: &[(usize, DVec3)], out: &mut [DMat3]) {
+        points.iter().for_each(|point| self.wake(point.0));
         self.prepare_impulses();
         let n = points.len();
         let arm = |(body, point): (usize, DVec3), bodies: &[RigidBody]| point - bodies[body].position;
@@ -562,6 +594,7 @@ impl Dynamics {
 
     /// How a body answers a unit of angular impulse about a world axis, joints held: rad/s about it, 1/(kg m²).
     pub fn turns(&mut self, body: usize, axis: DVec3) -> f64 {
+        self.wake(body);
         self.prepare_impulses();
         self.system.b.fill([0.0; 6]);
         self.system.b[body] = vec6(DVec3::ZERO, axis);
@@ -594,6 +627,7 @@ impl Dynamics {
                 (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             }
             self.loads.fill(0.0);
+            self.wake_all();
             self.system.begin_trains(&self.bodies);
             self.contacts.forget(&self.bodies);
             (self.fourth_step, self.stride) = (None, f64::INFINITY);

@@ -47,6 +47,7 @@ impl Dynamics {
         mover: impl FnOnce(Moved),
     ) -> usize {
         self.fault = None;
+        self.wake_all();
         let bad = self.restore_bad_bodies();
         for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
             *before = State::of(One(0), |_| body);

@@ -15,9 +15,9 @@ use crate::articulation::spatial::Sym3;
 use crate::math::lanes::{All, Lanes, Real, V3};
 
 /// Slower motion than this is followed no more closely than this one, m/s.
-const SLOWEST: f64 = 1e-3;
+pub(super) const SLOWEST: f64 = 1e-3;
 
-/// Something that is done to every quad.
+/// Something that is done to every quad in which somebody is awake.
 pub(super) trait Pass: Copy {
     /// Does it to the `index`th.
     fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize);
@@ -31,7 +31,8 @@ impl Dynamics {
 
     #[inline(always)]
     fn by_quads_in<S: Simd>(&mut self, simd: S, pass: impl Pass) {
-        for index in 0..self.courses.len() {
+        for k in 0..self.system.quads().moving().len() {
+            let index = self.system.quads().moving()[k];
             pass.go(All(simd), self, index);
         }
     }

@@ -11,15 +11,22 @@ use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::decibels;
 use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use crate::sound::{RoomSpec, SoundCommand, Synth};
+use crate::sound::{MAX_COMMANDS, RoomSpec, SoundCommand, Synth};
 
 /// Stereo.
 const CHANNELS: u16 = 2;
+/// Steps whose sound is made at once: how it is cut does not matter to it, and there is less to begin and to end.
+const TOGETHER: usize = 8;
+/// Samples of a step, of both channels.
+const STEP: usize = SAMPLES_PER_STEP as usize * CHANNELS as usize;
 
 /// The sound of a run, measured, and written where asked.
 pub struct Soundtrack {
     synth: Synth,
+    /// Room for the sound of some steps; how many wait for theirs, and how many sounds do.
     block: Vec<f32>,
+    steps: usize,
+    sounds: usize,
     /// Samples of the limiter's look-ahead still to be left out at the beginning, so that a hit sounds on its sample.
     early: usize,
     peak: f32,
@@ -32,8 +39,8 @@ pub struct Soundtrack {
 pub struct Levels {
     /// Sample peak, dB of full scale; −∞ for silence.
     pub peak_dbfs: f64,
-    /// Integrated loudness, LUFS (EBU R 128); −∞ for silence.
-    pub lufs: f64,
+    /// Integrated loudness, LUFS (EBU R 128); −∞ for silence. Asked of what is written: it costs as much as the tones.
+    pub lufs: Option<f64>,
 }
 
 impl Soundtrack {
@@ -53,26 +60,42 @@ impl Soundtrack {
         Ok(Self {
             early: synth.latency() * usize::from(CHANNELS),
             synth,
-            block: vec![0.0; SAMPLES_PER_STEP as usize * usize::from(CHANNELS)],
+            block: vec![0.0; TOGETHER * STEP],
+            steps: 0,
+            sounds: 0,
             peak: 0.0,
-            loudness: EbuR128::new(u32::from(CHANNELS), SAMPLE_RATE, Mode::I).ok(),
+            loudness: path.and_then(|_| EbuR128::new(u32::from(CHANNELS), SAMPLE_RATE, Mode::I).ok()),
             file,
         })
     }
 
-    /// Renders one step's 200 samples with the sounds that fall into it.
+    /// Goes on by one step's 200 samples with the sounds that fall into it.
     pub fn step(&mut self, sounds: &[SoundCommand]) -> Result<(), String> {
+        if self.sounds + sounds.len() > MAX_COMMANDS {
+            self.render()?;
+        }
         for &sound in sounds {
             self.synth.command(sound);
         }
-        self.synth.render(&mut self.block);
-        self.keep()
+        self.steps += 1;
+        self.sounds += sounds.len();
+        if self.steps == TOGETHER { self.render() } else { Ok(()) }
     }
 
-    /// Measures and writes what was rendered.
-    fn keep(&mut self) -> Result<(), String> {
-        let block = &self.block[self.early.min(self.block.len())..];
-        self.early -= self.block.len() - block.len();
+    /// Renders the steps that wait.
+    fn render(&mut self) -> Result<(), String> {
+        self.sounds = 0;
+        let samples = std::mem::take(&mut self.steps) * STEP;
+        self.keep(samples)
+    }
+
+    /// Renders so many samples, measures and writes them.
+    fn keep(&mut self, samples: usize) -> Result<(), String> {
+        let block = &mut self.block[..samples];
+        self.synth.render(block);
+        let early = self.early.min(samples);
+        self.early -= early;
+        let block = &block[early..];
         self.peak = block.iter().fold(self.peak, |peak, s| peak.max(s.abs()));
         if let Some(loudness) = &mut self.loudness {
             loudness.add_frames_f32(block).map_err(|e| e.to_string())?;
@@ -82,13 +105,12 @@ impl Soundtrack {
 
     /// Puts the file in its place and says how loud it was.
     pub fn finish(mut self) -> Result<Levels, String> {
+        self.render()?;
         // What the limiter still holds: as much as was left out at the beginning.
         let held = self.synth.latency() * usize::from(CHANNELS) - self.early;
-        self.block.truncate(held);
-        self.synth.render(&mut self.block);
-        self.keep()?;
+        self.keep(held)?;
         self.file.map_or(Ok(()), WholeWav::finish)?;
-        let lufs = self.loudness.and_then(|l| l.loudness_global().ok()).unwrap_or(f64::NEG_INFINITY);
+        let lufs = self.loudness.map(|loudness| loudness.loudness_global().unwrap_or(f64::NEG_INFINITY));
         Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs })
     }
 }

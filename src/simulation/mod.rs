@@ -392,6 +392,11 @@ impl Simulation {
         self.hands.would_take(at, (&view, aspect), &mut self.wind, (&self.exhibit, &self.dynamics.bodies, driven))
     }
 
+    /// Does a body sleep: at rest, and left out until something touches or pushes it?
+    pub fn sleeps(&self, body: usize) -> bool {
+        self.dynamics.sleeps(body)
+    }
+
     /// The bodies' state, for tests that push a sculpture by hand.
     pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
         self.dynamics.disturb();

@@ -127,7 +127,11 @@ impl Limiter {
             *frame = limited(delayed, gain);
         }
         for _ in 0..frames.len() {
-            self.ceiling = (self.ceiling * self.sink).clamp(SUDDEN, CEILING * MARGIN);
+            let before = self.ceiling;
+            self.ceiling = (before * self.sink).clamp(SUDDEN, CEILING * MARGIN);
+            if self.ceiling == before {
+                break;
+            }
         }
         self.frame += frames.len() as u64;
         (self.length, self.wedge[self.front]) = (1, (UNITY, self.frame - 1));

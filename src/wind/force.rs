@@ -226,6 +226,11 @@ impl WindField {
         let (mut total, mut fastest) = (0.0, 0.0);
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
+            // What stands still in still air feels nothing.
+            let stands = body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO;
+            if stands && blown.is_none() && self.weather.is_empty() {
+                continue;
+            }
             let frame = matrix(body.rotation);
             let mut sum = [0.0; 6];
             let mut sum_blown = [0.0; 6];

@@ -1,5 +1,6 @@
 //! Contacts against formulas: rest, sliding, rolling, hits of several points, limits.
 
+mod asleep;
 mod loaded;
 
 use assert_no_alloc::assert_no_alloc;

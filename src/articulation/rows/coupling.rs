@@ -115,19 +115,34 @@ impl Gauge {
 
     /// Its value and row at a scene.
     pub fn read(&self, scene: &Scene) -> Reading {
+        let (value, turns) = self.look(scene);
+        Reading { value, turns, ..self.motion(scene) }
+    }
+
+    /// Its row alone.
+    fn motion(&self, scene: &Scene) -> Reading {
         match &self.measure {
             Measure::Angle { axis, frame } => {
                 let n = scene.direction(axis);
-                let (value, turns) = self.angle(axis, *frame, scene.bodies);
                 let against = scene.spin(*frame);
                 let m = frame.map_or(DMat3::IDENTITY, |i| scene.frames[i]) * (self.start * axis.direction);
                 let (e, bias) = twist((n.n, n.spin), (m, against));
                 let j = vec6(DVec3::ZERO, e);
-                Reading { value, turns, on: j, against: negated(j), bias }
+                Reading { on: j, against: negated(j), bias, ..Reading::default() }
             }
             Measure::Way { point, direction } => {
                 let row = plane::row(scene, point, &self.origin, direction.direction, &Function::Constant(0.0));
-                Reading { value: row.value, turns: 0, on: row.a, against: row.b, bias: row.bias }
+                Reading { on: row.a, against: row.b, bias: row.bias, ..Reading::default() }
+            }
+        }
+    }
+
+    /// Its value alone: wrapped angle and turns, or way.
+    fn look(&self, scene: &Scene) -> (f64, i64) {
+        match &self.measure {
+            Measure::Angle { axis, frame } => self.angle(axis, *frame, scene.bodies),
+            Measure::Way { point, direction } => {
+                (plane::value(scene, point, &self.origin, direction.direction, &Function::Constant(0.0)), 0)
             }
         }
     }
@@ -223,18 +238,31 @@ fn relative(body: Option<usize>, frame: Option<usize>, poses: &(impl Poses + ?Si
     q(frame).conjugate() * q(body)
 }
 
+/// A coupling's value.
+pub fn value(scene: &Scene, terms: &[(Gauge, f64)]) -> f64 {
+    let (mut sum, mut turned) = (0.0, 0.0);
+    for (gauge, coefficient) in terms {
+        let (value, turns) = gauge.look(scene);
+        sum += coefficient * value;
+        turned += coefficient * turns as f64;
+    }
+    sum + 2.0 * PI * turned
+}
+
 /// A coupling's row: its value, and its blocks added to those of the bodies `parts` (every body that a term touches
 /// has a slot there).
 pub fn row(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> Row {
+    Row { value: value(scene, terms), ..motion(scene, terms, parts) }
+}
+
+/// The same without its value, which angles are dear to.
+pub fn motion(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> Row {
     for (_, block) in parts.iter_mut() {
         *block = [0.0; 6];
     }
     let mut out = Row { length: true, ..Row::default() };
-    let mut turned = 0.0;
     for (gauge, coefficient) in terms {
-        let reading = gauge.read(scene);
-        out.value += coefficient * reading.value;
-        turned += coefficient * reading.turns as f64;
+        let reading = gauge.motion(scene);
         out.bias += coefficient * reading.bias;
         let (on, against) = gauge.bodies();
         for (body, block) in [(on, &reading.on), (against, &reading.against)] {
@@ -244,6 +272,5 @@ pub fn row(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -
             }
         }
     }
-    out.value += 2.0 * PI * turned;
     out
 }

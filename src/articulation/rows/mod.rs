@@ -71,7 +71,14 @@ pub struct Direction {
 }
 
 impl Scene<'_> {
-    /// Where an anchor is.
+    /// Where an anchor is, m.
+    pub fn place(&self, anchor: &Anchor) -> DVec3 {
+        let Some(index) = anchor.body else { return anchor.point };
+        let body = &self.bodies[index];
+        body.position + self.frames[index] * (anchor.point - body.properties.center)
+    }
+
+    /// Where an anchor is, and how it moves.
     pub fn point(&self, anchor: &Anchor) -> Point {
         let Some(index) = anchor.body else {
             return Point { position: anchor.point, arm: DVec3::ZERO, velocity: DVec3::ZERO, centripetal: DVec3::ZERO };

@@ -14,6 +14,12 @@ use super::{Row, Scene, at, negated};
 use crate::articulation::{Anchor, Axis, Function};
 use crate::math::DVec3;
 
+/// C alone.
+pub fn value(scene: &Scene, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> f64 {
+    let n = scene.direction(&Axis { body: plane.body, direction: normal }).n;
+    n.dot(scene.place(point) - scene.place(plane)) - offset.at(scene.time).value
+}
+
 /// The row.
 pub fn row(scene: &Scene, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> Row {
     let f = offset.at(scene.time);

@@ -24,7 +24,7 @@ use super::rows::coupling::{self, Gauge};
 use super::spatial::response;
 use super::trains::{Asked, Trains};
 use super::tree::{Form, JointRows, Link, Tree};
-use super::{Axis, Constraint, ConstraintKind, Measure};
+use super::{Axis, Constraint, ConstraintKind, Groups, Measure};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
 pub use geared::Geared;
@@ -115,6 +115,14 @@ pub struct System {
     /// Rotation matrices, where a row asks for them.
     frames: Vec<DMat3>,
     driven: Vec<bool>,
+    /// Which bodies sleep, and those of them that the tree may go through all the same.
+    asleep: Vec<bool>,
+    still: Vec<usize>,
+    /// Which constraints are between such, and the largest error of a length among them, m.
+    idle: Vec<bool>,
+    asleep_gap: f64,
+    /// Room for that search.
+    lent: Vec<DMat3>,
     /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
     pub b: Vec<Vec6>,
     /// Wanted J a per row.
@@ -172,7 +180,11 @@ impl System {
         }
         // To the tree a train is ground that moves.
         let given: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || trains.has(body)).collect();
-        let tree = Tree::new(level, &given, &links, &at, &points);
+        let mut groups = Groups::new(bodies.len());
+        for constraint in constraints {
+            groups.join_all((0..bodies.len()).filter(|&body| !driven[body] && constraint.kind.touches(body)));
+        }
+        let tree = Tree::new(level, &given, &links, (&at, &points), &groups);
         let mut blocks = Vec::new();
         let mut outside: Vec<LoopRow> = Vec::new();
         for (index, joint) in joints.iter_mut().enumerate() {
@@ -257,6 +269,11 @@ impl System {
             dense,
             frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
             driven: driven.to_vec(),
+            asleep: vec![false; n],
+            still: Vec::with_capacity(n),
+            idle: vec![false; constraints.len()],
+            asleep_gap: 0.0,
+            lent: vec![DMat3::IDENTITY; n],
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
             a: vec![[0.0; 6]; n],
@@ -319,48 +336,62 @@ impl System {
     /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
-        self.evaluate_rows(bodies, true);
+        self.evaluate_rows(bodies, true, true);
         self.tell_values();
     }
 
     /// The same for the laws of motion, which do not ask for what trains hold of themselves.
     pub fn evaluate_lean(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
-        self.evaluate_rows(bodies, false);
+        self.evaluate_rows(bodies, false, true);
         self.tell_values();
     }
 
     /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
     pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
-        self.evaluate_rows(bodies, false);
+        self.evaluate_rows(bodies, false, true);
     }
 
-    /// Evaluates rows where the quads are, with those of trains or without.
-    fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool) {
+    /// The same for accelerations alone: C of couplings stays what it was, unless rows are drawn together by it.
+    pub fn evaluate_motion(&mut self, bodies: &[RigidBody]) {
+        self.evaluate_rows(bodies, false, self.gathering);
+    }
+
+    /// Evaluates rows where the quads are, with those of trains or without, and with C of couplings or without.
+    fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool, values: bool) {
         self.trains.evaluate(&self.quads);
         self.hung.evaluate(self.quads.all(), &mut self.tree);
         self.told = false;
         for (body, frame) in self.frames.iter_mut().enumerate() {
-            *frame = self.quads.frame(body);
+            if !self.asleep[body] {
+                *frame = self.quads.frame(body);
+            }
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
         let asked = if all { self.various.len() } else { self.outside_trains };
         for &index in &self.various[..asked] {
             let joint = &mut self.joints[index];
+            if self.asleep[joint.link.a] {
+                continue;
+            }
             joint.evaluate(&scene, &self.constraints, &self.activity, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
         for coupling in &mut self.couplings {
             let share = self.activity.share(coupling.constraint);
             let slot = &mut outside[coupling.outside];
-            if slot.held && !all {
+            if (slot.held && !all) || slot.sleeps(&self.asleep) {
                 continue;
             }
             slot.active = share > 0.0 && !slot.held;
             slot.compliance[0] = 0.0;
-            let mut row = coupling::row(&scene, &coupling.terms, &mut slot.parts);
-            row.value -= coupling.offset;
+            let mut row = coupling::motion(&scene, &coupling.terms, &mut slot.parts);
+            row.value = if values {
+                coupling::value(&scene, &coupling.terms) - coupling.offset
+            } else {
+                self.states[coupling.at].value
+            };
             self.states[coupling.at].set(&row, coupling.constraint, share);
         }
         // Whoever draws open joints together, or lets them yield, asks how far they are open.
@@ -369,10 +400,49 @@ impl System {
         }
     }
 
+    /// Leaves these bodies out: they stand still, with all that is joined to them, until they wake. Rows and factor are to be
+    /// made anew.
+    pub fn let_sleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
+        self.asleep.copy_from_slice(asleep);
+        for (idle, constraint) in self.idle.iter_mut().zip(&self.constraints) {
+            *idle = (0..asleep.len()).any(|body| asleep[body] && constraint.kind.touches(body));
+        }
+        let mut lent = std::mem::take(&mut self.lent);
+        self.asleep_gap = self.largest_length(bodies, true, &mut lent);
+        self.lent = lent;
+        self.quads.let_sleep(asleep);
+        self.tree.let_sleep(asleep);
+        self.trains.let_sleep(asleep);
+        self.still.clear();
+        self.still.extend((0..asleep.len()).filter(|&body| asleep[body] && !self.trains.has(body)));
+        for (body, a) in self.a.iter_mut().enumerate().filter(|(body, _)| asleep[*body]) {
+            (*a, self.b[body]) = ([0.0; 6], [0.0; 6]);
+        }
+        let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
+        for row in outside.iter_mut().filter(|row| row.sleeps(asleep)) {
+            row.active = false;
+        }
+    }
+
+    /// Does a joint sleep?
+    pub fn joint_sleeps(&self, joint: usize) -> bool {
+        self.asleep[self.joints[joint].link.a]
+    }
+
+    /// Does what a constraint is between sleep?
+    pub fn constraint_sleeps(&self, constraint: usize) -> bool {
+        self.idle[constraint]
+    }
+
+    /// Is any row being drawn together?
+    pub fn gathers(&self) -> bool {
+        self.gathering
+    }
+
     /// Adds the soft rows of pivot friction for a time `h` (s), with the loads (N) that the joints carry.
     pub fn add_friction(&mut self, bodies: &[RigidBody], loads: &[f64], h: f64) {
         let outside = self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows);
-        for (joint, &load) in self.joints.iter_mut().zip(loads) {
+        for (joint, &load) in self.joints.iter_mut().zip(loads).filter(|(joint, _)| !self.asleep[joint.link.a]) {
             joint.add_friction(&self.constraints, bodies, load, h, &mut self.blocks, &mut self.states);
             joint.write_outside(&self.blocks, outside);
         }
@@ -510,7 +580,11 @@ impl System {
 
     /// Counts the turns of couplings up to this state; once a step.
     pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+        let outside = self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows);
         for coupling in &mut self.couplings {
+            if outside[coupling.outside].sleeps(&self.asleep) {
+                continue;
+            }
             for (gauge, _) in &mut coupling.terms {
                 gauge.count(bodies);
             }

@@ -101,11 +101,19 @@ impl System {
     /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,
     /// slips of couplings.
     pub fn largest_gap(&self, bodies: &[RigidBody]) -> f64 {
-        let lengths = |(index, gap): (usize, f64)| {
-            let angle = matches!(self.constraints[index].kind, ConstraintKind::Orientation { .. });
-            if angle { 0.0 } else { gap }
-        };
-        self.gaps(bodies).into_iter().enumerate().map(lengths).fold(0.0, f64::max)
+        let mut frames = vec![DMat3::IDENTITY; bodies.len()];
+        self.largest_length(bodies, false, &mut frames).max(self.asleep_gap)
+    }
+
+    /// The same of what sleeps alone, or of all else; `frames` lends a matrix a body.
+    pub(super) fn largest_length(&self, bodies: &[RigidBody], sleeps: bool, frames: &mut [DMat3]) -> f64 {
+        for (body, frame) in frames.iter_mut().enumerate().filter(|(body, _)| self.asleep[*body] == sleeps) {
+            *frame = matrix(bodies[body].rotation);
+        }
+        let scene = Scene { bodies, frames, time: self.activity.time() };
+        let is_length = |c: &Constraint| !matches!(c.kind, ConstraintKind::Orientation { .. });
+        let asked = |index: &usize| self.idle[*index] == sleeps && is_length(&self.constraints[*index]);
+        (0..self.constraints.len()).filter(asked).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)
     }
 
     /// The error of each constraint at these bodies' state: m, of an orientation rad. What does not act, or is still being
@@ -113,29 +121,24 @@ impl System {
     pub fn gaps(&self, bodies: &[RigidBody]) -> Vec<f64> {
         let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
         let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
-        let gap = |(index, constraint): (usize, &Constraint)| {
-            if self.activity.share(index) < 1.0 || self.activity.mends(index) {
-                return 0.0;
-            }
-            match &constraint.kind {
-                ConstraintKind::PointToPoint { a, b } => scene.point(a).position.distance(scene.point(b).position),
-                ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
-                    plane::row(&scene, point, plane, *normal, offset).value.abs()
-                }
-                ConstraintKind::Orientation { a, b, angle } => {
-                    orientation::row(&scene, a, b, angle, || None).value.abs()
-                }
-                // Below: a train of wheels stands for those that are not held by themselves.
-                ConstraintKind::Coupling { .. } => 0.0,
-            }
-        };
-        let mut gaps: Vec<f64> = self.constraints.iter().enumerate().map(gap).collect();
-        for coupling in self.couplings.iter().filter(|c| self.activity.share(c.constraint) == 1.0) {
-            let mut parts = self.outside_rows()[coupling.outside].parts.clone();
-            let value = coupling::row(&scene, &coupling.terms, &mut parts).value - coupling.offset;
-            gaps[coupling.constraint] = value.abs();
+        (0..self.constraints.len()).map(|index| self.gap(index, &scene)).collect()
+    }
+
+    fn gap(&self, index: usize, scene: &Scene) -> f64 {
+        if self.activity.share(index) < 1.0 || self.activity.mends(index) {
+            return 0.0;
         }
-        gaps
+        match &self.constraints[index].kind {
+            ConstraintKind::PointToPoint { a, b } => scene.place(a).distance(scene.place(b)),
+            ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
+                plane::value(scene, point, plane, *normal, offset).abs()
+            }
+            ConstraintKind::Orientation { a, b, angle } => orientation::row(scene, a, b, angle, || None).value.abs(),
+            ConstraintKind::Coupling { .. } => {
+                let own = self.couplings.iter().find(|coupling| coupling.constraint == index);
+                own.map_or(0.0, |own| (coupling::value(scene, &own.terms) - own.offset).abs())
+            }
+        }
     }
 
     /// The force that a joint's length rows carried in the last solve of forces, N.

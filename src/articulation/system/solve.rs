@@ -17,6 +17,9 @@ impl System {
         self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
         self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
         self.trains.push(self.loops.pushes(), &mut self.a);
+        for &body in &self.still {
+            self.a[body] = [0.0; 6];
+        }
         self.asked = Asked::Impulse;
     }
 
@@ -81,14 +84,24 @@ impl System {
     /// Solves for the velocity change that makes J (v + δ) + Γ λ = ḟ: joints hold, soft rows resist. What is still
     /// being drawn together keeps its speed.
     pub fn solve_velocity(&mut self, bodies: &[RigidBody]) {
+        self.b.fill([0.0; 6]);
+        self.solve_velocity_under(bodies);
+    }
+
+    /// The same where the impulses in `b` act too.
+    pub fn solve_velocity_under(&mut self, bodies: &[RigidBody]) {
         self.quads.look(bodies);
-        self.solve_velocity_quads(bodies);
+        self.solve_rates(bodies);
     }
 
     /// The same for bodies whose velocities the quads have, see [`System::evaluate_quads`].
     pub fn solve_velocity_quads(&mut self, bodies: &[RigidBody]) {
-        self.asked = Asked::Velocity;
         self.b.fill([0.0; 6]);
+        self.solve_rates(bodies);
+    }
+
+    fn solve_rates(&mut self, bodies: &[RigidBody]) {
+        self.asked = Asked::Velocity;
         self.still();
         self.rates(bodies);
         for rows in &self.rows {

@@ -287,7 +287,8 @@ impl Contacts {
                 return Some(Source::Pair(pair));
             }
         }
-        (0..self.limits.count()).find(|&b| self.limits.approaches(b, bodies, TOUCH, REST_SPEED)).map(Source::Bound)
+        let approaches = |b: &usize| !self.limits.sleeps(*b) && self.limits.approaches(*b, bodies, TOUCH, REST_SPEED);
+        (0..self.limits.count()).find(approaches).map(Source::Bound)
     }
 }
 

@@ -5,6 +5,7 @@
 //! meets slower than [`REST_SPEED`], or slowly and again within [`CHATTER_TIME`], *rests*: from then on it is held by
 //! forces over the whole substep (`rest`) until it has opened by more than [`RELEASE_GAP`].
 
+mod asleep;
 mod hit;
 mod leap;
 mod met;
@@ -30,6 +31,7 @@ pub use hit::{Strike, Struck, strike};
 pub use met::{ENDS, Met, couple_rows};
 pub(super) use rest::Verdict;
 pub(super) use row::Row;
+pub(super) use sweep::Hit;
 pub use touching::Touching;
 pub use twist::Resistance;
 
@@ -40,6 +42,8 @@ const CHATTER_TIME: f64 = 5e-3;
 const CHATTER_SPEED: f64 = 0.03;
 /// What rests and opens farther than this is apart again, m or rad.
 const RELEASE_GAP: f64 = 5e-5;
+/// Room for forces of what sleeps, and of what wakes again: sixteen times as many as are solved for at once.
+const MOST_KEPT: usize = 1024;
 /// Hits resolved at their own time in one step; what is hit further rests.
 const MOST_IMPACTS: usize = 64;
 
@@ -153,6 +157,10 @@ pub struct Contacts {
     held: Vec<Held>,
     /// Those before them.
     former: Vec<Held>,
+    /// Whether each body sleeps, how many of the pairs and bounds at rest are between such, and the forces there.
+    asleep: Vec<bool>,
+    asleep_at_rest: usize,
+    kept: Vec<Held>,
     /// 1/ω₀ of the figure's stabiliser, s.
     gathering_time: f64,
     /// Length of the substep that they are laid out for, s.
@@ -206,8 +214,11 @@ impl Contacts {
             colliders: colliders.to_vec(),
             pairs,
             limits,
-            held: Vec::with_capacity(problem.touches.capacity()),
+            held: Vec::with_capacity(touches.min(MOST_KEPT)),
             former: Vec::with_capacity(problem.touches.capacity()),
+            asleep: vec![false; bodies.len()],
+            asleep_at_rest: 0,
+            kept: Vec::with_capacity(touches.min(MOST_KEPT)),
             gathering_time: joints.1,
             span: 0.0,
             problem,
@@ -258,6 +269,8 @@ impl Contacts {
         self.resting.fill(false);
         self.depth.fill(0.0);
         self.held.clear();
+        self.kept.clear();
+        self.asleep_at_rest = 0;
         self.at_rest.clear();
         self.bounds_at_rest = 0;
         self.limits.forget(bodies);

@@ -65,12 +65,12 @@ pub(in crate::dynamics) enum Verdict {
 impl Contacts {
     /// Does anything rest, or has a force to be taken back?
     pub(in crate::dynamics) fn anything_rests(&self) -> bool {
-        !self.at_rest.is_empty() || self.bounds_at_rest > 0 || !self.held.is_empty()
+        self.at_rest.len() + self.bounds_at_rest > self.asleep_at_rest || !self.held.is_empty()
     }
 
     /// Longest substep in which what rests passes no feature of what it slides on, s.
     pub(in crate::dynamics) fn longest_substep(&self) -> f64 {
-        if self.at_rest.is_empty() {
+        if self.at_rest.iter().all(|&pair| self.sleeps(pair)) {
             return f64::INFINITY;
         }
         (SLIDE / self.slip).min(TIP_PHASE / self.tips.sqrt())
@@ -149,7 +149,7 @@ impl Contacts {
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
     /// Where the substep stands, velocities and places are put right. The joints must be factored at
-    /// the bodies' present state.
+    /// the bodies' present state, or as near to it as a substep ends.
     pub(in crate::dynamics) fn settle(
         &mut self,
         (h, pass, shortens): (f64, usize, bool),
@@ -171,7 +171,7 @@ impl Contacts {
         if stands {
             self.slip = self.problem.largest_slip();
             self.recent_work = self.pressed(start, bodies) + straightened + self.problem.work();
-            self.problem.apply(system, bodies);
+            self.problem.apply_closing(system, bodies);
         }
         self.hold((h, settled, stands), start, bodies);
         if !stands {
@@ -230,6 +230,10 @@ impl Contacts {
         let mut at_rest = 0;
         while at_rest < self.at_rest.len() {
             let pair = self.at_rest[at_rest];
+            if self.sleeps(pair) {
+                at_rest += 1;
+                continue;
+            }
             let manifold = self.manifold(pair, bodies);
             let nearest = manifold.points().iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
             if nearest > RELEASE_GAP {
@@ -242,7 +246,7 @@ impl Contacts {
             }
         }
         for bound in 0..self.limits.count() {
-            if self.limits.resting(bound) {
+            if self.limits.resting(bound) && !self.limits.sleeps(bound) {
                 if self.limits.gap(bound, bodies) > RELEASE_GAP {
                     self.set_bound_resting(bound, false);
                 } else {
@@ -323,8 +327,11 @@ impl Contacts {
         self.former.clear();
         std::mem::swap(&mut self.former, &mut self.held);
         if stands {
-            for &pair in &self.at_rest {
-                self.depth[pair] = 0.0;
+            for at in 0..self.at_rest.len() {
+                let pair = self.at_rest[at];
+                if !self.sleeps(pair) {
+                    self.depth[pair] = 0.0;
+                }
             }
             for touch in &self.problem.touches {
                 if let Source::Pair(pair) = touch.source {

@@ -28,7 +28,7 @@ impl Contacts {
             self.meet(self.near[near], before, after, &mut first);
         }
         for bound in 0..self.limits.count() {
-            if self.limits.resting(bound) {
+            if self.limits.resting(bound) || self.limits.sleeps(bound) {
                 continue;
             }
             if let Some(s) = self.limits.crossing(bound, before, after, &self.sweeps) {
@@ -44,8 +44,10 @@ impl Contacts {
 
     /// Finds the pairs whose boxes overlap on the way between two states of the bodies.
     pub(super) fn find_near(&mut self, before: &[RigidBody], after: &[RigidBody]) {
-        for ((sweep, b), a) in self.sweeps.iter_mut().zip(before).zip(after) {
-            *sweep = Sweep::new(b, a);
+        for (((sweep, b), a), asleep) in self.sweeps.iter_mut().zip(before).zip(after).zip(&self.asleep) {
+            if !asleep {
+                *sweep = Sweep::new(b, a);
+            }
         }
         self.broad.candidates(&self.sweeps, &mut self.near);
         #[cfg(test)]

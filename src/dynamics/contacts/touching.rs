@@ -29,7 +29,7 @@ pub struct Touching {
 impl Contacts {
     /// Every touch that the last substep ended with, in a fixed order.
     pub fn touching<'a>(&'a self, bodies: &'a [RigidBody]) -> impl Iterator<Item = Touching> + 'a {
-        self.held.iter().filter_map(|held| match held.source {
+        self.held.iter().chain(&self.kept).filter_map(|held| match held.source {
             Source::Pair(pair) if !held.couple => Some(self.pressed_pair(pair, held, bodies)),
             _ => None,
         })
