@@ -72,7 +72,7 @@ pub struct Summary {
     pub solver_switches: u64,
     /// Sample peak, dB of full scale; null for silence.
     pub peak_dbfs: Option<f64>,
-    /// Integrated loudness of the sound that was written; null for silence and where none was.
+    /// Integrated loudness; null for silence.
     pub lufs: Option<f64>,
     /// Breath profile.
     pub profile: &'static str,
@@ -200,7 +200,7 @@ pub fn run(
         impacts: diagnostics.impacts,
         solver_switches: switches,
         peak_dbfs: finite(levels.peak_dbfs),
-        lufs: levels.lufs.and_then(finite),
+        lufs: finite(levels.lufs),
         profile: settings.profile.name(),
         seed: settings.seed,
         faults: diagnostics.faults,

@@ -39,8 +39,8 @@ pub struct Soundtrack {
 pub struct Levels {
     /// Sample peak, dB of full scale; −∞ for silence.
     pub peak_dbfs: f64,
-    /// Integrated loudness, LUFS (EBU R 128); −∞ for silence. Asked of what is written: it costs as much as the tones.
-    pub lufs: Option<f64>,
+    /// Integrated loudness, LUFS (EBU R 128); −∞ for silence.
+    pub lufs: f64,
 }
 
 impl Soundtrack {
@@ -64,7 +64,7 @@ impl Soundtrack {
             steps: 0,
             sounds: 0,
             peak: 0.0,
-            loudness: path.and_then(|_| EbuR128::new(u32::from(CHANNELS), SAMPLE_RATE, Mode::I).ok()),
+            loudness: EbuR128::new(u32::from(CHANNELS), SAMPLE_RATE, Mode::I).ok(),
             file,
         })
     }
@@ -110,7 +110,7 @@ impl Soundtrack {
         let held = self.synth.latency() * usize::from(CHANNELS) - self.early;
         self.keep(held)?;
         self.file.map_or(Ok(()), WholeWav::finish)?;
-        let lufs = self.loudness.map(|loudness| loudness.loudness_global().unwrap_or(f64::NEG_INFINITY));
+        let lufs = self.loudness.and_then(|l| l.loudness_global().ok()).unwrap_or(f64::NEG_INFINITY);
         Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs })
     }
 }
