@@ -2,6 +2,7 @@
 
 use std::io::Write as _;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::super::{Failure, Outcome};
 use crate::offline::ear::course::{self, Begin, Course};
@@ -81,7 +82,7 @@ pub fn run(args: &Args) -> Outcome {
 /// Marks a model on made scenes.
 fn examine(args: &Args, model: &Model) {
     if args.exam > 0.0 {
-        let settings = BlowSettings { model: model.clone(), ..BlowSettings::default() };
+        let settings = BlowSettings { model: Arc::new(model.clone()), ..BlowSettings::default() };
         let plain = Hearing { gain_db: 0.0, stereo: false };
         let (table, _) = course::examined(&settings, args.exam, args.seed, plain, |_| true);
         println!("{table}");

@@ -4,7 +4,7 @@
 //! has met neither the recording nor one of its group, nor a scene in which one of them was mixed.
 
 use std::fmt::Write as _;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use super::scenes::{Condition, Hearing, World};
 use super::score::{Table, Verdict, judge};
@@ -96,12 +96,12 @@ fn world_seed(course: &Course, i: u64) -> u64 {
 }
 
 fn settings(model: &Model) -> BlowSettings {
-    BlowSettings { model: model.clone(), ..BlowSettings::default() }
+    BlowSettings { model: Arc::new(model.clone()), ..BlowSettings::default() }
 }
 
 /// Learns from made worlds, lesson by lesson; `tell` hears of each.
 pub fn learn(course: &Course, mut tell: impl FnMut(u64, &Learnt)) -> Learnt {
-    let model = if course.begin == Begin::Present { BlowSettings::default().model } else { untaught() };
+    let model = if course.begin == Begin::Present { Model::clone(&BlowSettings::default().model) } else { untaught() };
     let mut learnt = Learnt { examples: Vec::new(), model, loss: 0.0 };
     for lesson in 0..course.lessons {
         if lesson == 1 && course.begin == Begin::Untaught {

@@ -25,6 +25,8 @@ mod resample;
 mod spectrum;
 pub mod table;
 
+use std::sync::{Arc, LazyLock};
+
 use crate::math::pow;
 pub use decision::Rules;
 use decision::{Decision, Phase};
@@ -100,15 +102,16 @@ pub struct BlowSettings {
     /// Added to the microphone's level before it becomes a speed, dB; 0 suits a microphone that a hard blow at 10 cm
     /// drives to full scale. It changes how strong a breath is taken to be, never whether it is one.
     pub sensitivity_db: f64,
-    /// Weighs the features.
-    pub model: Model,
+    /// Weighs the features; shared, since it is far larger than all that an ear keeps of its own.
+    pub model: Arc<Model>,
     /// Turns log-odds into a decision.
     pub rules: Rules,
 }
 
 impl Default for BlowSettings {
     fn default() -> Self {
-        Self { sensitivity_db: 0.0, model: table::TRAINED.clone(), rules: Rules::default() }
+        static TRAINED: LazyLock<Arc<Model>> = LazyLock::new(|| Arc::new(table::TRAINED.clone()));
+        Self { sensitivity_db: 0.0, model: TRAINED.clone(), rules: Rules::default() }
     }
 }
 

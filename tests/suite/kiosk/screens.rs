@@ -24,13 +24,8 @@ const SHRUNK: (u32, u32) = (800, 450);
 type Screen = (&'static str, fn(&mut Before));
 
 /// Of a visitor who needs much.
-const MANY: Needs = Needs {
-    reading: Reading { large: true, contrast: true },
-    press_once: true,
-    dwell: true,
-    calm: true,
-    round: false,
-};
+const MANY: Needs =
+    Needs { reading: Reading { large: true, contrast: true }, press_once: true, dwell: true, calm: true, round: false };
 
 const SCREENS: [Screen; 5] = [
     ("front-languages", |_| ()),
