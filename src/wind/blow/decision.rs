@@ -53,7 +53,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-4.0, 9.0), drift: 3.2, on: 0.15, on_covered: 0.3, full: 0.3, longest_s: 6.0 }
+        Self { believed: (-4.0, 9.0), drift: 2.8, on: 0.12, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
     }
 }
 
