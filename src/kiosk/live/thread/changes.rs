@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use super::{Thread, local_time};
+use super::Thread;
 use crate::audio_io::AudioIo;
 use crate::config::AudioSettings;
 use crate::controllers::Controllers;
 use crate::exhibit::Exhibit;
 use crate::kiosk::captions::Captions;
 use crate::kiosk::governor::Governor;
+use crate::kiosk::live::local_time;
 use crate::kiosk::moments::Moments;
 use crate::kiosk::site::Site;
 use crate::kiosk::voice::{Guest, Trial, Tried, Voice, hit};
