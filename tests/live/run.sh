@@ -110,8 +110,8 @@ a_visitor() {
 # Wind and picture: the kiosk's own stamps. What a debug build on software graphics takes for a picture says nothing of
 # a kiosk; that it is the next picture does.
 latency() {
-    local breaths=(strong normal strong normal strong) name took seen
-    start_kiosk latency --no-attract --for 40
+    local breaths=(strong normal strong normal strong normal strong normal strong) name took seen
+    start_kiosk latency --no-attract --for 60
     within 10 grep -q 'supervisor: microphone: ' "$room/latency.err"
     start air parec -d air.monitor --rate=48000 --channels=3 --channel-map=aux0,aux1,aux2 --format=float32le \
         --latency-msec=20 --raw
@@ -125,17 +125,18 @@ latency() {
     kill "$recorder"
     wait "$recorder" 2>/dev/null || true
     end_kiosk latency
-    # Onsets after at least a second of quiet, channel by channel, in blocks of 240 frames.
-    took=$(paste <(onsets "$room/air.out" 1 -45) <(onsets "$room/air.out" 2 -60) |
-        awk 'NF == 2 { print int(1000 * ($2 - $1)) }' | sort -n | xargs)
+    # Onsets after at least a second of quiet, channel by channel, in blocks of 240 frames: of each breath the first sound
+    # after it.
+    took=$(awk 'NR == FNR { sound[++n] = $1; next } { for (i = 1; i <= n && sound[i] < $1; i++); if (i <= n) print int(1000 * (sound[i] - $1)) }' \
+        <(onsets "$room/air.out" 2 -60) <(onsets "$room/air.out" 1 -45) | sort -n | xargs)
     local median most
-    median=$(echo "$took" | tr ' ' '\n' | sed -n 3p)
+    median=$(echo "$took" | tr ' ' '\n' | rank 0.5)
     most=${took##* }
     # A detector may take 140 ms; a block of microphone and one of loudspeaker, a step and the attack of the sound.
-    bar "breath to sound" "$(echo "$took" | wc -w) == 5 && $median <= 220 && $most <= 350" \
+    bar "breath to sound" "$(echo "$took" | wc -w) == 9 && $median <= 220 && $most <= 350" \
         "$took ms, blocks of $(block latency microphone) and $(block latency loudspeaker) ms"
     seen=$(sed -nE 's/.* seen ([0-9.]+) ms after it, in the next picture.*/\1/p' "$room/latency.err" | xargs)
-    bar "breath to picture" "$(echo "$seen" | wc -w) == 5" "$seen ms after its first wind, each time in the next picture"
+    bar "breath to picture" "$(echo "$seen" | wc -w) == 9" "$seen ms after its first wind, each time in the next picture"
 }
 
 # ---- the way from microphone to wind does not grow -------------------------------------------------------------------
