@@ -26,20 +26,20 @@ pub struct Args {
     /// Go on with the present ear, instead of one that knows nothing.
     #[arg(long)]
     go_on: bool,
-    /// Lessons, each in new worlds.
+    /// Lessons, each in new worlds, twice as many as the last one.
     #[arg(long, default_value_t = 4)]
     lessons: u64,
-    /// Worlds of speakers and rooms in each lesson.
-    #[arg(long, default_value_t = 3)]
+    /// Worlds of speakers and rooms in the first lesson.
+    #[arg(long, default_value_t = 6)]
     worlds: u64,
     /// Size of each world: 1 is an hour and a half of museum, and the rest in proportion.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 0.5)]
     size: f64,
     /// Rounds over all examples after each lesson.
-    #[arg(long, default_value_t = 4)]
+    #[arg(long, default_value_t = 6)]
     rounds: usize,
     /// Changes everything that is drawn.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 19)]
     seed: u64,
     /// First mark models on recordings whose groups they have not met.
     #[arg(long, requires = "data")]

@@ -40,9 +40,9 @@ pub enum Begin {
 pub struct Course {
     /// Where it begins: with an ear that knows nothing, or with one that has been taught.
     pub begin: Begin,
-    /// Lessons: each in new worlds, with the ear as the last one left it.
+    /// Lessons: each in new worlds, twice as many as in the last one, with the ear as the last one left it.
     pub lessons: u64,
-    /// Worlds of speakers and rooms in a lesson.
+    /// Worlds of speakers and rooms in the first lesson.
     pub worlds: u64,
     /// 1: an hour and a half of museum a world, and the rest in proportion.
     pub size: f64,
@@ -50,6 +50,13 @@ pub struct Course {
     pub rounds: usize,
     /// Changes everything that is drawn.
     pub seed: u64,
+}
+
+impl Course {
+    /// Worlds met before a lesson.
+    fn worlds_before(&self, lesson: u64) -> u64 {
+        self.worlds * ((1 << lesson) - 1)
+    }
 }
 
 /// Examples, and the model that they have taught.
@@ -68,27 +75,26 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
     let count = |full: f64| (full * size).round() as u64;
     let mut all = vec![
         (Condition::Museum, count(90.0)),
-        (Condition::Impulses, count(180.0)),
+        (Condition::Impulses, count(240.0)),
         (Condition::Alike, count(120.0)),
         (Condition::Isolated, count(180.0)),
     ];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(45.0))));
-    all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(5.0))));
+    all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(12.0))));
     all.extend([0, 1, 2].map(|room| (Condition::Answered(room), count(30.0))));
     all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
 }
 
 /// Examples of one world.
 fn taught(world: &World, settings: &BlowSettings, course: &Course) -> Vec<Example> {
-    let made = parallel(scenes(course.size), |(condition, index)| {
+    let mut out = Vec::new();
+    for (condition, index) in scenes(course.size) {
         let mut random = Random::new(hash_words(&[course.seed, index, 3]));
         let railed = if random.unit() < RAILED { random.range(0.0, RAILED_DB) } else { 0.0 };
         let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB) + railed, stereo: false };
-        let mut out = Vec::new();
         examples(&world.take(condition, index, hearing), settings, &mut out);
-        out
-    });
-    made.concat()
+    }
+    out
 }
 
 fn world_seed(course: &Course, i: u64) -> u64 {
@@ -107,10 +113,10 @@ pub fn learn(course: &Course, mut tell: impl FnMut(u64, &Learnt)) -> Learnt {
         if lesson == 1 && course.begin == Begin::Untaught {
             learnt.examples.clear();
         }
-        for i in 0..course.worlds {
-            let world = World::new(world_seed(course, course.worlds * lesson + i));
-            learnt.examples.extend(taught(&world, &settings(&learnt.model), course));
-        }
+        let worlds = course.worlds_before(lesson)..course.worlds_before(lesson + 1);
+        let ear = settings(&learnt.model);
+        let met = parallel(worlds.collect(), |i| taught(&World::new(world_seed(course, i)), &ear, course));
+        learnt.examples.extend(met.into_iter().flatten());
         (learnt.model, learnt.loss) = train(&learnt.model, &learnt.examples, course.rounds, course.seed + lesson);
         tell(lesson, &learnt);
     }

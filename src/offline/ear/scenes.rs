@@ -269,7 +269,9 @@ impl World {
         let mut played = Vec::new();
         if let Condition::Answered(room) = condition {
             played = own::answers(seconds, &breaths, random);
-            self.hear_itself(&played, room, &mut channels, random);
+            // Headphones, a hearing loop or a cable that fell out: the microphone hears little or nothing of it.
+            let loud = if random.unit() < 0.25 { random.range(-60.0, -8.0) } else { random.range(-8.0, 4.0) };
+            self.hear_itself(&played, (room, loud), &mut channels, random);
         }
         let take = self.finish(condition, index, channels, Kind::Blow, breaths, hearing, random);
         let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
@@ -302,15 +304,15 @@ impl World {
         (shapes, breaths)
     }
 
-    /// Adds what the microphone hears of what the kiosk plays.
-    fn hear_itself(&self, played: &[f64], room: u32, channels: &mut [Vec<f64>], random: &mut Random) {
+    /// Adds what the microphone hears of what the kiosk plays in a room, this loud (dB).
+    fn hear_itself(&self, played: &[f64], (room, loud): (u32, f64), channels: &mut [Vec<f64>], random: &mut Random) {
         let (_, responses) = &self.rooms[room as usize % self.rooms.len()];
         // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
         let late = (0.02 + 0.035 * f64::from(room)) * R;
         let mut delayed = vec![0.0; late as usize];
         delayed.extend(own::loudspeaker(played, random));
         delayed.truncate(played.len());
-        let loud = from_decibels(random.range(-8.0, 4.0));
+        let loud = from_decibels(loud);
         for (channel, response) in channels.iter_mut().zip(&responses[PLACES - 1]) {
             channel.iter_mut().zip(convolved(&delayed, response)).for_each(|(y, x)| *y += loud * x);
         }
@@ -320,7 +322,8 @@ impl World {
         let seconds = 60.0;
         let played = own::kiosk(seconds, &self.speech(seconds, random), random);
         let mut channels = vec![vec![0.0; played.len()]; 1 + usize::from(hearing.stereo)];
-        self.hear_itself(&played, room, &mut channels, random);
+        let loud = random.range(-8.0, 4.0);
+        self.hear_itself(&played, (room, loud), &mut channels, random);
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
         let mut take =
             self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
