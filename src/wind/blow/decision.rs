@@ -8,7 +8,8 @@
 //! ```
 //!
 //! ℓ is believed within bounds only: the surest breath needs on / (highest − drift) to begin (a pop or a clap does not
-//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. No one blows
+//! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. Where the kiosk's own
+//! sound covers the low band, what its prediction leaves is scattered: a breath that begins there takes longer. No one blows
 //! for longer than six seconds, pauses that are shorter than half as long included: then the sound is latched as a
 //! machine's, and belongs to the room, until it has been silent for a moment or unlike breath for seconds. Order of
 //! phases: quiet → waiting → blow → (latched →) quiet.
@@ -42,6 +43,8 @@ pub struct Rules {
     pub drift: f64,
     /// A breath begins at this sum, nat·s.
     pub on: f64,
+    /// And at this one where the kiosk's own sound covers it.
+    pub on_covered: f64,
     /// The sum never exceeds this, so that a breath ends in time, nat·s.
     pub full: f64,
     /// Longest breath, s.
@@ -50,7 +53,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-4.0, 9.0), drift: 2.5, on: 0.15, full: 0.3, longest_s: 6.0 }
+        Self { believed: (-4.0, 9.0), drift: 2.5, on: 0.13, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
     }
 }
 
@@ -100,7 +103,8 @@ impl Decision {
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
-        self.progress = (self.sum / rules.on).min(1.0);
+        let on = if levels.covered { rules.on_covered } else { rules.on };
+        self.progress = (self.sum / on).min(1.0);
         let silent = levels.loud_dbfs < self.blown_dbfs + SILENCE_DB;
         let still = if silent { SILENCE * FRAME_S } else { FRAME_S };
         self.still_s = if self.sum == 0.0 { self.still_s + still } else { 0.0 };
@@ -111,7 +115,7 @@ impl Decision {
                 Phase::Quiet
             }
             _ if self.sum == 0.0 => Phase::Quiet,
-            Phase::Quiet | Phase::Waiting if self.sum < rules.on => Phase::Waiting,
+            Phase::Quiet | Phase::Waiting if self.sum < on => Phase::Waiting,
             Phase::Quiet | Phase::Waiting | Phase::Blow if self.blowing_s > rules.longest_s => Phase::Latched,
             Phase::Quiet | Phase::Waiting | Phase::Blow => Phase::Blow,
         };

@@ -152,6 +152,8 @@ pub struct Levels {
     pub hiss_dbfs: f64,
     /// Room's low, dB of full scale.
     pub floor_dbfs: f64,
+    /// The kiosk's own sound covers the low band.
+    pub covered: bool,
     /// What is heard of 1625–3400 Hz, dB of full scale: it shows what a gain control does.
     pub treble_dbfs: f64,
 }

@@ -107,6 +107,7 @@ impl FrontEnd {
             let Framer { microphone, peakedness, .. } = &self.framer;
             (features, levels) =
                 self.listener.push(microphone, &self.own_voice.predicted, *peakedness, Still { room, past: blowing });
+            levels.covered = covered;
         }
         Frame {
             features,
