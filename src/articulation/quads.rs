@@ -219,6 +219,12 @@ impl Quads {
         (state.velocity.get(One(slot.lane)).into(), state.spin.get(One(slot.lane)).into())
     }
 
+    /// Angular velocity of a body, rad/s.
+    pub fn spin(&self, body: usize) -> DVec3 {
+        let slot = self.slots[body];
+        self.quads[slot.quad].state.spin.get(One(slot.lane)).into()
+    }
+
     /// Rotation matrix of a body.
     pub fn frame(&self, body: usize) -> DMat3 {
         let slot = self.slots[body];

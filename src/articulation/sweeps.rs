@@ -20,8 +20,8 @@ impl Tree {
 
     #[inline(always)]
     fn factor_in<'a, S: Simd>(&mut self, simd: S, quads: &[Quad], form: &impl Fn(usize) -> Form<'a>) {
-        for (members, quad) in self.members.iter().zip(quads) {
-            let lanes = All(simd);
+        for &index in &self.begun {
+            let (members, quad, lanes) = (&self.members[index], &quads[index], All(simd));
             let alone = Articulated::alone(lanes.get(&quad.mass), quad.inertia.get(lanes));
             lanes.scatter(members.count, &alone.numbers(), |lane, mass| {
                 self.articulated[members.bodies[lane]] = *mass;

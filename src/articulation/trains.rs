@@ -339,8 +339,12 @@ impl Trains {
             };
             let mut left = b[wheel.body];
             if asked != Asked::Impulse {
-                let (mass, p) = (quads.mass(wheel.body), linear(&wheel.given));
-                let turned: DVec3 = quads.inertia(wheel.body).mul(angular(&wheel.given).into()).into();
+                let (mass, p, turn) = (quads.mass(wheel.body), linear(&wheel.given), angular(&wheel.given));
+                // What is asked of accelerations turns nothing.
+                let turned: DVec3 = match turn == DVec3::ZERO {
+                    true => turn,
+                    false => quads.inertia(wheel.body).mul(turn.into()).into(),
+                };
                 add_scaled(&mut left, -1.0, &vec6(mass * p, turned));
             }
             train.rate += wheel.ratio * dot(&wheel.twist, &left);
@@ -435,7 +439,7 @@ impl Wheel {
     /// ω×(ω×r).
     fn centripetal(&self, quads: &Quads) -> Vec6 {
         let Freedom::Turn { about, .. } = self.freedom else { return [0.0; 6] };
-        let spin = quads.velocity(self.body).1.dot(about);
+        let spin = quads.spin(self.body).dot(about);
         // n×(n×r), and n×r stands in s.
         vec6(spin * spin * about.cross(linear(&self.twist)), DVec3::ZERO)
     }

@@ -138,6 +138,8 @@ pub struct Tree {
     /// The same by quads, without what is driven; reversed it is the elimination order. Then those of them whose bodies are awake.
     pub(super) steps: Vec<Step>,
     pub(super) awake: Vec<Step>,
+    /// Quads that the factor begins with: those of whom is eliminated, and of what these hang on.
+    pub(super) begun: Vec<usize>,
     pub(super) hang: Vec<Hang>,
     pub(super) driven: Vec<bool>,
     loops: Vec<usize>,
@@ -243,8 +245,9 @@ impl Tree {
             signs: Four(four.bodies.map(|body| hang[body].sign())),
             at: four.bodies.map(|body| hang[body].at),
         };
-        Self {
+        let mut tree = Self {
             level,
+            begun: Vec::with_capacity(members.len()),
             general: hang.iter().map(|hang| (!hang.ball).then(blank)).collect(),
             awake: steps.clone(),
             steps,
@@ -257,7 +260,9 @@ impl Tree {
             hang,
             driven: driven.to_vec(),
             loops: (0..links.len()).filter(|&joint| !in_tree[joint]).collect(),
-        }
+        };
+        tree.look_who_begins();
+        tree
     }
 
     /// Leaves out the steps whose bodies all sleep.
@@ -271,6 +276,21 @@ impl Tree {
         };
         awake.clear();
         awake.extend(steps.iter().filter(|step| !idle(step)));
+        self.look_who_begins();
+    }
+
+    fn look_who_begins(&mut self) {
+        let Self { awake, members, slots, hooks, begun, .. } = self;
+        let needs = |step: &Step, quad: usize| {
+            let (own, lanes) = match *step {
+                Step::Quad(own) => (own, 0..members[own].count),
+                Step::Point(slot) => (slot.quad, slot.lane..slot.lane + 1),
+                Step::Body(body) => (slots[body].quad, slots[body].lane..slots[body].lane + 1),
+            };
+            own == quad || hooks[own].slots[lanes].iter().any(|parent| parent.quad == quad)
+        };
+        begun.clear();
+        begun.extend((0..members.len()).filter(|&quad| awake.iter().any(|step| needs(step, quad))));
     }
 
     /// Who stands beside whom.

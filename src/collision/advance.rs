@@ -42,7 +42,7 @@ pub struct Sweep {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
     pub half: f64,
-    reach: f64,
+    pub reach: f64,
 }
 
 impl Sweep {
@@ -99,6 +99,17 @@ impl Sweep {
     /// Farthest that a point of such a box can be from where it was at the start, m, [`Sweep::sag`] included.
     pub(super) fn stray(&self, size: &Size) -> f64 {
         self.travel(size.reach) + 0.25 * self.turn * self.turn * size.reach
+    }
+
+    /// Where the centre of mass is at the start, m, and how the body is turned.
+    pub(super) fn place(&self) -> (DVec3, DQuat) {
+        (self.start, self.from)
+    }
+
+    /// Farthest that a point at `reach` (m) from the centre of mass can get on this way from where it was at another place, m.
+    pub(super) fn gone_since(&self, &(start, from): &(DVec3, DQuat), reach: f64) -> f64 {
+        let chord = (self.from - from).length().min((self.from + from).length());
+        (self.start - start).length() + 2.0 * chord * reach + self.stray(&Size { half: 0.0, reach })
     }
 
     /// Farthest that a point at `reach` (m) from the centre of mass can travel, m.

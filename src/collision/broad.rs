@@ -6,6 +6,7 @@
 //! stands still has a box of its own for each collider.
 
 use super::advance::{Size, Sweep, TOUCH};
+use super::nearby::{MANY, Nearby};
 use super::pairs::Pair;
 use super::shape::{Collider, Shape};
 use crate::math::{DMat3, DVec3, Pose};
@@ -56,6 +57,8 @@ pub struct BroadPhase {
     /// Indices of pairs, runs of the same two units together.
     sorted: Vec<usize>,
     runs: Vec<Run>,
+    /// Of runs of many pairs between two bodies, those that are near.
+    nearby: Vec<Option<Nearby>>,
     /// Swept boxes of the units (the bodies, then each collider that stands still), and units in order.
     units: Vec<Bounds>,
     order: Vec<usize>,
@@ -126,6 +129,8 @@ impl BroadPhase {
                 _ => runs.push(Run { units, first: at, end: at + 1 }),
             }
         }
+        let many = |run: &Run| run.end - run.first >= MANY && run.units.0.max(run.units.1) < count;
+        let nearby = runs.iter().map(|run| many(run).then(|| Nearby::new(run.end - run.first))).collect();
         // Units in no pair need not be sorted.
         let order = (0..units.len()).filter(|u| runs.iter().any(|r| r.units.0 == *u || r.units.1 == *u)).collect();
         Self {
@@ -141,6 +146,7 @@ impl BroadPhase {
             pairs: pairs.to_vec(),
             sorted,
             runs,
+            nearby,
             units,
             order,
         }
@@ -219,20 +225,47 @@ impl BroadPhase {
     fn tell_apart(&mut self, units: (usize, usize), sweeps: &[Sweep], out: &mut Vec<usize>) {
         let Ok(run) = self.runs.binary_search_by_key(&units, |run| run.units) else { return };
         let Run { first, end, .. } = self.runs[run];
-        for at in first..end {
-            let index = self.sorted[at];
-            let Pair { a, b } = self.pairs[index];
-            let meet = match (self.shapes[a].1, self.shapes[b].1) {
-                (Some(plane), None) => plane.meets(&self.bounds(b, sweeps)),
-                (None, Some(plane)) => plane.meets(&self.bounds(a, sweeps)),
-                _ => {
-                    self.cube(a, sweeps).meets(&self.cube(b, sweeps))
-                        && self.bounds(a, sweeps).meets(&self.bounds(b, sweeps))
-                }
+        let Some(nearby) = &mut self.nearby[run] else {
+            return (first..end).for_each(|at| self.add_if_near(self.sorted[at], sweeps, out));
+        };
+        let ways = [&sweeps[units.0], &sweeps[units.1]];
+        if !nearby.holds(ways) {
+            let (shapes, colliders, ends) = (&self.shapes, &self.colliders, &self.ends);
+            let cube = |collider: usize, body: usize| {
+                let (middle, half) = colliders[collider];
+                let (pose, axes) = &ends[body][0];
+                (pose.position + *axes * middle, sweeps[body].size(middle, half))
             };
-            if meet {
-                out.push(index);
+            nearby.look(ways, &self.sorted[first..end], |pair| {
+                let Pair { a, b } = self.pairs[pair];
+                let (a, b) = if shapes[a].0 == Some(units.0) { (a, b) } else { (b, a) };
+                [cube(a, units.0), cube(b, units.1)]
+            });
+            // What goes farther than that within this interval is looked at each time.
+            if !nearby.holds(ways) {
+                return (first..end).for_each(|at| self.add_if_near(self.sorted[at], sweeps, out));
             }
+        }
+        let pairs = std::mem::take(&mut nearby.pairs);
+        pairs.iter().for_each(|&pair| self.add_if_near(pair, sweeps, out));
+        if let Some(nearby) = &mut self.nearby[run] {
+            nearby.pairs = pairs;
+        }
+    }
+
+    /// Adds a pair if its colliders' own boxes overlap.
+    fn add_if_near(&mut self, index: usize, sweeps: &[Sweep], out: &mut Vec<usize>) {
+        let Pair { a, b } = self.pairs[index];
+        let meet = match (self.shapes[a].1, self.shapes[b].1) {
+            (Some(plane), None) => plane.meets(&self.bounds(b, sweeps)),
+            (None, Some(plane)) => plane.meets(&self.bounds(a, sweeps)),
+            _ => {
+                self.cube(a, sweeps).meets(&self.cube(b, sweeps))
+                    && self.bounds(a, sweeps).meets(&self.bounds(b, sweeps))
+            }
+        };
+        if meet {
+            out.push(index);
         }
     }
 

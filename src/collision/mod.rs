@@ -3,6 +3,7 @@
 mod advance;
 mod broad;
 mod manifold;
+mod nearby;
 mod pairs;
 mod proximity;
 pub mod reach;

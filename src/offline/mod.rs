@@ -12,6 +12,7 @@ pub mod loudness;
 #[cfg(feature = "kiosk")]
 pub mod pictures;
 pub mod play;
+pub mod programme;
 pub mod scene;
 pub mod sound_page;
 pub mod soundtrack;

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-use ebur128::{EbuR128, Mode};
 use hound::{SampleFormat, WavSpec, WavWriter};
 
+use super::programme::Programme;
 use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::decibels;
@@ -30,7 +30,7 @@ pub struct Soundtrack {
     /// Samples of the limiter's look-ahead still to be left out at the beginning, so that a hit sounds on its sample.
     early: usize,
     peak: f32,
-    loudness: Option<EbuR128>,
+    loudness: Programme,
     file: Option<WholeWav>,
 }
 
@@ -64,7 +64,7 @@ impl Soundtrack {
             steps: 0,
             sounds: 0,
             peak: 0.0,
-            loudness: EbuR128::new(u32::from(CHANNELS), SAMPLE_RATE, Mode::I).ok(),
+            loudness: Programme::new(),
             file,
         })
     }
@@ -97,9 +97,7 @@ impl Soundtrack {
         self.early -= early;
         let block = &block[early..];
         self.peak = block.iter().fold(self.peak, |peak, s| peak.max(s.abs()));
-        if let Some(loudness) = &mut self.loudness {
-            loudness.add_frames_f32(block).map_err(|e| e.to_string())?;
-        }
+        self.loudness.hear(block.as_chunks().0);
         self.file.as_mut().map_or(Ok(()), |file| file.write(block))
     }
 
@@ -110,8 +108,7 @@ impl Soundtrack {
         let held = self.synth.latency() * usize::from(CHANNELS) - self.early;
         self.keep(held)?;
         self.file.map_or(Ok(()), WholeWav::finish)?;
-        let lufs = self.loudness.and_then(|l| l.loudness_global().ok()).unwrap_or(f64::NEG_INFINITY);
-        Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs })
+        Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs: self.loudness.loudness() })
     }
 }
 

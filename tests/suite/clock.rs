@@ -132,10 +132,12 @@ fn it_beats_6720_times_an_hour_tooth_by_tooth() {
     const OFF: f64 = 1.0;
     /// Of a swing to the next on the same side.
     const STEADY: f64 = 2e-3;
-    // It is rated where it hangs: what the air takes from its swing is a part of its rate.
-    let Kept { beats, .. } = in_the_room(150.0, false);
-    let rate = rate(&beats[SETTLES..]);
-    assert!((rate - RATE).abs() < OFF, "{rate} beats an hour");
+    // It is rated where it hangs, as what the air takes from its swing is a part of its rate, and over an hour with its strike:
+    // what the strike's release takes from the train is one too.
+    let Kept { beats, .. } = in_the_room(3600.0, false);
+    let rate = rate(&beats);
+    println!("{} beats in an hour, {rate} by its swings", beats.len());
+    assert!((beats.len() as f64 - RATE).abs() <= OFF && (rate - RATE).abs() < OFF, "{rate} beats an hour");
     let mut clock = Clock::new();
     clock.run(150.0, DT);
     for pair in clock.swings[SETTLES..].windows(3) {
@@ -436,15 +438,16 @@ fn it_strikes_eleven_at_eleven() {
 #[test]
 #[ignore = "twelve hours: a quarter of an hour of the machine"]
 fn in_half_a_day_it_strikes_seventy_eight_blows() {
-    /// s a day.
+    /// s a day, and so much in half a day. The hand goes on by beats: that of the flirt's fall may come half a one sooner or later.
     const DAILY: f64 = 1.0;
+    const LATE: f64 = 0.5 * DAILY;
     let Kept { blows, beats, .. } = in_the_room(12.0 * 3600.0, false);
     let hours = struck(&blows);
     println!("{hours:?}");
     assert_eq!(blows.len(), 78, "{hours:?}");
     for (hour, blows, late) in &hours {
         assert_eq!(hour, blows, "{hours:?}");
-        assert!((late - TO_THE_BLOW).abs() < PUNCTUAL, "{hour} o'clock begins {late} s after the hour");
+        assert!((late - TO_THE_BLOW).abs() < LATE, "{hour} o'clock begins {late} s after the hour");
     }
     // After the first hour it swings as it will for ever.
     let whole = (beats.len() - 1 - RATE as usize) / 2 * 2;

@@ -6,6 +6,7 @@ use ebur128::{EbuR128, Mode};
 use soffio::config::{Config, Hours, TimeOfDay};
 use soffio::math::{PI, StateHash, decibels, from_decibels, sin};
 use soffio::noise::Random;
+use soffio::offline::programme::Programme;
 use soffio::sound::{
     AWeighting, CEILING, Exposure, InstrumentSpec, PROGRAMME, Preset, RoomSpec, SUDDEN, SoundBody, SoundCommand,
     SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
@@ -427,4 +428,31 @@ fn a_meter_of_ebu_r128_shows_what_the_standard_says_and_the_level_is_written_in_
         write(folder.path(), -4.5).expect("written");
         assert_eq!(std::fs::read_to_string(&file).expect("readable"), after);
     }
+}
+
+#[test]
+fn a_runs_loudness_is_that_of_another_meter() {
+    /// LU: both are f64; the recommendation's coefficients have thirteen digits, the other's are derived.
+    const SAME: f64 = 1e-6;
+    let mut random = Random::new(5);
+    // Noise of many levels, silence between, cut anywhere.
+    let samples: Vec<f32> = (0..12)
+        .flat_map(|part| {
+            let level = [0.3, 0.0, 0.02, 1e-5][part % 4];
+            (0..2 * 40_001).map(|_| (level * random.signed()) as f32).collect::<Vec<f32>>()
+        })
+        .collect();
+    let mut meter = EbuR128::new(2, RATE, Mode::I).expect("a meter");
+    meter.add_frames_f32(&samples).expect("stereo");
+    let expected = meter.loudness_global().expect("a loudness");
+    for piece in [1, 7, 200, 4_800, 9_999] {
+        let mut programme = Programme::new();
+        samples.as_chunks().0.chunks(piece).for_each(|frames| programme.hear(frames));
+        let own = programme.loudness();
+        assert!((own - expected).abs() < SAME, "{own} LUFS in pieces of {piece}, {expected} by the other meter");
+    }
+    assert_eq!(Programme::new().loudness(), f64::NEG_INFINITY);
+    let mut silent = Programme::new();
+    silent.hear(&[[0.0; 2]; 48_000]);
+    assert_eq!(silent.loudness(), f64::NEG_INFINITY);
 }

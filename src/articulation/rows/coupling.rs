@@ -28,6 +28,9 @@ use crate::math::{DMat3, DQuat, DVec3, PI, Pose, atan2};
 
 /// Below this 1 + n·m the body lies with its axis overturned, where the twist says nothing.
 const OVERTURNED: f64 = 1e-6;
+/// Product of two rotations (as unit quaternions) that are apart by 0.2 rad: cos 0.1. A turn of less is not counted, which is
+/// far from the half turn that the nearest branch allows.
+const HARDLY: f64 = 0.995;
 
 /// Where bodies are at one time.
 pub trait Poses {
@@ -61,8 +64,9 @@ pub struct Gauge {
     origin: Anchor,
     /// Whole turns counted so far.
     turns: i64,
-    /// Wrapped angle at the last count, rad.
+    /// Wrapped angle at the last count, rad, and the relative rotation.
     last: f64,
+    counted: DQuat,
 }
 
 /// A scalar coordinate and its derivatives.
@@ -96,6 +100,7 @@ impl Gauge {
             origin: Anchor { body: None, point: DVec3::ZERO },
             turns: 0,
             last: 0.0,
+            counted: DQuat::IDENTITY,
         };
         match &measure {
             Measure::Angle { axis, frame } => gauge.start = relative(axis.body, *frame, bodies),
@@ -180,10 +185,14 @@ impl Gauge {
         }
     }
 
-    /// Counts turns up to this state; once a step or oftener.
+    /// Counts turns up to this state; once a step or oftener. What has hardly turned since needs no new count.
     pub fn count(&mut self, bodies: &[RigidBody]) {
         if let Measure::Angle { axis, frame } = self.measure {
-            (self.last, self.turns) = self.angle(&axis, frame, bodies);
+            let d = self.since_start(axis.body, frame, bodies);
+            if d.dot(self.counted) < HARDLY {
+                (self.last, self.turns) = self.angle(&axis, frame, bodies);
+                self.counted = d;
+            }
         }
     }
 
@@ -193,9 +202,14 @@ impl Gauge {
         self.turns = ((total - self.last) / (2.0 * PI)).round() as i64;
     }
 
+    /// d.
+    fn since_start(&self, body: Option<usize>, frame: Option<usize>, poses: &(impl Poses + ?Sized)) -> DQuat {
+        self.start.conjugate() * relative(body, frame, poses)
+    }
+
     /// Wrapped angle, and turns by the branch nearest to the last count: between two counts it grows by less than π.
     fn angle(&self, axis: &Axis, frame: Option<usize>, poses: &(impl Poses + ?Sized)) -> (f64, i64) {
-        let d = self.start.conjugate() * relative(axis.body, frame, poses);
+        let d = self.since_start(axis.body, frame, poses);
         let sine = DVec3::new(d.x, d.y, d.z).dot(axis.direction);
         let raw = 2.0 * atan2(sine, d.w);
         let value = if raw > PI {

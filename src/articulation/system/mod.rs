@@ -112,8 +112,9 @@ pub struct System {
     loops: Loops,
     dense: Option<Dense>,
     quads: Quads,
-    /// Rotation matrices, where a row asks for them.
+    /// Rotation matrices, where a row asks for them; the bodies that rows outside trains ask for.
     frames: Vec<DMat3>,
+    framed: Vec<usize>,
     driven: Vec<bool>,
     /// Which bodies sleep, and those of them that the tree may go through all the same.
     asleep: Vec<bool>,
@@ -241,6 +242,13 @@ impl System {
         let numbers = |joint: usize| joints[joint].at..joints[joint].at + joints[joint].capacity;
         let loops = Loops::new(loop_rows, (&tree, &trains), driven, (count, numbers));
         let asked = !(various.is_empty() && couplings.is_empty());
+        let lean = |constraint: usize| !trains.owns(constraint);
+        let of_rows = |&body: &usize| {
+            let touches = |constraint: &usize| constraints[*constraint].kind.touches(body);
+            let joints = various[..outside_trains].iter().flat_map(|&joint| &joints[joint].constraints);
+            joints.chain(couplings.iter().map(|c| &c.constraint).filter(|c| lean(**c))).any(touches)
+        };
+        let framed = if asked { (0..bodies.len()).filter(of_rows).collect() } else { Vec::new() };
         let mut states = vec![RowState::default(); count];
         for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
             (joint.rows, joint.hard) = (3, 3);
@@ -268,6 +276,7 @@ impl System {
             various,
             dense,
             frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
+            framed,
             driven: driven.to_vec(),
             asleep: vec![false; n],
             still: Vec::with_capacity(n),
@@ -362,9 +371,13 @@ impl System {
         self.trains.evaluate(&self.quads);
         self.hung.evaluate(self.quads.all(), &mut self.tree);
         self.told = false;
-        for (body, frame) in self.frames.iter_mut().enumerate() {
-            if !self.asleep[body] {
+        if all {
+            for (body, frame) in self.frames.iter_mut().enumerate().filter(|(body, _)| !self.asleep[*body]) {
                 *frame = self.quads.frame(body);
+            }
+        } else {
+            for &body in self.framed.iter().filter(|&&body| !self.asleep[body]) {
+                self.frames[body] = self.quads.frame(body);
             }
         }
         let scene = Scene { bodies, frames: &self.frames, time: self.activity.time() };

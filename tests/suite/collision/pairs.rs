@@ -169,6 +169,42 @@ fn scene(seed: u64, bodies: usize) -> (Vec<Collider>, Vec<Sweep>) {
     (colliders, sweeps)
 }
 
+/// A wheel of balls and a body of three, that wander about each other: a sweep a step, now and then a leap between two.
+#[test]
+fn of_many_pairs_the_same_are_found_as_at_first_sight() {
+    let mut random = Random::new(23);
+    let ball = |body: usize, at: DVec3| collider(Some(body), Shape::sphere(at, 0.004));
+    let ring = (0..42).map(|k| {
+        let (s, c) = soffio::math::sincos(f64::from(k) * 0.149_6);
+        ball(0, 0.1 * DVec3::new(c, s, 0.0))
+    });
+    let colliders: Vec<Collider> = ring.chain((0..3).map(|k| ball(1, 0.01 * f64::from(k) * DVec3::X))).collect();
+    let pairs = pairs(&colliders, &[], &Reach::default()).meet;
+    let properties = MassProperties { mass: 1.0, center: DVec3::ZERO, inertia: DMat3::IDENTITY };
+    let at = |x: f64| Pose { rotation: DQuat::IDENTITY, position: DVec3::X * x };
+    let mut bodies = [RigidBody::at_rest(properties, at(0.0)), RigidBody::at_rest(properties, at(0.1))];
+    let mut broad = BroadPhase::new(&colliders, &pairs);
+    let (mut found, mut fresh, mut met) = (Vec::new(), Vec::new(), 0);
+    for step in 0..4000 {
+        let size = if step % 500 == 0 { 0.05 } else { 2e-4 };
+        let before = bodies;
+        let turns = [0.1 * size * signed(&mut random) + 2e-3 * DVec3::Z, 10.0 * size * signed(&mut random)];
+        for ((body, home), turn) in bodies.iter_mut().zip([DVec3::ZERO, 0.1 * DVec3::X]).zip(turns) {
+            body.displace(size * signed(&mut random) + 0.1 * (home - body.position), turn);
+        }
+        let sweeps = [0, 1].map(|k| Sweep::new(&before[k], &bodies[k]));
+        broad.candidates(&sweeps, &mut found);
+        BroadPhase::new(&colliders, &pairs).candidates(&sweeps, &mut fresh);
+        assert_eq!(found, fresh, "step {step}");
+        met += found.len();
+        // Thrown elsewhere, as a hand or a reset does.
+        if step % 700 == 699 {
+            bodies[1].displace(0.03 * signed(&mut random), signed(&mut random));
+        }
+    }
+    assert!(met > 1000, "{met} pairs in all");
+}
+
 #[test]
 fn the_broad_phase_finds_whatever_meets() {
     let (mut kept, mut all, mut hits) = (0, 0, 0);
