@@ -68,8 +68,8 @@ const WIDTH: f64 = 3.0 * MM;
 /// twelve hours with all their blows (`in_half_a_day_it_strikes_seventy_eight_blows` in tests/suite/clock.rs prints the rate):
 /// what gains g seconds a day gets its bob lower by 2 g/86,400 of the length. The recoil hurries the pendulum, the more the
 /// harder the train drives, and more than its swing holds it back. While the pin lifts the flirt, ten minutes before each
-/// hour, the train has less to give and the clock loses, by 18 s a day at most; for the rest of the hour it gains 2 s a day.
-const LENGTH: f64 = 290.3903 * MM;
+/// hour, the train has less to give and the clock loses, by 6 s a day at most; for most of the hour it gains 1 s a day.
+const LENGTH: f64 = 290.3952 * MM;
 const BOB_RADIUS: f64 = 20.0 * MM;
 /// Where a leaf of sheet brass sits on the rod, m below the pivot. It stands askew, so that a breath from the front goes
 /// aside and takes the pendulum with it; the leaf is ours, not Terry's.

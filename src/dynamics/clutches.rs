@@ -4,38 +4,36 @@
 //! in mechanical dynamic systems", ASME J. Dynamic Systems, Measurement, and Control 107, 1985); what slips is greased:
 //!
 //! ```text
-//! holds    C = q − q₀ = 0                  a row like any other, multiplier λ             until |λ| > τ
-//! slips    f = −τ (sign q̇ + q̇/ω₁)          until the torque that would bring q̇ to rest within a step's time h,
-//!                                          −(q̇/h + a₀)/W, is below τ; then q₀ = q
+//! holds    C = q − q₀ = 0                  a row like any other, multiplier λ            until |λ| > τ
+//! slips    f = −τ (sign q̇ + q̇/ω₁)          a touch among those that rest                  until q̇ = 0 at |f| < τ; then q₀ = q
 //! ```
 //!
-//! a₀ is what q̈ would be without friction and W its answer to a unit of torque, joints held. f is taken at the end of a
-//! substep, where q̇ + h (a₀ + W f), so that neither what is light swings about its rest, nor what is pulled hard is flung
-//! away. The state is looked at between substeps, so that a row is there for all of their stages or for none; what is left
-//! of q̇ goes with the projection.
+//! `contacts/grip.rs` has the touch. The state is looked at between substeps, so that a row is there for all of their stages or for none. A substep that ends
+//! with a clutch under too much is gone through again from its start with that clutch slipping: contact forces that were
+//! found as if it held are not there. So nothing presses through a clutch harder than the clutch carries.
 //!
 //! | symbol | here | unit |
 //! |---|---|---|
 //! | q, q₀ | value of the coupling, its offset | rad |
 //! | τ | `torque` | N m |
-//! | f | `rubs` | N m |
-//! | ω₁ | `GREASE` | rad/s |
+//! | λ | `load` | N m |
+//! | f | a touch's impulse over h | N m |
+//! | ω₁ | `contacts/grip.rs` | rad/s |
 
-use crate::articulation::block::{Vec6, add_scaled};
 use crate::articulation::{Constraint, System};
-use crate::bodies::RigidBody;
 
-/// ω₁: a clutch that slips so fast carries twice its torque, rad/s.
-const GREASE: f64 = 0.5;
+use super::contacts::Row;
 
 /// One clutch.
 #[derive(Clone, Copy, Debug)]
-struct Clutch {
-    constraint: usize,
+pub(super) struct Clutch {
+    pub constraint: usize,
     /// τ.
-    torque: f64,
-    /// Torque on its first body while it slips, with its sign; 0 while it holds.
-    rubs: f64,
+    pub torque: f64,
+    /// λ at the end of the present pass over a substep, and of the last substep that it held through.
+    pub load: f64,
+    pub carried: f64,
+    pub slips: bool,
 }
 
 /// All clutches of a figure.
@@ -45,64 +43,79 @@ pub(super) struct Clutches(Vec<Clutch>);
 impl Clutches {
     /// All of them hold.
     pub fn new(constraints: &[Constraint]) -> Self {
-        let clutch =
-            |(constraint, c): (usize, &Constraint)| c.slips.map(|torque| Clutch { constraint, torque, rubs: 0.0 });
+        let clutch = |(constraint, c): (usize, &Constraint)| {
+            c.slips.map(|torque| Clutch { constraint, torque, load: 0.0, carried: 0.0, slips: false })
+        };
         Self(constraints.iter().enumerate().filter_map(clutch).collect())
     }
 
-    /// Adds the torques of what slips.
-    pub fn press(&self, system: &System, out: &mut [Vec6]) {
-        for clutch in self.0.iter().filter(|clutch| clutch.rubs != 0.0) {
-            for (body, block) in system.coupling(clutch.constraint).parts {
-                add_scaled(&mut out[*body], clutch.rubs, block);
-            }
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Those that slip, each with its index.
+    pub fn slipping(&self) -> impl Iterator<Item = (usize, &Clutch)> {
+        self.0.iter().enumerate().filter(|(_, clutch)| clutch.slips)
+    }
+
+    /// Does any hold?
+    pub fn any_holds(&self) -> bool {
+        self.0.iter().any(|clutch| !clutch.slips)
+    }
+
+    /// Notes what those that hold carry by the last solve, of forces.
+    pub fn weigh(&mut self, system: &System) {
+        for clutch in self.0.iter_mut().filter(|clutch| !clutch.slips) {
+            clutch.load = system.coupling(clutch.constraint).multiplier;
         }
     }
 
-    /// Lets slip what carries too much, by the last solve of forces. Did anything?
-    pub fn give_way(&mut self, system: &mut System) -> bool {
-        let mut changed = false;
-        for clutch in self.0.iter_mut().filter(|clutch| clutch.rubs == 0.0) {
-            let load = system.coupling(clutch.constraint).multiplier;
-            if load.abs() > clutch.torque {
-                clutch.rubs = clutch.torque.copysign(load);
-                system.let_slip(clutch.constraint);
-                changed = true;
-            }
+    /// Adds what they carry by the last solve, of impulses over `h` seconds.
+    pub fn weigh_more(&mut self, h: f64, system: &System) {
+        for clutch in self.0.iter_mut().filter(|clutch| !clutch.slips) {
+            clutch.load += system.coupling(clutch.constraint).multiplier / h;
         }
-        changed
     }
 
-    /// Finds the torques of what slips for a substep of `h` seconds, by the accelerations at its start, which are none
-    /// afterwards. Did anything take hold? Then its row acts, and what is left of its rate is to go.
-    pub fn rub(&mut self, h: f64, system: &mut System, bodies: &[RigidBody]) -> bool {
-        let mut held = false;
-        for clutch in self.0.iter_mut().filter(|clutch| clutch.rubs != 0.0) {
-            let now = system.coupling(clutch.constraint);
-            let (rate, acceleration) = (now.rate(bodies), now.acceleration(&system.a));
-            let answer = system.answer_along(clutch.constraint);
-            let stops = clutch.rubs - (rate / h + acceleration) / answer;
-            if stops.abs() < clutch.torque {
-                clutch.rubs = 0.0;
-                system.take_hold(clutch.constraint, bodies);
-                held = true;
-            } else {
-                let (viscosity, free) = (clutch.torque / GREASE, acceleration - answer * clutch.rubs);
-                let dry = clutch.torque.copysign(stops);
-                clutch.rubs = (dry - viscosity * (rate + h * free)) / (1.0 + viscosity * h * answer);
+    /// Lets slip what carries too much; tells `found` its index, its row and what it carried before. Did anything?
+    pub fn give_way(&mut self, system: &mut System, mut found: impl FnMut(usize, Row, f64)) -> bool {
+        let mut any = false;
+        for index in 0..self.0.len() {
+            let Clutch { constraint, torque, load, carried, slips } = self.0[index];
+            if slips {
+                continue;
             }
+            if load.abs() <= torque {
+                self.0[index].carried = load;
+                continue;
+            }
+            (self.0[index].slips, any) = (true, true);
+            system.let_slip(constraint);
+            found(index, self.row(index, 1.0, system), carried);
         }
-        held
+        any
     }
 
-    /// How many slip now.
-    pub fn slipping(&self) -> usize {
-        self.0.iter().filter(|clutch| clutch.rubs != 0.0).count()
+    /// J of a clutch at the joints' last evaluation, times `scale`.
+    pub fn row(&self, index: usize, scale: f64, system: &System) -> Row {
+        let mut row = Row::default();
+        for (body, block) in system.coupling(self.0[index].constraint).parts {
+            row.add(Some(*body), scale, block);
+        }
+        row
+    }
+
+    /// Lets one that slips hold, where the bodies are.
+    pub fn take_hold(&mut self, index: usize, load: f64) -> usize {
+        let clutch = &mut self.0[index];
+        (clutch.slips, clutch.carried) = (false, load);
+        clutch.constraint
     }
 
     /// Does a clutch slip that touches this body?
     pub fn slips(&self, system: &System, body: usize) -> bool {
         let touches = |clutch: &Clutch| system.coupling(clutch.constraint).parts.iter().any(|part| part.0 == body);
-        self.0.iter().any(|clutch| clutch.rubs != 0.0 && touches(clutch))
+        self.slipping().any(|(_, clutch)| touches(clutch))
     }
 }

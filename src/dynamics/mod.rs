@@ -34,7 +34,6 @@ use crate::collision::Collider;
 use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
-use clutches::Clutches;
 use contacts::Verdict;
 pub use contacts::{
     Contacts, ENDS, Impact, ImpactKind, Met, Resistance, Strike, Struck, SurfacePair, Touching, couple_rows, strike,
@@ -138,7 +137,6 @@ pub struct Dynamics {
     /// Is there friction in any pivot?
     rubs: bool,
     springs: Springs,
-    clutches: Clutches,
     drives: Vec<Drive>,
     /// Body and acceleration of each drive at the time last asked for.
     driven_accelerations: Vec<(usize, Vec6)>,
@@ -197,7 +195,8 @@ impl Dynamics {
             .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
         let joints = (system.states().len(), settings.stabilization_time);
-        let contacts = Contacts::new(figure.colliders, figure.pairs, figure.limits, &bodies, joints);
+        let contacts =
+            Contacts::new(figure.colliders, figure.pairs, (figure.limits, figure.constraints), &bodies, joints);
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,
@@ -221,7 +220,6 @@ impl Dynamics {
             before_step: vec![State::default(); n],
             before: bodies.clone(),
             springs: Springs::new(figure.springs, &bodies),
-            clutches: Clutches::new(figure.constraints),
             drives: figure.drives.to_vec(),
             driven_accelerations: figure.drives.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
             settings,
@@ -295,12 +293,9 @@ impl Dynamics {
     /// Integrates `h` or less (where the error asks for it) or up to the first impact, resolves it, and returns the
     /// time used.
     fn substep(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
-        if self.clutches.slipping() > 0 {
-            self.rub_clutches(self.time + done, h);
-        }
         self.by_quads(Begin);
         let collides = !self.contacts.is_empty();
-        if collides || self.sleep.any() {
+        if collides || self.contacts.clutches().count() > 0 || self.sleep.any() {
             self.before.copy_from_slice(&self.bodies);
         }
         let now = self.time + done;
@@ -340,20 +335,7 @@ impl Dynamics {
         }
         self.weigh();
         self.break_overloaded(now + used);
-        if self.clutches.give_way(&mut self.system) {
-            self.known = Known::Nothing;
-        }
         used
-    }
-
-    /// Rubs what slips at the time `t`, for a substep of `h`; what takes hold comes to rest.
-    fn rub_clutches(&mut self, t: f64, h: f64) {
-        self.press();
-        self.ensure_rates(t);
-        if self.clutches.rub(h, &mut self.system, &self.bodies) {
-            self.project();
-        }
-        self.known = Known::Nothing;
     }
 
     /// Notes what the joints carry.
@@ -365,44 +347,56 @@ impl Dynamics {
         }
     }
 
-    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong; `sure`
-    /// says that the error need not be asked.
+    /// Integrates like [`Dynamics::integrate`] under the forces that hold what rests, again where they prove wrong or a clutch
+    /// gives way; `sure` says that the error need not be asked.
     fn hold(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
+        self.contacts.begin_substep();
         let mut pass = 1;
         loop {
             self.contacts.lay_out(h, &self.system);
             self.press();
             h = self.integrate(t, h, if sure || pass > 1 { h } else { least });
-            if !self.contacts.anything_rests() {
-                self.keep_asleep();
-                return h;
-            }
-            // Rows and factor of the substep's end serve: joints have closed since by less than what matters to them.
-            self.known = Known::Nothing;
-            let (before, system) = (&self.before, &mut self.system);
-            match self.contacts.settle((h, pass, h > 2.0 * least), before, system, &mut self.bodies) {
-                Verdict::Stands { moved } => {
-                    // Contacts move bodies by first-order steps through the joints: what is left of second order goes here.
-                    if moved {
-                        self.project()
-                    } else {
-                        self.look_at_rates()
-                    }
+            match self.settle(h, pass, least) {
+                Verdict::Again => pass += 1,
+                Verdict::Shorter => (h, pass) = (0.5 * h, 1),
+                Verdict::Slips => pass = 1,
+                Verdict::Stands { .. } => {
                     self.keep_asleep();
                     return h;
                 }
-                Verdict::Again => pass += 1,
-                Verdict::Shorter => (h, pass) = (0.5 * h, 1),
             }
             self.back_to_start();
         }
+    }
+
+    /// Looks what a pass over a substep of `h` seconds has come to, and puts right what rests.
+    fn settle(&mut self, h: f64, pass: usize, least: f64) -> Verdict {
+        let rests = self.contacts.anything_rests();
+        let (before, system) = (&self.before, &mut self.system);
+        let verdict = self.contacts.settle((h, pass, h > 2.0 * least), before, system, &mut self.bodies);
+        if !rests {
+            return verdict;
+        }
+        // Rows and factor of the substep's end serve: joints have closed since by less than what matters to them.
+        self.known = Known::Nothing;
+        if let Verdict::Stands { moved } = verdict {
+            // Contacts move bodies by first-order steps through the joints: what is left of second order goes here.
+            if moved {
+                self.project()
+            } else {
+                self.look_at_rates()
+            }
+            if self.contacts.take_hold(h, &mut self.system, &self.bodies) {
+                self.known = Known::Nothing;
+            }
+        }
+        verdict
     }
 
     /// All wrenches: those from outside, and those of what rests.
     fn press(&mut self) {
         self.pressed.copy_from_slice(&self.given);
         self.contacts.press(&mut self.pressed);
-        self.clutches.press(&self.system, &mut self.pressed);
         if self.pressed != self.external {
             std::mem::swap(&mut self.pressed, &mut self.external);
             self.known = self.known.min(Known::Factor);
@@ -589,7 +583,7 @@ impl Dynamics {
 
     /// Does a clutch of this body slip?
     pub fn slips(&self, body: usize) -> bool {
-        self.clutches.slips(&self.system, body)
+        self.contacts.clutches().slips(&self.system, body)
     }
 
     /// How a body answers a unit of angular impulse about a world axis, joints held: rad/s about it, 1/(kg m²).

@@ -221,7 +221,7 @@ impl Dynamics {
     /// Lets fall asleep what has rested for long enough; what it still had of speed is gone.
     pub(super) fn fall_asleep(&mut self) {
         self.sleep.watch(self.dt, &self.bodies, &self.given);
-        let waits = self.system.gathers() || self.clutches.slipping() > 0;
+        let waits = self.system.gathers() || self.contacts.clutches().slipping().next().is_some();
         if waits || !self.sleep.fall(self.contacts.leaning()) {
             return;
         }

@@ -14,7 +14,7 @@ use std::ops::Range;
 use fearless_simd::Level;
 
 use super::activity::Activity;
-use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled, angular, dot, linear};
+use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled};
 use super::dense::Dense;
 use super::hung::Hung;
 use super::loops::{LoopRow, Loops};
@@ -66,22 +66,6 @@ pub struct Coupled<'a> {
     pub multiplier: f64,
     /// J by bodies.
     pub parts: &'a [(usize, Vec6)],
-}
-
-impl Coupled<'_> {
-    /// Ċ, rad/s or m/s.
-    pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
-        let rate = |(body, block): &(usize, Vec6)| {
-            let body = &bodies[*body];
-            linear(block).dot(body.velocity) + angular(block).dot(body.angular_velocity)
-        };
-        self.parts.iter().map(rate).sum()
-    }
-
-    /// J a of such accelerations (or velocity changes).
-    pub fn acceleration(&self, a: &[Vec6]) -> f64 {
-        self.parts.iter().map(|(body, block)| dot(block, &a[*body])).sum()
-    }
 }
 
 /// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
@@ -565,17 +549,6 @@ impl System {
         let Some(coupling) = found else { panic!("constraint {constraint} is no coupling") };
         let multiplier = if self.activity.share(constraint) > 0.0 { self.lambda[coupling.at] } else { 0.0 };
         Coupled { multiplier, parts: &self.outside_rows()[coupling.outside].parts }
-    }
-
-    /// How a coupling that does not act answers a unit of its own impulse, joints held, by the factor at hand: J M⁻¹ Jᵀ.
-    pub fn answer_along(&mut self, constraint: usize) -> f64 {
-        self.b.fill([0.0; 6]);
-        for part in 0..self.coupling(constraint).parts.len() {
-            let (body, block) = self.coupling(constraint).parts[part];
-            self.push_impulse(body, &block, 1.0);
-        }
-        self.solve_impulse();
-        self.coupling(constraint).acceleration(&self.a)
     }
 
     /// Lets a clutch slip.

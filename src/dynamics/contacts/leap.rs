@@ -32,7 +32,7 @@ impl Problem {
                 self.active.extend(held.map(|(_, along)| Active { touch: index, along, test: along }));
                 continue;
             }
-            if touch.impulse.x <= 0.0 {
+            if touch.impulse.x <= 0.0 || touch.grip.is_some() {
                 continue;
             }
             let most = touch.friction * touch.impulse.x;
@@ -83,7 +83,7 @@ impl Problem {
             self.touches[touch].leap += along * self.other[i];
         }
         // As far as all that press to speak of keep to the laws: what stops it opens or slides from there on.
-        let points = || self.touches.iter().filter(|touch| touch.twist.is_none());
+        let points = || self.touches.iter().filter(|touch| touch.pushes());
         let largest = points().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));
         let far = points()
             .filter(|touch| touch.impulse.x > SLIGHT * largest)
@@ -91,6 +91,9 @@ impl Problem {
         // Couples do not hinder it: one that leaps beyond its bounds stays on them.
         for index in 0..self.touches.len() {
             let touch = &self.touches[index];
+            if touch.grip.is_some() {
+                continue;
+            }
             let to = touch.impulse + far * touch.leap;
             if let Some(twist) = touch.twist {
                 self.set(index, self.bounded_twist(&twist, to));

@@ -6,6 +6,7 @@
 //! forces over the whole substep (`rest`) until it has opened by more than [`RELEASE_GAP`].
 
 mod asleep;
+mod grip;
 mod hit;
 mod leap;
 mod met;
@@ -17,12 +18,13 @@ mod sweep;
 mod touching;
 mod twist;
 
-use crate::articulation::Limit;
 use crate::articulation::block::{Vec6, vec6};
+use crate::articulation::{Constraint, Limit};
 use crate::bodies::RigidBody;
 use crate::collision::{BroadPhase, Collider, Corners, Manifold, Pair, Sweep};
 use crate::math::{DVec3, Pose, tangents};
 
+use super::clutches::Clutches;
 use super::limits::Limits;
 use problem::{Problem, Source, Touch};
 use row::ROW_ENDS;
@@ -153,8 +155,11 @@ pub struct Contacts {
     all: bool,
     corners: Corners,
     limits: Limits,
+    clutches: Clutches,
     problem: Problem,
     held: Vec<Held>,
+    /// Those that the present substep begins with, where a clutch holds that may yet give way.
+    began: Vec<Held>,
     /// Those before them.
     former: Vec<Held>,
     /// Whether each body sleeps, how many of the pairs and bounds at rest are between such, and the forces there.
@@ -178,12 +183,12 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of a figure with these colliders and limits, whose joints have this many rows and
-    /// are drawn together with this time constant (s).
+    /// The contacts of a figure with these colliders, limits and clutches among its constraints, whose joints have this many
+    /// rows and are drawn together with this time constant (s).
     pub fn new(
         colliders: &[Collider],
         pairs: Vec<SurfacePair>,
-        limits: &[Limit],
+        (limits, constraints): (&[Limit], &[Constraint]),
         bodies: &[RigidBody],
         joints: (usize, f64),
     ) -> Self {
@@ -191,8 +196,9 @@ impl Contacts {
         let reach: Vec<f64> =
             colliders.iter().map(|c| c.body.map_or(0.0, |b| c.shape.reach(bodies[b].properties.center))).collect();
         let limits = Limits::new(limits, bodies);
+        let clutches = Clutches::new(constraints);
         let turning = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
-        let touches = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count();
+        let touches = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count() + clutches.count();
         let problem = Problem::new(touches, joints);
         let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
@@ -214,7 +220,9 @@ impl Contacts {
             colliders: colliders.to_vec(),
             pairs,
             limits,
+            clutches,
             held: Vec::with_capacity(touches.min(MOST_KEPT)),
+            began: Vec::with_capacity(touches.min(MOST_KEPT)),
             former: Vec::with_capacity(problem.touches.capacity()),
             asleep: vec![false; bodies.len()],
             asleep_at_rest: 0,

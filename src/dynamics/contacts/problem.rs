@@ -17,6 +17,7 @@
 //! to give. The velocities that come out are unique where friction is; the split among redundant feet is the one
 //! nearest to where the rounds began.
 
+use super::grip::Grip;
 use super::leap::Active;
 use super::open::Open;
 use super::row::{ROW_ENDS, Row};
@@ -54,7 +55,7 @@ pub(super) const LOCKED: f64 = 1e-9;
 pub(super) enum Source {
     /// A pair of colliders.
     Pair(usize),
-    /// A bound of a limit.
+    /// A bound of a limit; beyond all of these, a clutch that slips.
     Bound(usize),
 }
 
@@ -80,6 +81,8 @@ pub(super) struct Touch {
     pub begin: DVec3,
     /// Of a couple: what it resists, and its point.
     pub twist: Option<Twist>,
+    /// Of a clutch: what it may carry.
+    pub grip: Option<Grip>,
     /// Where the force that it began from acted.
     pub follows: Option<DVec3>,
     /// Its rows in the problem: `first` up to `first + rows`.
@@ -107,6 +110,7 @@ impl Touch {
             impulse: DVec3::ZERO,
             begin: DVec3::ZERO,
             twist: None,
+            grip: None,
             follows: None,
             first: 0,
             rows: 0,
@@ -115,6 +119,11 @@ impl Touch {
             tangential: 0.0,
             leap: DVec3::ZERO,
         }
+    }
+
+    /// Is it a point or a bound, which pushes and never pulls?
+    pub fn pushes(&self) -> bool {
+        self.twist.is_none() && self.grip.is_none()
     }
 
     /// Effective inverse mass block (n, t, b), 1/kg.
@@ -223,6 +232,12 @@ impl Problem {
         }
         self.u.clear();
         self.u.extend(self.rows.iter().map(|row| row.rate(bodies)));
+        self.take_blocks();
+    }
+
+    /// Takes each touch's own block out of W.
+    pub(super) fn take_blocks(&mut self) {
+        let n = self.rows.len();
         for touch in &mut self.touches {
             let at = |i: usize, j: usize| {
                 let inside = i < touch.rows && j < touch.rows;
@@ -302,8 +317,10 @@ impl Problem {
         self.solve()
             || [1.0, 0.0].into_iter().any(|share| {
                 for index in 0..self.touches.len() {
-                    let normal = share * self.touches[index].begin.x;
-                    self.set(index, DVec3::X * normal);
+                    let Touch { begin, grip, .. } = self.touches[index];
+                    if grip.is_none() {
+                        self.set(index, DVec3::X * (share * begin.x));
+                    }
                 }
                 self.solve()
             })
@@ -317,7 +334,7 @@ impl Problem {
             let touch = &self.touches[index];
             if let Some(twist) = touch.twist {
                 largest = largest.max(self.turn(index, &twist));
-            } else if touch.k.x_axis.x > LOCKED {
+            } else if touch.grip.is_none() && touch.k.x_axis.x > LOCKED {
                 let impulse = step(touch, self.velocity(touch));
                 scale = scale.max(touch.k.x_axis.x * impulse.x);
                 largest = largest.max(self.set(index, impulse));

@@ -11,7 +11,7 @@
 //! moved out at once through the same matrix. Where surfaces curve so much that a substep sinks in, a shorter one is
 //! taken.
 
-use super::problem::{Source, Touch};
+use super::problem::{Problem, Source, Touch};
 use super::twist::twist_rows;
 use super::{Contacts, Held, Lever, RELEASE_GAP, point_rows};
 use crate::articulation::System;
@@ -60,12 +60,15 @@ pub(in crate::dynamics) enum Verdict {
     Again,
     /// Integrate a shorter one: surfaces curve too much for the forces to stand still.
     Shorter,
+    /// Integrate it anew: a clutch gives way.
+    Slips,
 }
 
 impl Contacts {
     /// Does anything rest, or has a force to be taken back?
     pub(in crate::dynamics) fn anything_rests(&self) -> bool {
-        self.at_rest.len() + self.bounds_at_rest > self.asleep_at_rest || !self.held.is_empty()
+        let rests = self.at_rest.len() + self.bounds_at_rest > self.asleep_at_rest;
+        rests || !self.held.is_empty() || self.clutches.slipping().next().is_some()
     }
 
     /// Longest substep in which what rests passes no feature of what it slides on, s.
@@ -149,7 +152,7 @@ impl Contacts {
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
     /// Where the substep stands, velocities and places are put right. The joints must be factored at
-    /// the bodies' present state, or as near to it as a substep ends.
+    /// the bodies' present state, or as near to it as a substep ends, and solved for the forces there.
     pub(in crate::dynamics) fn settle(
         &mut self,
         (h, pass, shortens): (f64, usize, bool),
@@ -157,11 +160,15 @@ impl Contacts {
         system: &mut System,
         bodies: &mut [RigidBody],
     ) -> Verdict {
+        self.clutches.weigh(system);
+        if !self.anything_rests() {
+            return if self.give_way(system) { Verdict::Slips } else { Verdict::Stands { moved: false } };
+        }
         let straightened = self.straighten(h, start, system, bodies);
-        let lost = self.gather(h, bodies);
+        let lost = self.gather(h, system, bodies);
         self.problem.assemble(system, bodies);
         self.problem.begin();
-        let settled = self.problem.solve_anew();
+        let settled = self.problem.among_clutches(Problem::solve_anew);
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
         let last = pass >= PASSES || !missed || self.problem.has_open_joints();
         if last && shortens && settled && self.sinks(FINE) {
@@ -172,6 +179,10 @@ impl Contacts {
             self.slip = self.problem.largest_slip();
             self.recent_work = self.pressed(start, bodies) + straightened + self.problem.work();
             self.problem.apply_closing(system, bodies);
+            self.clutches.weigh_more(h, system);
+            if self.give_way(system) {
+                return Verdict::Slips;
+            }
         }
         self.hold((h, settled, stands), start, bodies);
         if !stands {
@@ -212,12 +223,12 @@ impl Contacts {
     /// Takes out what approach hits have left to what rests, without bounce and without memory. The joints must be
     /// factored at the bodies' present state.
     pub(super) fn steady(&mut self, h: f64, system: &mut System, bodies: &mut [RigidBody]) {
-        self.gather(h, bodies);
+        self.gather(h, system, bodies);
         for touch in &mut self.problem.touches {
             (touch.before, touch.impulse, touch.begin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         }
         self.problem.assemble(system, bodies);
-        self.problem.solve();
+        self.problem.among_clutches(Problem::solve);
         self.slip = self.problem.largest_slip();
         self.work += self.problem.work();
         self.problem.apply(system, bodies);
@@ -225,7 +236,7 @@ impl Contacts {
 
     /// Collects all touches of what rests into the problem, each with the impulse that held it; releases what has
     /// opened. Answers whether a force that has acted belongs to no touch any more.
-    fn gather(&mut self, h: f64, bodies: &[RigidBody]) -> bool {
+    fn gather(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
         self.problem.clear();
         let mut at_rest = 0;
         while at_rest < self.at_rest.len() {
@@ -262,17 +273,18 @@ impl Contacts {
                 self.problem.push_twist(index, bodies, self.pairs[pair].resistance);
             }
         }
-        for touch in self.problem.touches.iter_mut().filter(|touch| touch.twist.is_none()) {
+        self.push_clutches(h, system);
+        for touch in self.problem.touches.iter_mut().filter(|touch| touch.pushes()) {
             // Gently to the middle of the layer; a wider gap may close within the substep.
             let sunk = (0.5 * LAYER - touch.gap).clamp(-0.5 * LAYER, LAYER);
             touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
         }
-        self.warm_start(h, bodies)
+        self.warm_start(h, system, bodies)
     }
 
     /// Gives each held force to the nearest touch of its pair. Where that is farther than a point can go, the force is
     /// taken back where it acted, and the rounds only begin from it; the answer is whether there are such.
-    fn warm_start(&mut self, h: f64, bodies: &[RigidBody]) -> bool {
+    fn warm_start(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
         let mut lost = false;
         let present = self.problem.touches.len();
         for index in 0..self.held.len() {
@@ -296,7 +308,7 @@ impl Contacts {
             }
             if !follows {
                 lost = true;
-                self.take_back(&held, h, bodies);
+                self.take_back(&held, h, system, bodies);
             }
         }
         for touch in &mut self.problem.touches {
@@ -306,14 +318,17 @@ impl Contacts {
     }
 
     /// Adds a touch that may approach at any speed, so that the rounds take its impulse away.
-    fn take_back(&mut self, held: &Held, h: f64, bodies: &[RigidBody]) {
+    fn take_back(&mut self, held: &Held, h: f64, system: &System, bodies: &[RigidBody]) {
         let size = held.force.length();
         let row = match held.source {
             Source::Pair(pair) if held.couple => twist_rows(held.acting(self.span) / size, self.bodies_of(pair))[0],
             Source::Pair(pair) => {
                 point_rows(held.point, held.acting(self.span) / size, self.bodies_of(pair), bodies)[0]
             }
-            Source::Bound(bound) => self.limits.row(bound, bodies).1,
+            Source::Bound(bound) => match bound.checked_sub(self.limits.count()) {
+                Some(clutch) => self.clutches.row(clutch, held.force.x.signum(), system),
+                None => self.limits.row(bound, bodies).1,
+            },
         };
         let mut touch = Touch::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);
         touch.before.x = h * size;
