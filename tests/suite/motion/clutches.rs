@@ -1,7 +1,8 @@
 //! Slip clutches: what they carry, what they carry while they slip, and where they hold again.
 
-use soffio::articulation::{Axis, Constraint, ConstraintKind, Measure, Term};
-use soffio::dynamics::{Dynamics, Integrator};
+use soffio::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
+use soffio::dynamics::forces::Damping;
+use soffio::dynamics::{Dynamics, Figure, Integrator};
 use soffio::math::{DVec3, atan2, exp};
 
 use super::{DT, ROUNDING, World, step, wheel};
@@ -20,7 +21,12 @@ fn damping() -> f64 {
 
 /// Two discs on one axle, the first held on the second by a clutch.
 fn discs(integrator: Integrator) -> Dynamics {
-    let bodies = [0.0, 0.1].map(|z| (z, I[usize::from(z > 0.0)])).map(|(z, i)| wheel(0.2, i, DVec3::Z * z));
+    on_one_axle(I).start(integrator)
+}
+
+/// The same with these moments of inertia.
+fn on_one_axle(inertia: [f64; 2]) -> World {
+    let bodies = [0, 1].map(|disc| wheel(0.2, inertia[disc], DVec3::Z * (0.1 * disc as f64)));
     let mut world = World::new(bodies.to_vec());
     world.gravity = DVec3::ZERO;
     for i in 0..2 {
@@ -29,7 +35,7 @@ fn discs(integrator: Integrator) -> Dynamics {
     let measure = Measure::Angle { axis: Axis { body: Some(0), direction: DVec3::Z }, frame: Some(1) };
     let kind = ConstraintKind::Coupling { terms: vec![Term { measure, coefficient: 1.0 }] };
     world.constraints.push(Constraint { slips: Some(TORQUE), ..Constraint::new("clutch", kind) });
-    world.start(integrator)
+    world
 }
 
 /// Rates after so many steps under a torque on the first disc, rad/s.
@@ -94,4 +100,39 @@ fn what_slips_comes_to_rest_when_friction_has_used_up_its_rate_and_is_held_there
     turn(&mut dynamics, 0.5 * TORQUE, 240);
     assert!((apart(&dynamics) - there).abs() < ROUNDING, "it is held where it came to rest");
     assert!(dynamics.joint_error() < ROUNDING);
+}
+
+#[test]
+fn a_light_disc_at_its_stop_feels_no_more_than_the_clutch_carries() {
+    /// Ten thousand times lighter than the other, kg m².
+    const LIGHT: f64 = 8e-6;
+    /// What rests lies in the touching layer, rad.
+    const LAYER: f64 = 2e-6;
+    let world = on_one_axle([LIGHT, I[1]]);
+    let measure = Measure::Angle { axis: Axis { body: Some(0), direction: DVec3::Z }, frame: None };
+    let kind = LimitKind::Range { measure, min: f64::NEG_INFINITY, max: 0.0 };
+    let limit = Limit { name: "stop".to_owned(), kind, restitution: 0.0 };
+    for integrator in [Integrator::RungeKutta, Integrator::Fast] {
+        let figure = Figure {
+            bodies: world.bodies.clone(),
+            damping: vec![Damping::default(); 2],
+            constraints: &world.constraints,
+            limits: std::slice::from_ref(&limit),
+            springs: &[],
+            drives: &[],
+            colliders: &[],
+            pairs: Vec::new(),
+        };
+        let mut dynamics = Dynamics::new(figure, world.settings(integrator));
+        let (torque, damping) = (3.0 * TORQUE, TORQUE / GREASE / I[1]);
+        for count in 1..=480 {
+            step(&mut dynamics, DT, &[[0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.0, torque]]);
+            let turned = dynamics.bodies[0].rotation;
+            assert!(2.0 * atan2(turned.z, turned.w).abs() < LAYER, "the stop gives way by {turned} in step {count}");
+        }
+        let fastest = GREASE * (torque / TORQUE - 1.0);
+        let expected = fastest * (1.0 - exp(-damping * 480.0 * DT));
+        let rate = dynamics.bodies[1].angular_velocity.z;
+        assert!((rate - expected).abs() < FIRST_ORDER * fastest, "{rate} rad/s, not {expected}");
+    }
 }
