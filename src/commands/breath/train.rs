@@ -23,7 +23,7 @@ pub struct Args {
     /// Where the table goes; without it nothing is written.
     #[arg(long, value_name = "FILE.rs")]
     out: Option<PathBuf>,
-    /// Go on with the present ear, instead of one that knows nothing.
+    /// Go on with the present ear, instead of one that knows nothing; what is written is the mean of both.
     #[arg(long)]
     go_on: bool,
     /// Lessons, each in new worlds, twice as many as the last one.
