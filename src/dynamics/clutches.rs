@@ -8,9 +8,10 @@
 //! slips    f = −τ (sign q̇ + q̇/ω₁)          a touch among those that rest                  until q̇ = 0 at |f| < τ; then q₀ = q
 //! ```
 //!
-//! `contacts/grip.rs` has the touch. The state is looked at between substeps, so that a row is there for all of their stages or for none. A substep that ends
-//! with a clutch under too much is gone through again from its start with that clutch slipping: contact forces that were
-//! found as if it held are not there. So nothing presses through a clutch harder than the clutch carries.
+//! `contacts/grip.rs` has the touch. The state is looked at between substeps, so that a row is there for all of their stages
+//! or for none. A substep that ends with a clutch under too much is gone through again from its start with that clutch
+//! slipping: contact forces that were found as if it held are not there. So nothing presses through a clutch harder than
+//! the clutch carries.
 //!
 //! | symbol | here | unit |
 //! |---|---|---|
@@ -28,9 +29,9 @@ use super::contacts::Row;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clutch {
     pub constraint: usize,
-    /// τ.
+    /// τ, N m.
     pub torque: f64,
-    /// λ at the end of the present pass over a substep, and of the last substep that it held through.
+    /// λ at the end of the present pass over a substep, and of the last substep that it held through, N m.
     pub load: f64,
     pub carried: f64,
     pub slips: bool,
@@ -106,7 +107,7 @@ impl Clutches {
         row
     }
 
-    /// Lets one that slips hold, where the bodies are.
+    /// Lets one that slips hold, under a `load` in N m; answers its constraint, whose row is to act from here on.
     pub fn take_hold(&mut self, index: usize, load: f64) -> usize {
         let clutch = &mut self.0[index];
         (clutch.slips, clutch.carried) = (false, load);
