@@ -46,6 +46,9 @@ fn vertex(
     out.cut_a = cut_a;
     out.cut_b = cut_b;
     out.clip = globals.clip_from_world * vec4f(p, 1.0);
+    // As deep as the front of the round and not as its axis: a rod that lies half in a plate shows whole.
+    let front = globals.clip_from_world * vec4f(p - normalize(p - globals.eye) * a.w, 1.0);
+    out.clip.z = front.z / front.w * out.clip.w;
     return out;
 }
 

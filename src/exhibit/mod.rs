@@ -102,6 +102,8 @@ pub struct Exhibit {
     pub winds: Vec<Wind>,
     /// What a breath is to this exhibit.
     pub breath: BreathTuning,
+    /// How it comes to rest when nobody blows; `None`: by itself.
+    pub calm: Option<Calm>,
     /// Level of all sounds, dB; their own gains hold it already.
     pub level_db: f64,
     /// Sounding bodies.
@@ -283,6 +285,15 @@ impl Default for BreathTuning {
     fn default() -> Self {
         Self { law: Law::default(), gain: 1.0, lip_diameter: None }
     }
+}
+
+/// How the gallery calms an exhibit that nobody blows at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Calm {
+    /// So long after the last breath or hand it begins, s.
+    pub after: f64,
+    /// Time constant with which free motion fades from then on, s; a swing takes twice as long.
+    pub time: f64,
 }
 
 /// Which motion of which body plays which instrument.

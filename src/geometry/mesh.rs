@@ -116,6 +116,21 @@ impl TriangleMesh {
         (center, self.positions.iter().fold(0.0, |r: f64, p| r.max(p.distance(center))))
     }
 
+    /// How the surface faces: the mean of n nᵀ over its area, the orientation tensor, of trace 1. A mesh without area
+    /// faces every way alike.
+    pub fn orientation(&self) -> DMat3 {
+        let (mut sum, mut area) = (DMat3::ZERO, 0.0);
+        for [a, b, c] in self.corners() {
+            let normal = (b - a).cross(c - a);
+            let twice = normal.length();
+            if twice > 0.0 {
+                sum += DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z) * (1.0 / twice);
+                area += twice;
+            }
+        }
+        if area > 0.0 { sum * (1.0 / area) } else { DMat3::from_diagonal(DVec3::splat(1.0 / 3.0)) }
+    }
+
     /// The box along the principal axes of the surface; `None` where the mesh has no area.
     pub fn extents(&self) -> Option<Extents> {
         // Unit mass per area, no depth: the principal axes of the skin.

@@ -4,21 +4,79 @@
 //! the eye. In the *true* profile the breath follows the ray. In the *gallery* profile it leans towards the nearest
 //! surface when the ray passes it by, as a visitor leans to blow at a thing: without it, a breath at the centre of
 //! the picture could pass between the plates and move nothing.
+//!
+//! A visitor blows at what will move: not at the edge of a plate when another shows its face, nor at the heavy end of a
+//! rod when a light disc hangs beside it. Yet what is pointed at is left only for what answers far better:
+//!
+//! ```text
+//! the breath goes to the surface with the least (e + e₀)/(f q)
+//! e   how far the ray passes it by
+//! f   √(dᵀ⟨n nᵀ⟩d), |cos θ| for a plate: wind along d presses on a surface by A f² (A: its area, n: its normals)
+//! q   ⁴√(w A), over the largest of all: where the joints let 1 N move its middle by w m/s², wind that it faces sets off
+//!     an acceleration in proportion to w A
+//! ```
 
 use super::Profile;
+use crate::dynamics::Dynamics;
 use crate::exhibit::View;
-use crate::math::{DVec3, exp};
+use crate::geometry::TriangleMesh;
+use crate::math::{DMat3, DVec3, Pose, exp};
 
-/// A surface to lean towards: the ball around it.
+/// A surface that breath leans to: the ball around it, how it faces, and how readily it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AimTarget {
-    /// World, m.
+    /// m.
     pub center: DVec3,
     /// m.
     pub radius: f64,
+    /// Mean of n nᵀ over the area: the orientation tensor, of trace 1.
+    pub faces: DMat3,
+    /// q: how readily it answers a wind that it faces, 0 … 1.
+    pub answers: f64,
 }
 
-/// Another surface must be nearer to the ray by this share before the breath leaves the one it leans to.
+impl AimTarget {
+    /// A mesh that hangs in a figure, in the frame of its body.
+    pub fn of(mesh: &TriangleMesh, body: usize, dynamics: &mut Dynamics) -> Self {
+        let (center, radius) = mesh.ball();
+        let at = dynamics.bodies[body].pose().point(center);
+        let mut answer = [DMat3::ZERO];
+        dynamics.answers(&[(body, at)], &mut answer);
+        let [w] = answer.map(|w| (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0);
+        Self { center, radius, faces: mesh.orientation(), answers: (w * mesh.area()).max(0.0).sqrt().sqrt() }
+    }
+
+    /// Carried to where a body stands.
+    pub fn at(&self, pose: Pose) -> Self {
+        let turn = DMat3::from_quat(pose.rotation);
+        Self { center: pose.point(self.center), faces: turn * self.faces * turn.transpose(), ..*self }
+    }
+
+    /// How little is to be had of it by a breath along a ray (a point and a unit direction).
+    fn from(&self, origin: DVec3, ray: DVec3) -> f64 {
+        let face = ray.dot(self.faces * ray).max(0.0).sqrt();
+        let past = (self.off(origin, ray).length() - INNER * self.radius).max(0.0);
+        (past + NEAR) / (face * self.answers).max(LEAST)
+    }
+
+    /// From the ray to its middle, m.
+    fn off(&self, origin: DVec3, ray: DVec3) -> DVec3 {
+        let from = self.center - origin;
+        from - from.dot(ray) * ray
+    }
+}
+
+/// Makes the readiest of some targets count 1.
+pub fn compare(targets: &mut [(usize, AimTarget)]) {
+    let most = targets.iter().fold(0.0, |most: f64, (_, target)| most.max(target.answers));
+    targets.iter_mut().for_each(|(_, target)| target.answers = if most > 0.0 { target.answers / most } else { 1.0 });
+}
+
+/// e₀: what lies so near the ray is in the middle of the breath, m.
+const NEAR: f64 = 0.03;
+/// What an edge counts for, or what cannot move: with nothing else before it, the breath leans to it all the same.
+const LEAST: f64 = 0.05;
+/// Another surface must be better by this share before the breath leaves the one it leans to.
 const LOYALTY: f64 = 0.7;
 /// The ray itself is followed within this share of a surface's ball. Farther out a long plate leaves most of its ball
 /// to the air, so there the breath slides back towards the middle.
@@ -67,23 +125,74 @@ impl Aim {
         self.target = mouth + self.direction * (goal - mouth).dot(self.direction);
     }
 
-    /// The point of the chosen surface's ball that the breath goes to. How far a surface is off the ray counts in
-    /// its own radii: a large plate draws a breath from farther than a small one.
+    /// The point of the chosen surface's ball that the breath goes to.
     fn lean(&mut self, origin: DVec3, ray: DVec3, targets: &[AimTarget]) -> Option<DVec3> {
-        let offset = |t: &AimTarget| {
-            let from = t.center - origin;
-            from - from.dot(ray) * ray
-        };
-        let miss = |index: usize| offset(&targets[index]).length() / targets[index].radius;
-        let nearest = (0..targets.len()).min_by(|&a, &b| miss(a).total_cmp(&miss(b)))?;
-        let keep = self.chosen.filter(|&old| old < targets.len() && miss(old) * LOYALTY < miss(nearest));
+        let far = |index: usize| targets[index].from(origin, ray);
+        let nearest = (0..targets.len()).min_by(|&a, &b| far(a).total_cmp(&far(b)))?;
+        let keep = self.chosen.filter(|&old| old < targets.len() && far(old) * LOYALTY < far(nearest));
         let chosen = keep.unwrap_or(nearest);
         self.chosen = Some(chosen);
         let target = &targets[chosen];
-        let off = offset(target);
-        let miss = miss(chosen);
+        let off = target.off(origin, ray);
+        let miss = off.length() / target.radius;
         let back = INNER - (INNER - MIDDLE) * (miss - INNER) / (1.0 - INNER);
         let kept = miss.min(back.max(MIDDLE));
         Some(target.center - off.normalize_or_zero() * (kept * target.radius))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EYE: View = View { eye: DVec3::new(0.0, 0.0, 2.0), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.6 };
+
+    /// A disc of 5 cm at a place of the plane that is looked at, facing so.
+    fn disc(x: f64, normal: DVec3) -> AimTarget {
+        let n = normal.normalize();
+        let faces = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+        AimTarget { center: DVec3::X * x, radius: 0.05, faces, answers: 1.0 }
+    }
+
+    /// Where a breath goes that is pointed at the plane's middle for a while.
+    fn goes(targets: &[AimTarget]) -> DVec3 {
+        let mut aim = Aim::default();
+        let ray = (EYE.target - EYE.eye).normalize();
+        aim.follow(&EYE, (EYE.eye, ray), 0.5, Profile::Gallery, targets, 1.0);
+        aim.target
+    }
+
+    #[test]
+    fn it_goes_to_what_is_pointed_at_when_that_shows_its_face() {
+        let target = goes(&[disc(0.0, DVec3::Z), disc(0.11, DVec3::Z)]);
+        assert!(target.length() < 0.01, "{target}");
+        // A third of a right angle off is a face still.
+        let target = goes(&[disc(0.0, DVec3::new(0.5, 0.0, 0.866)), disc(0.11, DVec3::Z)]);
+        assert!(target.length() < 0.01, "{target}");
+    }
+
+    #[test]
+    fn it_leaves_an_edge_for_a_face_beside_it() {
+        let target = goes(&[disc(0.0, DVec3::X), disc(0.11, DVec3::Z)]);
+        assert!((target.x - 0.11).abs() < 0.05, "{target}");
+    }
+
+    #[test]
+    fn it_leaves_what_hardly_moves_for_what_does() {
+        let heavy = AimTarget { answers: 0.2, ..disc(0.0, DVec3::Z) };
+        let target = goes(&[heavy, disc(0.11, DVec3::Z)]);
+        assert!((target.x - 0.11).abs() < 0.05, "{target}");
+        // Not from far.
+        let target = goes(&[heavy, disc(0.4, DVec3::Z)]);
+        assert!(target.length() < 0.01, "{target}");
+    }
+
+    #[test]
+    fn it_goes_to_an_edge_when_there_is_nothing_else() {
+        let target = goes(&[disc(0.03, DVec3::X)]);
+        assert!((target.x - 0.03).abs() < 0.05, "{target}");
+        // Nor does it look for a face at the other end of the room.
+        let target = goes(&[disc(0.0, DVec3::X), disc(0.8, DVec3::Z)]);
+        assert!(target.length() < 0.01, "{target}");
     }
 }

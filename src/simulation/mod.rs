@@ -5,6 +5,7 @@
 //! offline one with the same inputs are the same run, bit for bit.
 
 mod aim;
+mod calm;
 mod carrying;
 mod contact_sound;
 mod event;
@@ -38,6 +39,7 @@ use crate::wind::force::{Blown, WindField, WindReport};
 use crate::wind::front::Front;
 
 use aim::{Aim, AimTarget};
+use calm::Idle;
 use carrying::Carrying;
 use contact_sound::{ContactSound, Scene};
 pub use event::{Event, EventKind, Part};
@@ -84,9 +86,10 @@ pub struct Simulation {
     start_step: u64,
     source: BreathSource,
     aim: Aim,
-    /// Body of each surface that breath leans to, the ball around it in the node frame, and where that is now.
-    aim_balls: Vec<(usize, DVec3, f64)>,
+    /// Surfaces that breath leans to: the body of each and how it is in its node frame; and where they are now.
+    leant_to: Vec<(usize, AimTarget)>,
     aim_targets: Vec<AimTarget>,
+    idle: Idle,
     front: Front,
     wind: WindField,
     dynamics: Dynamics,
@@ -135,7 +138,7 @@ impl Simulation {
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             eye,
             aim_targets: Vec::with_capacity(exhibit.wind_surfaces.len()),
-            aim_balls: aim_balls(&exhibit),
+            leant_to: leant_to(&exhibit, &mut start_dynamics(&exhibit, &settings)),
             contact_sound: ContactSound::new(&exhibit),
             wires: Wires::new(&exhibit),
             exhibit,
@@ -144,6 +147,7 @@ impl Simulation {
             start_step: 0,
             source: BreathSource::new(settings.sensitivity_db),
             aim: Aim::default(),
+            idle: Idle::default(),
             front: Front::default(),
             impacts: Vec::with_capacity(LISTED),
             events: Vec::with_capacity(LISTED),
@@ -176,6 +180,7 @@ impl Simulation {
         let mended = self.dynamics.mend();
         self.take_aim(input);
         self.blow();
+        self.come_to_rest();
         self.impacts.clear();
         self.dynamics.breathe(self.speed);
         self.advance(input);
@@ -267,6 +272,7 @@ impl Simulation {
         self.carrying = carrying(&self.exhibit, &settings, &self.dynamics.bodies);
         self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
         self.start_step = self.step;
+        self.idle = Idle::default();
     }
 
     /// The settings of a run that begins now: the day has gone on.
@@ -285,11 +291,7 @@ impl Simulation {
         self.eye.look(&self.exhibit, input.aspect, input.turn);
         self.aim_targets.clear();
         let bodies = &self.dynamics.bodies;
-        let target = |&(body, center, radius): &(usize, DVec3, f64)| AimTarget {
-            center: bodies[body].pose().point(center),
-            radius,
-        };
-        self.aim_targets.extend(self.aim_balls.iter().map(target));
+        self.aim_targets.extend(self.leant_to.iter().map(|(body, target)| target.at(bodies[*body].pose())));
         let pointer = input.pointer.unwrap_or([0.5, 0.5]);
         let Settings { distance, profile, .. } = self.settings;
         let Eye { aspect, ref view, .. } = self.eye;
@@ -307,6 +309,16 @@ impl Simulation {
         let time = (self.step - self.start_step) as f64 * DT;
         let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         self.report = self.wind.push(&self.dynamics.bodies, time, blown.as_ref(), &mut self.wrenches);
+    }
+
+    /// Calms what nobody blows at or holds, in the gallery.
+    fn come_to_rest(&mut self) {
+        self.idle.advance(self.speed > 0.0 || self.hands.count() > 0, DT);
+        let Settings { profile, friction, .. } = self.settings;
+        let calm = self.exhibit.calm.filter(|_| profile == Profile::Gallery && friction);
+        if let Some(calm) = calm {
+            self.idle.calm(calm, &self.dynamics.bodies, &mut self.wrenches);
+        }
     }
 
     /// Turns what happened into events and sounds.
@@ -507,16 +519,15 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
-/// Surfaces of sheets that breath leans to: body, and the ball around it in the node frame.
-fn aim_balls(exhibit: &Exhibit) -> Vec<(usize, DVec3, f64)> {
-    let ball = |surface: &crate::wind::Surface| match &surface.shape {
-        SurfaceShape::Mesh { mesh, .. } => {
-            let (center, radius) = mesh.ball();
-            Some((surface.body, center, radius))
-        }
+/// Surfaces of sheets that breath leans to: body, and what is leant to in its node frame.
+fn leant_to(exhibit: &Exhibit, dynamics: &mut Dynamics) -> Vec<(usize, AimTarget)> {
+    let target = |surface: &crate::wind::Surface| match &surface.shape {
+        SurfaceShape::Mesh { mesh, .. } => Some((surface.body, AimTarget::of(mesh, surface.body, dynamics))),
         SurfaceShape::Wire { .. } => None,
     };
-    exhibit.wind_surfaces.iter().filter_map(ball).collect()
+    let mut targets = exhibit.wind_surfaces.iter().filter_map(target).collect::<Vec<_>>();
+    aim::compare(&mut targets);
+    targets
 }
 
 /// The exhibit's bodies as they start, a clock's at the hour.

@@ -2,6 +2,7 @@
 
 mod aim;
 mod bodies;
+mod calm;
 mod depth_buffer;
 mod forces;
 mod sight;

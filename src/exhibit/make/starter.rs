@@ -85,6 +85,10 @@ fn joints(out: &mut String, work: &Mobile, point: &str) {
     }
 }
 
+/// What a mobile does between visitors.
+const CALM: &str = "# Whoever blows next shall see their own breath, not the swing of the last one: left alone, it comes to rest.\n\
+                    [wind.calm]\nafter = \"4 s\"\ntime = \"2.5 s\"\n\n";
+
 /// A collider, a surface for the wind and a sound for a plate.
 fn plates(out: &mut String, names: &[&str]) {
     for name in names {
@@ -162,6 +166,7 @@ pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> R
             "# Sheet so heavy hardly stirs in a breath: as if it were so many times stronger.\n[wind.breath]\ngain = {gain:?}\n\n"
         );
     }
+    out.push_str(CALM);
     out.push_str(&attract(&puffs(&given)));
     out.push('\n');
     out.push_str(&labels(&mobile_words(given.plates.len())));

@@ -132,11 +132,13 @@ pub fn gallows(top: DVec3, post: DVec2, finish: usize) -> Piece {
     let at = |height: f64, share: f64| {
         DVec3::new(post.x, 0.0, post.y) * (1.0 - share) + DVec3::new(top.x * share, height, top.z * share)
     };
-    let knots = [at(8.0 * MM, 0.0), at(0.5 * top.y, 0.0), at(top.y - 12.0 * MM, 0.0), at(top.y + 12.0 * MM, 0.35), top];
+    // The spline asks for knots about equally far apart: only the crook is one.
+    let crook = [at(top.y - 36.0 * MM, 0.0), at(top.y - 12.0 * MM, 0.0), at(top.y + 12.0 * MM, 0.35), top];
+    let rod = std::iter::once(at(8.0 * MM, 0.0)).chain(open_spline(&crook, 8)).collect();
     Piece {
         name: "Stand",
         parts: vec![part("Foot", foot, DVec3::new(post.x, 0.0, post.y), DQuat::IDENTITY, STEEL, finish)],
-        bends: vec![Bend { name: "StandRod", points: open_spline(&knots, 8), radius: 3.0 * MM, density: STEEL }],
+        bends: vec![Bend { name: "StandRod", points: rod, radius: 3.0 * MM, density: STEEL }],
         marks: vec![("StandHook", top)],
     }
 }

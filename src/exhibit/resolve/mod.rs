@@ -154,6 +154,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         shelters: Vec::new(),
         winds: Vec::new(),
         breath: super::BreathTuning::default(),
+        calm: None,
         level_db: 0.0,
         instruments: Vec::new(),
         sounds: Vec::new(),
@@ -267,6 +268,7 @@ impl<'a> Context<'a> {
         let shelters = self.shelters(&wind_surfaces);
         let winds = self.winds();
         let breath = self.breath_tuning();
+        let calm = self.calm();
         let (instruments, sounds) = self.sounds(&bodies, &colliders, &wires);
         let (integrator, solver, stabilization_time) = self.solver();
         let touch = self.touch(&bodies);
@@ -303,6 +305,7 @@ impl<'a> Context<'a> {
             shelters,
             winds,
             breath,
+            calm,
             level_db: self.sidecar.scene.level.0,
             instruments,
             sounds,

@@ -1,9 +1,9 @@
 //! The winds of an exhibit, and what stands in their way.
 
-use super::super::BreathTuning;
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Gusts, Point};
+use super::super::{BreathTuning, Calm};
 use super::Context;
 use crate::articulation::Function;
 use crate::geometry::TriangleMesh;
@@ -34,6 +34,16 @@ impl Context<'_> {
             self.trace("breath", "lip_diameter", format!("{} mm", d * 1e3), place, "");
         }
         BreathTuning { law, gain: given.gain, lip_diameter }
+    }
+
+    /// How it comes to rest when nobody blows.
+    pub(super) fn calm(&mut self) -> Option<Calm> {
+        let given = self.sidecar.wind.calm?;
+        let after = self.not_negative(given.after.0, "/wind/calm/after");
+        let time = self.positive(given.time.0, "/wind/calm/time");
+        self.trace("calm", "after", format!("{after} s"), "/wind/calm/after", "");
+        self.trace("calm", "time", format!("{time} s"), "/wind/calm/time", "");
+        Some(Calm { after, time })
     }
 
     /// The room's air, fans, draughts and gusts.

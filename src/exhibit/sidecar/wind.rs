@@ -12,6 +12,8 @@ use super::{Function, Name, Point};
 pub struct Winds {
     /// What a breath is to this exhibit.
     pub breath: BreathTuning,
+    /// How the work comes to rest when nobody blows, so that the next breath is seen. By default it does so by itself.
+    pub calm: Option<Calm>,
     /// The room's own air: it stirs, and keeps a mobile alive when nobody blows. By default it is at rest.
     pub room: Option<Room>,
     /// Winds from a round opening: a fan, an air conditioner.
@@ -41,6 +43,16 @@ impl Default for BreathTuning {
     fn default() -> Self {
         Self { law: Law::Jet, gain: 1.0, lip_diameter: None }
     }
+}
+
+/// How the work comes to rest when nobody blows: the gallery's air thickens. The true profile leaves it out.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Calm {
+    /// So long after the last breath or hand.
+    pub after: Time,
+    /// Time in which free motion fades to 37 % from then on; a swing takes twice as long.
+    pub time: Time,
 }
 
 /// How a breath spreads.
