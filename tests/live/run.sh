@@ -105,13 +105,16 @@ a_visitor() {
     bar "speech moves nothing" "$rows > 1000 && $differ == 0" "$differ of $rows rows differ from an empty room's"
 }
 
+# Both loudspeakers as one, whichever of them the wind is nearer to.
+both=2v0.71,3v0.71
+
 # ---- from the lips to wind, sound and picture -----------------------------------------------------------------------
 # Sound: on one clock, from the breath at the microphone (5 ms louder than −45 dBFS) to the loudspeaker (−60 dBFS).
 # Wind and picture: the kiosk's own stamps. What a debug build on software graphics takes for a picture says nothing of
 # a kiosk; that it is the next picture does.
 latency() {
     local breaths=(strong normal strong normal strong normal strong normal strong) name took seen
-    start_kiosk latency --no-attract --for 60
+    start_kiosk latency --no-attract --for 80
     within 10 grep -q 'supervisor: microphone: ' "$room/latency.err"
     start air parec -d air.monitor --rate=48000 --channels=3 --channel-map=aux0,aux1,aux2 --format=float32le \
         --latency-msec=20 --raw
@@ -120,7 +123,8 @@ latency() {
     sleep 3
     for name in "${breaths[@]}"; do
         before_microphone "$room/$name.wav"
-        sleep 2
+        # What it set ringing dies away.
+        sleep 4
     done
     kill "$recorder"
     wait "$recorder" 2>/dev/null || true
@@ -128,7 +132,7 @@ latency() {
     # Onsets after at least a second of quiet, channel by channel, in blocks of 240 frames: of each breath the first sound
     # after it.
     took=$(awk 'NR == FNR { sound[++n] = $1; next } { for (i = 1; i <= n && sound[i] < $1; i++); if (i <= n) print int(1000 * (sound[i] - $1)) }' \
-        <(onsets "$room/air.out" 2 -60) <(onsets "$room/air.out" 1 -45) | sort -n | xargs)
+        <(onsets "$room/air.out" "$both" -60) <(onsets "$room/air.out" 1 -45) | sort -n | xargs)
     local median most
     median=$(echo "$took" | tr ' ' '\n' | rank 0.5)
     most=${took##* }
@@ -163,7 +167,7 @@ streaming() {
     wait "$recorder" 2>/dev/null || true
     end_kiosk stream
     onsets "$room/stream_air.out" 1 -45 | sed 's/^/breath /' >"$room/stream.times"
-    onsets "$room/stream_air.out" 2 -60 | sed 's/^/sound /' >>"$room/stream.times"
+    onsets "$room/stream_air.out" "$both" -60 | sed 's/^/sound /' >>"$room/stream.times"
     log_times stream 'begins (microphone)' | awk -v t="$t_rec" '{ print "wind", $1 - t }' >>"$room/stream.times"
     # Of each breath the first wind and the first sound about it; while an earlier chime still rings, a sound has no onset.
     awk '$1 == "breath" { at[++n] = $2 } $1 != "breath" { for (i = n; i && at[i] > $2 + 0.5; i--); if (i && $2 < at[i] + 1.5 && !((i, $1) in d)) d[i, $1] = 1000 * ($2 - at[i]) }
