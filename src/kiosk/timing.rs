@@ -57,6 +57,11 @@ pub struct FirstSight {
 }
 
 impl FirstSight {
+    /// Is there wind that no picture has shown, nor would one of `moment`?
+    pub fn misses(&self, frame: &Frame, moment: &Snapshot) -> bool {
+        frame.onset.is_some_and(|onset| self.onset != Some(onset) && moment.step < onset.step)
+    }
+
     /// A picture of `moment`, begun at `begun`, has just been handed to the display.
     pub fn note(&mut self, frame: &Frame, moment: &Snapshot, begun: Instant) {
         let before = self.before.replace(begun);

@@ -133,4 +133,9 @@ impl Frame {
         let since = shown.saturating_duration_since(self.due).as_secs_f64() - early;
         self.moments.before(BEHIND - since * STEPS_PER_SECOND as f64, moment);
     }
+
+    /// Sets `moment` to the newest step.
+    pub fn set_newest(&self, moment: &mut Snapshot) {
+        self.moments.before(0.0, moment);
+    }
 }

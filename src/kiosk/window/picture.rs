@@ -61,6 +61,10 @@ impl App<'_> {
         let shown = self.clock.tick(now, if rests { least.max(PICTURE_S) } else { least });
         let mut moment = std::mem::take(&mut self.moment);
         frame.set_moment(shown, &mut moment);
+        // Even times are worth less than a breath that is seen at once.
+        if self.sight.misses(&frame, &moment) {
+            frame.set_newest(&mut moment);
+        }
         if self.needs.calm {
             moment.motes.clear();
         }
