@@ -10,7 +10,7 @@
 //!
 //! ```text
 //! the breath goes to the surface with the least (e + e₀)/(f q)
-//! e   how far the ray passes it by
+//! e   how far the ray passes by the inner half of the ball around it, m
 //! f   √(dᵀ⟨n nᵀ⟩d), |cos θ| for a plate: wind along d presses on a surface by A f² (A: its area, n: its normals)
 //! q   ⁴√(w A), over the largest of all: where the joints let 1 N move its middle by w m/s², wind that it faces sets off
 //!     an acceleration in proportion to w A

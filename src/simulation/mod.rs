@@ -138,6 +138,7 @@ impl Simulation {
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
             eye,
             aim_targets: Vec::with_capacity(exhibit.wind_surfaces.len()),
+            // Asking a figure how it answers wakes it: one that is not shown is asked.
             leant_to: leant_to(&exhibit, &mut start_dynamics(&exhibit, &settings)),
             contact_sound: ContactSound::new(&exhibit),
             wires: Wires::new(&exhibit),

@@ -158,8 +158,8 @@ level() { # level RAW FROM SECONDS
         awk '/^RMS lev dB/ { print ($4 == "-inf" || $4 < -140) ? -140 : $4; found = 1 } END { if (!found) print -140 }'
 }
 
-# Moments, s, at which one channel (from 1) of a recording of the air, or a mix of some (sox remix), gets louder than a level (dB of full scale, 5 ms)
-# after at least a second below it.
+# Moments, s, at which one channel (from 1) of a recording of the air, or a mix of some (as sox' remix has it), gets louder
+# than a level (dB of full scale, 5 ms) after at least a second below it.
 onsets() { # onsets RAW CHANNEL LEVEL
     sox -t raw -r 48000 -c 3 -e float -b 32 "$1" -t raw -c 1 -e float -b 32 - remix "$2" | od -An -v -w960 -tf4 |
         awk -v loud="$3" '{

@@ -129,8 +129,8 @@ latency() {
     kill "$recorder"
     wait "$recorder" 2>/dev/null || true
     end_kiosk latency
-    # Onsets after at least a second of quiet, channel by channel, in blocks of 240 frames: of each breath the first sound
-    # after it.
+    # Onsets after at least a second of quiet, at the microphone and at the loudspeakers, in blocks of 240 frames: of each
+    # breath the first sound after it.
     took=$(awk 'NR == FNR { sound[++n] = $1; next } { for (i = 1; i <= n && sound[i] < $1; i++); if (i <= n) print int(1000 * (sound[i] - $1)) }' \
         <(onsets "$room/air.out" "$both" -60) <(onsets "$room/air.out" 1 -45) | sort -n | xargs)
     local median most
