@@ -17,8 +17,9 @@
 //! What rests is answered by the laws of `sphere.rs` where its surfaces resist turning, or it is a ball and the method the
 //! source's.
 //!
-//! What met in the step before and comes no faster than gravity brings it within a step or two is at rest: it does not
-//! bounce and tells nothing.
+//! What met in the step before, there or on the same side of the same two bodies, and comes no faster than gravity brings
+//! it within a step or two is at rest: it does not bounce and tells nothing. A ball in a hollow lies on one slope after
+//! the other.
 
 use super::compulsive::Compulsive;
 use super::sphere::{Moves, Patch, Push, resist};
@@ -34,6 +35,8 @@ const MOST_MET: usize = 256;
 /// Slower approaches do not bounce, m/s or rad/s; what gravity gives within [`REST_STEPS`] steps is added.
 const REST_SPEED: f64 = 4e-3;
 const REST_STEPS: f64 = 2.0;
+/// Cosine between the normals of two touches on the same side.
+const SAME_SIDE: f64 = 0.9;
 /// Answers smaller than this are none: joints hold the point, 1/kg.
 const LOCKED: f64 = 1e-9;
 /// Depths that are left as they are, m or rad.
@@ -63,9 +66,8 @@ pub(super) struct Touches {
     /// At the end of the joints' adjustment, and those of a later look.
     met: Vec<Met>,
     again: Vec<Met>,
-    /// Step in which each source met last.
-    last: Vec<u64>,
-    step: u64,
+    /// What met in the step before.
+    last: Vec<Met>,
     /// Answers to the three rows of a point, and to those of its couple.
     columns: [Vec<Vec6>; 3],
     turns: [Vec<Vec6>; 3],
@@ -79,8 +81,7 @@ impl Touches {
         Self {
             met: Vec::with_capacity(room),
             again: Vec::with_capacity(room),
-            last: vec![0; sources],
-            step: 1,
+            last: Vec::with_capacity(room),
             columns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
             turns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
         }
@@ -88,7 +89,15 @@ impl Touches {
 
     /// Is there anything that could touch?
     pub fn is_empty(&self) -> bool {
-        self.last.is_empty()
+        self.met.capacity() == 0
+    }
+
+    /// Has this touched in the step before?
+    fn lies(&self, met: &Met) -> bool {
+        let same_side = |last: &Met| {
+            met.colliders.is_some() && last.bodies == met.bodies && last.normal.dot(met.normal) > SAME_SIDE
+        };
+        self.last.iter().any(|last| last.source == met.source || same_side(last))
     }
 
     /// Looks what met on the way between two states; true where something has to be moved out.
@@ -123,9 +132,10 @@ impl Touches {
         }
     }
 
-    /// Moves what met out by itself, the source's way.
+    /// Moves what met out by itself, the source's way, as far as it has not been moved out of the others already: a ball in a
+    /// hollow of four slopes would leap.
     pub fn back_up(
-        &self,
+        &mut self,
         mover: &mut Compulsive,
         system: &System,
         contacts: &Contacts,
@@ -133,11 +143,17 @@ impl Touches {
         first: bool,
     ) {
         let met = if first { &self.met } else { &self.again };
+        let starts = &mut self.columns[2];
+        starts.iter_mut().zip(bodies.iter()).for_each(|(start, body)| *start = vec6(body.position, DVec3::ZERO));
         let mut done = None;
         for met in met.iter().filter(|met| met.depth > LEVEL) {
+            let way = |(body, block): &(usize, Vec6)| {
+                linear(block).dot(bodies[*body].position - linear(&starts[*body]))
+            };
+            let depth = met.depth - met.ends.iter().flatten().map(way).sum::<f64>();
             // The deepest point of a pair stands for it.
-            if done != Some(met.source) {
-                mover.back_up(met, system, contacts, bodies);
+            if done != Some(met.source) && depth > LEVEL {
+                mover.back_up(&Met { depth, ..*met }, system, contacts, bodies);
             }
             done = Some(met.source);
         }
@@ -161,7 +177,7 @@ impl Touches {
         for index in 0..self.met.len() {
             let mut met = self.met[index];
             met.point = on_the_ball(&met, bodies).unwrap_or(met.point);
-            let lies = self.last[met.source] + 1 >= self.step;
+            let lies = self.lies(&met);
             // A limit has ended the way already: how fast it was reached says the state before.
             let stops = met.colliders.is_none() && !lies;
             let speed = (-met.rate(bodies)).max(if stops { -met.rate(before) } else { 0.0 });
@@ -195,10 +211,7 @@ impl Touches {
                 }
             }
         }
-        for met in &self.met {
-            self.last[met.source] = self.step;
-        }
-        self.step += 1;
+        std::mem::swap(&mut self.met, &mut self.last);
         shifted
     }
 

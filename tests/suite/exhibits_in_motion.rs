@@ -460,7 +460,7 @@ fn the_balls_stay_on_the_table_and_click_when_moved_by_places() {
             simulation.step(&StepInput {
                 commands,
                 mode: Some(mode),
-                pointer: Some([0.5, 0.5]),
+                pointer: Some([0.5, 0.55]),
                 ..StepInput::default()
             });
             simulation.bodies().iter().for_each(assert_on_the_table);
