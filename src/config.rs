@@ -164,7 +164,7 @@ enum ProfileName {
 pub struct AudioSettings {
     /// Id (`soffio devices`) or any part of the microphone's name; empty is the system's own choice.
     pub microphone: String,
-    /// Which of its channels listens, from 1; 0 mixes all of them.
+    /// Which of its channels listens, from 1; 0 takes all: two as two capsules, more as one mix.
     pub microphone_channel: u16,
     /// Which other channel of it is a second capsule, from 1; 0 where there is one capsule only.
     pub second_capsule_channel: u16,

@@ -25,11 +25,13 @@ pub struct Ears {
     two: bool,
 }
 
-/// The two ends of a microphone. Channels count from 1. The first is the capsule's own (0 mixes all, as does one that the
-/// device lacks); the other is a second capsule's (0 for none, as is one that the device lacks, and any beside a mix).
+/// The two ends of a microphone. Channels count from 1. The first is the capsule's own (0 takes all: two are two capsules,
+/// more are mixed, as is where the device lacks the channel); the other is a second capsule's (0 for none, as is one that the
+/// device lacks, and any beside a mix).
 pub fn open(sample_rate: u32, channels: usize, wanted: [u16; 2]) -> (Recorder, Ears) {
     let (to, from) = RingBuffer::new((RING * sample_rate) as usize);
     let channels = channels.max(1);
+    let wanted = if wanted == [0, 0] && channels == 2 { [1, 2] } else { wanted };
     let [channel, second] =
         wanted.map(|number| usize::from(number).checked_sub(1).filter(|channel| *channel < channels));
     let second = second.filter(|_| channel.is_some() && channel != second);

@@ -37,6 +37,9 @@ pub struct Args {
     /// The room: cabinet, gallery or hall.
     #[arg(long, value_name = "NAME", default_value = "gallery", value_parser = clap::builder::PossibleValuesParser::new(ROOMS.map(|(name, ..)| name)))]
     room: String,
+    /// Capsules of the microphone: two are what the manual advises.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=2))]
+    capsules: u8,
     /// A folder of WAVs, recordings of your own crowd, in the place of made ones; microphone's level, nobody blowing.
     #[arg(long, value_name = "WAV-DIR")]
     crowd: Option<PathBuf>,
@@ -58,6 +61,7 @@ pub fn run(args: Args) -> Outcome {
         works: works(&config)?,
         site: Site::new(&config, args.seed),
         room: args.room,
+        capsules: args.capsules.into(),
         crowd,
         hours: args.hours,
         seed: args.seed,

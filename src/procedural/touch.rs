@@ -147,9 +147,8 @@ impl Touches {
         starts.iter_mut().zip(bodies.iter()).for_each(|(start, body)| *start = vec6(body.position, DVec3::ZERO));
         let mut done = None;
         for met in met.iter().filter(|met| met.depth > LEVEL) {
-            let way = |(body, block): &(usize, Vec6)| {
-                linear(block).dot(bodies[*body].position - linear(&starts[*body]))
-            };
+            let way =
+                |(body, block): &(usize, Vec6)| linear(block).dot(bodies[*body].position - linear(&starts[*body]));
             let depth = met.depth - met.ends.iter().flatten().map(way).sum::<f64>();
             // The deepest point of a pair stands for it.
             if done != Some(met.source) && depth > LEVEL {

@@ -17,10 +17,11 @@ use super::rate::Finer;
 use super::room::Echo;
 use crate::math::{PI, exp, from_decibels};
 use crate::noise::{Random, hash_words};
-use crate::offline::ear::scenes::{World, resampled};
+use crate::offline::ear::rooms::ALIKE_HZ;
+use crate::offline::ear::scenes::{UNLIKE, World, resampled};
 use crate::offline::ear::{RATE, noises};
 use crate::offline::wav::Recording;
-use crate::wind::generate::filter::{normalised, white};
+use crate::wind::generate::filter::{parted, power, white};
 
 const R: f64 = RATE as f64;
 /// The crowd comes in pieces of this length, which fade into each other, s.
@@ -44,6 +45,13 @@ const CORNERS_HZ: [f64; 3] = [20.0, 60.0, 80.0];
 /// Amplitude of a sound of so many dB at the microphone, full scale 1.
 pub fn loud(db: f64) -> f64 {
     from_decibels(db - FULL_SCALE_DB)
+}
+
+/// What each capsule hears of something, with this RMS at the first.
+pub fn scaled(mut channels: Vec<Vec<f64>>, rms: f64) -> Vec<Vec<f64>> {
+    let scale = rms / power(&channels[0]).sqrt().max(1e-12);
+    channels.iter_mut().flatten().for_each(|x| *x *= scale);
+    channels
 }
 
 /// Where the crowd comes from.
@@ -72,36 +80,28 @@ pub struct House {
     /// Length of the day, s.
     day_s: f64,
     pieces: u64,
-    /// Made and not yet heard.
-    ahead: VecDeque<f64>,
-    /// The end of the last piece, which fades into the next.
-    fading: Vec<f64>,
-    /// Sounds with the sample at which each begins.
-    sounds: Vec<(u64, Vec<f64>)>,
+    /// Sounds with the sample at which each begins, as each capsule hears them.
+    sounds: Vec<(u64, Vec<Vec<f64>>)>,
     echo: Echo,
-    microphone: Capsule,
+    capsules: Vec<Capsule>,
     /// Samples heard.
     sample: u64,
 }
 
 impl House {
-    /// A day of so many seconds in a world of one room.
-    pub fn new(world: World, echo: Echo, crowd: Crowd, seed: u64, day_s: f64) -> Self {
+    /// A day of so many seconds in a world of one room, heard by a microphone of so many capsules.
+    pub fn new(world: World, echo: Echo, crowd: Crowd, seed: u64, (day_s, capsules): (f64, usize)) -> Self {
         let mut random = Random::new(hash_words(&[seed, 0x686f_7573]));
         let corner = CORNERS_HZ[(random.unit() * CORNERS_HZ.len() as f64) as usize];
-        Self {
-            world,
-            seed,
-            crowd,
-            day_s,
-            pieces: 0,
-            ahead: VecDeque::new(),
-            fading: Vec::new(),
-            sounds: Vec::new(),
-            echo,
-            microphone: Capsule::new(corner, random.word()),
-            sample: 0,
-        }
+        let capsule = |number: usize| match number {
+            0 => Capsule::new((corner, 1.0), random.word()),
+            _ => {
+                let (louder, higher) = (random.range(-UNLIKE.0, UNLIKE.0), 1.0 + random.range(-UNLIKE.1, UNLIKE.1));
+                Capsule::new((higher * corner, from_decibels(louder)), random.word())
+            }
+        };
+        let capsules = (0..capsules).map(capsule).collect();
+        Self { world, seed, crowd, day_s, pieces: 0, sounds: Vec::new(), echo, capsules, sample: 0 }
     }
 
     /// Its speakers and its room.
@@ -109,46 +109,107 @@ impl House {
         &self.world
     }
 
-    /// Lets a sound begin at a time of the day, s; full scale ±1 at 16 kHz.
-    pub fn put(&mut self, at: f64, sound: Vec<f64>) {
+    /// How many capsules listen.
+    pub fn capsules(&self) -> usize {
+        self.capsules.len()
+    }
+
+    /// Lets a sound begin at a time of the day, s; full scale ±1 at 16 kHz, as each capsule hears it.
+    pub fn put(&mut self, at: f64, sound: Vec<Vec<f64>>) {
         self.sounds.push(((at * R).round().max(0.0) as u64, sound));
     }
 
-    /// The next block of the microphone at 48 kHz, full scale ±1, while `played` leaves the loudspeaker (stereo at 48 kHz).
+    /// The next block of the microphone at 48 kHz, full scale ±1, frame by frame, while `played` leaves the loudspeaker
+    /// (stereo at 48 kHz).
     pub fn hear(&mut self, played: &[f32]) -> Vec<f32> {
-        while self.ahead.len() < BLOCK {
+        while self.capsules[0].ahead.len() < BLOCK {
             self.go_on();
         }
-        let mut sum = self.echo.hear(played);
-        sum.iter_mut().zip(self.ahead.drain(..BLOCK)).for_each(|(y, x)| *y += x);
+        let echoes = self.echo.hear(played);
         let (from, until) = (self.sample, self.sample + BLOCK as u64);
-        for (start, sound) in &self.sounds {
-            let into = start.saturating_sub(from).min(BLOCK as u64) as usize;
-            let past = from.saturating_sub(*start).min(sound.len() as u64) as usize;
-            sum[into..].iter_mut().zip(&sound[past..]).for_each(|(y, x)| *y += x);
+        let count = self.capsules.len();
+        let mut heard = Vec::new();
+        for (number, (capsule, mut sum)) in self.capsules.iter_mut().zip(echoes).enumerate() {
+            sum.iter_mut().zip(capsule.ahead.drain(..BLOCK)).for_each(|(y, x)| *y += x);
+            for (start, sound) in &self.sounds {
+                let sound = &sound[number];
+                let into = start.saturating_sub(from).min(BLOCK as u64) as usize;
+                let past = from.saturating_sub(*start).min(sound.len() as u64) as usize;
+                sum[into..].iter_mut().zip(&sound[past..]).for_each(|(y, x)| *y += x);
+            }
+            let samples = capsule.record(&sum);
+            heard.resize(count * samples.len(), 0.0);
+            heard.iter_mut().skip(number).step_by(count).zip(samples).for_each(|(y, x)| *y = x);
         }
-        self.sounds.retain(|(start, sound)| start + sound.len() as u64 > until);
+        self.sounds.retain(|(start, sound)| start + sound[0].len() as u64 > until);
         self.sample = until;
-        self.microphone.record(&sum)
+        heard
     }
 
     /// Another piece of the crowd.
     fn go_on(&mut self) {
         let mut random = Random::new(hash_words(&[self.seed, self.pieces, 0x6372_6f77]));
         let busy = busyness(self.pieces as f64 * PIECE_S / self.day_s);
+        let count = self.capsules.len();
         let mut piece = match &self.crowd {
             Crowd::Made => {
                 let level = HOUSE_DB.0 + HOUSE_DB.1 * busy + random.range(-MINUTE_DB, MINUTE_DB);
-                let crowd = normalised(self.world.crowd(PIECE_S + FADE_S, busy, &mut random));
-                crowd.into_iter().map(|x| loud(level) * x).collect()
+                let crowd = scaled(self.world.crowd(PIECE_S + FADE_S, busy, count, &mut random), loud(level));
+                let level = from_decibels(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * busy).min(1.0));
+                let air = noises::air(PIECE_S + FADE_S, &mut random);
+                let both = heard_by(air, count).into_iter().zip(crowd);
+                both.map(|(air, crowd)| crowd.iter().zip(&air).map(|(y, x)| y + level * x).collect()).collect()
             }
-            Crowd::Recorded(recordings) => recordings[(self.pieces % recordings.len() as u64) as usize].clone(),
+            Crowd::Recorded(recordings) => {
+                heard_by(recordings[(self.pieces % recordings.len() as u64) as usize].clone(), count)
+            }
         };
-        if matches!(self.crowd, Crowd::Made) {
-            let level = from_decibels(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * busy).min(1.0));
-            let air = noises::air(PIECE_S + FADE_S, &mut random);
-            piece.iter_mut().zip(&air).for_each(|(y, x)| *y += level * x);
+        for (capsule, piece) in self.capsules.iter_mut().zip(&mut piece) {
+            capsule.append(std::mem::take(piece));
         }
+        self.pieces += 1;
+    }
+}
+
+/// What comes from everywhere, as each of so many capsules hears it: above [`ALIKE_HZ`] each by itself.
+fn heard_by(sound: Vec<f64>, capsules: usize) -> Vec<Vec<f64>> {
+    let other = |_| {
+        let mut other = sound.clone();
+        other.rotate_left(sound.len() / 3);
+        parted(sound.clone(), other, R, ALIKE_HZ)
+    };
+    let others: Vec<_> = (1..capsules).map(other).collect();
+    std::iter::once(sound.clone()).chain(others).collect()
+}
+
+/// A capsule of the microphone.
+struct Capsule {
+    /// Crowd that is made and not yet heard.
+    ahead: VecDeque<f64>,
+    /// The end of the last piece, which fades into the next.
+    fading: Vec<f64>,
+    keep: f64,
+    gain: f64,
+    low: [f64; 2],
+    random: Random,
+    finer: Finer,
+}
+
+impl Capsule {
+    fn new((corner_hz, gain): (f64, f64), seed: u64) -> Self {
+        Self {
+            ahead: VecDeque::new(),
+            fading: Vec::new(),
+            keep: exp(-2.0 * PI * corner_hz / R),
+            gain,
+            low: [0.0; 2],
+            random: Random::new(seed),
+            finer: Finer::new(),
+        }
+    }
+
+    /// Lets a piece of the crowd follow the last one.
+    fn append(&mut self, mut piece: Vec<f64>) {
         let fade = ((FADE_S * R) as usize).min(piece.len() / 2);
         for (i, y) in piece.iter_mut().take(self.fading.len()).enumerate() {
             // Two that know nothing of each other keep their power.
@@ -157,34 +218,18 @@ impl House {
         }
         self.fading = piece.split_off(piece.len() - fade);
         self.ahead.extend(piece);
-        self.pieces += 1;
-    }
-}
-
-/// The microphone.
-struct Capsule {
-    keep: f64,
-    low: [f64; 2],
-    random: Random,
-    finer: Finer,
-}
-
-impl Capsule {
-    fn new(corner_hz: f64, seed: u64) -> Self {
-        let keep = exp(-2.0 * PI * corner_hz / R);
-        Self { keep, low: [0.0; 2], random: Random::new(seed), finer: Finer::new() }
     }
 
     fn record(&mut self, air: &[f64]) -> Vec<f32> {
         let hiss = white(air.len(), &mut self.random);
-        let (keep, low) = (self.keep, &mut self.low);
+        let (keep, gain, low) = (self.keep, self.gain, &mut self.low);
         let heard = air.iter().zip(&hiss).map(|(x, n)| {
             let mut y = *x;
             for low in low.iter_mut() {
                 *low = y + keep * (*low - y);
                 y -= *low;
             }
-            y + from_decibels(HISS_DBFS) * n
+            gain * y + from_decibels(HISS_DBFS) * n
         });
         self.finer.convert(heard).into_iter().map(|x| x.clamp(-1.0, 1.0) as f32).collect()
     }

@@ -35,13 +35,13 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// A work on show, as loud as visitors can make it.
-    pub fn new(exhibit: Arc<Exhibit>, site: &Site) -> Self {
+    /// A work on show, as loud as visitors can make it, with a microphone of so many capsules.
+    pub fn new(exhibit: Arc<Exhibit>, site: &Site, capsules: usize) -> Self {
         let mut volume = Volume::new(site.volume);
         volume.step(i32::MAX);
         let knobs = Arc::new(Knobs::new(from_decibels(volume.db()) as f32));
         let (player, speaker, workshop) = output::open(SAMPLE_RATE_HZ, 2, knobs.clone());
-        let (recorder, ears) = input::open(SAMPLE_RATE_HZ, 1, [0, 0]);
+        let (recorder, ears) = input::open(SAMPLE_RATE_HZ, capsules, [0, 0]);
         let voice =
             Voice { room: site.room, most_partials: site.audio.most_partials as usize, seed: site.settings.seed };
         let mut machine = Self {
@@ -96,7 +96,8 @@ impl Machine {
         &self.played
     }
 
-    /// Exchanges a block with the devices: what the microphone heard while the last one was played, and the next one.
+    /// Exchanges a block with the devices: what the microphone heard, frame by frame, while the last one was played, and the
+    /// next one.
     pub fn exchange(&mut self, heard: &[f32]) {
         self.recorder.record(heard);
         self.workshop.clear();

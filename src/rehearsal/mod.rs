@@ -53,6 +53,8 @@ pub struct Rehearsal {
     pub site: Site,
     /// Name of the room, one of [`ROOMS`].
     pub room: String,
+    /// Capsules of the microphone, 1 or 2.
+    pub capsules: usize,
     /// Who is in it.
     pub crowd: Crowd,
     /// Length of the day, h.
@@ -83,8 +85,8 @@ fn open_house(rehearsal: &mut Rehearsal) -> Result<house::House, RehearsalError>
     let mut random = Random::new(hash_words(&[rehearsal.seed, 0x726f_6f6d]));
     let unknown = || RehearsalError::Room { name: rehearsal.room.clone() };
     let room = room::room(&rehearsal.room, &mut random).ok_or_else(unknown)?;
-    let echo = room::Echo::new(&room, &mut random);
+    let echo = room::Echo::new(&room, rehearsal.capsules, &mut random);
     let world = World::in_room(EXAM + hash_words(&[rehearsal.seed, 0x7669_7369]) % EXAM, room);
     let crowd = std::mem::replace(&mut rehearsal.crowd, Crowd::Made);
-    Ok(house::House::new(world, echo, crowd, rehearsal.seed, 3600.0 * rehearsal.hours))
+    Ok(house::House::new(world, echo, crowd, rehearsal.seed, (3600.0 * rehearsal.hours, rehearsal.capsules)))
 }

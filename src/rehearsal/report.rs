@@ -131,6 +131,8 @@ pub struct Report {
     pub hours: f64,
     /// Where.
     pub room: String,
+    /// Capsules of the microphone.
+    pub capsules: usize,
     /// Works on show, in turn.
     pub works: Vec<String>,
     /// Volume, dB: as loud as visitors can make it.
@@ -277,9 +279,10 @@ impl fmt::Display for Report {
         };
         writeln!(
             f,
-            "{} h in the {}, seed {}, {} visitors, volume {:.1} dB, works: {}\n",
+            "{} h in the {}, a microphone of {}, seed {}, {} visitors, volume {:.1} dB, works: {}\n",
             self.hours,
             self.room,
+            if self.capsules > 1 { "two capsules" } else { "one capsule" },
             self.seed,
             self.visitors,
             self.volume_db,

@@ -41,7 +41,8 @@ pub struct Echo {
     coarser: Coarser,
     /// One-pole high passes of the loudspeaker.
     low: [f64; 2],
-    parts: Vec<Vec<Complex<f64>>>,
+    /// Of each capsule, the spectra of the response's parts.
+    parts: Vec<Vec<Vec<Complex<f64>>>>,
     /// Spectra of the last blocks, the newest first.
     spectra: VecDeque<Vec<Complex<f64>>>,
     before: Vec<f64>,
@@ -51,17 +52,18 @@ pub struct Echo {
 }
 
 impl Echo {
-    /// In this room.
-    pub fn new(room: &Room, random: &mut Random) -> Self {
-        let response = room.response(room.near(AWAY_M, random), 0, random.word());
+    /// In this room, for so many capsules.
+    pub fn new(room: &Room, capsules: usize, random: &mut Random) -> Self {
+        let (at, seed) = (room.near(AWAY_M, random), random.word());
         let mut planner = RealFftPlanner::new();
         let (forward, back) = (planner.plan_fft_forward(2 * BLOCK), planner.plan_fft_inverse(2 * BLOCK));
         let gain = from_decibels(COUPLING_DB) / (2 * BLOCK) as f64;
-        let parts = response.chunks(BLOCK).map(|part| {
+        let part = |part: &[f64]| {
             let mut padded = vec![0.0; 2 * BLOCK];
             padded.iter_mut().zip(part).for_each(|(y, h)| *y = gain * h);
             spectrum(&*forward, &mut padded)
-        });
+        };
+        let parts = (0..capsules).map(|capsule| room.response(at, capsule, seed).chunks(BLOCK).map(part).collect());
         Self {
             coarser: Coarser::new(),
             low: [0.0; 2],
@@ -74,9 +76,9 @@ impl Echo {
         }
     }
 
-    /// What arrives while a block is played (stereo at 48 kHz): a block at 16 kHz, of what was played [`LATENCY`] blocks ago
-    /// and before.
-    pub fn hear(&mut self, played: &[f32]) -> Vec<f64> {
+    /// What arrives at each capsule while a block is played (stereo at 48 kHz): a block at 16 kHz, of what was played
+    /// [`LATENCY`] blocks ago and before.
+    pub fn hear(&mut self, played: &[f32]) -> Vec<Vec<f64>> {
         let mono = played.as_chunks::<2>().0.iter().map(|[left, right]| 0.5 * f64::from(left + right));
         let mut sound = self.coarser.convert(mono);
         let keep = exp(-2.0 * PI * RESONANCE_HZ / f64::from(RATE));
@@ -92,9 +94,14 @@ impl Echo {
         let mut pair = std::mem::replace(&mut self.before, sound);
         pair.extend_from_slice(&self.before);
         self.spectra.push_front(spectrum(&*self.forward, &mut pair));
-        self.spectra.truncate(self.parts.len());
+        self.spectra.truncate(self.parts.iter().map(Vec::len).max().unwrap_or_default());
+        self.parts.iter().map(|parts| self.arrives(parts)).collect()
+    }
+
+    /// The present block of all that was played, through a response.
+    fn arrives(&self, parts: &[Vec<Complex<f64>>]) -> Vec<f64> {
         let mut sum = vec![Complex::zero(); BLOCK + 1];
-        for (part, spectrum) in self.parts.iter().zip(&self.spectra) {
+        for (part, spectrum) in parts.iter().zip(&self.spectra) {
             sum.iter_mut().zip(part.iter().zip(spectrum)).for_each(|(z, (h, x))| *z += h * x);
         }
         // What rounding leaves imaginary at 0 Hz and at the top has no place in a real signal.
@@ -128,7 +135,7 @@ mod tests {
         const ROUNDING: f64 = 1e-9;
         let mut random = Random::new(3);
         let hall = room("hall", &mut random).expect("a known room");
-        let mut echo = Echo::new(&hall, &mut random.clone());
+        let mut echo = Echo::new(&hall, 1, &mut random.clone());
         let response = hall.response(hall.near(AWAY_M, &mut random), 0, random.word());
         // Quiet enough for a straight loudspeaker, whose high pass is left out by comparing with its own output.
         let mut sounds = Vec::new();
@@ -140,7 +147,7 @@ mod tests {
                     [x, x]
                 })
                 .collect();
-            heard.extend(echo.hear(&block));
+            heard.extend(echo.hear(&block).remove(0));
             sounds.extend(echo.late.back().cloned().unwrap_or_default());
         }
         let whole = convolved(&sounds, &response);

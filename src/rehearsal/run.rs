@@ -106,7 +106,7 @@ struct Course<'a> {
 impl<'a> Course<'a> {
     fn new(rehearsal: &'a Rehearsal, day: Day, house: House) -> Result<Self, RehearsalError> {
         let eyes = Eyes::new(&rehearsal.works)?;
-        let machine = Machine::new(rehearsal.works[0].clone(), &rehearsal.site);
+        let machine = Machine::new(rehearsal.works[0].clone(), &rehearsal.site, rehearsal.capsules);
         let entries = day.entries.len();
         Ok(Self {
             rehearsal,
@@ -174,11 +174,12 @@ impl<'a> Course<'a> {
     /// What begins now: visits, staff, another work.
     fn programme(&mut self, now: f64) {
         while let Some(entry) = self.day.entries.get(self.made).filter(|entry| entry.visit.arrives - AHEAD_S <= now) {
-            for (at, sound) in entry.visit.noises(self.house.world()) {
+            let capsules = self.house.capsules();
+            for (at, sound) in entry.visit.noises(self.house.world(), capsules) {
                 self.house.put(at, sound);
             }
             for breath in &entry.visit.breaths {
-                self.house.put(breath.onset, breath.sound());
+                self.house.put(breath.onset, breath.sound(capsules));
             }
             if entry.answered()
                 && let Some(onset) = entry.visit.onset()
@@ -336,6 +337,7 @@ impl<'a> Course<'a> {
             seed: rehearsal.seed,
             hours: rehearsal.hours,
             room: rehearsal.room.clone(),
+            capsules: rehearsal.capsules,
             works: rehearsal.works.iter().map(|work| work.id.clone()).collect(),
             volume_db: self.machine.volume_db(),
             visitors: self.day.entries.len(),

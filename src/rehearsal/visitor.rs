@@ -3,12 +3,12 @@
 //! Distances, angles and strengths are those of people before a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s,
 //! an adult 6 to 17 m/s, soft as often as hard; most blow at the microphone, some past it.
 
-use super::house::loud;
+use super::house::{loud, scaled};
 use crate::math::{from_decibels, pow};
 use crate::noise::{Random, hash_words};
 use crate::offline::ear::scenes::{Lips, World};
 use crate::offline::ear::{RATE, noises, voices};
-use crate::wind::generate::filter::{normalised, peaked};
+use crate::wind::generate::filter::peaked;
 use crate::wind::generate::{self, BreathShape};
 
 /// Lips to microphone, m.
@@ -114,9 +114,10 @@ impl Breath {
         self.onset + self.shape.duration()
     }
 
-    /// What arrives at the microphone, full scale ±1 at 16 kHz.
-    pub fn sound(&self) -> Vec<f64> {
-        self.lips.heard(generate::stream(RATE, self.seed, &self.shape, 0))
+    /// What arrives at each of so many capsules, full scale ±1 at 16 kHz.
+    pub fn sound(&self, capsules: usize) -> Vec<Vec<f64>> {
+        let at = |capsule| self.lips.heard(generate::stream(RATE, self.seed, &self.shape, capsule as u64));
+        (0..capsules).map(at).collect()
     }
 }
 
@@ -262,16 +263,16 @@ impl Visit {
         groups
     }
 
-    /// What is heard of the visit beside its breaths: times (s of the day) and sounds at the first capsule.
-    pub fn noises(&self, world: &World) -> Vec<(f64, Vec<f64>)> {
+    /// What is heard of the visit beside its breaths: times (s of the day) and sounds at each of so many capsules.
+    pub fn noises(&self, world: &World, capsules: usize) -> Vec<(f64, Vec<Vec<f64>>)> {
         let mut random = Random::new(hash_words(&[self.seed, 0x6e6f_6973]));
         let random = &mut random;
         let mut out = Vec::new();
         let stay = self.leaves - self.arrives;
         let mut say = |at: f64, sound: Vec<f64>, (low, high): (f64, f64), random: &mut Random| {
             let gain = loud(random.range(low, high));
-            let heard = normalised(world.before_the_kiosk(&sound));
-            out.push((at, heard.into_iter().map(|x| gain * x).collect()));
+            let heard = world.before_the_kiosk(&sound, capsules);
+            out.push((at, scaled(heard, gain)));
         };
         say(self.arrives, noises::footsteps(1.5, random), STEPS_DB, random);
         match self.way {
@@ -296,8 +297,8 @@ impl Visit {
         // A hand on the glass is heard through the table, not through the room.
         for pressed in self.presses.iter().filter(|pressed| pressed.press != Press::Key) {
             let gain = from_decibels(random.range(-44.0, -22.0));
-            let hand = peaked(noises::handling(random)).into_iter().map(|x| gain * x).collect();
-            out.push((pressed.from, hand));
+            let hand: Vec<f64> = peaked(noises::handling(random)).into_iter().map(|x| gain * x).collect();
+            out.push((pressed.from, vec![hand; capsules]));
         }
         out
     }

@@ -219,7 +219,7 @@ mod callback {
         for (channels, first, second) in [
             ([1, 0], 0.25, None),
             ([2, 0], -0.5, None),
-            ([0, 0], -0.125, None),
+            ([0, 0], 0.25, Some(-0.5)),
             ([9, 0], -0.125, None),
             ([1, 2], 0.25, Some(-0.5)),
             ([2, 1], -0.5, Some(0.25)),

@@ -154,7 +154,7 @@ fn rehearsal(hours: f64, seed: u64, crowd: Crowd) -> Rehearsal {
     let folder = exhibit::resolve("steel-fish").unwrap_or_else(|report| panic!("{report}"));
     let work = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}")));
     let site = Site::new(&Config::default(), seed);
-    Rehearsal { works: vec![work], site, room: "gallery".into(), crowd, hours, seed }
+    Rehearsal { works: vec![work], site, room: "gallery".into(), capsules: 2, crowd, hours, seed }
 }
 
 fn rehearsed(rehearsal: Rehearsal) -> Report {

@@ -135,7 +135,7 @@ fn sound(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
         device("microphone", &status.input, "visitors press and hold to blow"),
     ];
     if let Some(rate) = rate {
-        if config.audio.second_capsule_channel > 0 {
+        if config.audio.second_capsule_channel > 0 || status.capsules > 1 {
             findings.push(second_capsule(status.capsules).of_device());
         }
         findings.push(judge_room(&heard.samples, rate).of_device());

@@ -4,13 +4,13 @@
 //! All are struck at the same height, 40 % of the length from the lower end, where the first five modes sound: hung so,
 //! their tops and feet are a stair. The cords hang from a round crown.
 
-use crate::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use crate::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
 use super::glb::{Finish, Glass, Scene};
-use super::hung::to_mass;
+use super::hung::{BEVEL, to_mass};
 use super::outline::{Polygon, area_and_centroid, ring};
-use super::piece::{Bend, Part, Piece, load, named};
-use super::solid::{Solid, turned};
+use super::piece::{Bend, Piece, load, named};
+use super::solid::{Solid, sheet, turned};
 use super::stock::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
 
 /// Where the crown hangs.
@@ -26,7 +26,7 @@ const HEADROOM: f64 = 34.0 * MM;
 const STRIKER: f64 = 40.0 * MM;
 const STRIKER_MASS: f64 = 60e-3;
 const GAP: f64 = 13.5 * MM;
-/// From the striker to the middle of the sail; the sail's mass and thickness.
+/// From the striker to the middle of the sail; the sail's mass.
 const SAIL_LINE: f64 = 0.5;
 const SAIL_MASS: f64 = 10e-3;
 /// Of the sail's wood, kg/m³.
@@ -179,21 +179,35 @@ fn striker(drop: f64, looks: &Looks) -> Piece {
     }
 }
 
-/// The sail on its line: 60 mm by 100 mm, its corners rounded.
+/// The sail on its line: two crossed leaves of 60 mm by 100 mm, their corners rounded. However the line twists, one of them
+/// faces the wind.
 fn sail(looks: &Looks) -> Piece {
     let (x, y) = (30.0, 50.0);
     // |x/a|⁴ + |y/b|⁴ = 1: a card with soft corners.
     let soft = |share: f64| share.abs().sqrt().copysign(share);
-    let outline: Polygon = (0..ROUND)
-        .map(|k| 2.0 * PI * k as f64 / ROUND as f64)
-        .map(|angle| DVec2::new(x * soft(cos(angle)), y * soft(sin(angle))))
-        .collect();
+    let corner = |k: usize| {
+        let angle = 2.0 * PI * (k as f64 / ROUND as f64 - 0.25);
+        DVec2::new(x * soft(cos(angle)), y * soft(sin(angle)))
+    };
+    let outline: Polygon = (0..ROUND).map(corner).collect();
     let area = area_and_centroid(&outline).0 * MM * MM;
-    let solid = to_mass(outline, Vec::new(), SAIL_MASS / (LIME_WOOD * area), (LIME_WOOD, SAIL_MASS));
-    let solid = solid.moved(-SAIL_LINE * DVec3::Y);
+    let mass = 0.5 * SAIL_MASS;
+    let thickness = mass / (LIME_WOOD * area);
+    let solid = to_mass(outline, Vec::new(), thickness, (LIME_WOOD, mass));
+    // The other leaf is let in: half of it on either side.
+    let half: Polygon = (0..=ROUND / 2).map(|k| corner(k) * MM).map(|p| p.with_x(p.x.max(0.5 * thickness))).collect();
+    let half = sheet(&half, &[], thickness, BEVEL);
+    let middle = -SAIL_LINE * DVec3::Y;
+    let about = |quarters: f64| rotation(0.5 * PI * quarters * DVec3::Y);
+    let leaf = |name, solid, place, turn| part(name, solid, place, turn, LIME_WOOD, looks.sail);
+    let leaves = vec![
+        leaf("Sail", solid.moved(middle), DVec3::ZERO, DQuat::IDENTITY),
+        leaf("SailFront", half.clone(), middle, about(-1.0)),
+        leaf("SailBack", half, middle, about(1.0)),
+    ];
     Piece {
         name: "Sail",
-        parts: vec![Part { name: "Sail", solid, place: Pose::IDENTITY, density: LIME_WOOD, finish: looks.sail }],
+        parts: leaves,
         bends: vec![line("SailLine", SAIL_LINE - y * MM)],
         marks: vec![("SailHook", DVec3::ZERO)],
     }

@@ -12,7 +12,7 @@ const MM: f64 = 1e-3;
 /// Corners of a circle that is seen close.
 const ROUND: usize = 64;
 /// How far the edges of a sheet are broken.
-const BEVEL: f64 = 0.12 * MM;
+pub const BEVEL: f64 = 0.12 * MM;
 /// Distance of a plate's hole from its rim, mm.
 const HOLE_INSET: f64 = 2.4;
 /// Of the hole that a plate hangs by, mm.

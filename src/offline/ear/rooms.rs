@@ -23,6 +23,9 @@ const SOUND_M_S: f64 = 343.0;
 const IMAGES_S: f64 = 0.12;
 /// Longest response, s.
 const LONGEST_S: f64 = 0.6;
+/// Below this, sound from everywhere is the same at both capsules: sin(k d)/(k d) is a half at 2.1 kHz where they are 5 cm
+/// apart, Hz.
+pub const ALIKE_HZ: f64 = 2000.0;
 /// Length of the transform of a convolution.
 const BLOCK: usize = 1 << 15;
 
@@ -75,15 +78,15 @@ impl Room {
     /// The response from a place to one of the capsules (0 or 1), of unit energy at the first.
     pub fn response(&self, source: DVec3, capsule: usize, seed: u64) -> Vec<f64> {
         let rate = f64::from(RATE);
-        let first = self.images(source, self.microphone, seed);
+        let first = self.images(source, self.microphone, [seed, seed]);
         let scale = 1.0 / (filter::power(&first) * first.len() as f64).sqrt().max(1e-12);
         let mut response =
-            if capsule == 0 { first } else { self.images(source, self.microphone + self.second, seed + 1) };
+            if capsule == 0 { first } else { self.images(source, self.microphone + self.second, [seed, seed + 1]) };
         response.iter_mut().for_each(|h| *h *= scale);
         filter::low_passed(response, rate, 7000.0 / (1.0 + self.t60), 1)
     }
 
-    fn images(&self, source: DVec3, microphone: DVec3, seed: u64) -> Vec<f64> {
+    fn images(&self, source: DVec3, microphone: DVec3, seeds: [u64; 2]) -> Vec<f64> {
         let rate = f64::from(RATE);
         let length = ((0.7 * self.t60).clamp(IMAGES_S, LONGEST_S) * rate) as usize;
         let reach = IMAGES_S * SOUND_M_S;
@@ -113,18 +116,22 @@ impl Room {
                 }
             }
         }
-        self.add_tail(&mut response, (IMAGES_S * rate) as usize, seed);
+        self.add_tail(&mut response, (IMAGES_S * rate) as usize, seeds);
         response
     }
 
-    /// Goes on where the images end, as loud as they are there.
-    fn add_tail(&self, response: &mut [f64], from: usize, seed: u64) {
+    /// Goes on where the images end, as loud as they are there. What comes late comes from everywhere: its low end is of the
+    /// first seed, the same at both capsules, its high end of the other.
+    fn add_tail(&self, response: &mut [f64], from: usize, [low, high]: [u64; 2]) {
         let rate = f64::from(RATE);
         let level = filter::power(&response[from - from / 4..from]).sqrt();
-        let mut random = Random::new(seed);
-        for (i, h) in response.iter_mut().enumerate().skip(from) {
-            let t = (i - from) as f64 / rate;
-            *h += level * 1.7 * random.signed() * exp(-6.9 * t / self.t60);
+        let noise = |seed: u64| {
+            let mut random = Random::new(seed);
+            (from..response.len()).map(|_| random.signed()).collect::<Vec<f64>>()
+        };
+        let tail = if low == high { noise(low) } else { filter::parted(noise(low), noise(high), rate, ALIKE_HZ) };
+        for (i, (h, x)) in response[from..].iter_mut().zip(tail).enumerate() {
+            *h += level * 1.7 * x * exp(-6.9 * i as f64 / rate / self.t60);
         }
     }
 }

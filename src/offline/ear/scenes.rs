@@ -9,10 +9,10 @@ mod lips;
 
 use crate::math::{exp, from_decibels, tanh};
 use crate::noise::{Random, hash_words};
-use crate::wind::generate::filter::{high_passed, low_passed, normalised, power, white};
+use crate::wind::generate::filter::{high_passed, low_passed, normalised, parted, power, white};
 use crate::wind::generate::{self, BreathShape};
 
-use super::rooms::{Room, convolved};
+use super::rooms::{ALIKE_HZ, Room, convolved};
 use super::voices::{self, Voice, add};
 use super::{Breath, Event, Kind, RATE, Take, noises, own};
 pub use lips::Lips;
@@ -29,6 +29,8 @@ const LONGEST_HOLD_S: f64 = 5.0;
 /// How long a scene has gone on before somebody blows, s: visitors come to rooms that have been loud for long, and what
 /// the ear remembers of the seconds before must be as full in a lesson as there.
 const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
+/// By how much two capsules of a kind differ at most: sensitivity, dB; corner, parts.
+pub const UNLIKE: (f64, f64) = (1.5, 0.1);
 
 /// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,12 +75,15 @@ pub struct World {
 /// Dry sounds by place, and what they are; place [`PLACES`] is the table itself, which no room colours.
 struct Dry {
     places: Vec<Vec<f64>>,
+    /// What a second capsule hears beside that, of air that moves at each of them by itself.
+    beside: Vec<f64>,
     events: Vec<Event>,
 }
 
 impl Dry {
     fn silent(samples: usize) -> Self {
-        Self { places: vec![vec![0.0; samples]; PLACES + 1], events: Vec::new() }
+        let silence = vec![0.0; samples];
+        Self { places: vec![silence.clone(); PLACES + 1], beside: silence, events: Vec::new() }
     }
 
     fn samples(&self) -> usize {
@@ -90,6 +95,13 @@ impl Dry {
         add(&mut self.places[place], at, sound, gain);
         let at = at.max(0.0);
         self.events.push(Event { at, until: at + sound.len() as f64 / R, what, on_table: place == PLACES, gain });
+    }
+
+    /// Puts puffs, as each of two capsules hears them.
+    fn put_puffs(&mut self, at: f64, [first, second]: &[Vec<f64>; 2], gain: f64) {
+        self.put("puffs", PLACES, at, first, gain);
+        add(&mut self.beside, at, second, gain);
+        add(&mut self.beside, at, first, -gain);
     }
 }
 
@@ -184,6 +196,9 @@ impl World {
         let (_, responses) = &self.rooms[(random.unit() * self.rooms.len() as f64) as usize];
         let capsule = |capsule: usize| {
             let mut out = dry.places[PLACES].clone();
+            if capsule > 0 {
+                out.iter_mut().zip(&dry.beside).for_each(|(y, x)| *y += x);
+            }
             for (sound, response) in dry.places.iter().zip(responses) {
                 if sound.iter().any(|x| *x != 0.0) {
                     let arrived = convolved(sound, &response[capsule]);
@@ -195,12 +210,14 @@ impl World {
         (0..1 + usize::from(stereo)).map(capsule).collect()
     }
 
-    /// Air of the room (the same to both capsules below a few hundred hertz) at this level, dBFS.
+    /// Air of the room at this level, dBFS. It comes from everywhere: two capsules hear the same below some hundred hertz only.
     fn add_air(channels: &mut [Vec<f64>], dbfs: f64, random: &mut Random) {
         let seconds = channels[0].len() as f64 / R;
         let air = noises::air(seconds + 0.001, random);
-        for channel in channels {
-            add(channel, 0.0, &air, from_decibels(dbfs));
+        add(&mut channels[0], 0.0, &air, from_decibels(dbfs));
+        if let Some(second) = channels.get_mut(1) {
+            let other = noises::air(seconds + 0.001, &mut Random::new(hash_words(&[air[0].to_bits(), 2])));
+            add(second, 0.0, &parted(air, other, R, ALIKE_HZ), from_decibels(dbfs));
         }
     }
 
@@ -346,10 +363,16 @@ impl World {
         let corner = [20.0, 40.0, 60.0, 80.0, 110.0][(random.unit() * 5.0) as usize];
         let gain = from_decibels(hearing.gain_db + random.range(-6.0, 6.0));
         let (soft, hiss) = (random.unit() < 0.6, from_decibels(random.range(-86.0, -66.0)));
-        let mut heard = channels.into_iter().map(|channel| {
+        // No capsule is quite like the other.
+        let mut unlike = Random::new(hash_words(&[self.seed, condition.number(), index, 2]));
+        let mut heard = channels.into_iter().enumerate().map(|(capsule, channel)| {
             let noise = white(channel.len(), random);
-            let heard = high_passed(channel, R, corner, 2);
-            let rail = |x: f64| if soft { tanh(x) } else { x.clamp(-1.0, 1.0) };
+            let (louder, higher) = match capsule {
+                0 => (1.0, 1.0),
+                _ => (from_decibels(unlike.range(-UNLIKE.0, UNLIKE.0)), 1.0 + unlike.range(-UNLIKE.1, UNLIKE.1)),
+            };
+            let heard = high_passed(channel, R, higher * corner, 2);
+            let (gain, rail) = (louder * gain, |x: f64| if soft { tanh(x) } else { x.clamp(-1.0, 1.0) });
             heard.iter().zip(&noise).map(|(x, n)| rail(gain * (x + hiss * n)) as f32).collect::<Vec<f32>>()
         });
         let left = heard.next().unwrap_or_default();

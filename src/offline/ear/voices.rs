@@ -4,7 +4,7 @@
 //! Everything has unit RMS while it sounds.
 
 use crate::math::{PI, exp, sin};
-use crate::noise::Random;
+use crate::noise::{Random, hash_words};
 use crate::wind::generate::filter::{high_passed, low_passed, normalised, peaked, resonance, white};
 
 use super::RATE;
@@ -173,18 +173,24 @@ pub fn tone(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(shaped(sound.collect(), rise, fall))
 }
 
-/// Puffs of p and b of somebody who speaks into the microphone, peaks of 1.
-pub fn plosives(seconds: f64, random: &mut Random) -> Vec<f64> {
-    let mut out = vec![0.0; (seconds * R) as usize];
+/// Puffs of p and b of somebody who speaks into the microphone, peaks of 1, as each of two capsules hears them: of other
+/// eddies.
+pub fn plosives(seconds: f64, random: &mut Random) -> [Vec<f64>; 2] {
+    let mut out = [0, 1].map(|_| vec![0.0; (seconds * R) as usize]);
     let mut at = random.range(0.1, 0.6);
     while at < seconds {
         let length = random.range(0.02, 0.08);
-        let puff = low_passed(white((4.0 * length * R) as usize, random), R, random.range(60.0, 140.0), 2);
-        let puff = shaped(puff[3 * puff.len() / 4..].to_vec(), 0.5, 0.5);
-        add(&mut out, at, &peaked(puff), random.range(0.3, 1.0));
+        let first = white((4.0 * length * R) as usize, random);
+        let second = white(first.len(), &mut Random::new(hash_words(&[first[0].to_bits(), 2])));
+        let (corner, loud) = (random.range(60.0, 140.0), random.range(0.3, 1.0));
+        for (out, eddies) in out.iter_mut().zip([first, second]) {
+            let puff = low_passed(eddies, R, corner, 2);
+            let puff = shaped(puff[3 * puff.len() / 4..].to_vec(), 0.5, 0.5);
+            add(out, at, &peaked(puff), loud);
+        }
         at += random.range(0.2, 1.2);
     }
-    peaked(out)
+    out.map(peaked)
 }
 
 /// Fades in and out over parts of the length (sin²).

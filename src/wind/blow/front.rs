@@ -1,11 +1,14 @@
 //! From raw samples to features: what the detector and its training share.
 
-use super::coherence::Coherence;
+use super::capsules::Capsules;
+use super::decision::LEAST_RISE_DB;
 use super::features::{COUNT, Features, Levels, Listener, Still, decibels};
 use super::own::OwnVoice;
 use super::resample::Resampler;
 use super::spectrum::{Framer, Sample};
 
+/// The room must have been heard for this long before anything can be a breath, s.
+pub(super) const SETTLING_S: f64 = 0.25;
 /// Lowest level that is told, dB of full scale.
 pub(super) const SILENCE_DBFS: f64 = -120.0;
 /// From this amplitude a sample counts as railed.
@@ -23,7 +26,9 @@ pub struct FrontEnd {
     pub(super) framer: Framer,
     pub(super) own_voice: OwnVoice,
     pub(super) listener: Listener,
-    pub(super) coherence: Coherence,
+    /// Listens to what differs between two capsules.
+    apart: Listener,
+    pub(super) capsules: Capsules,
     /// Samples of two capsules have come.
     stereo: bool,
 }
@@ -35,6 +40,8 @@ pub struct Frame {
     pub features: Features,
     /// Beside them, what the decision needs.
     pub levels: Levels,
+    /// Both, of what differs between two capsules.
+    pub difference: Option<(Features, Levels)>,
     /// Level of the frame, dB of full scale.
     pub level_dbfs: f64,
     /// Samples are at the rails.
@@ -68,7 +75,8 @@ impl FrontEnd {
             framer: Framer::new(),
             own_voice: OwnVoice::new(),
             listener: Listener::new(),
-            coherence: Coherence::new(),
+            apart: Listener::new(),
+            capsules: Capsules::new(),
             stereo: false,
         }
     }
@@ -96,22 +104,35 @@ impl FrontEnd {
     fn frame(&mut self, blowing: bool, likely: bool) -> Frame {
         let input = self.input.take();
         let fault = self.input.fault_hold > 0;
-        let (mut features, mut levels) = ([0.0; COUNT], Levels::default());
+        let (mut features, mut levels, mut difference) = ([0.0; COUNT], Levels::default(), None);
         if !fault {
             if self.stereo {
-                self.coherence.push(&self.framer.capsules);
+                let Framer { capsules, scale, microphone, .. } = &self.framer;
+                let were = self.capsules.share.is_some();
+                self.capsules.push(capsules, !(blowing || likely), *scale, microphone);
+                if self.capsules.share.is_some() != were {
+                    self.apart.forget();
+                }
             }
             self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
             let covered = self.own_voice.masks(&self.framer.microphone);
             let room = blowing || likely || covered;
             let Framer { microphone, peakedness, .. } = &self.framer;
-            (features, levels) =
-                self.listener.push(microphone, &self.own_voice.predicted, *peakedness, Still { room, past: blowing });
+            let (own, still) = (&self.own_voice.predicted, Still { room, past: blowing });
+            (features, levels) = self.listener.push(microphone, own, *peakedness, still);
             levels.covered = covered;
+            if self.capsules.share.is_some() {
+                let still = Still { room: blowing || likely, ..still };
+                let left = self.capsules.left_of(own);
+                let heard = self.apart.push(&self.capsules.difference, &left, *peakedness, still);
+                self.capsules.note(heard.1.rise_db > LEAST_RISE_DB);
+                difference = Some(heard).filter(|_| self.apart.age() >= SETTLING_S);
+            }
         }
         Frame {
             features,
             levels,
+            difference,
             level_dbfs: decibels(input.square / f64::from(input.count.max(1))).max(SILENCE_DBFS),
             clipping: input.railed > 1,
             fault,

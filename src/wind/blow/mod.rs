@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
-//!         → features (rise over the room, shape, pitch, past) → model (log-odds) [+ coherence of two capsules]
+//!         [→ capsules (what differs between two)] → features (rise over the room, shape, pitch, past) → model (log-odds)
 //!         → decision (48 ms … 6 s) → speed
 //! ```
 //!
@@ -13,7 +13,7 @@
 //! Invariants: causal; no state depends on how samples were cut into blocks; the speed is exactly 0 unless the reason
 //! is [`Reason::Blow`].
 
-mod coherence;
+mod capsules;
 mod decision;
 pub mod features;
 pub mod front;
@@ -31,7 +31,7 @@ use crate::math::pow;
 pub use decision::Rules;
 use decision::{Decision, Phase};
 use features::{Features, Levels, blend, decibels};
-use front::{Frame, FrontEnd, SILENCE_DBFS};
+use front::{Frame, FrontEnd, SETTLING_S, SILENCE_DBFS};
 use gain::GainControl;
 use model::Model;
 use spectrum::band;
@@ -46,8 +46,6 @@ const HARDEST_DBFS: f64 = -4.0;
 const HARDEST_HISS_DBFS: f64 = -25.0;
 /// Level from which the mean of a rising breath starts, dB of full scale.
 const QUIETEST_BLOW_DBFS: f64 = -70.0;
-/// The room must have been heard for this long before anything can be a breath, s.
-const SETTLING_S: f64 = 0.25;
 
 /// What the detector says at the end of the samples it has heard.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -215,16 +213,16 @@ impl BlowDetector {
             self.decision = Decision::default();
             return self.conclude(Reason::Fault, 0.0);
         }
-        let levels = &frame.levels;
-        self.features = frame.features;
-        self.estimate.floor_dbfs = levels.floor_dbfs;
+        let heard = self.weigh(frame);
+        let (log_odds, levels) = (heard.0, &heard.2);
+        self.features = heard.1;
+        self.estimate.floor_dbfs = frame.levels.floor_dbfs;
         if frame.zero {
             // An unplugged microphone sends exact zeros; a living one never does for 8 ms.
             self.decision = Decision::default();
             return self.conclude(Reason::NoSignal, 0.0);
         }
         let settling = self.front.listener.age() < SETTLING_S;
-        let log_odds = self.settings.model.log_odds(&frame.features) + self.front.coherence.log_odds(levels.rise_db);
         self.log_odds = log_odds;
         // Who blows already may go on blowing.
         let first = self.decision.phase == Phase::Quiet && self.front.own_voice.is_first();
@@ -243,6 +241,18 @@ impl BlowDetector {
             Phase::Quiet if first => self.conclude(Reason::OwnVoice, 0.0),
             Phase::Quiet => self.conclude(self.why_not(levels), 0.0),
         }
+    }
+
+    /// Log-odds, features and levels of the frame, or of what differs in it between two capsules, whichever is more like breath.
+    fn weigh(&self, frame: &Frame) -> (f64, Features, Levels) {
+        let (model, capsules) = (&self.settings.model, &self.front.capsules);
+        let sum = model.log_odds(&frame.features) + capsules.of_sum(frame.levels.rise_db);
+        let difference = frame.difference.map(|(features, levels)| {
+            let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
+            let log_odds = model.log_odds(&features) + capsules.of_difference();
+            (if rumbles { log_odds } else { f64::NEG_INFINITY }, features, levels)
+        });
+        difference.filter(|other| other.0 > sum).unwrap_or((sum, frame.features, frame.levels))
     }
 
     /// The strongest single argument against breath.

@@ -60,14 +60,15 @@ pub struct Framer {
     until_frame: usize,
     buffer: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
-    scale: f64,
+    /// Power of a square amplitude.
+    pub scale: f64,
     /// Samples until the own output has left the window.
     sounding: usize,
     /// Spectrum of the microphone in the last frame: of the mean of both capsules.
     pub microphone: Power,
     /// Spectrum of the kiosk's own output in the last frame.
     pub own: Power,
-    /// Amplitudes of both capsules, of which the coherence is taken.
+    /// Amplitudes of both capsules.
     pub capsules: [[Complex<f64>; BINS]; 2],
     /// How peaked the treble of the last 8 ms is: logarithm of its kurtosis over that of Gaussian noise.
     pub peakedness: f64,

@@ -42,6 +42,12 @@ pub fn high_passed(mut samples: Vec<f64>, rate: f64, corner_hz: f64, order: usiz
     samples
 }
 
+/// One signal below a corner and another one above it: of the same signal twice, that signal.
+pub fn parted(below: Vec<f64>, above: Vec<f64>, rate: f64, corner_hz: f64) -> Vec<f64> {
+    let (below, above) = (low_passed(below, rate, corner_hz, 1), high_passed(above, rate, corner_hz, 1));
+    below.iter().zip(&above).map(|(b, a)| b + a).collect()
+}
+
 /// A two-pole resonance at `centre_hz` of the given bandwidth, unit gain at its peak (nearly).
 pub fn resonance(samples: &[f64], rate: f64, centre_hz: f64, bandwidth_hz: f64) -> Vec<f64> {
     let radius = exp(-PI * bandwidth_hz / rate);

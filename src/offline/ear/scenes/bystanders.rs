@@ -32,7 +32,7 @@ impl World {
             if random.unit() < 0.5 {
                 let puffs = voices::plosives(0.6 * seconds, random);
                 let from = random.range(0.0, 0.3 * seconds);
-                dry.put("puffs", PLACES, from, &puffs, decibel(random, -30.0, -6.0));
+                dry.put_puffs(from, &puffs, decibel(random, -30.0, -6.0));
             }
         }
         if !self.recorded.is_empty() && random.unit() < 0.35 * busy {
@@ -113,15 +113,16 @@ impl World {
         dry
     }
 
-    /// What the first capsule hears of a museum, before the microphone's own part: full scale ±1 at [`RATE`](super::super::RATE).
-    pub fn crowd(&self, seconds: f64, busy: f64, random: &mut Random) -> Vec<f64> {
+    /// What each of so many capsules (1 or 2) hears of a museum, before the microphone's own part: full scale ±1 at
+    /// [`RATE`](super::super::RATE).
+    pub fn crowd(&self, seconds: f64, busy: f64, capsules: usize, random: &mut Random) -> Vec<Vec<f64>> {
         let dry = self.museum_sounds(seconds, busy, random);
-        self.heard(&dry, false, random).swap_remove(0)
+        self.heard(&dry, capsules > 1, random)
     }
 
-    /// A sound from right before the kiosk, as it arrives at the first capsule.
-    pub fn before_the_kiosk(&self, sound: &[f64]) -> Vec<f64> {
-        convolved(sound, &self.rooms[0].1[PLACES - 1][0])
+    /// A sound from right before the kiosk, as it arrives at each of so many capsules (1 or 2).
+    pub fn before_the_kiosk(&self, sound: &[f64], capsules: usize) -> Vec<Vec<f64>> {
+        self.rooms[0].1[PLACES - 1][..capsules].iter().map(|response| convolved(sound, response)).collect()
     }
 
     pub(super) fn museum(&self, index: u64, hearing: Hearing, random: &mut Random) -> Take {
@@ -138,11 +139,12 @@ impl World {
         let mut dry = Dry::silent((seconds * R) as usize);
         let mut at = random.range(0.6, 1.5);
         while at < seconds - 1.0 {
+            let mut puffs = None;
             let (what, sound, table) = match (random.unit() * 9.0) as u32 {
                 0 => ("door", noises::door(random), false),
                 1 => ("bump", noises::bump(random), true),
                 2 => ("drop", noises::drop(random), random.unit() < 0.5),
-                3 => ("puffs", voices::plosives(random.range(0.3, 1.5), random), true),
+                3 => ("puffs", puffs.insert(voices::plosives(random.range(0.3, 1.5), random))[0].clone(), true),
                 4 => ("steps", noises::footsteps(random.range(0.4, 2.0), random), false),
                 5 => ("handling", noises::handling(random), true),
                 6 => ("applause", noises::applause(random.range(0.5, 3.0), random), false),
@@ -150,7 +152,11 @@ impl World {
                 _ => ("clap", noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
             };
             let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
-            dry.put(what, place, at, &sound, from_decibels(random.range(-30.0, 0.0)));
+            let gain = from_decibels(random.range(-30.0, 0.0));
+            match puffs {
+                Some(puffs) => dry.put_puffs(at, &puffs, gain),
+                None => dry.put(what, place, at, &sound, gain),
+            }
             at += random.range(0.7, 3.0);
         }
         let mut channels = self.heard(&dry, hearing.stereo, random);

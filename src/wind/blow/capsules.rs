@@ -1,0 +1,280 @@
+//! Two capsules: wind is another eddy at each of them, sound is the same wave at both.
+//!
+//! What differs between them is wind, then, and what is the same in both is a crowd, a knock on the table, the kiosk
+//! itself. So the ear listens twice: to half the sum of both, as it would to one capsule, and to a spectrum that below
+//! 400 Hz, where centimetres are little to a wave of metres, is that of half their difference:
+//!
+//! ```text
+//! P_k = ¼ |L_k − g_k R_k|²          g_k = c_k/|c_k| · √(⟨|L_k|²⟩/⟨|R_k|²⟩),   c_k = ⟨L_k R*_k⟩
+//! ```
+//!
+//! ⟨·⟩ a leaky mean of 4 s in which nobody blows: g is how the two capsules differ for good, in gain and corner, learnt
+//! where both hear the same (a coherence of 0.7), as their own noise knows nothing of it. Eddies that know nothing of each
+//! other (Corcos 1963: beyond a few millimetres nothing is left) keep the power that half the sum of both has, on which
+//! the ear is trained. A plane wave from along the line between capsules d apart keeps sin²(k d/2): of 6 cm, −19 dB at
+//! 200 Hz, and less below.
+//!
+//! Rumble that a crowd drowns in the sum rises out of the difference; a stream beside the microphone, of which there is
+//! the hiss alone, is heard in the sum. How much of what is heard differs speaks for itself, in either:
+//!
+//! ```text
+//! δ = Σ_k ⟨|L_k − g_k R_k|²⟩ / Σ_k (⟨|L_k|²⟩ + |g_k|² ⟨|R_k|²⟩)      over 47–250 Hz, ⟨·⟩ of 64 ms; 1 for wind
+//! ℓ_sum ← ℓ_sum + clamp(12 (δ − 0.3), −0.5, 2), in so far as the low band has risen
+//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 1)
+//! ```
+//!
+//! and the greater one counts. A puff of p or b into the microphone is wind too: what δ says for breath, it says by and by,
+//! once the difference has risen for 60 to 160 ms.
+//!
+//! One capsule copied into two channels is coherent in everything it hears, and a channel that is dead, or hears only
+//! itself, in nothing. So there are two capsules only once both have heard the same below 400 Hz while the treble, above
+//! it, told them apart: there centimetres, reverberation and each capsule's own noise leave less than 0.97 of
+//! two capsules' coherence.
+
+use rustfft::num_complex::Complex;
+
+use super::features::{blend, decibels};
+use super::spectrum::{BINS, FRAME_S, Power};
+use crate::math::from_decibels;
+
+/// Bins of the difference, 16–406 Hz, those of δ, 47–250 Hz, and those that tell two channels apart, 400–3400 Hz.
+const DIFFERENCE: std::ops::Range<usize> = 1..26;
+const LOW: std::ops::Range<usize> = 3..17;
+const TREBLE: std::ops::Range<usize> = 26..218;
+/// Memories of δ, of the treble's coherence, and of how the capsules differ, s.
+const SHARE_S: f64 = 0.064;
+const TREBLE_S: f64 = 0.5;
+const MATCH_S: f64 = 4.0;
+/// Of the sum: δ of which nothing can be said, log-odds for each unit above, what it may say, against and for (little
+/// against, as a stream beside the microphone is hiss alone); and the rise of the low band from which it begins to count,
+/// and counts in full, dB.
+const NEUTRAL: f64 = 0.3;
+const SLOPE: f64 = 12.0;
+const SUM_SAYS: (f64, f64) = (-0.5, 2.0);
+const RISE_DB: (f64, f64) = (4.0, 10.0);
+/// Of the difference: δ of which nothing can be said, dB, log-odds for each dB above, and what it may say, against and for.
+const NEUTRAL_DB: f64 = -13.0;
+const SLOPE_DB: f64 = 0.5;
+const DIFFERENCE_SAYS: (f64, f64) = (-6.0, 1.0);
+/// What speaks for wind begins to count, and counts in full, when the difference has risen for so long: the puff of a p or b
+/// is wind as well, s.
+const PUFF_S: (f64, f64) = (0.06, 0.16);
+/// Coherence of the treble above which two channels are one capsule.
+const ONE_CAPSULE: f64 = 0.97;
+/// Coherence, over [`MATCH_S`], from which two channels have heard the same.
+const SAME: f64 = 0.7;
+/// Power of one channel over the other's below which it is dead.
+const DEAD: f64 = 1e-4;
+
+/// Keeps quotients finite.
+const NOTHING: f64 = 1e-30;
+
+/// Leaky means of one bin of both channels: powers and cross spectrum.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pair {
+    left: f64,
+    right: f64,
+    cross: Complex<f64>,
+}
+
+impl Pair {
+    fn push(&mut self, weight: f64, l: Complex<f64>, r: Complex<f64>) {
+        self.left += weight * (l.norm_sqr() - self.left);
+        self.right += weight * (r.norm_sqr() - self.right);
+        self.cross += weight * (l * r.conj() - self.cross);
+    }
+
+    /// √(⟨|L|²⟩⟨|R|²⟩): what |c| is where both hear the same.
+    fn scale(&self) -> f64 {
+        (self.left * self.right).sqrt()
+    }
+
+    /// What takes the right to the left, where both hear the same wave.
+    fn gain(&self) -> Option<Complex<f64>> {
+        let length = self.cross.norm();
+        (length > SAME * self.scale()).then(|| self.cross / length * (self.left / self.right).sqrt())
+    }
+}
+
+/// What two capsules tell.
+#[derive(Clone, Debug)]
+pub struct Capsules {
+    /// The room as both hear it, over [`MATCH_S`], and what takes the right to the left.
+    matched: [Pair; DIFFERENCE.end],
+    gains: [Complex<f64>; DIFFERENCE.end],
+    learnt: u64,
+    treble: [Pair; BINS],
+    /// Power that differs, and power in all, of the low band.
+    differs: [f64; 2],
+    /// They have heard the same, and the treble has told them apart.
+    apart: bool,
+    /// For how long the low band of the difference has stood above the room, s.
+    lasts: f64,
+    /// δ of the last frame; `None` where there is one capsule.
+    pub share: Option<f64>,
+    /// The microphone's spectrum with the low end of half the difference.
+    pub difference: Power,
+}
+
+impl Capsules {
+    /// Nothing heard yet.
+    pub fn new() -> Self {
+        Self {
+            matched: [Pair::default(); DIFFERENCE.end],
+            gains: [Complex::new(1.0, 0.0); DIFFERENCE.end],
+            learnt: 0,
+            treble: [Pair::default(); BINS],
+            differs: [0.0; 2],
+            apart: false,
+            lasts: 0.0,
+            share: None,
+            difference: [0.0; BINS],
+        }
+    }
+
+    /// Takes one frame of both capsules, and the `microphone` that is half their sum; `scale` is power of square amplitude, and
+    /// `learn` is false while somebody blows.
+    pub fn push(&mut self, [l, r]: &[[Complex<f64>; BINS]; 2], learn: bool, scale: f64, microphone: &Power) {
+        if learn {
+            self.learnt += 1;
+            let weight = blend(MATCH_S).max(1.0 / self.learnt as f64);
+            for k in DIFFERENCE {
+                self.matched[k].push(weight, l[k], r[k]);
+                self.gains[k] = self.matched[k].gain().unwrap_or(self.gains[k]);
+            }
+        }
+        let gains = self.gains;
+        let difference = |k: usize| (l[k] - gains[k] * r[k]).norm_sqr();
+        let power = |k: usize| l[k].norm_sqr() + (gains[k] * r[k]).norm_sqr();
+        let weight = blend(SHARE_S);
+        self.differs[0] += weight * (LOW.map(difference).sum::<f64>() - self.differs[0]);
+        self.differs[1] += weight * (LOW.map(power).sum::<f64>() - self.differs[1]);
+        self.share = self.are_two(l, r, learn).then(|| self.differs[0] / self.differs[1].max(NOTHING));
+        self.difference = *microphone;
+        if self.share.is_some() {
+            DIFFERENCE.for_each(|k| self.difference[k] = 0.25 * scale * difference(k));
+        }
+    }
+
+    /// What of `own`, the kiosk's own sound in half the sum, is left in half the difference at most.
+    pub fn left_of(&self, own: &Power) -> Power {
+        let left = from_decibels(2.0 * NEUTRAL_DB);
+        std::array::from_fn(|k| if DIFFERENCE.contains(&k) { left * own[k] } else { own[k] })
+    }
+
+    /// Are there two capsules, and do both live? That there are is found out while nobody blows: another room is learnt then.
+    fn are_two(&mut self, l: &[Complex<f64>; BINS], r: &[Complex<f64>; BINS], learn: bool) -> bool {
+        let (mut together, mut scale, mut left, mut right) = (0.0, NOTHING, NOTHING, NOTHING);
+        for k in TREBLE {
+            let pair = &mut self.treble[k];
+            pair.push(blend(TREBLE_S), l[k], r[k]);
+            together += pair.cross.norm();
+            scale += pair.scale();
+            left += pair.left;
+            right += pair.right;
+        }
+        let sum = |of: fn(&Pair) -> f64| self.matched[LOW].iter().map(of).sum::<f64>();
+        let same = sum(|pair| pair.cross.norm()) > SAME * sum(Pair::scale);
+        let balance = left / right;
+        self.apart |= learn && same && together / scale < ONE_CAPSULE;
+        self.apart && balance > DEAD && balance < 1.0 / DEAD
+    }
+
+    /// Notes whether the low band of the difference stands above the room.
+    pub fn note(&mut self, rises: bool) {
+        self.lasts = if rises { self.lasts + FRAME_S } else { 0.0 };
+    }
+
+    /// What δ adds to the log-odds of half the sum, whose low band has risen by `rise_db` over the room.
+    pub fn of_sum(&self, rise_db: f64) -> f64 {
+        let weight = ((rise_db - RISE_DB.0) / (RISE_DB.1 - RISE_DB.0)).clamp(0.0, 1.0);
+        let most = self.lasting() * SUM_SAYS.1;
+        self.share.map_or(0.0, |share| weight * (SLOPE * (share - NEUTRAL)).clamp(SUM_SAYS.0, most))
+    }
+
+    /// What δ adds to the log-odds of the difference.
+    pub fn of_difference(&self) -> f64 {
+        let most = self.lasting() * DIFFERENCE_SAYS.1;
+        let says = |share| SLOPE_DB * (decibels(share) - NEUTRAL_DB);
+        self.share.map_or(0.0, |share| says(share).clamp(DIFFERENCE_SAYS.0, most))
+    }
+
+    /// Whether it has lasted longer than the puff of a p or b, 0 … 1.
+    fn lasting(&self) -> f64 {
+        ((self.lasts - PUFF_S.0) / (PUFF_S.1 - PUFF_S.0)).clamp(0.0, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{PI, cos, sin};
+    use crate::noise::Random;
+
+    /// Frames of half a minute.
+    const FRAMES: usize = 3750;
+
+    /// Power of the low band of half the sum, and of what `push` makes of it, over the second half; and the last log-odds.
+    fn heard(mut frame: impl FnMut(usize, &mut Random) -> [Complex<f64>; 2]) -> (f64, f64, f64) {
+        let (mut capsules, mut random) = (Capsules::new(), Random::new(7));
+        let (mut sum, mut low) = (0.0, 0.0);
+        for i in 0..FRAMES {
+            let mut pair = [[Complex::default(); BINS]; 2];
+            let mut microphone: Power = [0.0; BINS];
+            for k in 1..BINS {
+                let [l, r] = frame(k, &mut random);
+                (pair[0][k], pair[1][k]) = (l, r);
+                microphone[k] = 0.25 * (l + r).norm_sqr();
+            }
+            let before: f64 = microphone[LOW].iter().sum();
+            capsules.push(&pair, true, 1.0, &microphone);
+            capsules.note(true);
+            if i > FRAMES / 2 {
+                sum += before;
+                low += capsules.difference[LOW].iter().sum::<f64>();
+            }
+        }
+        (sum, low, capsules.of_difference())
+    }
+
+    fn noise(random: &mut Random) -> Complex<f64> {
+        Complex::new(random.signed(), random.signed())
+    }
+
+    #[test]
+    fn a_wave_is_taken_away_and_eddies_stay() {
+        // A wave along a line of 6 cm that comes from either end, a right capsule 1.5 dB louder.
+        let wave = |k: usize, random: &mut Random| {
+            let late = 2.0 * PI * 15.625 * k as f64 * 0.06 / 343.0 * if random.unit() < 0.5 { 1.0 } else { -1.0 };
+            let l = noise(random);
+            [l, 1.19 * l * Complex::new(cos(late), -sin(late))]
+        };
+        let (sum, low, says) = heard(wave);
+        // sin²(k d/2) at 250 Hz is 0.018, and nothing of the band has more.
+        assert!(low < 0.018 * sum, "{low} of {sum}");
+        assert!(says < -2.0, "{says}");
+        let (sum, low, says) = heard(|_, random| {
+            // A wave in eddies; the treble has them as well: otherwise these were no two capsules.
+            let same = noise(random);
+            [same + 0.5 * noise(random), same + 0.5 * noise(random)]
+        });
+        // Half of what is the same in both remains of neither: 2 · 0.25 of 1 + 0.5 · 0.25.
+        assert!((low / sum - 0.125 / 1.125).abs() < 0.02, "{}", low / sum);
+        assert!(says > 0.0, "{says}");
+    }
+
+    #[test]
+    fn one_capsule_in_two_channels_and_a_dead_one_are_one() {
+        let copied = |_: usize, random: &mut Random| {
+            let l = noise(random);
+            [l, 0.5 * l]
+        };
+        let silent = |_: usize, random: &mut Random| [noise(random), Complex::default()];
+        let (a, b) = (heard(copied), heard(silent));
+        assert!(a.0 == a.1 && b.0 == b.1, "{a:?} {b:?}");
+        assert_eq!((a.2, b.2), (0.0, 0.0));
+        // Two that have nothing in common have not shown that they hear one room.
+        let strangers = heard(|_, random| [noise(random), noise(random)]);
+        assert_eq!((strangers.0, strangers.2), (strangers.1, 0.0));
+    }
+}
