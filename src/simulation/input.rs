@@ -23,8 +23,9 @@ pub enum Profile {
 /// most) so pushes with 13 mN at the most, and moves a plate of *Steel Fish* by 17 mm and more on a 55-inch picture
 /// within a second.
 const GALLERY_SPEED: f64 = 36.0;
-/// Bounds of that gain: below 3.6 m/s it is no breath that is meant to be seen, and no breath is ever weakened.
-const GALLERY_GAIN: (f64, f64) = (1.0, 10.0);
+/// Bounds of that gain: no breath is ever weakened, and from 1 m/s on, where a breath from afar or one that has only just
+/// begun is heard, each is to be seen.
+const GALLERY_GAIN: (f64, f64) = (1.0, GALLERY_SPEED);
 
 impl Profile {
     /// Force gain at a source speed (m/s).
