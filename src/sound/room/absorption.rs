@@ -170,26 +170,34 @@ fn solve(rows: &mut [[f64; BANDS.len() + 1]; BANDS.len()]) {
     }
 }
 
-/// Filters of all lines, side by side as the network runs them.
+/// Filters of all lines, side by side as the network runs them. The b0 of all shelves are taken out and what passes a shelf
+/// as it is goes beside it, which leaves four products and four sums:
+///
+/// ```text
+/// H/b0 = 1 + (c1 z⁻¹ + c2 z⁻²)/(1 + a1 z⁻¹ + a2 z⁻²)        c = b/b0 − a
+/// ```
 pub(super) struct Absorptions {
+    /// Of the line, with the b0 of its shelves.
     pub gain: [f32; LINES],
-    /// By shelf and coefficient.
-    pub shelves: [[[f32; LINES]; 5]; SHELVES],
+    /// By shelf: c1, c2, a1, a2.
+    pub shelves: [[[f32; LINES]; 4]; SHELVES],
 }
 
 impl Absorptions {
     /// For lines of these lengths; `None` where one would not decay at some frequency.
     pub fn new(lengths: &[usize; LINES], t60: &[f64; BANDS.len()], sample_rate: f64) -> Option<Self> {
-        let mut all = Self { gain: [0.0; LINES], shelves: [[[0.0; LINES]; 5]; SHELVES] };
+        let mut all = Self { gain: [0.0; LINES], shelves: [[[0.0; LINES]; 4]; SHELVES] };
         for (line, &length) in lengths.iter().enumerate() {
             let filter = Absorption::new(length, t60, sample_rate);
             if !filter.decays(sample_rate) {
                 return None;
             }
             let (gain, shelves) = filter.filters(sample_rate);
-            all.gain[line] = gain as f32;
-            for (to, from) in all.shelves.iter_mut().flatten().zip(shelves.iter().flatten()) {
-                to[line] = *from as f32;
+            all.gain[line] = shelves.iter().fold(gain, |gain, [b0, ..]| gain * b0) as f32;
+            for (to, [b0, b1, b2, a1, a2]) in all.shelves.iter_mut().zip(shelves) {
+                for (to, from) in to.iter_mut().zip([b1 / b0 - a1, b2 / b0 - a2, a1, a2]) {
+                    to[line] = from as f32;
+                }
             }
         }
         Some(all)

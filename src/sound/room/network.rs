@@ -152,11 +152,11 @@ impl Network {
         let mut states = self.states.each_ref().map(|state| state.each_ref().map(load));
         for frame in frames {
             let mut y = *frame * gain;
-            for ([b0, b1, b2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
-                let x = y;
-                y = *b0 * x + *s1;
-                *s1 = *b1 * x - *a1 * y + *s2;
-                *s2 = *b2 * x - *a2 * y;
+            for ([c1, c2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
+                let (x, w) = (y, *s1);
+                y = x + w;
+                *s1 = *c1 * x - *a1 * w + *s2;
+                *s2 = *c2 * x - *a2 * w;
             }
             *frame = y;
         }
