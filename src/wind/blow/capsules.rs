@@ -19,12 +19,12 @@
 //!
 //! ```text
 //! δ = Σ_k ⟨|L_k − g_k R_k|²⟩ / Σ_k (⟨|L_k|²⟩ + |g_k|² ⟨|R_k|²⟩)      over 47–250 Hz, ⟨·⟩ of 64 ms; 1 for wind
-//! ℓ_sum ← ℓ_sum + clamp(12 (δ − 0.3), −0.5, 2), in so far as the low band has risen
-//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 1)
+//! ℓ_sum ← ℓ_sum + clamp(12 (δ − 0.3), −0.5, 4), in so far as the low band has risen
+//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 3)
 //! ```
 //!
-//! and the greater one counts. A puff of p or b into the microphone is wind too: what δ says for breath, it says by and by,
-//! once the difference has risen for 60 to 160 ms.
+//! and the greater one counts. A puff of p or b into the microphone is wind too, and one may follow another: what δ says for
+//! breath, it says by and by, once the difference has stood for 60 to 140 ms within 8 dB of its peak.
 //!
 //! One capsule copied into two channels is coherent in everything it hears, and a channel that is dead, or hears only
 //! itself, in nothing. So there are two capsules only once both have heard the same below 400 Hz while the treble, above
@@ -50,15 +50,16 @@ const MATCH_S: f64 = 4.0;
 /// and counts in full, dB.
 const NEUTRAL: f64 = 0.3;
 const SLOPE: f64 = 12.0;
-const SUM_SAYS: (f64, f64) = (-0.5, 2.0);
+const SUM_SAYS: (f64, f64) = (-0.5, 4.0);
 const RISE_DB: (f64, f64) = (4.0, 10.0);
 /// Of the difference: δ of which nothing can be said, dB, log-odds for each dB above, and what it may say, against and for.
 const NEUTRAL_DB: f64 = -13.0;
 const SLOPE_DB: f64 = 0.5;
-const DIFFERENCE_SAYS: (f64, f64) = (-6.0, 1.0);
-/// What speaks for wind begins to count, and counts in full, when the difference has risen for so long: the puff of a p or b
-/// is wind as well, s.
-const PUFF_S: (f64, f64) = (0.06, 0.16);
+const DIFFERENCE_SAYS: (f64, f64) = (-6.0, 3.0);
+/// What speaks for wind begins to count, and counts in full, when the difference has stood for so long above the room, s, and
+/// no farther below its peak, dB: the puff of a p or b is wind as well, and dies away.
+const PUFF_S: (f64, f64) = (0.06, 0.14);
+const PUFF_DB: f64 = 8.0;
 /// Coherence of the treble above which two channels are one capsule.
 const ONE_CAPSULE: f64 = 0.97;
 /// Coherence, over [`MATCH_S`], from which two channels have heard the same.
@@ -108,7 +109,7 @@ pub struct Capsules {
     differs: [f64; 2],
     /// They have heard the same, and the treble has told them apart.
     apart: bool,
-    /// For how long the low band of the difference has stood above the room, s.
+    /// For how long the low band of the difference has stood above the room and near its peak, s.
     lasts: f64,
     /// δ of the last frame; `None` where there is one capsule.
     pub share: Option<f64>,
@@ -180,9 +181,9 @@ impl Capsules {
         self.apart && balance > DEAD && balance < 1.0 / DEAD
     }
 
-    /// Notes whether the low band of the difference stands above the room.
-    pub fn note(&mut self, rises: bool) {
-        self.lasts = if rises { self.lasts + FRAME_S } else { 0.0 };
+    /// Notes whether the low band of the difference rises above the room, and how far it has fallen from its peak, dB.
+    pub fn note(&mut self, rises: bool, fall_db: f64) {
+        self.lasts = if rises && fall_db < PUFF_DB { self.lasts + FRAME_S } else { 0.0 };
     }
 
     /// What δ adds to the log-odds of half the sum, whose low band has risen by `rise_db` over the room.
@@ -228,7 +229,7 @@ mod tests {
             }
             let before: f64 = microphone[LOW].iter().sum();
             capsules.push(&pair, true, 1.0, &microphone);
-            capsules.note(true);
+            capsules.note(true, 0.0);
             if i > FRAMES / 2 {
                 sum += before;
                 low += capsules.difference[LOW].iter().sum::<f64>();

@@ -2,7 +2,7 @@
 
 use super::capsules::Capsules;
 use super::decision::LEAST_RISE_DB;
-use super::features::{COUNT, Features, Levels, Listener, Still, decibels};
+use super::features::{COUNT, FALL, Features, Levels, Listener, Still, decibels};
 use super::own::OwnVoice;
 use super::resample::Resampler;
 use super::spectrum::{Framer, Sample};
@@ -125,7 +125,7 @@ impl FrontEnd {
                 let still = Still { room: blowing || likely, ..still };
                 let left = self.capsules.left_of(own);
                 let heard = self.apart.push(&self.capsules.difference, &left, *peakedness, still);
-                self.capsules.note(heard.1.rise_db > LEAST_RISE_DB);
+                self.capsules.note(heard.1.rise_db > LEAST_RISE_DB, 10.0 * heard.0[FALL[0]]);
                 difference = Some(heard).filter(|_| self.apart.age() >= SETTLING_S);
             }
         }
