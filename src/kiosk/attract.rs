@@ -6,7 +6,8 @@
 //!
 //! The script's recorded breaths are heard by a detector of their own and reach the wind as a speed. So the
 //! simulation's detector never stops listening to the room: it keeps its knowledge of the noise, and the first
-//! visitor's breath ends the show and moves the sculpture in the same moment.
+//! visitor's breath ends the show and moves the sculpture in the same moment. So that it is seen to, what the script has
+//! set swinging comes to rest soon after each of its breaths, and at once when somebody comes.
 
 use crate::exhibit::{self, AttractAction};
 use crate::offline::feed::WavFeed;
@@ -15,6 +16,9 @@ use crate::wind::blow::BlowDetector;
 
 /// Before attract mode begins it is shown for so long that it will, s.
 pub const COUNTDOWN_S: f64 = 10.0;
+
+/// A work swings for so long after a breath of the script before it is calmed, s.
+const SWINGS_S: f64 = 2.0;
 
 /// What attract mode wants at one step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,6 +51,8 @@ struct Round {
     next: usize,
     text: Option<String>,
     breath: Option<(WavFeed, BlowDetector)>,
+    /// Steps until the work is calmed.
+    swings: Option<u64>,
     aim: Option<[f64; 2]>,
 }
 
@@ -66,7 +72,8 @@ impl Attract {
     pub fn step(&mut self, visitor: bool) -> Cue {
         if visitor {
             (self.idle, self.met) = (0, true);
-            let commands = if self.round.take().is_some() { vec![Command::Blow(None)] } else { Vec::new() };
+            let over = self.round.take().is_some();
+            let commands = if over { vec![Command::Blow(None), Command::Calm] } else { Vec::new() };
             return Cue { commands, ..Cue::default() };
         }
         self.idle += 1;
@@ -125,11 +132,18 @@ impl Attract {
             feed.microphone().reach(detector);
             commands.push(Command::Blow(Some(if over { 0.0 } else { detector.estimate().speed })));
             if over {
-                round.breath = None;
+                (round.breath, round.swings) = (None, Some(steps(SWINGS_S)));
             }
         } else if round.step == 0 {
             commands.push(Command::Blow(Some(0.0)));
         }
+        round.swings = match round.swings {
+            Some(0) => {
+                commands.push(Command::Calm);
+                None
+            }
+            left => left.map(|left| left - 1),
+        };
         round.step += 1;
         Cue { active: true, commands, aim: round.aim }
     }

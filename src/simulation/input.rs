@@ -108,6 +108,8 @@ pub enum Command {
     /// The same, but from scattered parts, which gather themselves before the exhibit begins; the seed says where they
     /// begin. Where the exhibit does not gather it is a reset.
     Gather(u64),
+    /// Says that what still moves is the doing of nobody who is here: where the exhibit asks for calm, it comes at once.
+    Calm,
     /// Sets the source speed of the breath directly, m/s (scripts, replay); `None` gives it back.
     Blow(Option<f64>),
 }

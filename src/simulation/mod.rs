@@ -250,6 +250,7 @@ impl Simulation {
                         self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
                     }
                 }
+                Command::Calm => self.idle.hush(),
                 Command::Blow(speed) => self.source.command(speed),
             }
         }

@@ -6,6 +6,7 @@
 //! {"t": 4.0, "blow": {"strength": 0.6, "attack": 0.1, "hold": 0.8, "release": 0.3}}
 //! {"t": 9.0, "reset": true}
 //! {"t": 9.2, "gather": 7}                       a reset from scattered parts, which gather; the number says where they are
+//! {"t": 9.4, "calm": true}                        what still moves comes to rest at once, where the exhibit asks for calm
 //! {"t": 9.5, "solver": "procedural"}              or "dynamics", "position-based", "auto" (the run's own): from then on
 //! {"t": 10.0, "grab": {"at": [0.4, 0.6]}}                              or {"body": "Fish"}, by its centre of mass
 //! {"t": 10.5, "drag": [0.7, 0.5]}                                      at once; the body follows as a hand lets it
@@ -41,6 +42,7 @@ struct Line {
     blow: Option<Blow>,
     reset: Option<bool>,
     gather: Option<u64>,
+    calm: Option<bool>,
     solver: Option<String>,
     grab: Option<Grab>,
     drag: Option<[f64; 2]>,
@@ -121,6 +123,7 @@ enum Action {
     Envelope(Envelope),
     Reset,
     Gather(u64),
+    Calm,
     Solver(Option<MotionMode>),
     Grab(u64, Grab),
     Drag(u64, [f64; 2]),
@@ -196,6 +199,7 @@ impl Script {
                 actions.push((line.t, Action::Reset));
             }
             actions.extend(line.gather.map(|seed| (line.t, Action::Gather(seed))));
+            actions.extend(line.calm.filter(|calm| *calm).map(|_| (line.t, Action::Calm)));
         }
         Ok(Self { actions, named, ..Self::default() })
     }
@@ -259,6 +263,7 @@ impl Script {
                 Action::Aim(aim) => self.aim = Some(aim),
                 Action::Reset => out.push(Command::Reset),
                 Action::Gather(seed) => out.push(Command::Gather(seed)),
+                Action::Calm => out.push(Command::Calm),
                 Action::Solver(mode) => self.mode = mode,
                 Action::Speed(speed) => {
                     self.envelope = None;

@@ -392,7 +392,11 @@ mod live {
         assert_eq!(attract.text(), Some("invite"));
         let cue = attract.step(true);
         assert!(!cue.active && !attract.is_active());
-        assert_eq!(cue.commands, [Command::Blow(None)], "the breath is the visitor's again");
+        assert_eq!(
+            cue.commands,
+            [Command::Blow(None), Command::Calm],
+            "the breath is the visitor's again, and the work"
+        );
         assert_eq!(attract.text(), None);
         assert!(attract.step(true).commands.is_empty());
         for step in 1..480 {

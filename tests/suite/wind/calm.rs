@@ -87,3 +87,31 @@ fn the_next_breath_ends_it() {
     }
     assert_eq!(simulation.state_hash(), never.state_hash());
 }
+
+#[test]
+fn what_a_visitor_finds_swinging_is_still_before_he_blows() {
+    /// From walking up to blowing, s.
+    const SOON: f64 = 1.5;
+    let calm = Calm { after: 1.0, time: 2.5 };
+    let lowest = lowest();
+    let [called, left] = [true, false].map(|called| {
+        let mut simulation = blown_for_a_second(&pendulum(Some(calm)), Profile::Gallery);
+        let commands: &[Command] = if called { &[Command::Calm] } else { &[] };
+        simulation.step(&StepInput { commands, ..StepInput::default() });
+        wait(&mut simulation, SOON);
+        simulation.energy() - lowest
+    });
+    println!("called {called:.2e} J, left {left:.2e} J");
+    // The rate is 1/0.5 s after 0.3 s: exp(−(1.5 − 0.15)/0.5) = 0.067; pivot and air take the rest.
+    assert!(called < 0.1 * left && called > 0.0, "{called} of {left}");
+    // A breath ends it: nothing is held back.
+    let mut both = [true, false].map(|called| {
+        let mut simulation = blown_for_a_second(&pendulum(Some(calm)), Profile::Gallery);
+        let blow = Command::Blow(Some(9.0));
+        let commands: &[Command] = if called { &[Command::Calm, blow] } else { &[blow] };
+        simulation.step(&StepInput { commands, ..StepInput::default() });
+        simulation
+    });
+    both.iter_mut().for_each(|simulation| wait(simulation, SOON));
+    assert_eq!(both[0].state_hash(), both[1].state_hash());
+}
