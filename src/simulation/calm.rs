@@ -11,7 +11,7 @@
 //! Damping in proportion to mass (Rayleigh, *The Theory of Sound*, § 97) slows all that moves alike, whatever joins the
 //! bodies: what turns freely as exp(−t/τ), what swings as exp(−t/2τ), each in its own shape. The room's air goes on stirring.
 //!
-//! What attract mode has set swinging is not what a visitor who now comes has done, and would hide what he is about to do:
+//! What attract mode has set swinging is not what a visitor who now comes has done, and would hide what they are about to do:
 //! then the calm does not wait, and is five times as strong ([`Idle::hush`]).
 
 use crate::articulation::block::{Vec6, add_scaled, vec6};

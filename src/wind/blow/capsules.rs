@@ -265,6 +265,20 @@ mod tests {
     }
 
     #[test]
+    fn puffs_that_follow_each_other_never_last() {
+        let mut capsules = Capsules::new();
+        let mut puff = |frames: usize| {
+            (0..frames).for_each(|_| capsules.note(true, 0.0));
+            let lasting = capsules.lasting();
+            capsules.note(true, PUFF_DB);
+            (lasting, capsules.lasting())
+        };
+        // Of 56 ms each, and then a breath of 0.2 s.
+        (0..9).for_each(|_| assert_eq!(puff(7), (0.0, 0.0)));
+        assert_eq!(puff(25), (1.0, 0.0));
+    }
+
+    #[test]
     fn one_capsule_in_two_channels_and_a_dead_one_are_one() {
         let copied = |_: usize, random: &mut Random| {
             let l = noise(random);

@@ -89,7 +89,7 @@ fn the_next_breath_ends_it() {
 }
 
 #[test]
-fn what_a_visitor_finds_swinging_is_still_before_he_blows() {
+fn what_a_visitor_finds_swinging_is_still_before_they_blow() {
     /// From walking up to blowing, s.
     const SOON: f64 = 1.5;
     let calm = Calm { after: 1.0, time: 2.5 };
