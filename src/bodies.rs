@@ -104,11 +104,11 @@ impl RigidBody {
         hash.add_vector(self.angular_velocity);
     }
 
-    /// Are all numbers of the state finite?
+    /// Are all numbers of the state finite? One that is not makes their sum so.
+    #[inline]
     pub fn is_finite(&self) -> bool {
-        self.position.is_finite()
-            && self.rotation.is_finite()
-            && self.velocity.is_finite()
-            && self.angular_velocity.is_finite()
+        let vectors = self.position + self.velocity + self.angular_velocity;
+        let [x, y, z, w] = self.rotation.to_array();
+        (vectors.element_sum() + (x + y + z + w)).is_finite()
     }
 }

@@ -20,6 +20,36 @@ pub type RowBlock = [Vec6; MAX_ROWS];
 /// Rows by rows, lower triangle.
 pub type RowSquare = [[f64; MAX_ROWS]; MAX_ROWS];
 
+/// Writes code out for each number of rows that joints often have, so that its loops are straight lines: a universal joint
+/// has four rows, a hinge five, a weld six.
+macro_rules! for_rows {
+    ($rows:expr, $n:ident => $code:expr) => {
+        match $rows {
+            3 => {
+                let $n = 3;
+                $code
+            }
+            4 => {
+                let $n = 4;
+                $code
+            }
+            5 => {
+                let $n = 5;
+                $code
+            }
+            6 => {
+                let $n = 6;
+                $code
+            }
+            rows => {
+                let $n = rows.min($crate::articulation::block::MAX_ROWS);
+                $code
+            }
+        }
+    };
+}
+pub(super) use for_rows;
+
 /// Adds a force that acts `arm` beside the centre of mass.
 pub fn add_wrench(sum: &mut Vec6, arm: DVec3, force: DVec3) {
     let wrench = vec6(force, arm.cross(force));
@@ -60,14 +90,14 @@ pub fn mul(m: &Mat6, v: &Vec6) -> Vec6 {
     [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v), dot(&m[3], v), dot(&m[4], v), dot(&m[5], v)]
 }
 
-/// Inverse of a symmetric positive definite 6×6 matrix by Cholesky: A = L Lᵀ, A⁻¹ = L⁻ᵀ L⁻¹.
+/// Inverse of a symmetric positive definite N×N matrix by Cholesky: A = L Lᵀ, A⁻¹ = L⁻ᵀ L⁻¹.
 ///
 /// Contract: `a` is positive definite (a mass matrix plus positive semi-definite joint terms always is). Numbers that
 /// are none come out as none: they are looked for after each step.
-pub fn inverse(a: &Mat6) -> Mat6 {
+pub fn inverse<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut l = *a;
     // L in the lower triangle.
-    for j in 0..6 {
+    for j in 0..N {
         let mut d = l[j][j];
         for k in 0..j {
             d -= l[j][k] * l[j][k];
@@ -75,7 +105,7 @@ pub fn inverse(a: &Mat6) -> Mat6 {
         let d = d.sqrt();
         l[j][j] = d;
         let inv = 1.0 / d;
-        for i in j + 1..6 {
+        for i in j + 1..N {
             let mut s = l[i][j];
             for k in 0..j {
                 s -= l[i][k] * l[j][k];
@@ -84,10 +114,10 @@ pub fn inverse(a: &Mat6) -> Mat6 {
         }
     }
     // L⁻¹, lower triangle.
-    let mut x = [[0.0; 6]; 6];
-    for j in 0..6 {
+    let mut x = [[0.0; N]; N];
+    for j in 0..N {
         x[j][j] = 1.0 / l[j][j];
-        for i in j + 1..6 {
+        for i in j + 1..N {
             let mut s = 0.0;
             for k in j..i {
                 s -= l[i][k] * x[k][j];
@@ -96,11 +126,11 @@ pub fn inverse(a: &Mat6) -> Mat6 {
         }
     }
     // A⁻¹ = L⁻ᵀ L⁻¹.
-    let mut out = [[0.0; 6]; 6];
-    for i in 0..6 {
+    let mut out = [[0.0; N]; N];
+    for i in 0..N {
         for j in 0..=i {
             let mut s = 0.0;
-            for k in i..6 {
+            for k in i..N {
                 s += x[k][i] * x[k][j];
             }
             out[i][j] = s;
@@ -117,7 +147,11 @@ const REDUNDANT: f64 = 1e-12;
 /// the lower one is read. A row that repeats earlier ones gets zeros, so that its multiplier comes out 0; bit j of the
 /// answer says so.
 pub fn pseudo_inverse(m: &mut RowSquare, n: usize) -> u32 {
-    let n = n.min(MAX_ROWS);
+    for_rows!(n, n => pseudo_inverse_of(m, n))
+}
+
+#[inline(always)]
+fn pseudo_inverse_of(m: &mut RowSquare, n: usize) -> u32 {
     let mut redundant = 0;
     // m = L Lᵀ in the lower triangle, inverse pivots on the diagonal.
     for j in 0..n {

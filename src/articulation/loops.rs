@@ -44,6 +44,8 @@ pub struct LoopRow {
     pub compliance: RowVec,
     /// Is it a coupling of a train, which the train itself holds?
     pub held: bool,
+    /// J M⁻¹ Jᵀ with the mass of its bodies alone, when it was last asked: a measure, which need not be of this moment.
+    pub alone: f64,
 }
 
 impl LoopRow {
@@ -130,8 +132,9 @@ impl Loops {
         self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
     }
 
-    /// Factors S for the active rows; the tree must have been factored for these bodies. Does the figure gather?
-    pub fn factor(&mut self, (tree, trains): (&Tree, &Trains), quads: &Quads, gathering: bool) {
+    /// Factors S for the active rows; the tree must have been factored for these bodies. Does the figure gather? Are
+    /// the rows' own answers to be measured anew?
+    pub fn factor(&mut self, (tree, trains): (&Tree, &Trains), quads: &Quads, (gathering, anew): (bool, bool)) {
         for &body in &self.carried {
             (self.a[body], self.b[body]) = ([0.0; 6], [0.0; 6]);
         }
@@ -165,19 +168,23 @@ impl Loops {
                 }
             }
             for k in l..n {
-                let both = (0..self.trains).map(|train| {
-                    let (f, g) = (self.shares[k * self.trains + train], self.shares[l * self.trains + train]);
-                    trains.response(train, f, g)
-                });
-                let both = both.fold(0.0, |sum, more| sum + more);
+                let (f, g) = (&self.shares[k * self.trains..], &self.shares[l * self.trains..]);
+                let mut both = 0.0;
+                for (train, (f, g)) in f.iter().zip(g).take(self.trains).enumerate() {
+                    if *f != 0.0 && *g != 0.0 {
+                        both += trains.response(train, *f, *g);
+                    }
+                }
                 *self.factor.entry(k, l) = self.rows[self.active[k]].times(&self.a) + both;
             }
         }
         for k in 0..n {
-            let row = &self.rows[self.active[k]];
-            let alone = response(&row.parts, &self.driven, quads);
-            self.factor.measure(k, alone);
-            *self.factor.entry(k, k) += if gathering { GATHERING * alone } else { 0.0 };
+            let row = &mut self.rows[self.active[k]];
+            if anew {
+                row.alone = response(&row.parts, &self.driven, quads);
+            }
+            self.factor.measure(k, row.alone);
+            *self.factor.entry(k, k) += if gathering { GATHERING * row.alone } else { 0.0 };
             row.add_compliance(k, &mut self.factor);
         }
         self.factor.factor();

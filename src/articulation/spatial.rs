@@ -7,7 +7,7 @@
 //!
 //! All of it for one body or for four (`lanes.rs`).
 
-use super::block::{Mat6, Vec6};
+use super::block::{Mat6, Vec6, inverse};
 use super::quads::Quads;
 use crate::math::lanes::{Four, Lanes, Real, V3};
 use crate::math::{DMat3, DQuat};
@@ -192,6 +192,18 @@ impl Articulated {
                 (false, false) => c[j - 3][i - 3],
             })
         })
+    }
+
+    /// Inverse of the matrix of a body on which nothing hangs: its two blocks by themselves.
+    pub fn inverse_alone(&self) -> Mat6 {
+        let [[a]] = inverse(&[[self.a.d.x]]);
+        let c = inverse(&[self.c.x(), self.c.y(), self.c.z()].map(|c| [c.x, c.y, c.z]));
+        let mut out = [[0.0; 6]; 6];
+        for i in 0..3 {
+            out[i][i] = a;
+            out[3 + i][3..].copy_from_slice(&c[i]);
+        }
+        out
     }
 
     /// u vᵀ, where the sum of all such terms is symmetric.

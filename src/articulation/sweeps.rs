@@ -6,7 +6,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::ball::{Arms, Ball, Twist};
-use super::block::{MAX_ROWS, Vec6, add_scaled, dot, inverse, mul};
+use super::block::{MAX_ROWS, Vec6, add_scaled, dot, for_rows, inverse, mul};
 use super::quads::{Quad, Slot};
 use super::spatial::Articulated;
 use super::tree::{Form, Step, Tree};
@@ -65,9 +65,10 @@ impl Tree {
         }
         hang.ball = false;
         general.rows = 0;
-        general.inverse = inverse(&Articulated::of_numbers(&self.articulated[body]).matrix());
+        let mass = Articulated::of_numbers(&self.articulated[body]);
+        general.inverse = if hang.leaf { mass.inverse_alone() } else { inverse(&mass.matrix()) };
         let Some(Form::Rows(rows)) = shape else { return };
-        general.eliminate(rows, hang.first);
+        general.eliminate(rows, hang.first, hang.parent.is_some());
         if let Some(parent) = hang.parent {
             for k in 0..general.rows {
                 let load = Articulated::outer(&general.jp[k], &general.x[k]);
@@ -176,17 +177,22 @@ impl Tree {
             return self.up_balls(One(lane), quad, b, g, lambda);
         }
         let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
-        let mut wanted = [0.0; MAX_ROWS];
-        for k in 0..f.rows {
-            wanted[k] = g.map_or(0.0, |g| g[hang.at + k]) - dot(&f.w[k], &b[body]);
-        }
-        for k in 0..f.rows {
-            let h = (0..f.rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
-            lambda[hang.at + k] = h;
-            if let Some(parent) = hang.parent {
-                add_scaled(&mut b[parent], h, &f.jp[k]);
+        let (lambda, push) = (&mut lambda[hang.at..hang.at + f.rows], b[body]);
+        let g = g.map(|g| &g[hang.at..hang.at + f.rows]);
+        let mut ends = hang.parent.map(|parent| &mut b[parent]);
+        for_rows!(f.rows, rows => {
+            let mut wanted = [0.0; MAX_ROWS];
+            for k in 0..rows {
+                wanted[k] = g.map_or(0.0, |g| g[k]) - dot(&f.w[k], &push);
             }
-        }
+            for k in 0..rows {
+                let h = (0..rows).fold(0.0, |sum, l| sum + f.k[k][l] * wanted[l]);
+                lambda[k] = h;
+                if let Some(parent) = &mut ends {
+                    add_scaled(parent, h, &f.jp[k]);
+                }
+            }
+        });
     }
 
     /// The way down for one body, after its parent.
@@ -199,13 +205,16 @@ impl Tree {
         }
         let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
         let mut out = mul(&f.inverse, &b[body]);
-        for k in 0..f.rows {
-            let slot = &mut lambda[hang.at + k];
-            if let Some(parent) = hang.parent {
-                *slot -= dot(&f.x[k], &a[parent]);
+        let lambda = &mut lambda[hang.at..hang.at + f.rows];
+        let carried = hang.parent.map(|parent| &a[parent]);
+        for_rows!(f.rows, rows => {
+            for k in 0..rows {
+                if let Some(carried) = carried {
+                    lambda[k] -= dot(&f.x[k], carried);
+                }
+                add_scaled(&mut out, lambda[k], &f.w[k]);
             }
-            add_scaled(&mut out, *slot, &f.w[k]);
-        }
+        });
         a[body] = out;
     }
 }

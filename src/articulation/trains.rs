@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! a_i = p_i + ρ_i s_i q̈       m q̈ = Σ ρ_i s_i·(b_i − M_i p_i)       m = Σ ρ_i² s_i·M_i s_i
-//! accelerations   p = ω×(ω×r)                    r from the axle to the centre of mass
+//! accelerations   p = ω×(ω×r), s·M p = 0         r from the axle to the centre of mass
 //! velocities      p = −v                         what remains is the least in kinetic energy
 //! places          p = from where it is to where q has it
 //! ```
@@ -325,37 +325,32 @@ impl Trains {
         for &index in &self.turning {
             let wheel = &mut self.wheels[index];
             let train = &mut self.trains[wheel.train];
-            wheel.given = match asked {
-                Asked::Impulse => [0.0; 6],
-                Asked::Acceleration => wheel.centripetal(quads),
+            match asked {
+                Asked::Impulse => wheel.given = [0.0; 6],
+                Asked::Acceleration => wheel.given = wheel.centripetal(quads),
                 Asked::Velocity => {
                     let (v, w) = quads.velocity(wheel.body);
-                    vec6(-v, -w)
+                    wheel.given = vec6(-v, -w);
                 }
                 Asked::Place => {
                     let q = wheel.ratio * (train.angle + 2.0 * PI * train.turns as f64);
-                    wheel.placing(q, quads)
+                    wheel.given = wheel.placing(q, quads);
                 }
-            };
-            let mut left = b[wheel.body];
-            if asked != Asked::Impulse {
-                let (mass, p, turn) = (quads.mass(wheel.body), linear(&wheel.given), angular(&wheel.given));
-                // What is asked of accelerations turns nothing.
-                let turned: DVec3 = match turn == DVec3::ZERO {
-                    true => turn,
-                    false => quads.inertia(wheel.body).mul(turn.into()).into(),
-                };
-                add_scaled(&mut left, -1.0, &vec6(mass * p, turned));
             }
-            train.rate += wheel.ratio * dot(&wheel.twist, &left);
+            let push = &b[wheel.body];
+            let along = match asked {
+                Asked::Impulse | Asked::Acceleration => dot(&wheel.twist, push),
+                Asked::Velocity | Asked::Place => dot(&wheel.twist, &wheel.left(push, quads)),
+            };
+            train.rate += wheel.ratio * along;
         }
         for train in &mut self.trains {
             train.rate /= train.mass;
         }
         for &index in &self.turning {
             let wheel = &self.wheels[index];
-            a[wheel.body] = wheel.given;
-            add_scaled(&mut a[wheel.body], wheel.ratio * self.trains[wheel.train].rate, &wheel.twist);
+            let rate = wheel.ratio * self.trains[wheel.train].rate;
+            a[wheel.body] = std::array::from_fn(|k| wheel.given[k] + rate * wheel.twist[k]);
         }
     }
 
@@ -434,6 +429,15 @@ impl Wheel {
             Freedom::Turn { about, .. } => vec6(about.cross(arm), about),
             Freedom::Slide(way) => vec6(way, DVec3::ZERO),
         }
+    }
+
+    /// What a push leaves to the coordinate beside p: b − M p.
+    fn left(&self, push: &Vec6, quads: &Quads) -> Vec6 {
+        let (mass, p, turn) = (quads.mass(self.body), linear(&self.given), angular(&self.given));
+        let turned: DVec3 = quads.inertia(self.body).mul(turn.into()).into();
+        let mut left = *push;
+        add_scaled(&mut left, -1.0, &vec6(mass * p, turned));
+        left
     }
 
     /// ω×(ω×r).

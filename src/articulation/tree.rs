@@ -33,7 +33,7 @@ use fearless_simd::Level;
 
 use super::Groups;
 use super::ball::Ball;
-use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, mul, pseudo_inverse};
+use super::block::{MAX_ROWS, Mat6, RowBlock, RowSquare, add_scaled, dot, for_rows, mul, pseudo_inverse};
 use super::quads::{Members, Slot};
 use super::spatial::NUMBERS;
 use crate::math::DVec3;
@@ -91,6 +91,8 @@ pub(super) struct Hang {
     pub ball: bool,
     /// Joints on the way from the root.
     depth: usize,
+    /// Does nothing hang on it?
+    pub leaf: bool,
 }
 
 /// What the bodies of a quad hang on.
@@ -176,7 +178,7 @@ impl Tree {
         }
         let root = |joint: Option<usize>| {
             let at = joint.map_or(0, |j| at[j]);
-            Hang { parent: None, joint, at, first: true, ball: false, depth: 0 }
+            Hang { parent: None, joint, at, first: true, ball: false, depth: 0, leaf: true }
         };
         let mut hang: Vec<Option<Hang>> = vec![None; bodies];
         let mut in_tree = vec![false; links.len()];
@@ -203,9 +205,9 @@ impl Tree {
                     let child = if link.a == parent { link.b } else { Some(link.a) };
                     let Some(child) = child.filter(|&child| hang[child].is_none()) else { continue };
                     let (first, at) = (link.a == child, at[joint]);
-                    hang[child] =
-                        Some(Hang { parent: Some(parent), joint: Some(joint), at, first, ball: false, depth });
                     in_tree[joint] = true;
+                    let (parent, joint) = (Some(parent), Some(joint));
+                    hang[child] = Some(Hang { parent, joint, at, first, ball: false, depth, leaf: true });
                     order.push(child);
                 }
             }
@@ -217,6 +219,11 @@ impl Tree {
         let mut hang: Vec<Hang> = hang.into_iter().flatten().collect();
         for (hang, &driven) in hang.iter_mut().zip(driven) {
             hang.ball = !driven && hang.joint.is_some_and(|joint| points[joint]);
+        }
+        for body in 0..bodies {
+            if let Some(parent) = hang[body].parent {
+                hang[parent].leaf = false;
+            }
         }
         // What sleeps is left out quad by quad, so groups share as few as they can; sums come out the same.
         order.sort_by_key(|&body| (hang[body].depth, groups.first(body)));
@@ -404,23 +411,24 @@ impl Hang {
 }
 
 impl General {
-    pub fn eliminate(&mut self, r: &JointRows, first: bool) {
+    /// Eliminates a body by these rows; J_p and X only where there is a parent to carry them.
+    pub fn eliminate(&mut self, r: &JointRows, first: bool, hangs: bool) {
         let (jc, jp) = if first { (&r.a, &r.b) } else { (&r.b, &r.a) };
-        let rows = r.rows.min(MAX_ROWS);
-        self.rows = rows;
-        for k in 0..rows {
-            self.jp[k] = jp[k];
-            self.w[k] = mul(&self.inverse, &jc[k]);
-            for l in 0..=k {
-                self.k[k][l] = dot(&jc[k], &self.w[l]) + r.compliance[k][l];
+        self.rows = r.rows.min(MAX_ROWS);
+        for_rows!(self.rows, rows => {
+            for k in 0..rows {
+                self.w[k] = mul(&self.inverse, &jc[k]);
+                for l in 0..=k {
+                    self.k[k][l] = dot(&jc[k], &self.w[l]) + r.compliance[k][l];
+                }
             }
-        }
-        self.redundant = pseudo_inverse(&mut self.k, rows);
-        for k in 0..rows {
-            self.x[k] = [0.0; 6];
-            for l in 0..rows {
-                add_scaled(&mut self.x[k], self.k[k][l], &jp[l]);
+            self.redundant = pseudo_inverse(&mut self.k, rows);
+            for k in 0..if hangs { rows } else { 0 } {
+                (self.jp[k], self.x[k]) = (jp[k], [0.0; 6]);
+                for l in 0..rows {
+                    add_scaled(&mut self.x[k], self.k[k][l], &jp[l]);
+                }
             }
-        }
+        });
     }
 }

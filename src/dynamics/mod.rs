@@ -136,6 +136,9 @@ pub struct Dynamics {
     precise: bool,
     /// Is there friction in any pivot?
     rubs: bool,
+    /// Does anything ask at a substep's end what the joints carry there: pivots that rub, or joints that break? Else the next
+    /// one's first stage tells, under its own forces.
+    weighs: bool,
     springs: Springs,
     drives: Vec<Drive>,
     /// Body and acceleration of each drive at the time last asked for.
@@ -208,6 +211,7 @@ impl Dynamics {
         let sleep = Sleep::new(&bodies, &driven, ties, sleeps);
         let damping = if settings.friction { figure.damping } else { vec![Damping::default(); n] };
         let members = system.quads().members();
+        let rubs = settings.friction && figure.constraints.iter().any(|constraint| constraint.friction.is_some());
         let stages = || vec![Rate::default(); if precise { members.len() } else { 0 }];
         let courses = members.iter().map(|members| Course::new(members.bodies.map(|body| damping[body]))).collect();
         Self {
@@ -216,7 +220,8 @@ impl Dynamics {
             contacts,
             sleep,
             precise,
-            rubs: settings.friction && figure.constraints.iter().any(|constraint| constraint.friction.is_some()),
+            rubs,
+            weighs: rubs || figure.constraints.iter().any(|constraint| constraint.breaking.is_some()),
             before_step: vec![State::default(); n],
             before: bodies.clone(),
             springs: Springs::new(figure.springs, &bodies),
@@ -329,11 +334,15 @@ impl Dynamics {
                 self.wake(body);
             }
             self.contacts.end_substep(&self.bodies);
-            // What the joints carry: the last solve was of impulses.
-            self.press();
-            self.ensure_rates(now + used);
+            if self.weighs {
+                // What the joints carry: the last solve was of impulses.
+                self.press();
+                self.ensure_rates(now + used);
+            }
         }
-        self.weigh();
+        if self.known == Known::Rates {
+            self.weigh();
+        }
         self.break_overloaded(now + used);
         used
     }
@@ -341,7 +350,7 @@ impl Dynamics {
     /// Notes what the joints carry.
     fn weigh(&mut self) {
         for (joint, load) in self.loads.iter_mut().enumerate() {
-            if !self.system.joint_sleeps(joint) {
+            if self.system.is_weighed(joint) {
                 *load = self.system.load(joint);
             }
         }

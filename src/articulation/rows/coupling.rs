@@ -248,8 +248,8 @@ fn twist((n, spin): (DVec3, DVec3), (m, against): (DVec3, DVec3)) -> (DVec3, f64
 
 /// Rotation of a body in the axes of another.
 fn relative(body: Option<usize>, frame: Option<usize>, poses: &(impl Poses + ?Sized)) -> DQuat {
-    let q = |index: Option<usize>| index.map_or(DQuat::IDENTITY, |i| poses.rotation(i));
-    q(frame).conjugate() * q(body)
+    let own = body.map_or(DQuat::IDENTITY, |body| poses.rotation(body));
+    frame.map_or(own, |frame| poses.rotation(frame).conjugate() * own)
 }
 
 /// A coupling's value.

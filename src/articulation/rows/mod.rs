@@ -79,6 +79,7 @@ impl Scene<'_> {
     }
 
     /// Where an anchor is, and how it moves.
+    #[inline(always)]
     pub fn point(&self, anchor: &Anchor) -> Point {
         let Some(index) = anchor.body else {
             return Point { position: anchor.point, arm: DVec3::ZERO, velocity: DVec3::ZERO, centripetal: DVec3::ZERO };
@@ -95,6 +96,7 @@ impl Scene<'_> {
     }
 
     /// Where an axis points.
+    #[inline(always)]
     pub fn direction(&self, axis: &Axis) -> Direction {
         match axis.body {
             Some(index) => {

@@ -93,6 +93,8 @@ pub struct System {
     hung: Hung,
     /// Do the rows' numbers hold the values of the last evaluation?
     told: bool,
+    /// Was it of all that is held, and not for accelerations alone?
+    whole: bool,
     loops: Loops,
     dense: Option<Dense>,
     quads: Quads,
@@ -257,6 +259,7 @@ impl System {
             tree,
             hung,
             told: false,
+            whole: true,
             various,
             dense,
             frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
@@ -354,7 +357,7 @@ impl System {
     fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool, values: bool) {
         self.trains.evaluate(&self.quads);
         self.hung.evaluate(self.quads.all(), &mut self.tree);
-        self.told = false;
+        (self.told, self.whole) = (false, values);
         if all {
             for (body, frame) in self.frames.iter_mut().enumerate().filter(|(body, _)| !self.asleep[*body]) {
                 *frame = self.quads.frame(body);
@@ -421,9 +424,10 @@ impl System {
         }
     }
 
-    /// Does a joint sleep?
-    pub fn joint_sleeps(&self, joint: usize) -> bool {
-        self.asleep[self.joints[joint].link.a]
+    /// Is what a joint carries known: is it awake, and no train's?
+    pub fn is_weighed(&self, joint: usize) -> bool {
+        let Joint { in_train, link, .. } = self.joints[joint];
+        !in_train && !self.asleep[link.a]
     }
 
     /// Does what a constraint is between sleep?
@@ -469,7 +473,7 @@ impl System {
                 (None, None) => unreachable!("a joint is a point or has a block"),
             }
         });
-        self.loops.factor((&self.tree, &self.trains), &self.quads, self.gathering);
+        self.loops.factor((&self.tree, &self.trains), &self.quads, (self.gathering, self.whole));
     }
 
     /// Writes Γ = D K D among these rows of one joint or of a coupling, D diagonal.
@@ -592,5 +596,5 @@ fn merged(ranges: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
 
 fn blank_row(at: usize, place: usize, bodies: &[usize], held: bool) -> LoopRow {
     let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
-    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held }
+    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held, alone: 0.0 }
 }

@@ -16,6 +16,9 @@ pub(super) const CHUNK: usize = LINES;
 /// A number of each frame of a chunk.
 pub(super) type Chunk = [f32; CHUNK];
 
+/// Half of a line's shelves.
+const HALF: usize = SHELVES / 2;
+
 /// Coefficient of the allpasses.
 const DIFFUSION: f32 = 0.6;
 /// Into the lines: energy 1 for either side, which has eight of them (1/√8).
@@ -143,24 +146,32 @@ impl Network {
         ([left, right], largest.into())
     }
 
-    /// Each frame through the filters of the lines.
+    /// Each frame through the filters of the lines: half of the shelves at a time, whose numbers a processor's registers hold.
     #[inline(always)]
     fn absorb<S: Simd>(&mut self, simd: S, frames: &mut [f32x16<S>]) {
         let load = |x: &[f32; LINES]| -> f32x16<S> { (*x).simd_into(simd) };
         let gain = load(&self.absorption.gain);
-        let shelves = self.absorption.shelves.each_ref().map(|shelf| shelf.each_ref().map(load));
-        let mut states = self.states.each_ref().map(|state| state.each_ref().map(load));
-        for frame in frames {
-            let mut y = *frame * gain;
-            for ([c1, c2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
-                let (x, w) = (y, *s1);
-                y = x + w;
-                *s1 = *c1 * x - *a1 * w + *s2;
-                *s2 = *c2 * x - *a2 * w;
+        frames.iter_mut().for_each(|frame| *frame *= gain);
+        for half in 0..2 {
+            let own = HALF * half..HALF * (half + 1);
+            let shelves: [[f32x16<S>; 4]; HALF] =
+                std::array::from_fn(|k| self.absorption.shelves[own.start + k].each_ref().map(load));
+            let mut states: [[f32x16<S>; 2]; HALF] =
+                std::array::from_fn(|k| self.states[own.start + k].each_ref().map(load));
+            for frame in &mut *frames {
+                let mut y = *frame;
+                for ([c1, c2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
+                    let (x, w) = (y, *s1);
+                    y = x + w;
+                    *s1 = *c1 * x - *a1 * w + *s2;
+                    *s2 = *c2 * x - *a2 * w;
+                }
+                *frame = y;
             }
-            *frame = y;
+            for (kept, state) in self.states[own].iter_mut().zip(states) {
+                *kept = state.map(Into::into);
+            }
         }
-        self.states = states.map(|state| state.map(Into::into));
     }
 }
 
