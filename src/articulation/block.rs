@@ -59,26 +59,31 @@ pub fn add_wrench(sum: &mut Vec6, arm: DVec3, force: DVec3) {
 }
 
 /// A six-vector from its linear and angular parts.
+#[inline(always)]
 pub fn vec6(linear: DVec3, angular: DVec3) -> Vec6 {
     [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
 }
 
 /// Linear part.
+#[inline(always)]
 pub fn linear(v: &Vec6) -> DVec3 {
     DVec3::new(v[0], v[1], v[2])
 }
 
 /// Angular part.
+#[inline(always)]
 pub fn angular(v: &Vec6) -> DVec3 {
     DVec3::new(v[3], v[4], v[5])
 }
 
 /// a · b.
+#[inline(always)]
 pub fn dot(a: &Vec6, b: &Vec6) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
 }
 
 /// y += s x.
+#[inline(always)]
 pub fn add_scaled(y: &mut Vec6, s: f64, x: &Vec6) {
     for k in 0..6 {
         y[k] += s * x[k];
@@ -86,6 +91,7 @@ pub fn add_scaled(y: &mut Vec6, s: f64, x: &Vec6) {
 }
 
 /// Matrix times vector.
+#[inline(always)]
 pub fn mul(m: &Mat6, v: &Vec6) -> Vec6 {
     [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v), dot(&m[3], v), dot(&m[4], v), dot(&m[5], v)]
 }
@@ -94,6 +100,7 @@ pub fn mul(m: &Mat6, v: &Vec6) -> Vec6 {
 ///
 /// Contract: `a` is positive definite (a mass matrix plus positive semi-definite joint terms always is). Numbers that
 /// are none come out as none: they are looked for after each step.
+#[inline(always)]
 pub fn inverse<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut l = *a;
     // L in the lower triangle.
@@ -146,6 +153,7 @@ const REDUNDANT: f64 = 1e-12;
 /// Inverse of the leading `n`×`n` block of a symmetric positive semi-definite matrix, in place, both triangles; only
 /// the lower one is read. A row that repeats earlier ones gets zeros, so that its multiplier comes out 0; bit j of the
 /// answer says so.
+#[inline(always)]
 pub fn pseudo_inverse(m: &mut RowSquare, n: usize) -> u32 {
     for_rows!(n, n => pseudo_inverse_of(m, n))
 }

@@ -27,6 +27,7 @@ impl Cholesky {
     }
 
     /// Entry of the lower triangle, j ≤ i, before [`Cholesky::factor`].
+    #[inline(always)]
     pub fn entry(&mut self, i: usize, j: usize) -> &mut f64 {
         &mut self.entries[i * self.n + j]
     }
@@ -37,6 +38,7 @@ impl Cholesky {
     }
 
     /// Factors in place.
+    #[inline(always)]
     pub fn factor(&mut self) {
         let n = self.n;
         for j in 0..n {
@@ -61,6 +63,7 @@ impl Cholesky {
     }
 
     /// Solves L Lᵀ x = x in place.
+    #[inline(always)]
     pub fn solve(&self, x: &mut [f64]) {
         let (n, l) = (self.n, &self.entries);
         for i in 0..n {

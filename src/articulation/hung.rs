@@ -50,11 +50,6 @@ impl Hung {
         Self { ends }
     }
 
-    /// Arms (into the tree), C and J̇ẋ for bodies that stand like this.
-    pub fn evaluate(&mut self, quads: &[Quad], tree: &mut Tree) {
-        dispatch!(tree.level, simd => self.evaluate_in(simd, quads, tree));
-    }
-
     /// C into the rows' numbers.
     pub fn tell_values(&self, tree: &Tree, states: &mut [RowState]) {
         self.each(tree, |at, lane, ends| {
@@ -92,8 +87,9 @@ impl Hung {
         }
     }
 
+    /// Arms (into the tree), C and J̇ẋ for bodies that stand like this.
     #[inline(always)]
-    fn evaluate_in<S: Simd>(&mut self, simd: S, quads: &[Quad], tree: &mut Tree) {
+    pub fn evaluate<S: Simd>(&mut self, simd: S, quads: &[Quad], tree: &mut Tree) {
         let lanes = All(simd);
         for (quad, ends) in self.ends.iter_mut().enumerate() {
             if ends.hang == [false; WIDTH] {

@@ -55,6 +55,7 @@ impl LoopRow {
     }
 
     /// Adds the Γ of the `k`th acting row to a matrix.
+    #[inline(always)]
     pub fn add_compliance(&self, k: usize, matrix: &mut Cholesky) {
         for (l, gamma) in self.compliance[..=self.place].iter().enumerate() {
             *matrix.entry(k, k - self.place + l) += gamma;
@@ -62,6 +63,7 @@ impl LoopRow {
     }
 
     /// Row times the bodies' coordinates.
+    #[inline(always)]
     fn times(&self, a: &[Vec6]) -> f64 {
         self.parts.iter().map(|(body, block)| dot(block, &a[*body])).sum()
     }
@@ -134,6 +136,7 @@ impl Loops {
 
     /// Factors S for the active rows; the tree must have been factored for these bodies. Does the figure gather? Are
     /// the rows' own answers to be measured anew?
+    #[inline(always)]
     pub fn factor(&mut self, (tree, trains): (&Tree, &Trains), quads: &Quads, (gathering, anew): (bool, bool)) {
         for &body in &self.carried {
             (self.a[body], self.b[body]) = ([0.0; 6], [0.0; 6]);
@@ -192,6 +195,7 @@ impl Loops {
 
     /// Between the tree's way up (`b`, `lambda`) and its way down: finds μ and lays Gᵀ μ on `b` and `lambda`, so that
     /// the way down gives the whole answer. `a` lends the given accelerations of driven bodies.
+    #[inline(always)]
     pub fn correct(&mut self, tree: &Tree, b: &mut [Vec6], g: &[f64], a: &[Vec6], lambda: &mut [f64]) {
         self.pushes.fill(0.0);
         let n = self.active.len();

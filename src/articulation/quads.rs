@@ -188,24 +188,28 @@ impl Quads {
     }
 
     /// Mass of a body, kg.
+    #[inline(always)]
     pub fn mass(&self, body: usize) -> f64 {
         let slot = self.slots[body];
         self.quads[slot.quad].mass.0[slot.lane]
     }
 
     /// World inertia of a body, kg m².
+    #[inline(always)]
     pub fn inertia(&self, body: usize) -> Sym3 {
         let slot = self.slots[body];
         self.quads[slot.quad].inertia.get(One(slot.lane))
     }
 
     /// Centre of mass of a body, m.
+    #[inline(always)]
     pub fn position(&self, body: usize) -> DVec3 {
         let slot = self.slots[body];
         self.quads[slot.quad].state.position.get(One(slot.lane)).into()
     }
 
     /// Rotation of a body.
+    #[inline(always)]
     pub fn rotation(&self, body: usize) -> DQuat {
         let slot = self.slots[body];
         let q = self.quads[slot.quad].state.rotation.get(One(slot.lane));
@@ -213,6 +217,7 @@ impl Quads {
     }
 
     /// Velocity of a body's centre of mass, m/s, and its angular velocity, rad/s.
+    #[inline(always)]
     pub fn velocity(&self, body: usize) -> (DVec3, DVec3) {
         let slot = self.slots[body];
         let state = &self.quads[slot.quad].state;
@@ -220,12 +225,14 @@ impl Quads {
     }
 
     /// Angular velocity of a body, rad/s.
+    #[inline(always)]
     pub fn spin(&self, body: usize) -> DVec3 {
         let slot = self.slots[body];
         self.quads[slot.quad].state.spin.get(One(slot.lane)).into()
     }
 
     /// Rotation matrix of a body.
+    #[inline(always)]
     pub fn frame(&self, body: usize) -> DMat3 {
         let slot = self.slots[body];
         let m = self.quads[slot.quad].frame.get(One(slot.lane));

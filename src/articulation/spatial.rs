@@ -179,6 +179,7 @@ impl Sym3 {
 
 impl Articulated {
     /// As one matrix.
+    #[inline(always)]
     pub fn matrix(&self) -> Mat6 {
         let columns = |x: V3<f64>, y: V3<f64>, z: V3<f64>| [x, y, z].map(|c| [c.x, c.y, c.z]);
         let a = columns(self.a.x(), self.a.y(), self.a.z());
@@ -195,6 +196,7 @@ impl Articulated {
     }
 
     /// Inverse of the matrix of a body on which nothing hangs: its two blocks by themselves.
+    #[inline(always)]
     pub fn inverse_alone(&self) -> Mat6 {
         let [[a]] = inverse(&[[self.a.d.x]]);
         let c = inverse(&[self.c.x(), self.c.y(), self.c.z()].map(|c| [c.x, c.y, c.z]));
@@ -207,6 +209,7 @@ impl Articulated {
     }
 
     /// u vᵀ, where the sum of all such terms is symmetric.
+    #[inline(always)]
     pub fn outer(u: &Vec6, v: &Vec6) -> Self {
         let (ul, ua) = (V3::new(u[0], u[1], u[2]), V3::new(u[3], u[4], u[5]));
         let (vl, va) = (V3::new(v[0], v[1], v[2]), V3::new(v[3], v[4], v[5]));
@@ -250,6 +253,7 @@ impl Sym3<Four> {
 }
 
 /// J M⁻¹ Jᵀ: what the bodies of one row answer to it, each alone; driven ones do not give way.
+#[inline(always)]
 pub fn response(parts: &[(usize, Vec6)], driven: &[bool], quads: &Quads) -> f64 {
     let free = parts.iter().filter(|(body, _)| !driven[*body]);
     let of_one = |(body, j): &(usize, Vec6)| {

@@ -3,7 +3,7 @@
 //! A quad's bodies are eliminated together. What they leave to their parents is added body by body, the last first, so
 //! that sums come out the same however the bodies are put together.
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::Simd;
 
 use super::ball::{Arms, Ball, Twist};
 use super::block::{MAX_ROWS, Vec6, add_scaled, dot, for_rows, inverse, mul};
@@ -14,12 +14,8 @@ use crate::math::lanes::{All, Four, Lanes, One, V3};
 
 impl Tree {
     /// Factors the system for bodies of these masses and world inertias, and the joints' present forms.
-    pub fn factor<'a>(&mut self, quads: &[Quad], form: impl Fn(usize) -> Form<'a>) {
-        dispatch!(self.level, simd => self.factor_in(simd, quads, &form));
-    }
-
     #[inline(always)]
-    fn factor_in<'a, S: Simd>(&mut self, simd: S, quads: &[Quad], form: &impl Fn(usize) -> Form<'a>) {
+    pub fn factor<'a, S: Simd>(&mut self, simd: S, quads: &[Quad], form: &impl Fn(usize) -> Form<'a>) {
         for &index in &self.begun {
             let (members, quad, lanes) = (&self.members[index], &quads[index], All(simd));
             let alone = Articulated::alone(lanes.get(&quad.mass), quad.inertia.get(lanes));
@@ -52,6 +48,7 @@ impl Tree {
         );
     }
 
+    #[inline(always)]
     fn factor_one<'a>(&mut self, body: usize, form: &impl Fn(usize) -> Form<'a>) {
         let Slot { quad, lane } = self.slots[body];
         let hang = &mut self.hang[body];
@@ -78,12 +75,8 @@ impl Tree {
     }
 
     /// The way up: h of the joints into `lambda`, what they push into `b`.
-    pub fn sweep_up(&self, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
-        dispatch!(self.level, simd => self.up_in(simd, b, g, lambda));
-    }
-
     #[inline(always)]
-    fn up_in<S: Simd>(&self, simd: S, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
+    pub fn sweep_up<S: Simd>(&self, simd: S, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
         for step in self.awake.iter().rev() {
             match *step {
                 Step::Quad(quad) => self.up_balls(All(simd), quad, b, Some(g), lambda),
@@ -94,12 +87,8 @@ impl Tree {
     }
 
     /// The way down: the accelerations and the final `lambda`.
-    pub fn sweep_down(&self, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
-        dispatch!(self.level, simd => self.down_in(simd, b, g, lambda, a));
-    }
-
     #[inline(always)]
-    fn down_in<S: Simd>(&self, simd: S, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
+    pub fn sweep_down<S: Simd>(&self, simd: S, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
         for step in &self.awake {
             match *step {
                 Step::Quad(quad) => self.down_balls(All(simd), quad, b, Some(g), lambda, a),
@@ -169,7 +158,7 @@ impl Tree {
     }
 
     /// The way up for one body. Without `g`, g is 0.
-    #[inline]
+    #[inline(always)]
     pub fn up(&self, body: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
         let hang = &self.hang[body];
         if hang.ball {
@@ -196,7 +185,7 @@ impl Tree {
     }
 
     /// The way down for one body, after its parent.
-    #[inline]
+    #[inline(always)]
     pub fn down(&self, body: usize, b: &[Vec6], g: Option<&[f64]>, lambda: &mut [f64], a: &mut [Vec6]) {
         let hang = &self.hang[body];
         if hang.ball {

@@ -302,6 +302,7 @@ impl Trains {
     }
 
     /// Lays out the twists where the bodies are.
+    #[inline(always)]
     pub fn evaluate(&mut self, quads: &Quads) {
         for &index in &self.turning {
             let wheel = &mut self.wheels[index];
@@ -312,6 +313,7 @@ impl Trains {
     }
 
     /// The bodies' answer to `b` into `a`, as if there were nothing outside the trains.
+    #[inline(always)]
     pub fn solve(&mut self, asked: Asked, quads: &Quads, b: &[Vec6], a: &mut [Vec6]) {
         if self.is_empty() {
             return;
@@ -355,6 +357,7 @@ impl Trains {
     }
 
     /// f of a row's part, and its train.
+    #[inline(always)]
     pub fn share(&self, (body, block): &(usize, Vec6)) -> Option<(usize, f64)> {
         let wheel = &self.wheels[self.of_body.get(*body).copied().flatten()?];
         Some((wheel.train, wheel.ratio * dot(&wheel.twist, block)))
@@ -379,11 +382,13 @@ impl Trains {
     }
 
     /// f²/m for two rows' f on one train.
+    #[inline(always)]
     pub fn response(&self, train: usize, f: f64, g: f64) -> f64 {
         f * g / self.trains[train].mass
     }
 
     /// Adds the answer to impulses (or forces) `f` along each train's coordinate.
+    #[inline(always)]
     pub fn push(&self, f: &[f64], a: &mut [Vec6]) {
         for &index in &self.turning {
             let wheel = &self.wheels[index];
@@ -424,6 +429,7 @@ impl Trains {
 
 impl Wheel {
     /// s for an arm in world axes.
+    #[inline(always)]
     fn along(&self, arm: DVec3) -> Vec6 {
         match self.freedom {
             Freedom::Turn { about, .. } => vec6(about.cross(arm), about),
@@ -432,6 +438,7 @@ impl Wheel {
     }
 
     /// What a push leaves to the coordinate beside p: b − M p.
+    #[inline(always)]
     fn left(&self, push: &Vec6, quads: &Quads) -> Vec6 {
         let (mass, p, turn) = (quads.mass(self.body), linear(&self.given), angular(&self.given));
         let turned: DVec3 = quads.inertia(self.body).mul(turn.into()).into();
@@ -441,6 +448,7 @@ impl Wheel {
     }
 
     /// ω×(ω×r).
+    #[inline(always)]
     fn centripetal(&self, quads: &Quads) -> Vec6 {
         let Freedom::Turn { about, .. } = self.freedom else { return [0.0; 6] };
         let spin = quads.spin(self.body).dot(about);

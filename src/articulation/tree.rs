@@ -412,6 +412,7 @@ impl Hang {
 
 impl General {
     /// Eliminates a body by these rows; J_p and X only where there is a parent to carry them.
+    #[inline(always)]
     pub fn eliminate(&mut self, r: &JointRows, first: bool, hangs: bool) {
         let (jc, jp) = if first { (&r.a, &r.b) } else { (&r.b, &r.a) };
         self.rows = r.rows.min(MAX_ROWS);

@@ -125,6 +125,7 @@ impl Gauge {
     }
 
     /// Its row alone.
+    #[inline(always)]
     fn motion(&self, scene: &Scene) -> Reading {
         match &self.measure {
             Measure::Angle { axis, frame } => {
@@ -235,6 +236,7 @@ pub fn aim(body: Option<usize>, direction: DVec3, poses: &(impl Poses + ?Sized))
 }
 
 /// e and J̇ẋ of the file's head, for the directions n and m with the angular velocities of their bodies.
+#[inline(always)]
 fn twist((n, spin): (DVec3, DVec3), (m, against): (DVec3, DVec3)) -> (DVec3, f64) {
     let whole = 1.0 + n.dot(m);
     if whole < OVERTURNED {
@@ -270,6 +272,7 @@ pub fn row(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -
 }
 
 /// The same without its value, which angles are dear to.
+#[inline(always)]
 pub fn motion(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> Row {
     for (_, block) in parts.iter_mut() {
         *block = [0.0; 6];

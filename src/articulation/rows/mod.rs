@@ -107,17 +107,20 @@ impl Scene<'_> {
     }
 
     /// Angular velocity of a body; zero for the world.
+    #[inline(always)]
     pub fn spin(&self, body: Option<usize>) -> DVec3 {
         body.map_or(DVec3::ZERO, |index| self.bodies[index].angular_velocity)
     }
 }
 
 /// Block of a force along `e` at the arm `r`.
+#[inline(always)]
 pub fn at(e: DVec3, r: DVec3) -> Vec6 {
     vec6(e, r.cross(e))
 }
 
 /// The opposite block.
+#[inline(always)]
 pub fn negated(v: Vec6) -> Vec6 {
     v.map(|x| -x)
 }

@@ -30,6 +30,7 @@ pub fn axis(scene: &Scene, a: &Axis, b: &Axis) -> Option<DVec3> {
 }
 
 /// The row. `held` is an axis about which T is held by another row, asked where T and N coincide.
+#[inline(always)]
 pub fn row(scene: &Scene, a: &Axis, b: &Axis, angle: &Function, held: impl FnOnce() -> Option<DVec3>) -> Row {
     let f = angle.at(scene.time);
     let (t, n) = (scene.direction(a), scene.direction(b));

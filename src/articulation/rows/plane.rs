@@ -21,6 +21,7 @@ pub fn value(scene: &Scene, point: &Anchor, plane: &Anchor, normal: DVec3, offse
 }
 
 /// The row.
+#[inline(always)]
 pub fn row(scene: &Scene, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> Row {
     let f = offset.at(scene.time);
     let (p, s) = (scene.point(point), scene.point(plane));

@@ -12,6 +12,7 @@ use crate::articulation::Anchor;
 use crate::math::DVec3;
 
 /// The three rows.
+#[inline(always)]
 pub fn rows(scene: &Scene, a: &Anchor, b: &Anchor) -> [Row; 3] {
     let (p, q) = (scene.point(a), scene.point(b));
     let (c, bias) = (p.position - q.position, p.centripetal - q.centripetal);

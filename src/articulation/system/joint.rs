@@ -63,6 +63,7 @@ pub struct RowState {
 
 impl RowState {
     /// Takes over a row's numbers.
+    #[inline(always)]
     pub(super) fn set(&mut self, row: &Row, constraint: usize, share: f64) {
         let gathers = self.gathers;
         let Row { value, feed, bias, length, .. } = *row;
@@ -72,6 +73,7 @@ impl RowState {
 
 impl Joint {
     /// Fills this joint's rows for the scene.
+    #[inline(always)]
     pub(super) fn evaluate(
         &mut self,
         scene: &Scene,
@@ -187,6 +189,7 @@ impl Joint {
     }
 
     /// Copies the rows to where the loops' (or the dense) solver reads them.
+    #[inline(always)]
     pub(super) fn write_outside(&self, blocks: &[JointRows], outside: &mut [LoopRow]) {
         let (Some(block), Some(first)) = (self.block, self.outside) else { return };
         let rows = &blocks[block];

@@ -11,7 +11,7 @@ mod solve;
 
 use std::ops::Range;
 
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd, dispatch};
 
 use super::activity::Activity;
 use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled};
@@ -355,8 +355,13 @@ impl System {
 
     /// Evaluates rows where the quads are, with those of trains or without, and with C of couplings or without.
     fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool, values: bool) {
+        dispatch!(self.quads.level(), simd => self.evaluate_in(simd, bodies, (all, values)));
+    }
+
+    #[inline(always)]
+    fn evaluate_in<S: Simd>(&mut self, simd: S, bodies: &[RigidBody], (all, values): (bool, bool)) {
         self.trains.evaluate(&self.quads);
-        self.hung.evaluate(self.quads.all(), &mut self.tree);
+        self.hung.evaluate(simd, self.quads.all(), &mut self.tree);
         (self.told, self.whole) = (false, values);
         if all {
             for (body, frame) in self.frames.iter_mut().enumerate().filter(|(body, _)| !self.asleep[*body]) {
@@ -460,12 +465,17 @@ impl System {
 
     /// Factors the rows as they are.
     fn factor_rows(&mut self) {
+        dispatch!(self.quads.level(), simd => self.factor_in(simd));
+    }
+
+    #[inline(always)]
+    fn factor_in<S: Simd>(&mut self, simd: S) {
         if let Some(dense) = &mut self.dense {
             dense.factor(&self.quads, self.gathering);
             return;
         }
         let (joints, blocks) = (&self.joints, &self.blocks);
-        self.tree.factor(self.quads.all(), |index| {
+        self.tree.factor(simd, self.quads.all(), &|index| {
             let joint = &joints[index];
             match (joint.arms, joint.block) {
                 (Some((a, b)), _) => Form::Point(a, b),

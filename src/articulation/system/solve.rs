@@ -1,5 +1,7 @@
 //! What the factor is asked: accelerations, displacements, velocity changes.
 
+use fearless_simd::{Simd, dispatch};
+
 use super::{PROJECTION_REACH, System};
 use crate::articulation::block::{angular, dot, linear, vec6};
 use crate::articulation::trains::Asked;
@@ -8,14 +10,20 @@ use crate::bodies::RigidBody;
 impl System {
     /// Solves for `a` and `lambda` from `b` and `g`.
     pub fn solve(&mut self) {
+        dispatch!(self.quads.level(), simd => self.solve_in(simd));
+    }
+
+    /// All of it in one piece, by the best instructions there are.
+    #[inline(always)]
+    fn solve_in<S: Simd>(&mut self, simd: S) {
         if let Some(dense) = &mut self.dense {
             dense.solve(&mut self.b, &self.g, &mut self.a, &mut self.lambda);
             return;
         }
         self.trains.solve(self.asked, &self.quads, &self.b, &mut self.a);
-        self.tree.sweep_up(&mut self.b, &self.g, &mut self.lambda);
+        self.tree.sweep_up(simd, &mut self.b, &self.g, &mut self.lambda);
         self.loops.correct(&self.tree, &mut self.b, &self.g, &self.a, &mut self.lambda);
-        self.tree.sweep_down(&self.b, &self.g, &mut self.lambda, &mut self.a);
+        self.tree.sweep_down(simd, &self.b, &self.g, &mut self.lambda, &mut self.a);
         self.trains.push(self.loops.pushes(), &mut self.a);
         for &body in &self.still {
             self.a[body] = [0.0; 6];
