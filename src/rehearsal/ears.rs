@@ -1,6 +1,9 @@
 //! What an onlooker hears of an answer: the rushing of wind, in what leaves the loudspeaker.
 //!
-//! A breath that is answered is heard as wind: noise, where strikes and chimes are tones, and lasting, where a hit's click is
+//! Only wind counts, and not what the wind has set ringing: dozens of moons that strike each other, and the room in which they
+//! ring on, are as dense as noise. So what is listened to is what the loudspeaker plays beyond what it would play in still air.
+//!
+//! A breath that is answered is heard as wind: noise, where what rings is tones, and lasting, where a click is
 //! over at once. The median of a band's power spectrum knows no tones, since they fill few of its bins. Noise of mean power
 //! p a bin has the median p ln 2 (its powers are exponentially distributed), so
 //!
@@ -8,8 +11,7 @@
 //! noise = median / ln 2 · bins                 wind = noise above −60 dB of full scale in 6 of 7 frames in a row
 //! ```
 //!
-//! with frames of 43 ms, half of each new. A gentle breath's wind lies at −50 dB, a strong one's at −30 dB; what rings after it
-//! stays below −60 dB but for single frames, in which something is hit.
+//! with frames of 43 ms, half of each new. A gentle breath's wind lies at −50 dB, a strong one's at −30 dB.
 
 use std::sync::Arc;
 
@@ -57,11 +59,11 @@ impl Ears {
         }
     }
 
-    /// Hears a block (stereo). The times at which wind begins to rush, s.
-    pub fn hear(&mut self, played: &[f32]) -> Vec<f64> {
+    /// Hears a block (stereo) beside the one that would be played in still air. The times at which wind begins to rush, s.
+    pub fn hear(&mut self, played: &[f32], still: &[f32]) -> Vec<f64> {
         let mut begins = Vec::new();
-        for [left, right] in played.as_chunks::<2>().0 {
-            self.waiting.push(0.5 * f64::from(left + right));
+        for ([left, right], [l, r]) in played.as_chunks::<2>().0.iter().zip(still.as_chunks::<2>().0) {
+            self.waiting.push(0.5 * (f64::from(*left) - f64::from(*l) + f64::from(*right) - f64::from(*r)));
             self.sample += 1;
             if self.waiting.len() == FRAME {
                 let loud = from_decibels(WIND_DBFS);
@@ -107,11 +109,31 @@ mod tests {
     const RATE: f64 = SAMPLE_RATE_HZ as f64;
 
     fn begins(sound: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        begins_beside(sound, |_, _| 0.0)
+    }
+
+    /// The same, beside what would be played in still air.
+    fn begins_beside(sound: impl Fn(f64, f64) -> f64, still: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         let noise = normalised(low_passed(gaussian(8 * SAMPLE_RATE_HZ as usize, &mut Random::new(2)), RATE, 400.0, 1));
         let mut ears = Ears::new();
-        let samples = noise.iter().enumerate().map(|(i, n)| sound(i as f64 / RATE, *n) as f32);
-        let stereo: Vec<f32> = samples.flat_map(|x| [x, x]).collect();
-        stereo.chunks(960).flat_map(|block| ears.hear(block)).collect()
+        let stereo = |sound: &dyn Fn(f64, f64) -> f64| -> Vec<f32> {
+            let samples = noise.iter().enumerate().map(|(i, n)| sound(i as f64 / RATE, *n) as f32);
+            samples.flat_map(|x| [x, x]).collect()
+        };
+        let (played, still) = (stereo(&sound), stereo(&still));
+        played.chunks(960).zip(still.chunks(960)).flat_map(|(block, still)| ears.hear(block, still)).collect()
+    }
+
+    #[test]
+    fn what_rings_as_dense_as_noise_is_no_wind_and_wind_in_it_is_heard() {
+        let ringing = |t: f64, n: f64| 0.01 * n * exp(-(t - 1.0).max(0.0) / 2.0);
+        assert!(!begins(ringing).is_empty(), "by itself nothing tells it from wind");
+        assert!(begins_beside(ringing, ringing).is_empty(), "it would ring in still air too");
+        // Of other noise than what rings: the same a second later.
+        let wind = |t: f64| if (5.0..6.0).contains(&t) { 0.004 * sin(2.0 * PI * 317.0 * t * t) } else { 0.0 };
+        let heard = begins_beside(|t, n| ringing(t, n) + wind(t), ringing);
+        assert_eq!(heard.len(), 1, "{heard:?}");
+        assert!((heard[0] - 5.0).abs() < 0.05, "{heard:?}");
     }
 
     #[test]

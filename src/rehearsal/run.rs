@@ -144,7 +144,7 @@ impl<'a> Course<'a> {
             self.blocks += 1;
             let heard = self.house.hear(self.machine.played());
             self.machine.exchange(&heard);
-            for began in self.ears.hear(self.machine.played()) {
+            for began in self.ears.hear(self.machine.played(), self.machine.played_in_still_air()) {
                 self.wind(began);
             }
         }
