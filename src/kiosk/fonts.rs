@@ -7,6 +7,7 @@ use std::sync::Arc;
 use egui::{FontData, FontDefinitions, FontFamily};
 
 /// Files that hold Hangul, Kana and Han, best first, with the face to take from a collection.
+/// Droid Sans Fallback is none of them: as Debian has it, it lacks Hangul.
 const EAST_ASIAN: &[(&str, u32)] = &[
     ("NotoSansCJK-Light.ttc", 1),
     ("NotoSansCJK-Regular.ttc", 1),
@@ -17,8 +18,6 @@ const EAST_ASIAN: &[(&str, u32)] = &[
     ("NanumGothic.ttf", 0),
     ("NanumBarunGothic.ttf", 0),
     ("UnDotum.ttf", 0),
-    ("DroidSansFallbackFull.ttf", 0),
-    ("DroidSansFallback.ttf", 0),
 ];
 
 /// Files that hold Hebrew, and Arabic with its joined forms, best first.
