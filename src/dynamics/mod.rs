@@ -151,7 +151,7 @@ pub struct Dynamics {
     /// Wrenches from outside, and with those of resting contacts.
     given: Vec<Vec6>,
     external: Vec<Vec6>,
-    /// Force that each joint carried at the last solve, N.
+    /// Force that each joint carried when it was last asked, N.
     loads: Vec<f64>,
     /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
     levers: Vec<f64>,
@@ -644,8 +644,8 @@ impl Dynamics {
         self.system.largest_gap(&self.bodies)
     }
 
-    /// The force that the joint of each constraint carried in the last step, all lengths between its two bodies together,
-    /// N; `None` for what no joint holds, such as couplings.
+    /// The force that the joint of each constraint carried when it was last asked, in the last substep, all lengths between its
+    /// two bodies together, N; `None` for what no joint holds, such as couplings. Of joints of trains it is 0: nobody asks.
     pub fn loads(&self) -> Vec<Option<f64>> {
         let mut loads = vec![None; self.system.constraints().len()];
         for (joint, load) in self.system.joints().iter().zip(&self.loads) {

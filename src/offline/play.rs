@@ -18,7 +18,7 @@ use crate::simulation::record::Part;
 use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
 use crate::sound::RoomSpec;
 
-/// Steps between two looks at the joints' error, which costs as much as a stage of the integrator.
+/// Steps between two looks at the joints' error, which costs a twenty-fifth of a clock's step.
 const LOOK: u64 = STEPS_PER_SECOND / 60;
 
 /// What to run and what to keep of it.
