@@ -292,7 +292,7 @@ impl Default for BreathTuning {
 pub struct Calm {
     /// So long after the last breath or hand it begins, s.
     pub after: f64,
-    /// Time constant with which free motion fades from then on, s; a swing takes twice as long.
+    /// Time constant with which free motion fades at first, s; a swing takes twice as long, and the calm grows firmer.
     pub time: f64,
 }
 

@@ -17,6 +17,10 @@ use crate::wind::blow::BlowDetector;
 /// Before attract mode begins it is shown for so long that it will, s.
 pub const COUNTDOWN_S: f64 = 10.0;
 
+/// Breaths of the script are blown so much more softly, and swell within so long, s. They show that breath moves the work; whoever
+/// comes and blows meanwhile, though gently, shall see that theirs moves it more.
+const SOFTLY: f64 = 0.5;
+const SWELLS_S: f64 = 0.3;
 /// A work swings for so long after a breath of the script before it is calmed, s.
 const SWINGS_S: f64 = 2.0;
 
@@ -51,6 +55,8 @@ struct Round {
     next: usize,
     text: Option<String>,
     breath: Option<(WavFeed, BlowDetector)>,
+    /// How far it has swollen, 0 … 1.
+    swollen: f64,
     /// Steps until the work is calmed.
     swings: Option<u64>,
     aim: Option<[f64; 2]>,
@@ -130,7 +136,10 @@ impl Attract {
         if let Some((feed, detector)) = &mut round.breath {
             let over = feed.is_over();
             feed.microphone().reach(detector);
-            commands.push(Command::Blow(Some(if over { 0.0 } else { detector.estimate().speed })));
+            let speed = if over { 0.0 } else { detector.estimate().speed };
+            let more = 1.0 / (SWELLS_S * STEPS_PER_SECOND as f64);
+            round.swollen = if speed > 0.0 { (round.swollen + more).min(1.0) } else { 0.0 };
+            commands.push(Command::Blow(Some(SOFTLY * round.swollen * speed)));
             if over {
                 (round.breath, round.swings) = (None, Some(steps(SWINGS_S)));
             }

@@ -3,7 +3,8 @@
 //! The lips lie on the camera ray of the pointer, `distance` before the plane through the view's target that faces
 //! the eye. In the *true* profile the breath follows the ray. In the *gallery* profile it leans towards the nearest
 //! surface when the ray passes it by, as a visitor leans to blow at a thing: without it, a breath at the centre of
-//! the picture could pass between the plates and move nothing.
+//! the picture could pass between the plates and move nothing. The lips too come to the height of that surface, as a visitor
+//! stoops: what hangs low would else be blown at from above, past all that hangs before it.
 //!
 //! A visitor blows at what will move: not at the edge of a plate when another shows its face, nor at the heavy end of a
 //! rod when a light disc hangs beside it. Yet what is pointed at is left only for what answers far better:
@@ -11,7 +12,8 @@
 //! ```text
 //! the breath goes to the surface with the least (e + e₀)/(f q)
 //! e   how far the ray passes by the inner half of the ball around it, m
-//! f   √(dᵀ⟨n nᵀ⟩d), |cos θ| for a plate: wind along d presses on a surface by A f² (A: its area, n: its normals)
+//! f   √(s dᵀ⟨n nᵀ⟩d), √s |cos θ| for a plate: wind along d, from the lips to its middle, presses on a surface by A f²
+//!     (A: its area, n: its normals, s: how much of what faces the lips nothing hides from them)
 //! q   ⁴√(w A), over the largest of all: where the joints let 1 N move its middle by w m/s², wind that it faces sets off
 //!     an acceleration in proportion to w A
 //! ```
@@ -33,6 +35,8 @@ pub struct AimTarget {
     pub faces: DMat3,
     /// q: how readily it answers a wind that it faces, 0 … 1.
     pub answers: f64,
+    /// s: how much of it the lips see, 0 … 1.
+    pub seen: f64,
 }
 
 impl AimTarget {
@@ -43,7 +47,7 @@ impl AimTarget {
         let mut answer = [DMat3::ZERO];
         dynamics.answers(&[(body, at)], &mut answer);
         let [w] = answer.map(|w| (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0);
-        Self { center, radius, faces: mesh.orientation(), answers: (w * mesh.area()).max(0.0).sqrt().sqrt() }
+        Self { center, radius, faces: mesh.orientation(), answers: (w * mesh.area()).max(0.0).sqrt().sqrt(), seen: 1.0 }
     }
 
     /// Carried to where a body stands.
@@ -52,9 +56,11 @@ impl AimTarget {
         Self { center: pose.point(self.center), faces: turn * self.faces * turn.transpose(), ..*self }
     }
 
-    /// How little is to be had of it by a breath along a ray (a point and a unit direction).
-    fn from(&self, origin: DVec3, ray: DVec3) -> f64 {
-        let face = ray.dot(self.faces * ray).max(0.0).sqrt();
+    /// How little is to be had of it by a breath from lips on a ray (a point and a unit direction).
+    fn from(&self, origin: DVec3, ray: DVec3, lips: &Lips) -> f64 {
+        let way = (self.center - lips.before(self.center)).try_normalize().unwrap_or(ray);
+        let ahead = way.dot(ray) > AHEAD;
+        let face = if ahead { (self.seen * way.dot(self.faces * way)).max(0.0).sqrt() } else { 0.0 };
         let past = (self.off(origin, ray).length() - INNER * self.radius).max(0.0);
         (past + NEAR) / (face * self.answers).max(LEAST)
     }
@@ -76,6 +82,8 @@ pub fn compare(targets: &mut [(usize, AimTarget)]) {
 const NEAR: f64 = 0.03;
 /// What an edge counts for, or what cannot move: with nothing else before it, the breath leans to it all the same.
 const LEAST: f64 = 0.05;
+/// Nobody blows at what hangs beside or behind their lips: the least cosine between the way there and the ray.
+const AHEAD: f64 = 0.5;
 /// Another surface must be better by this share before the breath leaves the one it leans to.
 const LOYALTY: f64 = 0.7;
 /// The ray itself is followed within this share of a surface's ball. Farther out a long plate leaves most of its ball
@@ -85,6 +93,25 @@ const INNER: f64 = 0.5;
 const MIDDLE: f64 = 0.2;
 /// The lean follows its goal with this time constant, s: no jumps while blowing.
 const LEAN_TIME: f64 = 0.08;
+
+/// Lips on the ray, and which way they come to the height of something: across the ray, upright in the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Lips {
+    on_ray: DVec3,
+    upright: DVec3,
+}
+
+impl Lips {
+    /// How far they rise to a place, m.
+    fn rise(&self, place: DVec3) -> f64 {
+        (place - self.on_ray).dot(self.upright)
+    }
+
+    /// At the height of a place.
+    fn before(&self, place: DVec3) -> DVec3 {
+        self.on_ray + self.rise(place) * self.upright
+    }
+}
 
 /// The breath's axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -96,6 +123,9 @@ pub struct Aim {
     /// Where the axis comes nearest to what it is aimed at, world, m.
     pub target: DVec3,
     chosen: Option<usize>,
+    lips: Lips,
+    /// How far the lips have risen, m.
+    risen: f64,
 }
 
 impl Aim {
@@ -112,22 +142,30 @@ impl Aim {
         let facing = (view.eye - view.target).normalize();
         let depth = (view.target - origin).dot(facing) / ray.dot(facing);
         let on_plane = origin + depth * ray;
-        let mouth = on_plane - distance * ray;
-        let goal = match profile {
-            Profile::True => on_plane,
-            Profile::Gallery => self.lean(origin, ray, targets).unwrap_or(on_plane),
+        let upright = (view.up - view.up.dot(ray) * ray).try_normalize().unwrap_or_default();
+        self.lips = Lips { on_ray: on_plane - distance * ray, upright };
+        let leant = match profile {
+            Profile::True => None,
+            Profile::Gallery => self.lean(origin, ray, targets),
         };
-        let direction = (goal - mouth).try_normalize().unwrap_or(ray);
+        let (goal, rise) = leant.map_or((on_plane, 0.0), |goal| (goal, self.lips.rise(goal)));
         let first = self.direction == DVec3::ZERO;
         let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
-        self.mouth = mouth;
+        self.risen += share * (rise - self.risen);
+        self.mouth = self.lips.on_ray + self.risen * upright;
+        let direction = (goal - self.mouth).try_normalize().unwrap_or(ray);
         self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
-        self.target = mouth + self.direction * (goal - mouth).dot(self.direction);
+        self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
+    }
+
+    /// Where the lips would be to blow at a place.
+    pub fn lips_before(&self, place: DVec3) -> DVec3 {
+        self.lips.before(place)
     }
 
     /// The point of the chosen surface's ball that the breath goes to.
     fn lean(&mut self, origin: DVec3, ray: DVec3, targets: &[AimTarget]) -> Option<DVec3> {
-        let far = |index: usize| targets[index].from(origin, ray);
+        let far = |index: usize| targets[index].from(origin, ray, &self.lips);
         let nearest = (0..targets.len()).min_by(|&a, &b| far(a).total_cmp(&far(b)))?;
         let keep = self.chosen.filter(|&old| old < targets.len() && far(old) * LOYALTY < far(nearest));
         let chosen = keep.unwrap_or(nearest);
@@ -151,7 +189,7 @@ mod tests {
     fn disc(x: f64, normal: DVec3) -> AimTarget {
         let n = normal.normalize();
         let faces = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-        AimTarget { center: DVec3::X * x, radius: 0.05, faces, answers: 1.0 }
+        AimTarget { center: DVec3::X * x, radius: 0.05, faces, answers: 1.0, seen: 1.0 }
     }
 
     /// Where a breath goes that is pointed at the plane's middle for a while.
@@ -185,6 +223,44 @@ mod tests {
         // Not from far.
         let target = goes(&[heavy, disc(0.4, DVec3::Z)]);
         assert!(target.length() < 0.01, "{target}");
+    }
+
+    #[test]
+    fn the_lips_come_to_the_height_of_what_they_blow_at() {
+        const ROUNDING: f64 = 1e-12;
+        let low = AimTarget { center: DVec3::new(0.05, -0.3, 0.0), ..disc(0.0, DVec3::Z) };
+        let ray = (EYE.target - EYE.eye).normalize();
+        for (profile, height) in [(Profile::Gallery, -0.3), (Profile::True, 0.0)] {
+            let mut aim = Aim::default();
+            aim.follow(&EYE, (EYE.eye, ray), 0.5, profile, &[low], 1.0);
+            assert!((aim.mouth.y - height).abs() < 0.05, "{profile:?}: {}", aim.mouth);
+            assert!((aim.mouth.z - 0.5).abs() < ROUNDING && aim.mouth.x.abs() < ROUNDING, "no nearer: {}", aim.mouth);
+            assert!(aim.direction.y.abs() < 0.1, "they blow level: {}", aim.direction);
+        }
+    }
+
+    #[test]
+    fn it_does_not_turn_round_to_what_hangs_behind_the_lips() {
+        let near = AimTarget { center: DVec3::new(0.0, 0.0, 0.6), ..disc(0.0, DVec3::Z) };
+        let target = goes(&[near, disc(0.11, DVec3::Z)]);
+        assert!((target.x - 0.11).abs() < 0.05 && target.z < 0.1, "{target}");
+    }
+
+    #[test]
+    fn it_leaves_what_is_hidden_for_what_the_lips_see() {
+        let hidden = AimTarget { seen: 0.0, ..disc(0.0, DVec3::Z) };
+        let target = goes(&[hidden, disc(0.11, DVec3::Z)]);
+        assert!((target.x - 0.11).abs() < 0.05, "{target}");
+    }
+
+    #[test]
+    fn what_counts_is_how_a_surface_faces_the_lips_that_lean_to_it() {
+        // Both as far to the side, both a third of a right angle off the ray; the lips see the one's edge.
+        let (away, towards) = (DVec3::new(0.866, 0.0, 0.5), DVec3::new(-0.866, 0.0, 0.5));
+        let target = goes(&[disc(0.2, away), disc(-0.2, away)]);
+        assert!(target.x < 0.0, "{target}");
+        let target = goes(&[disc(0.2, towards), disc(-0.2, towards)]);
+        assert!(target.x > 0.0, "{target}");
     }
 
     #[test]

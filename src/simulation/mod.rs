@@ -16,6 +16,7 @@ mod input;
 mod inspect;
 mod merge;
 mod motes;
+mod onset;
 pub mod record;
 mod script;
 mod snapshot;
@@ -51,6 +52,7 @@ use hands::Hands;
 pub use input::{Command, Microphone, MotionMode, Profile, Settings, StepInput};
 pub use inspect::{BodyState, Inspection, JointState, Look, WindSample};
 use motes::Motes;
+use onset::Onset;
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
 use sonify::{Listener, Wires};
@@ -86,10 +88,11 @@ pub struct Simulation {
     start_step: u64,
     source: BreathSource,
     aim: Aim,
-    /// Surfaces that breath leans to: the body of each and how it is in its node frame; and where they are now.
+    /// Surfaces that breath leans to: which each is and how it is in its body's node frame; and where they are now.
     leant_to: Vec<(usize, AimTarget)>,
     aim_targets: Vec<AimTarget>,
     idle: Idle,
+    onset: Onset,
     front: Front,
     wind: WindField,
     dynamics: Dynamics,
@@ -149,6 +152,7 @@ impl Simulation {
             source: BreathSource::new(settings.sensitivity_db),
             aim: Aim::default(),
             idle: Idle::default(),
+            onset: Onset::default(),
             front: Front::default(),
             impacts: Vec::with_capacity(LISTED),
             events: Vec::with_capacity(LISTED),
@@ -291,13 +295,29 @@ impl Simulation {
     /// Points the breath.
     fn take_aim(&mut self, input: &StepInput) {
         self.eye.look(&self.exhibit, input.aspect, input.turn);
+        self.look_at_targets();
         self.aim_targets.clear();
         let bodies = &self.dynamics.bodies;
-        self.aim_targets.extend(self.leant_to.iter().map(|(body, target)| target.at(bodies[*body].pose())));
+        let pose = |surface: usize| bodies[self.exhibit.wind_surfaces[surface].body].pose();
+        self.aim_targets.extend(self.leant_to.iter().map(|(surface, target)| target.at(pose(*surface))));
         let pointer = input.pointer.unwrap_or([0.5, 0.5]);
         let Settings { distance, profile, .. } = self.settings;
         let Eye { aspect, ref view, .. } = self.eye;
         self.aim.follow(view, view.ray(pointer, aspect), distance, profile, &self.aim_targets, DT);
+    }
+
+    /// Sees what hides the surfaces that breath leans to from the lips, where there is a choice. What stands in the way changes
+    /// slowly: one of them is looked at in a sixtieth of a second.
+    fn look_at_targets(&mut self) {
+        const EVERY: u64 = STEPS_PER_SECOND / 60;
+        let (step, surfaces) = (self.step / EVERY, self.aim_targets.len());
+        if self.settings.profile == Profile::True || surfaces < 2 || !self.step.is_multiple_of(EVERY) {
+            return;
+        }
+        let turn = (step % surfaces as u64) as usize;
+        let lips = self.aim.lips_before(self.aim_targets[turn].center);
+        let (surface, target) = &mut self.leant_to[turn];
+        target.seen = self.wind.shown(*surface, &self.dynamics.bodies, lips);
     }
 
     /// Turns the breath into forces.
@@ -309,7 +329,13 @@ impl Simulation {
         }
         self.front.advance(self.speed, DT);
         let time = (self.step - self.start_step) as f64 * DT;
-        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        self.onset.advance(self.speed > 0.0, DT);
+        let mut blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        if let Some(blown) = &mut blown
+            && self.settings.profile == Profile::Gallery
+        {
+            blown.gain *= self.onset.gain();
+        }
         self.report = self.wind.push(&self.dynamics.bodies, time, blown.as_ref(), &mut self.wrenches);
     }
 
@@ -521,13 +547,13 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
 }
 
-/// Surfaces of sheets that breath leans to: body, and what is leant to in its node frame.
+/// Surfaces of sheets that breath leans to: which, and what is leant to in its node frame.
 fn leant_to(exhibit: &Exhibit, dynamics: &mut Dynamics) -> Vec<(usize, AimTarget)> {
-    let target = |surface: &crate::wind::Surface| match &surface.shape {
-        SurfaceShape::Mesh { mesh, .. } => Some((surface.body, AimTarget::of(mesh, surface.body, dynamics))),
+    let target = |(index, surface): (usize, &crate::wind::Surface)| match &surface.shape {
+        SurfaceShape::Mesh { mesh, .. } => Some((index, AimTarget::of(mesh, surface.body, dynamics))),
         SurfaceShape::Wire { .. } => None,
     };
-    let mut targets = exhibit.wind_surfaces.iter().filter_map(target).collect::<Vec<_>>();
+    let mut targets = exhibit.wind_surfaces.iter().enumerate().filter_map(target).collect::<Vec<_>>();
     aim::compare(&mut targets);
     targets
 }

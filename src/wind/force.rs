@@ -55,6 +55,8 @@ const EDDY_STRENGTH: f64 = 2.0;
 const STILL_AIR: f64 = 0.01;
 /// Rays start this far off their own face, m.
 const RAY_START: f64 = 1e-4;
+/// Patches that say how much of a surface is seen, at most.
+const LOOKED_AT: usize = 16;
 /// What stands farther off than this shelters from no wind, m.
 const FAR: f64 = 50.0;
 
@@ -340,6 +342,24 @@ impl WindField {
             }
         }
         samples
+    }
+
+    /// How much of what a surface shows towards a place that place sees, 0 … 1, by some of its patches.
+    pub fn shown(&mut self, surface: usize, bodies: &[RigidBody], from: DVec3) -> f64 {
+        self.occluders.refit(|body| bodies[body].pose());
+        let feeler = &self.feelers[surface];
+        let pose = bodies[feeler.body].pose();
+        let (mut faced, mut seen) = (0, 0);
+        for index in (0..feeler.patches.len()).step_by(feeler.patches.len().div_ceil(LOOKED_AT)) {
+            let patch = &feeler.patches[index];
+            let (point, axis) = (pose.point(patch.point), pose.vector(patch.axis));
+            if patch.face != Face::Side || axis.dot(from - point) > 0.0 {
+                faced += 1;
+                let sees = open(&self.occluders, &feeler.hints[index], patch.face, point, axis, Upwind::Place(from));
+                seen += i32::from(sees);
+            }
+        }
+        if faced > 0 { f64::from(seen) / f64::from(faced) } else { 0.0 }
     }
 
     /// Patches of all surfaces.

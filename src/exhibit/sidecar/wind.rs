@@ -51,7 +51,8 @@ impl Default for BreathTuning {
 pub struct Calm {
     /// So long after the last breath or hand.
     pub after: Time,
-    /// Time in which free motion fades to 37 % from then on; a swing takes twice as long.
+    /// Time in which free motion fades to 37 % at first; a swing takes twice as long. The calm grows eight times as firm within
+    /// five seconds.
     pub time: Time,
 }
 

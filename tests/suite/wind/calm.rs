@@ -6,7 +6,10 @@ use soffio::exhibit::{self, Calm, Exhibit};
 use soffio::math::exp;
 use soffio::simulation::{Command, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
-const CALM: Calm = Calm { after: 1.0, time: 0.8 };
+const CALM: Calm = Calm { after: 1.0, time: 4.0 };
+/// It grows so much firmer within so long, s.
+const FIRMER: f64 = 8.0;
+const GROWTH: f64 = 5.0;
 /// Air and pivot brake a swing too, and its energy is not the same all the way of one swing.
 const OTHERWISE: f64 = 0.15;
 
@@ -59,7 +62,9 @@ fn a_swing_fades_as_it_is_asked_to_once_nobody_blows() {
     let [before, free_before] = energies(1.2);
     let [after, free_after] = energies(LONG);
     let faded = (after / before) / (free_after / free_before);
-    let asked = exp(-LONG / CALM.time);
+    // ∫ r dt from where the calm has come over to the end, r = (1 + (K − 1) t/G)/τ.
+    let (from, to) = (waiting + 1.2 - CALM.after, waiting + 1.2 + LONG - CALM.after);
+    let asked = exp(-(LONG + (FIRMER - 1.0) * 0.5 * (to * to - from * from) / GROWTH) / CALM.time);
     println!("energy {before:.2e} to {after:.2e} J; left of it {faded:.4}, asked {asked:.4}");
     assert!((faded / asked - 1.0).abs() < OTHERWISE, "{faded} of {asked}");
 }
