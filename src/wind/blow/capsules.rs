@@ -9,10 +9,11 @@
 //! ```
 //!
 //! ⟨·⟩ a leaky mean of 4 s in which nobody blows: g is how the two capsules differ for good, in gain and corner, learnt
-//! where both hear the same (a coherence of 0.7), as their own noise knows nothing of it. Eddies that know nothing of each
-//! other (Corcos 1963: beyond a few millimetres nothing is left) keep the power that half the sum of both has, on which
-//! the ear is trained. A plane wave from along the line between capsules d apart keeps sin²(k d/2): of 6 cm, −19 dB at
-//! 200 Hz, and less below.
+//! where both hear the same (a coherence of 0.7), as their own noise knows nothing of it. Every frame counts alike there,
+//! |L_k|² + |R_k|² = 1: one loud puff, which is other eddies at each of them, would else outweigh all that both have heard
+//! the same, and turn g into any number. Eddies that know nothing of each other (Corcos 1963: beyond a few millimetres
+//! nothing is left) keep the power that half the sum of both has, on which the ear is trained. A plane wave from along the
+//! line between capsules d apart keeps sin²(k d/2): of 6 cm, −19 dB at 200 Hz, and less below.
 //!
 //! Rumble that a crowd drowns in the sum rises out of the difference; a stream beside the microphone, of which there is
 //! the hiss alone, is heard in the sum. How much of what is heard differs speaks for itself, in either:
@@ -62,8 +63,10 @@ const PUFF_S: (f64, f64) = (0.06, 0.14);
 const PUFF_DB: f64 = 8.0;
 /// Coherence of the treble above which two channels are one capsule.
 const ONE_CAPSULE: f64 = 0.97;
-/// Coherence, over [`MATCH_S`], from which two channels have heard the same.
+/// Coherence, over [`MATCH_S`], from which two channels have heard the same; nothing is said of it before so long, s: frames
+/// overlap, and within a few of them whatever is heard is alike.
 const SAME: f64 = 0.7;
+const ENOUGH_S: f64 = 1.0;
 /// Power of one channel over the other's below which it is dead.
 const DEAD: f64 = 1e-4;
 
@@ -140,8 +143,11 @@ impl Capsules {
             self.learnt += 1;
             let weight = blend(MATCH_S).max(1.0 / self.learnt as f64);
             for k in DIFFERENCE {
-                self.matched[k].push(weight, l[k], r[k]);
-                self.gains[k] = self.matched[k].gain().unwrap_or(self.gains[k]);
+                // However loud it is.
+                let one = 1.0 / (l[k].norm_sqr() + r[k].norm_sqr() + NOTHING).sqrt();
+                self.matched[k].push(weight, one * l[k], one * r[k]);
+                let gain = self.matched[k].gain().filter(|_| self.has_heard_enough());
+                self.gains[k] = gain.unwrap_or(self.gains[k]);
             }
         }
         let gains = self.gains;
@@ -152,15 +158,18 @@ impl Capsules {
         self.differs[1] += weight * (LOW.map(power).sum::<f64>() - self.differs[1]);
         self.share = self.are_two(l, r, learn).then(|| self.differs[0] / self.differs[1].max(NOTHING));
         self.difference = *microphone;
-        if self.share.is_some() {
-            DIFFERENCE.for_each(|k| self.difference[k] = 0.25 * scale * difference(k));
-        }
+        DIFFERENCE.for_each(|k| self.difference[k] = 0.25 * scale * difference(k));
     }
 
     /// What of `own`, the kiosk's own sound in half the sum, is left in half the difference at most.
     pub fn left_of(&self, own: &Power) -> Power {
         let left = from_decibels(2.0 * NEUTRAL_DB);
         std::array::from_fn(|k| if DIFFERENCE.contains(&k) { left * own[k] } else { own[k] })
+    }
+
+    /// Has it heard the room for long enough to tell chance from what both capsules share?
+    fn has_heard_enough(&self) -> bool {
+        self.learnt as f64 * FRAME_S >= ENOUGH_S
     }
 
     /// Are there two capsules, and do both live? That there are is found out while nobody blows: another room is learnt then.
@@ -177,7 +186,7 @@ impl Capsules {
         let sum = |of: fn(&Pair) -> f64| self.matched[LOW].iter().map(of).sum::<f64>();
         let same = sum(|pair| pair.cross.norm()) > SAME * sum(Pair::scale);
         let balance = left / right;
-        self.apart |= learn && same && together / scale < ONE_CAPSULE;
+        self.apart |= learn && self.has_heard_enough() && same && together / scale < ONE_CAPSULE;
         self.apart && balance > DEAD && balance < 1.0 / DEAD
     }
 
@@ -215,7 +224,7 @@ mod tests {
     /// Frames of half a minute.
     const FRAMES: usize = 3750;
 
-    /// Power of the low band of half the sum, and of what `push` makes of it, over the second half; and the last log-odds.
+    /// Power of the low band of half the sum and of half the difference, over the second half; and the last log-odds.
     fn heard(mut frame: impl FnMut(usize, &mut Random) -> [Complex<f64>; 2]) -> (f64, f64, f64) {
         let (mut capsules, mut random) = (Capsules::new(), Random::new(7));
         let (mut sum, mut low) = (0.0, 0.0);
@@ -285,11 +294,41 @@ mod tests {
             [l, 0.5 * l]
         };
         let silent = |_: usize, random: &mut Random| [noise(random), Complex::default()];
-        let (a, b) = (heard(copied), heard(silent));
-        assert!(a.0 == a.1 && b.0 == b.1, "{a:?} {b:?}");
-        assert_eq!((a.2, b.2), (0.0, 0.0));
-        // Two that have nothing in common have not shown that they hear one room.
-        let strangers = heard(|_, random| [noise(random), noise(random)]);
-        assert_eq!((strangers.0, strangers.2), (strangers.1, 0.0));
+        assert_eq!((heard(copied).2, heard(silent).2), (0.0, 0.0));
+        // Two that have nothing in common have not shown that they hear one room, though frames overlap: each is eight times
+        // nearly the same one.
+        let mut last = [[Complex::default(); 2]; BINS];
+        let strangers = heard(|k, random| {
+            last[k] = last[k].map(|z| 0.875 * z + 0.125 * noise(random));
+            last[k]
+        });
+        assert_eq!(strangers.2, 0.0);
+    }
+
+    #[test]
+    fn a_puff_teaches_nothing_of_how_the_capsules_differ() {
+        /// dB.
+        const LOUDER: f64 = 60.0;
+        /// Of the gain, which a twentieth of all frames turns by this much at most.
+        const TURNED: f64 = 0.1;
+        let (mut capsules, mut random) = (Capsules::new(), Random::new(11));
+        for i in 0..1000 {
+            let mut pair = [[Complex::default(); BINS]; 2];
+            for k in 1..BINS {
+                let wave = noise(&mut random);
+                let frame = if (600..625).contains(&i) {
+                    [noise(&mut random), noise(&mut random)].map(|z| from_decibels(LOUDER) * z)
+                } else {
+                    // What the treble tells them apart by.
+                    [wave, wave].map(|z| z + 0.3 * noise(&mut random))
+                };
+                (pair[0][k], pair[1][k]) = (frame[0], frame[1]);
+            }
+            capsules.push(&pair, true, 1.0, &[0.0; BINS]);
+        }
+        assert!(capsules.share.is_some());
+        for k in DIFFERENCE {
+            assert!((capsules.gains[k] - 1.0).norm() < TURNED, "{} of bin {k}", capsules.gains[k]);
+        }
     }
 }

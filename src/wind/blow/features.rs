@@ -161,15 +161,6 @@ pub struct Levels {
 impl Listener {
     /// A listener that knows no room yet.
     pub fn new() -> Self {
-        Self::with((0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect())
-    }
-
-    /// Forgets the room and what was heard in it.
-    pub fn forget(&mut self) {
-        *self = Self::with(std::mem::take(&mut self.cosine));
-    }
-
-    fn with(cosine: Vec<f64>) -> Self {
         Self {
             smooth: [0.0; BINS],
             room: [0.0; BINS],
@@ -186,7 +177,7 @@ impl Listener {
             peakedness: [0.0; 2],
             past: Past::new(),
             means: [[0.0; MEASURED]; MEANS_S.len()],
-            cosine,
+            cosine: (0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect(),
         }
     }
 

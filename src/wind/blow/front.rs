@@ -106,27 +106,22 @@ impl FrontEnd {
         let fault = self.input.fault_hold > 0;
         let (mut features, mut levels, mut difference) = ([0.0; COUNT], Levels::default(), None);
         if !fault {
-            if self.stereo {
-                let Framer { capsules, scale, microphone, .. } = &self.framer;
-                let were = self.capsules.share.is_some();
-                self.capsules.push(capsules, !(blowing || likely), *scale, microphone);
-                if self.capsules.share.is_some() != were {
-                    self.apart.forget();
-                }
-            }
             self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
             let covered = self.own_voice.masks(&self.framer.microphone);
             let room = blowing || likely || covered;
-            let Framer { microphone, peakedness, .. } = &self.framer;
+            let Framer { capsules, scale, microphone, peakedness, .. } = &self.framer;
             let (own, still) = (&self.own_voice.predicted, Still { room, past: blowing });
             (features, levels) = self.listener.push(microphone, own, *peakedness, still);
             levels.covered = covered;
-            if self.capsules.share.is_some() {
+            if self.stereo {
+                // Its room is learnt before two capsules are told apart, which may happen amid a puff.
+                self.capsules.push(capsules, !(blowing || likely), *scale, microphone);
                 let still = Still { room: blowing || likely, ..still };
                 let left = self.capsules.left_of(own);
                 let heard = self.apart.push(&self.capsules.difference, &left, *peakedness, still);
                 self.capsules.note(heard.1.rise_db > LEAST_RISE_DB, 10.0 * heard.0[FALL[0]]);
-                difference = Some(heard).filter(|_| self.apart.age() >= SETTLING_S);
+                let told = self.capsules.share.is_some() && self.apart.age() >= SETTLING_S;
+                difference = Some(heard).filter(|_| told);
             }
         }
         Frame {
