@@ -24,8 +24,8 @@ use crate::exhibit::Calm;
 
 /// R: the calm comes over so long, s. At once it would look like a hand.
 const RISE: f64 = 1.0;
-/// G and K: within so long, s, it grows so much firmer. What still swings when the next visitor blows, ten seconds after the last
-/// one at the earliest, is a twentieth of its swing; and the draught moves a mobile at a third of the pace that it else would.
+/// G and K: within so long, s, it grows so much firmer. The next visitor comes ten seconds after the last at the earliest: then
+/// the swing is gone, and what the draught moves of a mobile's picture has a fifth to a quarter of the energy.
 const GROWTH: f64 = 5.0;
 const FIRMER: f64 = 8.0;
 /// R of a calm that does not wait, s, and its τ as a share of the exhibit's: still within two seconds, and yet no hand.

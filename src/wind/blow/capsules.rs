@@ -64,7 +64,7 @@ const PUFF_DB: f64 = 8.0;
 /// Coherence of the treble above which two channels are one capsule.
 const ONE_CAPSULE: f64 = 0.97;
 /// Coherence, over [`MATCH_S`], from which two channels have heard the same (every frame counts alike, so of noise it is that of
-/// 0.86 of their powers' coherence); nothing is said of it before so long, s: frames overlap, and within a few of them whatever
+/// 0.85 of their powers' coherence); nothing is said of it before so long, s: frames overlap, and within a few of them whatever
 /// is heard is alike.
 const SAME: f64 = 0.7;
 const ENOUGH_S: f64 = 1.0;
