@@ -111,7 +111,8 @@ impl Attract {
         self.round.as_ref().and_then(|round| round.text.as_deref())
     }
 
-    /// One step of the script.
+    /// One step of the script. Kept apart: it makes room for a new ear on the stack, which no other step needs.
+    #[inline(never)]
     fn play(&mut self) -> Cue {
         let mut commands = Vec::new();
         // A last breath may be longer than the round: the next round waits for it.

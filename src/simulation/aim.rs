@@ -18,7 +18,6 @@
 //!     an acceleration in proportion to w A
 //! ```
 
-use super::Profile;
 use crate::dynamics::Dynamics;
 use crate::exhibit::View;
 use crate::geometry::TriangleMesh;
@@ -55,21 +54,6 @@ impl AimTarget {
         let turn = DMat3::from_quat(pose.rotation);
         Self { center: pose.point(self.center), faces: turn * self.faces * turn.transpose(), ..*self }
     }
-
-    /// How little is to be had of it by a breath from lips on a ray (a point and a unit direction).
-    fn from(&self, origin: DVec3, ray: DVec3, lips: &Lips) -> f64 {
-        let way = (self.center - lips.before(self.center)).try_normalize().unwrap_or(ray);
-        let ahead = way.dot(ray) > AHEAD;
-        let face = if ahead { (self.seen * way.dot(self.faces * way)).max(0.0).sqrt() } else { 0.0 };
-        let past = (self.off(origin, ray).length() - INNER * self.radius).max(0.0);
-        (past + NEAR) / (face * self.answers).max(LEAST)
-    }
-
-    /// From the ray to its middle, m.
-    fn off(&self, origin: DVec3, ray: DVec3) -> DVec3 {
-        let from = self.center - origin;
-        from - from.dot(ray) * ray
-    }
 }
 
 /// Makes the readiest of some targets count 1.
@@ -94,22 +78,50 @@ const MIDDLE: f64 = 0.2;
 /// The lean follows its goal with this time constant, s: no jumps while blowing.
 const LEAN_TIME: f64 = 0.08;
 
-/// Lips on the ray, and which way they come to the height of something: across the ray, upright in the picture.
+/// A sight line, and lips on it that come to the height of something: across the ray, upright in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Lips {
-    on_ray: DVec3,
+struct Sight {
+    origin: DVec3,
+    ray: DVec3,
+    /// Where it meets the plane through the view's target that faces the eye.
+    on_plane: DVec3,
+    lips: DVec3,
     upright: DVec3,
 }
 
-impl Lips {
-    /// How far they rise to a place, m.
+impl Sight {
+    /// How far the lips rise to a place, m.
     fn rise(&self, place: DVec3) -> f64 {
-        (place - self.on_ray).dot(self.upright)
+        (place - self.lips).dot(self.upright)
     }
 
-    /// At the height of a place.
-    fn before(&self, place: DVec3) -> DVec3 {
-        self.on_ray + self.rise(place) * self.upright
+    /// The lips at the height of a place.
+    fn lips_before(&self, place: DVec3) -> DVec3 {
+        self.lips + self.rise(place) * self.upright
+    }
+
+    /// From the ray to a target's middle, m.
+    fn off(&self, target: &AimTarget) -> DVec3 {
+        let from = target.center - self.origin;
+        from - from.dot(self.ray) * self.ray
+    }
+
+    /// How little is to be had of a target.
+    fn lacks(&self, target: &AimTarget) -> f64 {
+        let way = (target.center - self.lips_before(target.center)).try_normalize().unwrap_or(self.ray);
+        let ahead = way.dot(self.ray) > AHEAD;
+        let face = if ahead { (target.seen * way.dot(target.faces * way)).max(0.0).sqrt() } else { 0.0 };
+        let past = (self.off(target).length() - INNER * target.radius).max(0.0);
+        (past + NEAR) / (face * target.answers).max(LEAST)
+    }
+
+    /// The point of a target's ball that the breath goes to.
+    fn goal(&self, target: &AimTarget) -> DVec3 {
+        let off = self.off(target);
+        let miss = off.length() / target.radius;
+        let back = INNER - (INNER - MIDDLE) * (miss - INNER) / (1.0 - INNER);
+        let kept = miss.min(back.max(MIDDLE));
+        target.center - off.normalize_or_zero() * (kept * target.radius)
     }
 }
 
@@ -123,59 +135,50 @@ pub struct Aim {
     /// Where the axis comes nearest to what it is aimed at, world, m.
     pub target: DVec3,
     chosen: Option<usize>,
-    lips: Lips,
+    sight: Sight,
     /// How far the lips have risen, m.
     risen: f64,
 }
 
 impl Aim {
-    /// Follows the sight line through the pointer (origin and unit direction) for `dt` seconds.
-    pub fn follow(
-        &mut self,
-        view: &View,
-        (origin, ray): (DVec3, DVec3),
-        distance: f64,
-        profile: Profile,
-        targets: &[AimTarget],
-        dt: f64,
-    ) {
+    /// Points along the sight line through the pointer (origin and unit direction), lips `distance` (m) before the plane.
+    pub fn point(&mut self, view: &View, (origin, ray): (DVec3, DVec3), distance: f64) {
         let facing = (view.eye - view.target).normalize();
         let depth = (view.target - origin).dot(facing) / ray.dot(facing);
         let on_plane = origin + depth * ray;
         let upright = (view.up - view.up.dot(ray) * ray).try_normalize().unwrap_or_default();
-        self.lips = Lips { on_ray: on_plane - distance * ray, upright };
-        let leant = match profile {
-            Profile::True => None,
-            Profile::Gallery => self.lean(origin, ray, targets),
-        };
-        let (goal, rise) = leant.map_or((on_plane, 0.0), |goal| (goal, self.lips.rise(goal)));
-        let first = self.direction == DVec3::ZERO;
-        let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
-        self.risen += share * (rise - self.risen);
-        self.mouth = self.lips.on_ray + self.risen * upright;
-        let direction = (goal - self.mouth).try_normalize().unwrap_or(ray);
-        self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
-        self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
+        self.sight = Sight { origin, ray, on_plane, lips: on_plane - distance * ray, upright };
     }
 
     /// Where the lips would be to blow at a place.
     pub fn lips_before(&self, place: DVec3) -> DVec3 {
-        self.lips.before(place)
+        self.sight.lips_before(place)
     }
 
-    /// The point of the chosen surface's ball that the breath goes to.
-    fn lean(&mut self, origin: DVec3, ray: DVec3, targets: &[AimTarget]) -> Option<DVec3> {
-        let far = |index: usize| targets[index].from(origin, ray, &self.lips);
-        let nearest = (0..targets.len()).min_by(|&a, &b| far(a).total_cmp(&far(b)))?;
-        let keep = self.chosen.filter(|&old| old < targets.len() && far(old) * LOYALTY < far(nearest));
-        let chosen = keep.unwrap_or(nearest);
-        self.chosen = Some(chosen);
-        let target = &targets[chosen];
-        let off = target.off(origin, ray);
-        let miss = off.length() / target.radius;
-        let back = INNER - (INNER - MIDDLE) * (miss - INNER) / (1.0 - INNER);
-        let kept = miss.min(back.max(MIDDLE));
-        Some(target.center - off.normalize_or_zero() * (kept * target.radius))
+    /// Which of these the breath leans to.
+    pub fn chosen(&self) -> Option<usize> {
+        self.chosen
+    }
+
+    /// Chooses again among all of them, of which there are ever the same.
+    pub fn choose(&mut self, targets: &[AimTarget]) {
+        let lacks = |&index: &usize| self.sight.lacks(&targets[index]);
+        let best = (0..targets.len()).min_by(|a, b| lacks(a).total_cmp(&lacks(b)));
+        let keeps = |old: &usize| best.is_some_and(|best| lacks(old) * LOYALTY < lacks(&best));
+        self.chosen = self.chosen.filter(keeps).or(best);
+    }
+
+    /// Leans to what is chosen, as it stands now, for `dt` seconds; with nothing to lean to it follows the sight line.
+    pub fn lean(&mut self, target: Option<&AimTarget>, dt: f64) {
+        let leant = target.map(|target| self.sight.goal(target));
+        let (goal, rise) = leant.map_or((self.sight.on_plane, 0.0), |goal| (goal, self.sight.rise(goal)));
+        let first = self.direction == DVec3::ZERO;
+        let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
+        self.risen += share * (rise - self.risen);
+        self.mouth = self.sight.lips + self.risen * self.sight.upright;
+        let direction = (goal - self.mouth).try_normalize().unwrap_or(self.sight.ray);
+        self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
+        self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
     }
 }
 
@@ -194,10 +197,16 @@ mod tests {
 
     /// Where a breath goes that is pointed at the plane's middle for a while.
     fn goes(targets: &[AimTarget]) -> DVec3 {
+        aimed(targets, true).target
+    }
+
+    /// A breath that is pointed there, and leans or does not.
+    fn aimed(targets: &[AimTarget], leans: bool) -> Aim {
         let mut aim = Aim::default();
-        let ray = (EYE.target - EYE.eye).normalize();
-        aim.follow(&EYE, (EYE.eye, ray), 0.5, Profile::Gallery, targets, 1.0);
-        aim.target
+        aim.point(&EYE, (EYE.eye, (EYE.target - EYE.eye).normalize()), 0.5);
+        aim.choose(targets);
+        aim.lean(aim.chosen().filter(|_| leans).map(|chosen| &targets[chosen]), 1.0);
+        aim
     }
 
     #[test]
@@ -229,11 +238,9 @@ mod tests {
     fn the_lips_come_to_the_height_of_what_they_blow_at() {
         const ROUNDING: f64 = 1e-12;
         let low = AimTarget { center: DVec3::new(0.05, -0.3, 0.0), ..disc(0.0, DVec3::Z) };
-        let ray = (EYE.target - EYE.eye).normalize();
-        for (profile, height) in [(Profile::Gallery, -0.3), (Profile::True, 0.0)] {
-            let mut aim = Aim::default();
-            aim.follow(&EYE, (EYE.eye, ray), 0.5, profile, &[low], 1.0);
-            assert!((aim.mouth.y - height).abs() < 0.05, "{profile:?}: {}", aim.mouth);
+        for (leans, height) in [(true, -0.3), (false, 0.0)] {
+            let aim = aimed(&[low], leans);
+            assert!((aim.mouth.y - height).abs() < 0.05, "leans: {leans}, {}", aim.mouth);
             assert!((aim.mouth.z - 0.5).abs() < ROUNDING && aim.mouth.x.abs() < ROUNDING, "no nearer: {}", aim.mouth);
             assert!(aim.direction.y.abs() < 0.1, "they blow level: {}", aim.direction);
         }

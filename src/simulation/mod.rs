@@ -246,14 +246,7 @@ impl Simulation {
         for command in commands {
             match *command {
                 Command::Reset => self.reset(),
-                Command::Gather(seed) => {
-                    self.reset();
-                    if self.exhibit.gathers {
-                        let (gathering, scattered) = Gathering::new(&self.exhibit, &self.settings_now(), seed);
-                        self.dynamics = scattered;
-                        self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
-                    }
-                }
+                Command::Gather(seed) => self.gather(seed),
                 Command::Calm => self.idle.hush(),
                 Command::Blow(speed) => self.source.command(speed),
             }
@@ -270,7 +263,20 @@ impl Simulation {
         self.sounds.push(SoundCommand::Silence { sample });
     }
 
-    /// Puts the figure where it starts; its time begins.
+    /// Starts the exhibit anew from scattered parts, if it gathers itself.
+    #[inline(never)] // as `begin_anew`
+    fn gather(&mut self, seed: u64) {
+        self.reset();
+        if self.exhibit.gathers {
+            let (gathering, scattered) = Gathering::new(&self.exhibit, &self.settings_now(), seed);
+            self.dynamics = scattered;
+            self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
+        }
+    }
+
+    /// Puts the figure where it starts; its time begins. Kept apart from the step, which would else ask for the stack on which a
+    /// new figure is made, 140 KB, every time.
+    #[inline(never)]
     fn begin_anew(&mut self) {
         self.gathering = None;
         let settings = self.settings_now();
@@ -292,31 +298,39 @@ impl Simulation {
         self.gathering.as_ref().map(|(gathering, _)| gathering.way(&self.dynamics.bodies))
     }
 
-    /// Points the breath.
+    /// Points the breath. What it leans to is chosen again sixty times a second.
     fn take_aim(&mut self, input: &StepInput) {
+        const EVERY: u64 = STEPS_PER_SECOND / 60;
         self.eye.look(&self.exhibit, input.aspect, input.turn);
-        self.look_at_targets();
-        self.aim_targets.clear();
-        let bodies = &self.dynamics.bodies;
-        let pose = |surface: usize| bodies[self.exhibit.wind_surfaces[surface].body].pose();
-        self.aim_targets.extend(self.leant_to.iter().map(|(surface, target)| target.at(pose(*surface))));
         let pointer = input.pointer.unwrap_or([0.5, 0.5]);
         let Settings { distance, profile, .. } = self.settings;
         let Eye { aspect, ref view, .. } = self.eye;
-        self.aim.follow(view, view.ray(pointer, aspect), distance, profile, &self.aim_targets, DT);
+        self.aim.point(view, view.ray(pointer, aspect), distance);
+        let chooses = profile == Profile::Gallery && self.step.is_multiple_of(EVERY);
+        if chooses {
+            self.look_at_targets(self.step / EVERY);
+        }
+        let (surfaces, bodies) = (&self.exhibit.wind_surfaces, &self.dynamics.bodies);
+        let stands = |(surface, target): &(usize, AimTarget)| target.at(bodies[surfaces[*surface].body].pose());
+        if chooses {
+            self.aim_targets.clear();
+            self.aim_targets.extend(self.leant_to.iter().map(stands));
+            self.aim.choose(&self.aim_targets);
+        }
+        let chosen = self.aim.chosen().map(|index| stands(&self.leant_to[index]));
+        self.aim.lean(chosen.as_ref(), DT);
     }
 
     /// Sees what hides the surfaces that breath leans to from the lips, where there is a choice. What stands in the way changes
-    /// slowly: one of them is looked at in a sixtieth of a second.
-    fn look_at_targets(&mut self) {
-        const EVERY: u64 = STEPS_PER_SECOND / 60;
-        let (step, surfaces) = (self.step / EVERY, self.aim_targets.len());
-        if self.settings.profile == Profile::True || surfaces < 2 || !self.step.is_multiple_of(EVERY) {
+    /// slowly: of the choices one looks at one of them, and while nobody blows every fourth.
+    fn look_at_targets(&mut self, choice: u64) {
+        let (every, surfaces) = (if self.speed > 0.0 { 1 } else { 4 }, self.leant_to.len());
+        if surfaces < 2 || !choice.is_multiple_of(every) {
             return;
         }
-        let turn = (step % surfaces as u64) as usize;
-        let lips = self.aim.lips_before(self.aim_targets[turn].center);
-        let (surface, target) = &mut self.leant_to[turn];
+        let (surface, target) = &mut self.leant_to[(choice / every % surfaces as u64) as usize];
+        let pose = self.dynamics.bodies[self.exhibit.wind_surfaces[*surface].body].pose();
+        let lips = self.aim.lips_before(pose.point(target.center));
         target.seen = self.wind.shown(*surface, &self.dynamics.bodies, lips);
     }
 

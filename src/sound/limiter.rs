@@ -121,11 +121,15 @@ impl Limiter {
     fn pass(&mut self, frames: &mut [[f32; 2]]) {
         self.true_peak.take(frames);
         let gain = self.gain();
-        for frame in frames.iter_mut() {
-            let delayed = std::mem::replace(&mut self.delay[self.at], *frame);
-            self.at = next(self.at, self.delay.len());
-            *frame = limited(delayed, gain);
+        let mut coming = &mut *frames;
+        while !coming.is_empty() {
+            let n = coming.len().min(self.delay.len() - self.at);
+            let (now, later) = coming.split_at_mut(n);
+            now.swap_with_slice(&mut self.delay[self.at..self.at + n]);
+            self.at = next(self.at + n - 1, self.delay.len());
+            coming = later;
         }
+        frames.iter_mut().for_each(|frame| *frame = limited(*frame, gain));
         for _ in 0..frames.len() {
             let before = self.ceiling;
             self.ceiling = (before * self.sink).clamp(SUDDEN, CEILING * MARGIN);

@@ -64,14 +64,19 @@ impl Delay {
 
     /// What comes out next.
     #[inline(always)]
-    fn read(&self) -> Chunk {
-        match self.samples[self.at..].first_chunk() {
-            Some(chunk) => *chunk,
-            None => {
-                let (ahead, length) = (self.length() - self.at, self.length());
-                std::array::from_fn(|k| self.samples[if k < ahead { self.at + k } else { (k - ahead) % length }])
-            }
+    fn read<S: Simd>(&self, simd: S) -> f32x16<S> {
+        match self.samples[self.at..].first_chunk::<CHUNK>() {
+            Some(chunk) => (*chunk).simd_into(simd),
+            None => self.read_around().simd_into(simd),
         }
+    }
+
+    /// What comes out next, beyond the end of the ring. Rare, and so kept apart: or the common case, too, would gather its numbers
+    /// one by one, and a register could not be loaded before all of them have arrived.
+    #[cold]
+    #[inline(never)]
+    fn read_around(&self) -> Chunk {
+        std::array::from_fn(|k| self.samples[(self.at + k) % self.length()])
     }
 
     /// Takes in the first `n` of a chunk for those that came out.
@@ -96,7 +101,7 @@ impl Delay {
     /// One Schroeder allpass: y = v[n−m] − k v, v = x + k v[n−m].
     #[inline(always)]
     pub fn diffuse<S: Simd>(&mut self, simd: S, x: f32x16<S>, n: usize) -> f32x16<S> {
-        let delayed: f32x16<S> = self.read().simd_into(simd);
+        let delayed = self.read(simd);
         let v = x + delayed * DIFFUSION;
         self.write(&floored(v).into(), n);
         delayed - v * DIFFUSION
@@ -127,7 +132,7 @@ impl Network {
     #[inline(always)]
     pub fn run<S: Simd>(&mut self, simd: S, fed: [f32x16<S>; 2], n: usize) -> ([f32x16<S>; 2], Chunk) {
         let silence = f32x16::splat(simd, 0.0);
-        let by_lines: [f32x16<S>; LINES] = std::array::from_fn(|i| self.lines[i].read().simd_into(simd));
+        let by_lines: [f32x16<S>; LINES] = std::array::from_fn(|i| self.lines[i].read(simd));
         let mut frames = turned(by_lines);
         self.absorb(simd, &mut frames[..n]);
         let mut y = turned(frames);
