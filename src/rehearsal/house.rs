@@ -14,6 +14,7 @@ use std::collections::VecDeque;
 use super::BLOCK;
 use super::day::busyness;
 use super::rate::Finer;
+use super::standing::Standing;
 use super::room::Echo;
 use crate::math::{PI, exp, from_decibels};
 use crate::noise::{Random, hash_words};
@@ -72,6 +73,15 @@ pub fn recorded(recordings: &[Recording]) -> Result<Crowd, String> {
     Ok(Crowd::Recorded(sounds))
 }
 
+/// A sound at the microphone.
+struct Sound {
+    /// Sample at which it begins.
+    start: u64,
+    /// As each capsule hears it.
+    channels: Vec<Vec<f64>>,
+    breath: bool,
+}
+
 /// Everything that the microphone hears.
 pub struct House {
     world: World,
@@ -80,8 +90,9 @@ pub struct House {
     /// Length of the day, s.
     day_s: f64,
     pieces: u64,
-    /// Sounds with the sample at which each begins, as each capsule hears them.
-    sounds: Vec<(u64, Vec<Vec<f64>>)>,
+    sounds: Vec<Sound>,
+    /// The breath that is looked at, to know how far it stands above all else.
+    standing: Standing,
     echo: Echo,
     capsules: Vec<Capsule>,
     /// Samples heard.
@@ -101,7 +112,8 @@ impl House {
             }
         };
         let capsules = (0..capsules).map(capsule).collect();
-        Self { world, seed, crowd, day_s, pieces: 0, sounds: Vec::new(), echo, capsules, sample: 0 }
+        let standing = Standing::default();
+        Self { world, seed, crowd, day_s, pieces: 0, sounds: Vec::new(), standing, echo, capsules, sample: 0 }
     }
 
     /// Its speakers and its room.
@@ -116,7 +128,23 @@ impl House {
 
     /// Lets a sound begin at a time of the day, s; full scale ±1 at 16 kHz, as each capsule hears it.
     pub fn put(&mut self, at: f64, sound: Vec<Vec<f64>>) {
-        self.sounds.push(((at * R).round().max(0.0) as u64, sound));
+        self.sounds.push(Sound { start: (at * R).round().max(0.0) as u64, channels: sound, breath: false });
+    }
+
+    /// The same of a breath.
+    pub fn put_breath(&mut self, at: f64, sound: Vec<Vec<f64>>) {
+        self.put(at, sound);
+        self.sounds.iter_mut().rev().take(1).for_each(|sound| sound.breath = true);
+    }
+
+    /// From now on tells of what begins at a time of the day, s.
+    pub fn look_at(&mut self, onset: f64) {
+        self.standing = Standing::at(onset);
+    }
+
+    /// How far the breaths of the time that is looked at stand above all else ([`Standing::above_db`]).
+    pub fn above_db(&self) -> Option<[f64; 2]> {
+        self.standing.above_db()
     }
 
     /// The next block of the microphone at 48 kHz, full scale ±1, frame by frame, while `played` leaves the loudspeaker
@@ -131,17 +159,23 @@ impl House {
         let mut heard = Vec::new();
         for (number, (capsule, mut sum)) in self.capsules.iter_mut().zip(echoes).enumerate() {
             sum.iter_mut().zip(capsule.ahead.drain(..BLOCK)).for_each(|(y, x)| *y += x);
-            for (start, sound) in &self.sounds {
-                let sound = &sound[number];
+            let mut blown = vec![0.0; BLOCK];
+            for Sound { start, channels, breath } in &self.sounds {
+                let sound = &channels[number];
                 let into = start.saturating_sub(from).min(BLOCK as u64) as usize;
                 let past = from.saturating_sub(*start).min(sound.len() as u64) as usize;
-                sum[into..].iter_mut().zip(&sound[past..]).for_each(|(y, x)| *y += x);
+                let to = if *breath { &mut blown } else { &mut sum };
+                to[into..].iter_mut().zip(&sound[past..]).for_each(|(y, x)| *y += x);
             }
+            if number == 0 {
+                self.standing.hear(from, &blown, &sum);
+            }
+            sum.iter_mut().zip(&blown).for_each(|(y, x)| *y += x);
             let samples = capsule.record(&sum);
             heard.resize(count * samples.len(), 0.0);
             heard.iter_mut().skip(number).step_by(count).zip(samples).for_each(|(y, x)| *y = x);
         }
-        self.sounds.retain(|(start, sound)| start + sound[0].len() as u64 > until);
+        self.sounds.retain(|sound| sound.start + sound.channels[0].len() as u64 > until);
         self.sample = until;
         heard
     }

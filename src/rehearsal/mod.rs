@@ -22,6 +22,7 @@ mod rate;
 pub mod report;
 mod room;
 mod run;
+mod standing;
 mod twin;
 pub mod visitor;
 

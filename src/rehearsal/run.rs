@@ -93,6 +93,8 @@ struct Course<'a> {
     answers: Vec<(usize, Option<judge::Answer>)>,
     /// Entries whose doing made wind, and after how long, s.
     heard: Vec<(usize, f64)>,
+    /// How far each entry's first breath stood above the house, dB.
+    above: Vec<Option<[f64; 2]>>,
     /// What the ear said in the second after each entry's onset, and how often.
     ear: Vec<BTreeMap<String, u32>>,
     shuffled: Vec<(f64, bool)>,
@@ -129,6 +131,7 @@ impl<'a> Course<'a> {
             woke: Vec::new(),
             answers: Vec::new(),
             heard: Vec::new(),
+            above: vec![None; entries],
             ear: vec![BTreeMap::new(); entries],
             shuffled: Vec::new(),
             phantoms: Vec::new(),
@@ -179,7 +182,7 @@ impl<'a> Course<'a> {
                 self.house.put(at, sound);
             }
             for breath in &entry.visit.breaths {
-                self.house.put(breath.onset, breath.sound(capsules));
+                self.house.put_breath(breath.onset, breath.sound(capsules));
             }
             if entry.answered()
                 && let Some(onset) = entry.visit.onset()
@@ -217,6 +220,9 @@ impl<'a> Course<'a> {
         if entry.answered() && visit.onset().is_some_and(|onset| begins(onset, now)) && self.machine.stage.attracts() {
             self.woke.push(self.current);
         }
+        if let Some(breath) = visit.breaths.first().filter(|breath| begins(breath.onset, now)) {
+            self.house.look_at(breath.onset);
+        }
         if let Some((_, place)) = visit.aim.filter(|(at, _)| begins(*at, now)) {
             self.controls.aim = Some(place);
             self.controls.activity += 1;
@@ -247,6 +253,9 @@ impl<'a> Course<'a> {
         let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
         let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now)) else { return };
         let breath = &self.machine.stage.snapshot().breath;
+        if !self.day.entries[self.current].visit.breaths.is_empty() {
+            self.above[self.current] = self.house.above_db();
+        }
         *self.ear[self.current].entry(format!("{:?}", breath.estimate.reason)).or_default() += 1;
         if breath.speed > 0.0 && self.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
             self.heard.push((self.current, now - onset));
@@ -315,6 +324,7 @@ impl<'a> Course<'a> {
                 onset_s: onset,
                 since_s: last.is_finite().then_some(onset - last),
                 work: rehearsal.works[entry.work].id.clone(),
+                above_db: self.above[*index],
                 ear: most_frequent(&self.ear[*index]),
                 heard_after_s: self.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
                 changed_after_s: answer.and_then(|a| a.changed).map(after),
