@@ -21,11 +21,13 @@
 //! ```text
 //! δ = Σ_k ⟨|L_k − g_k R_k|²⟩ / Σ_k (⟨|L_k|²⟩ + |g_k|² ⟨|R_k|²⟩)      over 47–250 Hz, ⟨·⟩ of 64 ms; 1 for wind
 //! ℓ_sum ← ℓ_sum + clamp(12 (δ − 0.3), −0.5, 4), in so far as the low band has risen
-//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 3)
+//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 3 … 7)
 //! ```
 //!
-//! and the greater one counts. A puff of p or b into the microphone is wind too, and one may follow another: what δ says for
-//! breath, it says by and by, once the difference has stood for 60 to 140 ms within 8 dB of its peak.
+//! and the greater one counts; the difference says the more the farther it has risen above its own room, which knows no crowd. A
+//! puff of p or b into the microphone is wind too, and one may follow another: what δ says for breath, it says by and by, once
+//! the difference has stood for 60 to 140 ms near its peak. Breath wavers by 10 dB and more while it towers over the room, so
+//! near is less than a third of its rise away, or 8 dB; and a moment below takes twice as long off what it has stood.
 //!
 //! One capsule copied into two channels is coherent in everything it hears, and a channel that is dead, or hears only
 //! itself, in nothing. So there are two capsules only once both have heard the same below 400 Hz while the treble, above
@@ -34,6 +36,7 @@
 
 use rustfft::num_complex::Complex;
 
+use super::decision::LEAST_RISE_DB;
 use super::features::{blend, decibels};
 use super::spectrum::{BINS, FRAME_S, Power};
 use crate::math::from_decibels;
@@ -53,14 +56,20 @@ const NEUTRAL: f64 = 0.3;
 const SLOPE: f64 = 12.0;
 const SUM_SAYS: (f64, f64) = (-0.5, 4.0);
 const RISE_DB: (f64, f64) = (4.0, 10.0);
-/// Of the difference: δ of which nothing can be said, dB, log-odds for each dB above, and what it may say, against and for.
+/// Of the difference: δ of which nothing can be said, dB, log-odds for each dB above, and what it may say, against and for; for
+/// what towers over the room so much more, from one rise to another, dB.
 const NEUTRAL_DB: f64 = -13.0;
 const SLOPE_DB: f64 = 0.5;
 const DIFFERENCE_SAYS: (f64, f64) = (-6.0, 3.0);
+const TOWERING_SAYS: f64 = 4.0;
+const TOWERING_DB: (f64, f64) = (12.0, 24.0);
 /// What speaks for wind begins to count, and counts in full, when the difference has stood for so long above the room, s, and
-/// no farther below its peak, dB: the puff of a p or b is wind as well, and dies away.
+/// no farther below its peak, dB, or by this share of its rise: the puff of a p or b is wind as well, and dies away.
 const PUFF_S: (f64, f64) = (0.06, 0.14);
 const PUFF_DB: f64 = 8.0;
+const PUFF_SHARE: f64 = 0.35;
+/// What it has stood is lost so much faster than it is won.
+const LOSES: f64 = 2.0;
 /// Coherence of the treble above which two channels are one capsule.
 const ONE_CAPSULE: f64 = 0.97;
 /// Coherence, over [`MATCH_S`], from which two channels have heard the same (every frame counts alike, so of noise it is that of
@@ -76,21 +85,28 @@ const NOTHING: f64 = 1e-30;
 
 /// Leaky means of one bin of both channels: powers and cross spectrum.
 #[derive(Clone, Copy, Debug, Default)]
-struct Pair {
+pub(super) struct Pair {
     left: f64,
     right: f64,
-    cross: Complex<f64>,
+    pub cross: Complex<f64>,
 }
 
 impl Pair {
-    fn push(&mut self, weight: f64, l: Complex<f64>, r: Complex<f64>) {
+    pub fn push(&mut self, weight: f64, l: Complex<f64>, r: Complex<f64>) {
         self.left += weight * (l.norm_sqr() - self.left);
         self.right += weight * (r.norm_sqr() - self.right);
         self.cross += weight * (l * r.conj() - self.cross);
     }
 
+    /// Sums of both.
+    pub fn add(&mut self, other: &Self) {
+        self.left += other.left;
+        self.right += other.right;
+        self.cross += other.cross;
+    }
+
     /// √(⟨|L|²⟩⟨|R|²⟩): what |c| is where both hear the same.
-    fn scale(&self) -> f64 {
+    pub fn scale(&self) -> f64 {
         (self.left * self.right).sqrt()
     }
 
@@ -113,7 +129,8 @@ pub struct Capsules {
     differs: [f64; 2],
     /// They have heard the same, and the treble has told them apart.
     apart: bool,
-    /// For how long the low band of the difference has stood above the room and near its peak, s.
+    /// How far the low band of the difference has risen above its room, dB, and for how long it has stood so near its peak, s.
+    rise_db: f64,
     lasts: f64,
     /// δ of the last frame; `None` where there is one capsule.
     pub share: Option<f64>,
@@ -131,6 +148,7 @@ impl Capsules {
             treble: [Pair::default(); BINS],
             differs: [0.0; 2],
             apart: false,
+            rise_db: 0.0,
             lasts: 0.0,
             share: None,
             difference: [0.0; BINS],
@@ -191,29 +209,36 @@ impl Capsules {
         self.apart && balance > DEAD && balance < 1.0 / DEAD
     }
 
-    /// Notes whether the low band of the difference rises above the room, and how far it has fallen from its peak, dB.
-    pub fn note(&mut self, rises: bool, fall_db: f64) {
-        self.lasts = if rises && fall_db < PUFF_DB { self.lasts + FRAME_S } else { 0.0 };
+    /// Notes how far the low band of the difference has risen above the room, and how far it has fallen from its peak, dB.
+    pub fn note(&mut self, rise_db: f64, fall_db: f64) {
+        let stands = rise_db > LEAST_RISE_DB && fall_db < PUFF_DB.max(PUFF_SHARE * rise_db);
+        let more = if stands { FRAME_S } else { -LOSES * FRAME_S };
+        (self.rise_db, self.lasts) = (rise_db, (self.lasts + more).clamp(0.0, PUFF_S.1));
     }
 
     /// What δ adds to the log-odds of half the sum, whose low band has risen by `rise_db` over the room.
     pub fn of_sum(&self, rise_db: f64) -> f64 {
-        let weight = ((rise_db - RISE_DB.0) / (RISE_DB.1 - RISE_DB.0)).clamp(0.0, 1.0);
+        let weight = part(rise_db, RISE_DB);
         let most = self.lasting() * SUM_SAYS.1;
         self.share.map_or(0.0, |share| weight * (SLOPE * (share - NEUTRAL)).clamp(SUM_SAYS.0, most))
     }
 
     /// What δ adds to the log-odds of the difference.
     pub fn of_difference(&self) -> f64 {
-        let most = self.lasting() * DIFFERENCE_SAYS.1;
+        let most = self.lasting() * (DIFFERENCE_SAYS.1 + TOWERING_SAYS * part(self.rise_db, TOWERING_DB));
         let says = |share| SLOPE_DB * (decibels(share) - NEUTRAL_DB);
         self.share.map_or(0.0, |share| says(share).clamp(DIFFERENCE_SAYS.0, most))
     }
 
     /// Whether it has lasted longer than the puff of a p or b, 0 … 1.
     fn lasting(&self) -> f64 {
-        ((self.lasts - PUFF_S.0) / (PUFF_S.1 - PUFF_S.0)).clamp(0.0, 1.0)
+        part(self.lasts, PUFF_S)
     }
+}
+
+/// How far a number has come between two others, 0 … 1.
+pub(super) fn part(x: f64, (from, to): (f64, f64)) -> f64 {
+    ((x - from) / (to - from)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -239,7 +264,7 @@ mod tests {
             }
             let before: f64 = microphone[LOW].iter().sum();
             capsules.push(&pair, true, 1.0, &microphone);
-            capsules.note(true, 0.0);
+            capsules.note(10.0, 0.0);
             if i > FRAMES / 2 {
                 sum += before;
                 low += capsules.difference[LOW].iter().sum::<f64>();
@@ -277,15 +302,25 @@ mod tests {
     #[test]
     fn puffs_that_follow_each_other_never_last() {
         let mut capsules = Capsules::new();
-        let mut puff = |frames: usize| {
-            (0..frames).for_each(|_| capsules.note(true, 0.0));
+        let mut puff = |frames: usize, pause: usize| {
+            (0..frames).for_each(|_| capsules.note(20.0, 0.0));
             let lasting = capsules.lasting();
-            capsules.note(true, PUFF_DB);
+            (0..pause).for_each(|_| capsules.note(20.0, PUFF_DB));
             (lasting, capsules.lasting())
         };
-        // Of 56 ms each, and then a breath of 0.2 s.
-        (0..9).for_each(|_| assert_eq!(puff(7), (0.0, 0.0)));
-        assert_eq!(puff(25), (1.0, 0.0));
+        // Of 56 ms each, half as long apart, and then a breath of 0.2 s that falters for a moment.
+        (0..9).for_each(|_| assert_eq!(puff(7, 4), (0.0, 0.0)));
+        let (lasting, falters) = puff(25, 2);
+        assert!(lasting == 1.0 && (0.5..1.0).contains(&falters), "{falters}");
+    }
+
+    #[test]
+    fn breath_that_wavers_far_above_the_room_lasts_and_a_puff_that_dies_does_not() {
+        let mut capsules = Capsules::new();
+        (0..18).for_each(|i| capsules.note(45.0, if i % 2 == 0 { 0.0 } else { 14.0 }));
+        assert_eq!(capsules.lasting(), 1.0);
+        (0..7).for_each(|_| capsules.note(45.0, 20.0));
+        assert!(capsules.lasting() < 0.5, "{}", capsules.lasting());
     }
 
     #[test]

@@ -69,6 +69,8 @@ pub const NAMES: [&str; MEASURED] = [
 /// One frame's features: what is measured in the order of [`NAMES`], then its means, the shorter one first.
 pub type Features = [f64; COUNT];
 
+/// Index of the rise of 1625–3400 Hz.
+pub const HISS_RISE: usize = 5;
 /// Index of the periodicity over 80 ms.
 pub const PERIODICITY: usize = 15;
 /// Index of the falls of low and middle.

@@ -19,6 +19,7 @@ pub mod features;
 pub mod front;
 mod gain;
 pub mod model;
+mod nearness;
 mod own;
 mod past;
 mod resample;
@@ -246,7 +247,7 @@ impl BlowDetector {
     /// Log-odds, features and levels of the frame, or of what differs in it between two capsules, whichever is more like breath.
     fn weigh(&self, frame: &Frame) -> (f64, Features, Levels) {
         let (model, capsules) = (&self.settings.model, &self.front.capsules);
-        let sum = model.log_odds(&frame.features) + capsules.of_sum(frame.levels.rise_db);
+        let sum = model.log_odds(&frame.features) + capsules.of_sum(frame.levels.rise_db) + frame.nearness;
         let difference = frame.difference.map(|(features, levels)| {
             let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
             let log_odds = model.log_odds(&features) + capsules.of_difference();
