@@ -423,13 +423,13 @@ mod live {
     }
 
     #[test]
-    fn what_the_attract_script_has_set_swinging_is_calmed_two_seconds_later() {
+    fn what_the_attract_script_has_set_swinging_is_calmed_a_second_later() {
         let mut attract = Attract::new(Script { duration: 4.0, ..script() }, 1.0 / 240.0);
         let calmed = (0..960).filter(|_| attract.step(false).commands.contains(&Command::Calm)).count();
         assert_eq!(calmed, 1);
         // The breath ends at step 180 of each round.
         let calmed: Vec<u64> = (0..960).filter(|_| attract.step(false).commands.contains(&Command::Calm)).collect();
-        assert_eq!(calmed, [660]);
+        assert_eq!(calmed, [420]);
     }
 
     #[test]
