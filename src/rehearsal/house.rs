@@ -128,13 +128,16 @@ impl House {
 
     /// Lets a sound begin at a time of the day, s; full scale ±1 at 16 kHz, as each capsule hears it.
     pub fn put(&mut self, at: f64, sound: Vec<Vec<f64>>) {
-        self.sounds.push(Sound { start: (at * R).round().max(0.0) as u64, channels: sound, breath: false });
+        self.add(at, sound, false);
     }
 
     /// The same of a breath.
     pub fn put_breath(&mut self, at: f64, sound: Vec<Vec<f64>>) {
-        self.put(at, sound);
-        self.sounds.iter_mut().rev().take(1).for_each(|sound| sound.breath = true);
+        self.add(at, sound, true);
+    }
+
+    fn add(&mut self, at: f64, channels: Vec<Vec<f64>>, breath: bool) {
+        self.sounds.push(Sound { start: (at * R).round().max(0.0) as u64, channels, breath });
     }
 
     /// From now on tells of what begins at a time of the day, s.

@@ -129,8 +129,7 @@ pub struct Capsules {
     differs: [f64; 2],
     /// They have heard the same, and the treble has told them apart.
     apart: bool,
-    /// How far the low band of the difference has risen above its room, dB, and for how long it has stood so near its peak, s.
-    rise_db: f64,
+    /// For how long the low band of the difference has stood above its room and near its peak, s.
     lasts: f64,
     /// δ of the last frame; `None` where there is one capsule.
     pub share: Option<f64>,
@@ -148,7 +147,6 @@ impl Capsules {
             treble: [Pair::default(); BINS],
             differs: [0.0; 2],
             apart: false,
-            rise_db: 0.0,
             lasts: 0.0,
             share: None,
             difference: [0.0; BINS],
@@ -213,7 +211,7 @@ impl Capsules {
     pub fn note(&mut self, rise_db: f64, fall_db: f64) {
         let stands = rise_db > LEAST_RISE_DB && fall_db < PUFF_DB.max(PUFF_SHARE * rise_db);
         let more = if stands { FRAME_S } else { -LOSES * FRAME_S };
-        (self.rise_db, self.lasts) = (rise_db, (self.lasts + more).clamp(0.0, PUFF_S.1));
+        self.lasts = (self.lasts + more).clamp(0.0, PUFF_S.1);
     }
 
     /// What δ adds to the log-odds of half the sum, whose low band has risen by `rise_db` over the room.
@@ -223,9 +221,9 @@ impl Capsules {
         self.share.map_or(0.0, |share| weight * (SLOPE * (share - NEUTRAL)).clamp(SUM_SAYS.0, most))
     }
 
-    /// What δ adds to the log-odds of the difference.
-    pub fn of_difference(&self) -> f64 {
-        let most = self.lasting() * (DIFFERENCE_SAYS.1 + TOWERING_SAYS * part(self.rise_db, TOWERING_DB));
+    /// What δ adds to the log-odds of the difference, whose low band has risen by `rise_db` over its room.
+    pub fn of_difference(&self, rise_db: f64) -> f64 {
+        let most = self.lasting() * (DIFFERENCE_SAYS.1 + TOWERING_SAYS * part(rise_db, TOWERING_DB));
         let says = |share| SLOPE_DB * (decibels(share) - NEUTRAL_DB);
         self.share.map_or(0.0, |share| says(share).clamp(DIFFERENCE_SAYS.0, most))
     }
@@ -270,7 +268,7 @@ mod tests {
                 low += capsules.difference[LOW].iter().sum::<f64>();
             }
         }
-        (sum, low, capsules.of_difference())
+        (sum, low, capsules.of_difference(10.0))
     }
 
     fn noise(random: &mut Random) -> Complex<f64> {

@@ -250,7 +250,7 @@ impl BlowDetector {
         let sum = model.log_odds(&frame.features) + capsules.of_sum(frame.levels.rise_db) + frame.nearness;
         let difference = frame.difference.map(|(features, levels)| {
             let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
-            let log_odds = model.log_odds(&features) + capsules.of_difference();
+            let log_odds = model.log_odds(&features) + capsules.of_difference(levels.rise_db);
             (if rumbles { log_odds } else { f64::NEG_INFINITY }, features, levels)
         });
         difference.filter(|other| other.0 > sum).unwrap_or((sum, frame.features, frame.levels))

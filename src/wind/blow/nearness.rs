@@ -1,15 +1,16 @@
 //! Near or far: hiss at the lips is one wave from one place, a crowd's comes from everywhere.
 //!
 //! A stream beside the microphone is heard by its hiss alone, and so is many another thing: applause, rain, paper, a school class.
-//! Lips are a hand's breadth before the microphone, much nearer than the distance at which a room answers as loudly as the
-//! source (0.057 √(V/T60), Kuttruff, *Room Acoustics*: a metre in the gallery), so that whatever capsules differ in, they hear the same of it:
+//! Lips are a hand's breadth before the microphone, much nearer than the distance at which a room answers as loudly as the source
+//! (0.057 √(V/T60), Kuttruff, *Room Acoustics*: a metre in the gallery), so that whatever capsules differ in, they hear the same
+//! of it:
 //!
 //! ```text
 //! γ = Σ_B |Σ_{k∈B} ⟨L_k R*_k⟩| / Σ_B √(Σ_{k∈B} ⟨|L_k|²⟩ Σ_{k∈B} ⟨|R_k|²⟩)       bands B of 172 Hz from 2 to 3.4 kHz, ⟨·⟩ of 64 ms
 //! ```
 //!
-//! 1 for one wave, from wherever it comes: over a band's width the 6 cm between capsules turn it by a tenth of a turn at the most.
-//! Of sound from everywhere sin(k d)/(k d) is left, a half and less, and a few tenths of chance. What is not the same, 1 − γ, is
+//! 1 for one wave, from wherever it comes: over a band's width the 6 cm between capsules turn it by a thirtieth of a turn at the most.
+//! Of sound from everywhere sin(k d)/(k d) is left (at 2.7 kHz 0.25 of 5 cm, 0.67 of 3 cm), and a few tenths of chance. What is not the same, 1 − γ, is
 //! of the room what it is; of hiss that rises by r dB it is 10^(−r/10) of that at most. It speaks where hiss has risen and rumble
 //! has not:
 //!
