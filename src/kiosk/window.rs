@@ -27,6 +27,7 @@ use super::fleet::Fleet;
 use super::given::Given;
 use super::house::{Above, House};
 use super::input::{Keys, Request, Visitor};
+use super::languages::unwritten;
 use super::live::{self, Frame, Live, Report};
 use super::log::Log;
 use super::menu::Menu;
@@ -135,6 +136,7 @@ pub fn run(
         listens: true,
         given,
         languages: Vec::new(),
+        unwritten: unwritten(),
         language: String::new(),
         waiting: Some(options),
         show: None,
@@ -242,6 +244,8 @@ struct App<'a> {
     cursor: bool,
     /// Languages a visitor can choose from, and the one chosen (empty: none yet).
     languages: Vec<String>,
+    /// Those that this system's fonts cannot write.
+    unwritten: Vec<&'static str>,
     language: String,
     attracts: bool,
     deaf: bool,

@@ -9,6 +9,7 @@ use crate::kiosk::care::CLEAN_NIGHTS;
 use crate::kiosk::chirping::{Act, Course};
 use crate::kiosk::fonts::{self, Script};
 use crate::kiosk::kept;
+use crate::kiosk::languages::unwritten;
 use crate::kiosk::speech::Speaker;
 use crate::kiosk::window;
 use crate::kiosk::words::WORDS;
@@ -73,6 +74,11 @@ fn writing(script: Script) -> Finding {
         Script::Arabic => ("font for Arabic, Persian and Urdu", "fonts-noto-core or fonts-dejavu-core"),
     };
     match fonts::find(script) {
+        Some((file, _)) if script == Script::EastAsian && !unwritten().is_empty() => {
+            let found = format!("{} lacks letters of: {}", file.display(), unwritten().join(", "));
+            let remedy = "install fonts-noto-cjk; until then labels in these languages are not offered";
+            Finding::new(what, Health::Warn, found, remedy)
+        }
         Some((file, _)) => Finding::new(what, Health::Ok, file.display().to_string(), ""),
         None => {
             let remedy = format!("install {package}; until then labels in these languages are not offered");

@@ -90,7 +90,7 @@ impl App<'_> {
         let mut points = egui::Rect::NOTHING;
         let silent = frame.load.loudness.muted || frame.is_mute();
         let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
-            self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config);
+            self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config, &self.unwritten);
             if !self.languages.contains(&self.language) {
                 self.language = first(&self.languages, &frame.exhibit.labels, &self.config);
             }

@@ -9,7 +9,7 @@ use std::path::Path;
 use egui::Rect;
 use image::RgbaImage;
 use soffio::config::Config;
-use soffio::kiosk::languages::offered;
+use soffio::kiosk::languages::{offered, unwritten};
 use soffio::kiosk::page::Reading;
 use soffio::offline::pictures::Pictures;
 
@@ -118,7 +118,7 @@ fn look(glass: &mut Glass, id: &str, languages: &[&str]) -> (Vec<String>, usize)
     let (mut bad, mut measured) = (Vec::new(), 0);
     // There are fonts from the first picture on.
     glass.learn(&mut visitor.lay_out());
-    let offered = offered(&visitor.context, &exhibit.labels, &Config::default());
+    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &unwritten());
     visitor.captions = exhibit.sounds.iter().filter_map(|sound| sound.caption.clone()).take(2).collect();
     // Where the system has no East Asian font those languages are not offered.
     for language in languages.iter().filter(|code| offered.iter().any(|other| other == **code)) {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use image::{RgbaImage, imageops};
 use soffio::config::Config;
-use soffio::kiosk::languages::offered;
+use soffio::kiosk::languages::{offered, unwritten};
 use soffio::kiosk::needs::Needs;
 use soffio::kiosk::page::Reading;
 use soffio::kiosk::shelf::{THUMBNAIL, Work, id};
@@ -71,7 +71,7 @@ fn the_manuals_pictures_are_made() {
     let picture = pictures.draw(&visitor.moment).expect("it draws");
     // There are fonts from the first picture on.
     glass.learn(&mut visitor.lay_out());
-    visitor.languages = offered(&visitor.context, &exhibit.labels, &Config::default());
+    visitor.languages = offered(&visitor.context, &exhibit.labels, &Config::default(), &unwritten());
     let languages = visitor.languages.clone();
     for (name, come) in SCREENS {
         let mut sheet = RgbaImage::new(SHRUNK.0, SHRUNK.1 * languages.len() as u32);
