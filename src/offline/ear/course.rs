@@ -82,6 +82,7 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
         (Condition::Isolated, count(180.0)),
     ];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(45.0))));
+    all.extend([5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Aside(snr), count(45.0))));
     all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(24.0))));
     all.extend([0, 1, 2].map(|room| (Condition::Answered(room), count(30.0))));
     all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
@@ -221,6 +222,13 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
     }
     for snr in [0.0, 5.0, 10.0, 20.0] {
         rows.push((format!("breath in a museum, {snr:2.0} dB"), Condition::Noisy(snr), takes(5.0 * 4.0)));
+    }
+    for snr in [5.0, 10.0, 20.0] {
+        rows.push((
+            format!("breath past it in a museum, {snr:2.0} dB of hiss"),
+            Condition::Aside(snr),
+            takes(5.0 * 3.0),
+        ));
     }
     for room in 0..3 {
         rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));

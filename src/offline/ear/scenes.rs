@@ -47,6 +47,8 @@ pub enum Condition {
     Cell(f64, f64, bool),
     /// Breath straight at the microphone in a museum, this far above its noise, dB.
     Noisy(f64),
+    /// Breath past the microphone in a museum, its hiss this far above that of the noise, dB.
+    Aside(f64),
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
     /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
@@ -175,6 +177,11 @@ impl World {
                 let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
             }
+            Condition::Aside(_) => {
+                let child = random.unit() < 0.4;
+                let mouth = (random.range(0.1, 0.45), random.range(20.0, 60.0), child);
+                self.blow(condition, index, mouth, hearing, &mut random)
+            }
             Condition::OwnVoice(room) => self.own_voice(index, room, hearing, &mut random),
         }
     }
@@ -255,7 +262,13 @@ impl World {
                 lips.heard(air.collect::<Vec<_>>().concat())
             })
             .collect();
-        let noisy = matches!(condition, Condition::Noisy(_));
+        // How far above the noise, in all or in hiss.
+        let snr: Option<(f64, fn(&[f64]) -> f64)> = match condition {
+            Condition::Noisy(snr) => Some((snr, power)),
+            Condition::Aside(snr) => Some((snr, hiss)),
+            _ => None,
+        };
+        let noisy = snr.is_some();
         let dry = if noisy {
             if random.unit() < 0.5 {
                 self.throng(seconds, random)
@@ -270,16 +283,17 @@ impl World {
         let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
         Self::add_air(&mut channels, air_dbfs, random);
         let during = |samples: &[f64], b: &Breath| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec();
-        let snr_db = if let Condition::Noisy(snr) = condition { Some(snr) } else { None };
-        if let Some(snr) = snr_db {
+        if let Some((snr, of)) = snr {
             // The first one sets the noise.
-            let [air, noise] = [&streams[0], &channels[0]].map(|samples| power(&during(samples, &breaths[0])));
+            let [air, noise] = [&streams[0], &channels[0]].map(|samples| of(&during(samples, &breaths[0])));
             let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
             channels.iter_mut().flatten().for_each(|x| *x *= gain);
         }
         let heard = |b: &Breath| above_noise(&during(&streams[0], b), &during(&channels[0], b));
-        let breaths: Vec<Breath> =
-            breaths.iter().map(|b| Breath { snr_db, faint: heard(b) < FAINT_DB, ..*b }).collect();
+        let breaths: Vec<Breath> = breaths
+            .iter()
+            .map(|b| Breath { snr_db: snr.map(|(snr, _)| snr), faint: heard(b) < FAINT_DB, ..*b })
+            .collect();
         for (channel, stream) in channels.iter_mut().zip(&streams) {
             channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
         }
@@ -411,9 +425,13 @@ const FAINT_DB: f64 = 3.0;
 /// By how much a breath rises above the noise where it does so most: below 250 Hz or above 400 Hz, dB.
 fn above_noise(breath: &[f64], noise: &[f64]) -> f64 {
     let low = |x: &[f64]| power(&low_passed(x.to_vec(), R, 200.0, 2));
-    let high = |x: &[f64]| power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2));
-    let ratio = (low(breath) / low(noise).max(1e-12)).max(high(breath) / high(noise).max(1e-12));
+    let ratio = (low(breath) / low(noise).max(1e-12)).max(hiss(breath) / hiss(noise).max(1e-12));
     10.0 * crate::math::log10(ratio.max(1e-12))
+}
+
+/// Power of what lies from 500 Hz to 3 kHz.
+fn hiss(x: &[f64]) -> f64 {
+    power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2))
 }
 
 impl Condition {
@@ -427,6 +445,7 @@ impl Condition {
                 hash_words(&[4, distance.to_bits(), angle.to_bits(), u64::from(child)])
             }
             Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
+            Self::Aside(snr) => hash_words(&[7, snr.to_bits()]),
             Self::Alike => 6,
             Self::OwnVoice(room) => 100 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),
