@@ -67,6 +67,8 @@ pub struct BroadPhase {
     /// Swept boxes of the colliders whose turn it was to be looked at, and before that cubes around these.
     swept: Vec<Option<Bounds>>,
     rough: Vec<Option<Bounds>>,
+    /// Colliders of bodies that have such boxes: a few of a wheel's teeth.
+    looked_at: Vec<usize>,
     /// Sizes of the boxes that have been asked for.
     sizes: Vec<Option<Size>>,
     /// Which units sleep (what never moves does), and which of their boxes are known.
@@ -137,6 +139,7 @@ impl BroadPhase {
             shapes: colliders.iter().map(|c| (c.body, c.body.map_or_else(|| Plane::of(&c.shape), |_| None))).collect(),
             swept: vec![None; colliders.len()],
             rough: vec![None; colliders.len()],
+            looked_at: Vec::with_capacity(2 * colliders.len()),
             sizes: vec![None; colliders.len()],
             ends: vec![[(Pose::IDENTITY, DMat3::IDENTITY); 2]; count],
             colliders: boxes,
@@ -174,11 +177,14 @@ impl BroadPhase {
                 self.units[unit] = swept(&sweeps[unit], &self.ends[unit], middle, half);
             }
         }
-        for (collider, (body, _)) in self.shapes.iter().enumerate() {
-            if body.is_some_and(|body| !self.known[body]) {
+        let (known, shapes) = (&self.known, &self.shapes);
+        self.looked_at.retain(|&collider| {
+            let stays = shapes[collider].0.is_none_or(|body| known[body]);
+            if !stays {
                 (self.swept[collider], self.rough[collider]) = (None, None);
             }
-        }
+            stays
+        });
         for (known, asleep) in self.known.iter_mut().zip(&self.asleep) {
             *known = *asleep;
         }
@@ -274,6 +280,7 @@ impl BroadPhase {
         let ((middle, half), (body, _)) = (self.colliders[collider], self.shapes[collider]);
         *self.rough[collider].get_or_insert_with(|| match body {
             Some(body) => {
+                self.looked_at.push(collider);
                 let (pose, axes) = &self.ends[body][0];
                 let size = self.sizes[collider].get_or_insert_with(|| sweeps[body].size(middle, half));
                 let reach = size.half + sweeps[body].stray(size) + TOUCH;
@@ -286,7 +293,10 @@ impl BroadPhase {
     fn bounds(&mut self, collider: usize, sweeps: &[Sweep]) -> Bounds {
         let ((middle, half), (body, _)) = (self.colliders[collider], self.shapes[collider]);
         *self.swept[collider].get_or_insert_with(|| match body {
-            Some(body) => swept(&sweeps[body], &self.ends[body], middle, half),
+            Some(body) => {
+                self.looked_at.push(collider);
+                swept(&sweeps[body], &self.ends[body], middle, half)
+            }
             None => Bounds::about(middle, half),
         })
     }

@@ -8,6 +8,7 @@
 //! σ̇ = ω − ½ σ×ω + k σ×(σ×ω)          k = (1 − (θ/2) cot(θ/2))/θ² = 1/12 + θ²/720 + θ⁴/30240 + …,  θ = |σ|
 //! ```
 
+use super::adams::KEPT;
 use super::forces::Damping;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::State;
@@ -92,6 +93,9 @@ pub(super) struct Course {
     pub mean: Rate<Four>,
     /// σ at the present stage.
     pub turned: V3<Four>,
+    /// a where the substep began, and by how much it has changed within the last ones (`adams.rs`).
+    pub begun: Twist<Four>,
+    pub differences: [Twist<Four>; KEPT],
     /// a of the last stage.
     pub last: Twist<Four>,
     /// (k₅ − k₄)/h³ of the substep before.

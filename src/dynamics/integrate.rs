@@ -14,6 +14,8 @@
 //! d = (k₅ − k₄)/h³       e = h⁵/6 (d − d')/h'       error = √(Σ e·M e / Σ v·M v)       ' the substep before
 //! ```
 //!
+//! Where motion has gone smoothly for three whole steps, **Adams'** method does the next one at half the price (`adams.rs`).
+//!
 //! **Gauss–Legendre** with three stages, of sixth order, symplectic on smooth motion:
 //!
 //! ```text
@@ -65,7 +67,8 @@ impl Dynamics {
         let cube = h * h * h;
         // h⁵/(6 h'), or a share of the estimate itself where there is no substep before.
         let spread = cube * self.fourth_step.map_or(h * UNKNOWN, |before| h * h / before) / 6.0;
-        self.by_quads(Estimate { per_cube: 1.0 / cube, spread, before: self.fourth_step.is_some() });
+        let slot = self.run.goes_by(h);
+        self.by_quads(Estimate { per_cube: 1.0 / cube, spread, before: self.fourth_step.is_some(), slot });
         self.fourth_step = Some(h);
         let [error, scale] = self.norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
         (error / scale).sqrt()
@@ -118,9 +121,16 @@ impl Dynamics {
 
     /// Closes the joints at the new state, at the time `t`, and finds the rate there.
     fn arrive(&mut self, t: f64) {
-        self.carry_driven(t);
-        self.close_joints();
+        self.close(t, true);
         self.solve_forces(t);
+        self.contacts.weigh(&self.system);
+    }
+
+    /// Closes the joints at the new state, at the time `t`; in speed where what rests does not do so afterwards, with its impulses.
+    /// Not `anew`, the factor is that of a state which differs by less than a step's error.
+    pub(super) fn close(&mut self, t: f64, anew: bool) {
+        self.carry_driven(t);
+        self.close_joints(anew, !self.contacts.anything_rests());
     }
 
     /// Accelerations of the present state into the system's `a`, as far as they are not there already.
@@ -139,7 +149,7 @@ impl Dynamics {
     }
 
     /// Accelerations at the quads' present state, rows and factor made anew.
-    fn accelerate(&mut self, t: f64) {
+    pub(super) fn accelerate(&mut self, t: f64) {
         self.carry_driven(t);
         self.show_where_asked();
         self.system.evaluate_motion(&self.bodies);
@@ -182,7 +192,7 @@ impl Dynamics {
     /// Closes the joints of the bodies in place and speed; leaves the system factored there.
     pub(super) fn project(&mut self) {
         self.system.quads_mut().look(&self.bodies);
-        self.close_joints();
+        self.close_joints(true, true);
         self.known = Known::Factor;
     }
 
@@ -194,10 +204,12 @@ impl Dynamics {
         self.known = Known::Factor;
     }
 
-    /// The same as [`Dynamics::project`] where the quads are; the bodies follow.
-    fn close_joints(&mut self) {
+    /// The same as [`Dynamics::project`] where the quads are, factored `anew` and `in_speed` too if asked; the bodies follow.
+    fn close_joints(&mut self, anew: bool, in_speed: bool) {
         self.evaluate_quads();
-        self.system.factor();
+        if anew {
+            self.system.factor();
+        }
         if self.system.states().is_empty() {
             self.by_quads(Show);
             return;
@@ -214,8 +226,10 @@ impl Dynamics {
             self.system.solve_displacement();
             self.system.close_quads();
         }
-        self.system.solve_velocity_quads(&self.bodies);
-        self.system.apply_velocity_quads();
+        if in_speed {
+            self.system.solve_velocity_quads(&self.bodies);
+            self.system.apply_velocity_quads();
+        }
         self.by_quads(Show);
     }
 

@@ -1,7 +1,7 @@
 //! Motion by the laws: Lagrange multipliers, integration, friction of pivots, impacts.
 //!
-//! One step is: integrate the constrained equations of motion by the classical fourth-order Runge–Kutta method,
-//! close what the joints drifted apart (projection), stop at each impact on the way, and let pivot friction act.
+//! One step is: integrate the constrained equations of motion by a method of fourth order (Adams' where motion is smooth, else
+//! Runge–Kutta's), close what the joints drifted apart (projection), stop at each impact on the way, and let pivot friction act.
 //!
 //! Symbols as in `articulation`: C constraint value, J its Jacobian, λ multipliers. Accelerations solve
 //!
@@ -12,6 +12,7 @@
 //! The last two terms (Baumgarte 1972, critically damped) draw a scattered figure together and vanish once it is;
 //! from then on projection keeps the joints closed to rounding.
 
+mod adams;
 mod clutches;
 mod contacts;
 mod course;
@@ -34,6 +35,7 @@ use crate::collision::Collider;
 use crate::math::lanes::{Four, One};
 use crate::math::{DMat3, DVec3};
 
+use adams::Run;
 use contacts::Verdict;
 pub use contacts::{
     Contacts, ENDS, Impact, ImpactKind, Met, Resistance, Strike, Struck, SurfacePair, Touching, couple_rows, strike,
@@ -70,7 +72,8 @@ const ON_TIME: f64 = 1e-6;
 /// How time is advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
-    /// Precise where that costs next to nothing (few bodies, no contact), else Runge–Kutta.
+    /// Precise where that costs next to nothing (few bodies, no contact), else Adams' method of fourth order where motion is smooth,
+    /// else Runge–Kutta.
     #[default]
     Auto,
     /// Semi-implicit Euler with projection: one solve a step, first order.
@@ -158,6 +161,8 @@ pub struct Dynamics {
     pressed: Vec<Vec6>,
     /// By quads of the joints' tree.
     courses: Vec<Course>,
+    /// The steps that Adams' method goes on from.
+    run: Run,
     /// h of the last substep; `None` where its error says nothing of the next.
     fourth_step: Option<f64>,
     /// Rates of the Gauss–Legendre stages, by quads.
@@ -232,6 +237,7 @@ impl Dynamics {
             external: vec![[0.0; 6]; n],
             pressed: vec![[0.0; 6]; n],
             courses,
+            run: Run::default(),
             fourth_step: None,
             stages: [stages(), stages(), stages()],
             norms: vec![[0.0; 2]; n],
@@ -299,6 +305,7 @@ impl Dynamics {
     /// time used.
     fn substep(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
         self.by_quads(Begin);
+        self.run.begin();
         let collides = !self.contacts.is_empty();
         if collides || self.contacts.clutches().count() > 0 || self.sleep.any() {
             self.before.copy_from_slice(&self.bodies);
@@ -328,17 +335,18 @@ impl Dynamics {
                     self.prepare_impulses();
                     let at = (done + used, h);
                     self.contacts.resolve_hit(&hit, at, &mut self.system, &mut self.bodies, impacts);
+                    self.run.end();
                 }
             }
             while let Some(body) = self.contacts.leant_on() {
                 self.wake(body);
             }
             self.contacts.end_substep(&self.bodies);
-            if self.weighs {
-                // What the joints carry: the last solve was of impulses.
-                self.press();
-                self.ensure_rates(now + used);
-            }
+        }
+        if self.weighs {
+            // What the joints carry: the last solve was of impulses, or before the substep's end.
+            self.press();
+            self.ensure_rates(now + used);
         }
         if self.known == Known::Rates {
             self.weigh();
@@ -368,7 +376,10 @@ impl Dynamics {
             match self.settle(h, pass, least) {
                 Verdict::Again => pass += 1,
                 Verdict::Shorter => (h, pass) = (0.5 * h, 1),
-                Verdict::Slips => pass = 1,
+                Verdict::Slips => {
+                    self.run.end();
+                    pass = 1;
+                }
                 Verdict::Stands { .. } => {
                     self.keep_asleep();
                     return h;
@@ -396,6 +407,7 @@ impl Dynamics {
                 self.look_at_rates()
             }
             if self.contacts.take_hold(h, &mut self.system, &self.bodies) {
+                self.run.end();
                 self.known = Known::Nothing;
             }
         }
@@ -415,6 +427,12 @@ impl Dynamics {
     /// Integrates from the substep's start at the time `t` over `h`, or over less where the error asks for it, but
     /// not less than `least`; returns the time used.
     fn integrate(&mut self, t: f64, mut h: f64, least: f64) -> f64 {
+        let whole = h > 0.999 * self.dt;
+        if whole && !self.precise && self.settings.integrator == Integrator::Auto && self.adams(t, h) {
+            self.known = Known::Factor;
+            self.stride = f64::INFINITY;
+            return h;
+        }
         loop {
             let (good, wish) = if self.settings.integrator == Integrator::Fast {
                 self.euler(t, h);
@@ -458,6 +476,7 @@ impl Dynamics {
     fn set_shares(&mut self, t: f64) {
         if self.system.activity.set_shares(t) | self.springs.activity.set_shares(t) {
             self.wake_all();
+            self.run.end();
             self.known = Known::Nothing;
         }
     }
@@ -476,6 +495,7 @@ impl Dynamics {
             if self.system.activity.overloaded(index, load, false) {
                 self.system.activity.break_at(index, t);
                 self.wake_all();
+                self.run.end();
                 self.known = Known::Nothing;
             }
         }
@@ -633,6 +653,7 @@ impl Dynamics {
             self.wake_all();
             self.system.begin_trains(&self.bodies);
             self.contacts.forget(&self.bodies);
+            self.run.end();
             (self.fourth_step, self.stride) = (None, f64::INFINITY);
             self.known = Known::Nothing;
         }

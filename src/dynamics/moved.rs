@@ -85,6 +85,7 @@ impl Dynamics {
         self.system.begin_trains(&self.bodies);
         self.contacts.forget(&self.bodies);
         self.loads.fill(0.0);
+        self.run.end();
         (self.fourth_step, self.stride) = (None, f64::INFINITY);
         self.known = Known::Nothing;
         bad + lost

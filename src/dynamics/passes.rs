@@ -6,6 +6,7 @@
 
 use fearless_simd::{Simd, dispatch};
 
+use super::adams::less;
 use super::course::{Rate, advance};
 use super::integrate::{GAUSS_NODES, WEIGHTS};
 use super::{Dynamics, forces};
@@ -38,20 +39,20 @@ impl Dynamics {
     }
 
     #[inline(always)]
-    fn quad(&self, index: usize) -> (Members, &Quad) {
+    pub(super) fn quad(&self, index: usize) -> (Members, &Quad) {
         let quads = self.system.quads();
         (quads.members()[index], &quads.all()[index])
     }
 
     /// The accelerations found last.
     #[inline(always)]
-    fn accelerations<L: Lanes>(&self, lanes: L, members: &Members) -> Twist<L::T> {
+    pub(super) fn accelerations<L: Lanes>(&self, lanes: L, members: &Members) -> Twist<L::T> {
         Twist::gather(lanes, |k| &self.system.a[members.bodies[k]])
     }
 
     /// Puts bodies into this state.
     #[inline(always)]
-    fn put<L: Lanes>(&mut self, lanes: L, index: usize, state: &State<L::T>) {
+    pub(super) fn put<L: Lanes>(&mut self, lanes: L, index: usize, state: &State<L::T>) {
         self.system.quads_mut().all_mut()[index].put(lanes, state);
     }
 }
@@ -123,6 +124,9 @@ impl Pass for Stage {
         mean.add(self.weight, &rate);
         let (state, turned) = advance(lanes, &start, self.h, &rate);
         let course = &mut dynamics.courses[index];
+        if self.first {
+            course.begun.put(lanes, &a);
+        }
         course.mean.set(lanes, &mean);
         course.turned.put(lanes, turned);
         dynamics.put(lanes, index, &state);
@@ -157,6 +161,8 @@ pub(super) struct Estimate {
     pub spread: f64,
     /// Was there a substep before?
     pub before: bool,
+    /// Where the change since the substep began goes.
+    pub slot: usize,
 }
 
 impl Pass for Estimate {
@@ -180,14 +186,17 @@ impl Pass for Estimate {
         let error = norm(mass, &inertia, &change);
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
-        dynamics.courses[index].fourth.put(lanes, &fourth);
+        let changed = less(a, course.begun.get(lanes));
+        let course = &mut dynamics.courses[index];
+        course.differences[self.slot].put(lanes, &changed);
+        course.fourth.put(lanes, &fourth);
         lanes.scatter(members.count, &[error, scale], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
     }
 }
 
 /// v·M v.
 #[inline(always)]
-fn norm<T: Real>(mass: T, inertia: &Sym3<T>, v: &Twist<T>) -> T {
+pub(super) fn norm<T: Real>(mass: T, inertia: &Sym3<T>, v: &Twist<T>) -> T {
     mass * v.linear.dot(v.linear) + v.angular.dot(inertia.mul(v.angular))
 }
 

@@ -261,6 +261,7 @@ impl Dynamics {
         self.system.let_sleep(asleep, &self.bodies);
         self.springs.let_sleep(asleep);
         self.contacts.let_sleep(asleep, &self.bodies);
+        self.run.end();
         self.known = Known::Nothing;
     }
 

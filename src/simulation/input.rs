@@ -18,20 +18,27 @@ pub enum Profile {
     True,
 }
 
-/// The gallery's gain is this speed over the breath's own, so that its force grows with the speed and not with its
-/// square: a gentle 3.8 m/s counts nine times, a hard 17 m/s twice. A child's 0.3 L/s from half a metre (1.4 mN at the
-/// most) so pushes with 13 mN at the most, and moves a plate of *Steel Fish* by 17 mm and more on a 55-inch picture
-/// within a second.
+/// The gallery's gain is this speed over the breath's own, so that its force grows with the speed and not with its square: a
+/// hard 17 m/s counts twice. Of a breath that is softer than a grown-up's it grows with the root of the speed, or a child's
+/// would be lost in what still swings from the breath before: a gentle 3.8 m/s counts twelve times. A child's 0.3 L/s from half
+/// a metre (1.4 mN at the most) so pushes with 17 mN at the most, and moves a plate of *Steel Fish* by 17 mm and more on a
+/// 55-inch picture within a second.
 const GALLERY_SPEED: f64 = 36.0;
-/// Bounds of that gain: no breath is ever weakened, and from 1 m/s on, where a breath from afar or one that has only just
-/// begun is heard, each is to be seen.
+/// Below this speed at the lips a breath is soft, m/s.
+const SOFT_SPEED: f64 = 6.5;
+/// Bounds of that gain: no breath is ever weakened, and what is hardly heard is not made a gale of. (A breath from afar, or one
+/// that has only just begun, is heard as 1 to 2 m/s.)
 const GALLERY_GAIN: (f64, f64) = (1.0, GALLERY_SPEED);
 
 impl Profile {
     /// Force gain at a source speed (m/s).
     pub fn gain(self, speed: f64) -> f64 {
         match self {
-            Self::Gallery => (GALLERY_SPEED / speed.max(1e-9)).clamp(GALLERY_GAIN.0, GALLERY_GAIN.1),
+            Self::Gallery => {
+                let speed = speed.max(1e-9);
+                let soft = (SOFT_SPEED / speed).max(1.0).sqrt();
+                (soft * GALLERY_SPEED / speed).clamp(GALLERY_GAIN.0, GALLERY_GAIN.1)
+            }
             Self::True => 1.0,
         }
     }

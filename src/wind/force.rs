@@ -34,7 +34,7 @@ use super::front::Front;
 use super::patches::{Face, Patch, split};
 use super::weather::{Upwind, Weather, Wind};
 use super::{Shelter, Surface};
-use crate::articulation::block::{Vec6, add_wrench};
+use crate::articulation::block::{Vec6, add_wrench, angular, linear, vec6};
 use crate::articulation::spatial::matrix;
 use crate::bodies::RigidBody;
 use crate::geometry::rays::{Hint, Occluders};
@@ -91,8 +91,9 @@ impl Feeler {
         }
     }
 
-    /// Drag of a patch that lies along `axis` in the world in the relative wind `v` (m/s), N.
-    fn drag(&self, patch: &Patch, axis: DVec3, v: DVec3) -> DVec3 {
+    /// Drag of a patch in the relative wind `v` (m/s), N; both in the body's frame.
+    fn drag(&self, patch: &Patch, v: DVec3) -> DVec3 {
+        let axis = patch.axis;
         let pressure = 0.5 * AIR_DENSITY * patch.area * self.gain;
         let along = v.dot(axis);
         let across = v - along * axis;
@@ -111,8 +112,9 @@ impl Feeler {
         }
     }
 
-    /// H g: what a patch takes of the turbulence `g`, never more than all of it.
-    fn shaken(&self, patch: &Patch, axis: DVec3, g: DVec3) -> DVec3 {
+    /// H g: what a patch takes of the turbulence `g` (in the body's frame), never more than all of it.
+    fn shaken(&self, patch: &Patch, g: DVec3) -> DVec3 {
+        let axis = patch.axis;
         let (c_along, c_across) = self.coefficients(patch.face);
         let most = c_along.max(c_across);
         if most <= 0.0 {
@@ -220,7 +222,8 @@ impl WindField {
     /// Adds the wrenches (N, N m about each centre of mass) of all winds at `time` (s since the reset) to `out`.
     pub fn push(&mut self, bodies: &[RigidBody], time: f64, blown: Option<&Blown>, out: &mut [Vec6]) -> WindReport {
         self.weather.turn_to(time);
-        if blown.is_some() || !self.weather.is_empty() {
+        let still = blown.is_none() && self.weather.is_empty();
+        if !still {
             self.occluders.refit(|body| bodies[body].pose());
         }
         let mut report = WindReport::default();
@@ -230,43 +233,54 @@ impl WindField {
             let body = &bodies[feeler.body];
             // What stands still in still air feels nothing.
             let stands = body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO;
-            if stands && blown.is_none() && self.weather.is_empty() {
+            if stands && still {
                 continue;
             }
+            // In the body's own frame, in which its patches lie still.
             let frame = matrix(body.rotation);
+            let inward = frame.transpose();
+            let (velocity, spin) = (inward * body.velocity, inward * body.angular_velocity);
             let mut sum = [0.0; 6];
             let mut sum_blown = [0.0; 6];
             let each = feeler.groups.iter().flat_map(|(center, range)| {
-                let aimless = self.stirs(body.position + frame * (*center - body.properties.center));
+                let aimless = if still {
+                    DVec3::ZERO
+                } else {
+                    inward * self.stirs(body.position + frame * (*center - body.properties.center))
+                };
                 range.clone().map(move |index| (index, aimless))
             });
             for (index, aimless) in each {
                 let patch = &feeler.patches[index];
-                let arm = frame * (patch.point - body.properties.center);
-                let point = body.position + arm;
-                let axis = frame * patch.axis;
-                let own = body.velocity + body.angular_velocity.cross(arm);
+                let arm = patch.point - body.properties.center;
+                let own = velocity + spin.cross(arm);
+                if still {
+                    add_wrench(&mut sum, arm, feeler.drag(patch, -own));
+                    continue;
+                }
+                let (point, axis) = (body.position + frame * arm, frame * patch.axis);
                 let open = |from| open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
-                let wind = aimless + self.aimed(point, open);
-                let before = feeler.drag(patch, axis, wind - own);
+                let wind = aimless + inward * self.aimed(point, open);
+                let before = feeler.drag(patch, wind - own);
                 add_wrench(&mut sum, arm, before);
                 let Some(blown) = blown else { continue };
                 let (air, source) = blown.air(point);
                 if source <= 0.0 || !open(Upwind::Place(blown.breath.vertex())) {
                     continue;
                 }
-                let added = feeler.drag(patch, axis, wind + air - own) - before;
-                let shaken = feeler.shaken(patch, axis, self.eddy(&blown.breath, point));
+                let added = feeler.drag(patch, wind + inward * air - own) - before;
+                let shaken = feeler.shaken(patch, inward * self.eddy(&blown.breath, point));
                 let added = added + TURBULENCE * added.length() * shaken;
                 total += added.length();
                 fastest = source.max(fastest);
                 add_wrench(&mut sum_blown, arm, added);
             }
+            let [sum, sum_blown] = [sum, sum_blown].map(|sum| vec6(frame * linear(&sum), frame * angular(&sum)));
             for k in 0..6 {
                 out[feeler.body][k] += sum[k];
                 self.blown[feeler.body][k] += sum_blown[k];
             }
-            report.force += DVec3::new(sum[0], sum[1], sum[2]);
+            report.force += linear(&sum);
         }
         if let Some(blown) = blown {
             let most = blown.breath.momentum_flow(fastest);

@@ -65,6 +65,11 @@ pub(in crate::dynamics) enum Verdict {
 }
 
 impl Contacts {
+    /// Notes what clutches carry by the last solve, of forces.
+    pub(in crate::dynamics) fn weigh(&mut self, system: &System) {
+        self.clutches.weigh(system);
+    }
+
     /// Does anything rest, or has a force to be taken back?
     pub(in crate::dynamics) fn anything_rests(&self) -> bool {
         let rests = self.at_rest.len() + self.bounds_at_rest > self.asleep_at_rest;
@@ -151,8 +156,8 @@ impl Contacts {
     }
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
-    /// Where the substep stands, velocities and places are put right. The joints must be factored at
-    /// the bodies' present state, or as near to it as a substep ends, and solved for the forces there.
+    /// Where the substep stands, velocities and places are put right, the joints' velocities too. The joints must be factored at
+    /// the bodies' present state, or as near to it as a substep ends, and the clutches weighed.
     pub(in crate::dynamics) fn settle(
         &mut self,
         (h, pass, shortens): (f64, usize, bool),
@@ -160,7 +165,6 @@ impl Contacts {
         system: &mut System,
         bodies: &mut [RigidBody],
     ) -> Verdict {
-        self.clutches.weigh(system);
         if !self.anything_rests() {
             return if self.give_way(system) { Verdict::Slips } else { Verdict::Stands { moved: false } };
         }
