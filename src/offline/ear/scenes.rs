@@ -262,12 +262,9 @@ impl World {
                 lips.heard(air.collect::<Vec<_>>().concat())
             })
             .collect();
-        // How far above the noise, in all or in hiss.
-        let snr: Option<(f64, fn(&[f64]) -> f64)> = match condition {
-            Condition::Noisy(snr) => Some((snr, power)),
-            Condition::Aside(snr) => Some((snr, hiss)),
-            _ => None,
-        };
+        // How far above the noise: in hiss where the stream goes past the microphone, else in all.
+        let snr = if let Condition::Noisy(snr) | Condition::Aside(snr) = condition { Some(snr) } else { None };
+        let loudness = if matches!(condition, Condition::Aside(_)) { hiss } else { power };
         let noisy = snr.is_some();
         let dry = if noisy {
             if random.unit() < 0.5 {
@@ -283,17 +280,15 @@ impl World {
         let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
         Self::add_air(&mut channels, air_dbfs, random);
         let during = |samples: &[f64], b: &Breath| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec();
-        if let Some((snr, of)) = snr {
+        if let Some(snr) = snr {
             // The first one sets the noise.
-            let [air, noise] = [&streams[0], &channels[0]].map(|samples| of(&during(samples, &breaths[0])));
+            let [air, noise] = [&streams[0], &channels[0]].map(|samples| loudness(&during(samples, &breaths[0])));
             let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
             channels.iter_mut().flatten().for_each(|x| *x *= gain);
         }
         let heard = |b: &Breath| above_noise(&during(&streams[0], b), &during(&channels[0], b));
-        let breaths: Vec<Breath> = breaths
-            .iter()
-            .map(|b| Breath { snr_db: snr.map(|(snr, _)| snr), faint: heard(b) < FAINT_DB, ..*b })
-            .collect();
+        let breaths: Vec<Breath> =
+            breaths.iter().map(|b| Breath { snr_db: snr, faint: heard(b) < FAINT_DB, ..*b }).collect();
         for (channel, stream) in channels.iter_mut().zip(&streams) {
             channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
         }
