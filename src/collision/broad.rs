@@ -1,9 +1,10 @@
 //! Broad phase: which pairs can meet within an interval, by boxes around their swept colliders.
 //!
 //! Sort and sweep (D. Baraff 1992): the boxes of the bodies are sorted by their lower ends along the axis on which they
-//! spread most, and only boxes that overlap there are compared. The order of the last call is nearly that of the
-//! next, so insertion sort is linear. Bodies whose boxes overlap are then told apart collider by collider. What
-//! stands still has a box of its own for each collider.
+//! spread most, and only boxes that overlap there are compared. The order of the last time is nearly that of the
+//! next, so insertion sort is linear. This is done with wider boxes, and again only when a body leaves its own: until then
+//! whatever meets is among the bodies whose wide boxes do. Bodies whose boxes overlap are then told apart collider by
+//! collider. What stands still has a box of its own for each collider.
 
 use super::advance::{Size, Sweep, TOUCH};
 use super::nearby::{MANY, Nearby};
@@ -33,10 +34,23 @@ impl Bounds {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }
 
+    fn holds(&self, other: &Self) -> bool {
+        self.low.cmple(other.low).all() && other.high.cmple(self.high).all()
+    }
+
+    /// Wider by this share of its greatest half extent on each side.
+    fn wider(&self, share: f64) -> Self {
+        let margin = DVec3::splat(0.5 * share * (self.high - self.low).max_element());
+        Self { low: self.low - margin, high: self.high + margin }
+    }
+
     fn middle_and_half(&self) -> (DVec3, DVec3) {
         (0.5 * (self.low + self.high), 0.5 * (self.high - self.low))
     }
 }
+
+/// How much wider a body's wide box is than its own, as a share of this: a wider one holds more pairs, a closer one is sooner left.
+const WIDER: f64 = 0.05;
 
 /// Pairs of the colliders of two units: a range of `BroadPhase::sorted`.
 #[derive(Clone, Copy, Debug)]
@@ -62,6 +76,10 @@ pub struct BroadPhase {
     /// Swept boxes of the units (the bodies, then each collider that stands still), and units in order.
     units: Vec<Bounds>,
     order: Vec<usize>,
+    /// Wide boxes of the units, and the runs of those that meet, not both asleep; out of date when others sleep.
+    wide: Vec<Bounds>,
+    near: Vec<usize>,
+    dated: bool,
     /// Where each body is at the two ends of its way.
     ends: Vec<[(Pose, DMat3); 2]>,
     /// Swept boxes of the colliders whose turn it was to be looked at, and before that cubes around these.
@@ -148,6 +166,9 @@ impl BroadPhase {
             known: vec![false; units.len()],
             pairs: pairs.to_vec(),
             sorted,
+            wide: units.clone(),
+            near: Vec::with_capacity(runs.len()),
+            dated: true,
             runs,
             nearby,
             units,
@@ -160,6 +181,7 @@ impl BroadPhase {
         for (unit, asleep) in asleep.iter().enumerate().take(self.bodies.len()) {
             (self.asleep[unit], self.known[unit]) = (*asleep, false);
         }
+        self.dated = true;
     }
 
     /// Indices of the pairs whose swept boxes overlap, ascending, into `out`. One sweep for each body.
@@ -175,6 +197,7 @@ impl BroadPhase {
             if let Some(&(middle, half)) = self.bodies.get(unit) {
                 self.ends[unit] = sweeps[unit].ends();
                 self.units[unit] = swept(&sweeps[unit], &self.ends[unit], middle, half);
+                self.dated |= !self.wide[unit].holds(&self.units[unit]);
             }
         }
         let (known, shapes) = (&self.known, &self.shapes);
@@ -188,9 +211,27 @@ impl BroadPhase {
         for (known, asleep) in self.known.iter_mut().zip(&self.asleep) {
             *known = *asleep;
         }
+        if std::mem::take(&mut self.dated) {
+            self.look_around();
+        }
+        for near in 0..self.near.len() {
+            let run = self.near[near];
+            let (one, other) = self.runs[run].units;
+            if self.units[one].meets(&self.units[other]) {
+                self.tell_apart(run, sweeps, out);
+            }
+        }
+        out.sort_unstable();
+    }
+
+    /// Finds the units whose wide boxes meet.
+    fn look_around(&mut self) {
+        for &unit in &self.order {
+            let own = self.units[unit];
+            self.wide[unit] = if self.asleep[unit] { own } else { own.wider(WIDER) };
+        }
         let axis = self.widest_axis();
-        let units = &self.units;
-        let low = |unit: usize| units[unit].low[axis];
+        let low = |unit: usize| self.wide[unit].low[axis];
         for i in 1..self.order.len() {
             let mut at = i;
             while at > 0 && low(self.order[at - 1]) > low(self.order[at]) {
@@ -198,19 +239,19 @@ impl BroadPhase {
                 at -= 1;
             }
         }
+        self.near.clear();
         for i in 0..self.order.len() {
             let one = self.order[i];
-            for j in i + 1..self.order.len() {
-                let other = self.order[j];
-                if self.units[other].low[axis] > self.units[one].high[axis] {
+            for &other in &self.order[i + 1..] {
+                if self.wide[other].low[axis] > self.wide[one].high[axis] {
                     break;
                 }
-                if !(self.asleep[one] && self.asleep[other]) && self.units[one].meets(&self.units[other]) {
-                    self.tell_apart((one.min(other), one.max(other)), sweeps, out);
+                if !(self.asleep[one] && self.asleep[other]) && self.wide[one].meets(&self.wide[other]) {
+                    let units = (one.min(other), one.max(other));
+                    self.near.extend(self.runs.binary_search_by_key(&units, |run| run.units).ok());
                 }
             }
         }
-        out.sort_unstable();
     }
 
     /// The axis along which the middles of the boxes spread most.
@@ -227,10 +268,9 @@ impl BroadPhase {
         (count * squares - sum * sum).max_position()
     }
 
-    /// Adds the pairs of two units' colliders whose own boxes overlap.
-    fn tell_apart(&mut self, units: (usize, usize), sweeps: &[Sweep], out: &mut Vec<usize>) {
-        let Ok(run) = self.runs.binary_search_by_key(&units, |run| run.units) else { return };
-        let Run { first, end, .. } = self.runs[run];
+    /// Adds the pairs of a run whose own boxes overlap.
+    fn tell_apart(&mut self, run: usize, sweeps: &[Sweep], out: &mut Vec<usize>) {
+        let Run { units, first, end } = self.runs[run];
         let Some(nearby) = &mut self.nearby[run] else {
             return (first..end).for_each(|at| self.add_if_near(self.sorted[at], sweeps, out));
         };

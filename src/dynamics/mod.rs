@@ -180,6 +180,8 @@ pub struct Dynamics {
     known: Known,
     /// Breath of the step before, and of this one, m/s.
     breath: [f64; 2],
+    /// Nothing has moved or set bodies since their numbers were looked at.
+    sane: bool,
     /// First body with bad numbers in the last step.
     fault: Option<usize>,
     substeps: u32,
@@ -248,6 +250,7 @@ impl Dynamics {
             stride: f64::INFINITY,
             known: Known::Nothing,
             breath: [0.0; 2],
+            sane: false,
             fault: None,
             substeps: 0,
             bodies,
@@ -260,6 +263,7 @@ impl Dynamics {
         // Whoever sets bodies from outside may have set them wrong.
         self.fault = None;
         let bad = self.restore_bad_bodies();
+        self.sane = false;
         for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
             *before = State::of(One(0), |_| body);
         }
@@ -274,6 +278,9 @@ impl Dynamics {
         let already = impacts.len();
         let mut done = 0.0;
         while done < dt * (1.0 - 1e-12) {
+            if self.substeps > 0 && !self.bodies.iter().all(RigidBody::is_finite) {
+                break;
+            }
             let now = self.time + done;
             if self.known < Known::Rates {
                 // What the joints carry says how long a substep may be; the rate is its first stage.
@@ -289,9 +296,6 @@ impl Dynamics {
             self.set_shares(now + 0.5 * h);
             done += self.substep(h, dt, done, impacts);
             self.substeps += 1;
-            if !self.bodies.iter().all(RigidBody::is_finite) {
-                break;
-            }
         }
         if self.rubs && self.bodies.iter().all(RigidBody::is_finite) {
             self.rub(dt);
@@ -520,7 +524,7 @@ impl Dynamics {
     /// Says that bodies were moved from outside.
     pub fn disturb(&mut self) {
         self.wake_all();
-        self.known = Known::Nothing;
+        (self.known, self.sane) = (Known::Nothing, false);
     }
 
     /// Constraints that broke in the last step.
@@ -641,6 +645,9 @@ impl Dynamics {
                 && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT
                 && body.is_finite()
         };
+        if std::mem::replace(&mut self.sane, true) {
+            return 0;
+        }
         let bad = self.bodies.iter().filter(|body| !sane(body)).count();
         if bad > 0 {
             self.fault = self.fault.or(self.bodies.iter().position(|body| !sane(body)));

@@ -49,6 +49,7 @@ impl Dynamics {
         self.fault = None;
         self.wake_all();
         let bad = self.restore_bad_bodies();
+        self.sane = false;
         for (before, body) in self.before_step.iter_mut().zip(&self.bodies) {
             *before = State::of(One(0), |_| body);
         }
