@@ -86,6 +86,8 @@ pub struct Loops {
     shares: Vec<f64>,
     /// What the rows push along each train.
     pushes: Vec<f64>,
+    /// What they push along each train for a rate of each that they are not asked to keep; empty until it is asked for.
+    answers: Vec<f64>,
     /// Indices of the active rows.
     active: Vec<usize>,
     factor: Cholesky,
@@ -118,6 +120,7 @@ impl Loops {
             trains: trains.count(),
             shares: vec![0.0; n * trains.count()],
             pushes: vec![0.0; trains.count()],
+            answers: Vec::with_capacity(trains.count() * trains.count()),
             driven: driven.to_vec(),
             active: Vec::with_capacity(n),
             factor: Cholesky::with_room(n, REDUNDANT),
@@ -141,6 +144,7 @@ impl Loops {
         for &body in &self.carried {
             (self.a[body], self.b[body]) = ([0.0; 6], [0.0; 6]);
         }
+        self.answers.clear();
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
         let n = self.active.len();
@@ -247,19 +251,34 @@ impl Loops {
         }
     }
 
-    /// As [`Loops::correct`], for an impulse that only trains feel, whose own answers they have already.
+    /// As [`Loops::correct`], for an impulse that only trains feel, whose own answers they have already. Contacts ask often, and
+    /// there are few trains: what a rate of each of them calls up is found once.
     pub fn correct_trains(&mut self, trains: &mut Trains) {
-        let n = self.active.len();
-        let shares = |k: usize| self.shares[k * self.trains..][..self.trains].iter().enumerate();
-        for k in 0..n {
-            self.mu[k] = -shares(k).map(|(train, share)| share * trains.rate(train)).sum::<f64>();
+        if self.answers.is_empty() {
+            self.find_answers();
         }
-        self.factor.solve(&mut self.mu[..n]);
-        for k in 0..n {
-            for (train, share) in self.shares[k * self.trains..][..self.trains].iter().enumerate() {
-                if *share != 0.0 {
-                    trains.add_push(train, self.mu[k] * share);
-                }
+        let pushes = self.pushes.iter_mut().zip(self.answers.chunks_exact(self.trains.max(1)));
+        for (push, answers) in pushes {
+            *push = answers.iter().enumerate().map(|(train, answer)| answer * trains.rate(train)).sum();
+        }
+        for (train, push) in self.pushes.iter().enumerate().filter(|(_, push)| **push != 0.0) {
+            trains.add_push(train, *push);
+        }
+    }
+
+    /// −F S⁻¹ Fᵀ with F the rows' f by trains.
+    fn find_answers(&mut self) {
+        let (n, count) = (self.active.len(), self.trains);
+        self.answers.resize(count * count, 0.0);
+        for train in 0..count {
+            let share = |k: usize, of: usize| self.shares[k * count + of];
+            if (0..n).all(|k| share(k, train) == 0.0) {
+                continue;
+            }
+            (0..n).for_each(|k| self.mu[k] = -share(k, train));
+            self.factor.solve(&mut self.mu[..n]);
+            for to in 0..count {
+                self.answers[to * count + train] = (0..n).map(|k| self.mu[k] * share(k, to)).sum();
             }
         }
     }

@@ -21,7 +21,7 @@ use super::block::{Vec6, add_scaled, angular, dot, linear, vec6};
 use super::quads::Quads;
 use super::{Anchor, Axis, Constraint, ConstraintKind, Function, Measure, Term};
 use crate::bodies::RigidBody;
-use crate::math::{DMat3, DVec3, PI, Pose, atan2, rotation};
+use crate::math::{DMat3, DQuat, DVec3, PI, Pose, atan2, product, renormalized, rotation, sincos};
 
 /// Directions that differ by less than this are one, rad.
 const SAME: f64 = 1e-9;
@@ -461,7 +461,9 @@ impl Wheel {
         let (now, turned) = (quads.position(self.body), quads.rotation(self.body));
         match self.freedom {
             Freedom::Turn { about, pivot } => {
-                let goal = (rotation(about * q) * self.start.rotation).normalize();
+                let (sine, cosine) = sincos(0.5 * q);
+                let turn = DQuat::from_xyzw(sine * about.x, sine * about.y, sine * about.z, cosine);
+                let goal = renormalized(product(turn, self.start.rotation));
                 let d = goal * turned.conjugate();
                 let turn = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
                 vec6(pivot + goal * self.arm - now, turn)

@@ -18,8 +18,8 @@ use crate::simulation::record::Part;
 use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
 use crate::sound::RoomSpec;
 
-/// Steps between two looks at the joints' error, which costs a twenty-fifth of a clock's step.
-const LOOK: u64 = STEPS_PER_SECOND / 60;
+/// Steps between two looks at the joints' error, which costs a thirtieth of a clock's step.
+const LOOK: u64 = STEPS_PER_SECOND / 30;
 
 /// What to run and what to keep of it.
 #[derive(Default)]

@@ -8,7 +8,11 @@
 //!
 //! K is a shelf for the head and a high-pass; their coefficients at 48 kHz are the recommendation's. Two frames are taken at
 //! a time, so that a filter waits for its own answer half as often: with y = b₀ x + s and s' = A s + B x,
-//! s'' = A² s + A B x₀ + B x₁.
+//! s'' = A² s + A B x₀ + B x₁. Both filters of both channels go side by side as one vector: while the first has two frames in
+//! hand, the second has what the first made of the two before. Loudness is thus of a sound two frames, 42 µs, late.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x2, f64x4};
 
 use crate::math::decibels;
 use crate::simulation::SAMPLE_RATE;
@@ -28,57 +32,82 @@ const FULL: f64 = -0.691;
 const SILENCE: f64 = -70.0;
 const PAUSE: f64 = 10.0;
 
-/// A number of either channel.
-type Two = [f64; 2];
+/// A number of the first filter's channels, then of the second's.
+type Lanes = [f64; 4];
 
-/// One filter.
-struct Filter {
-    b0: f64,
+/// Both filters.
+struct Filters {
+    b0: Lanes,
     /// A and B; the same of two frames at once.
-    a: [[f64; 2]; 2],
-    b: [f64; 2],
-    a2: [[f64; 2]; 2],
-    ab: [f64; 2],
-    /// s.
-    state: [Two; 2],
+    a: [[Lanes; 2]; 2],
+    b: [Lanes; 2],
+    a2: [[Lanes; 2]; 2],
+    ab: [Lanes; 2],
+    /// s, and what the second takes in next.
+    state: [Lanes; 2],
+    between: [[f64; 2]; 2],
 }
 
-impl Filter {
-    fn new([b0, b1, b2, a1, a2]: [f64; 5]) -> Self {
-        let a = [[-a1, 1.0], [-a2, 0.0]];
-        let b = [b1 - a1 * b0, b2 - a2 * b0];
-        let row = |row: [f64; 2]| [0, 1].map(|k| row[0] * a[0][k] + row[1] * a[1][k]);
-        Self { b0, a, b, a2: a.map(row), ab: a.map(|row| row[0] * b[0] + row[1] * b[1]), state: [[0.0; 2]; 2] }
+impl Filters {
+    fn new(filters: [[f64; 5]; 2]) -> Self {
+        let lanes = |number: &dyn Fn([f64; 5]) -> f64| [0, 0, 1, 1].map(|which: usize| number(filters[which]));
+        let a = |[_, _, _, a1, a2]: [f64; 5]| [[-a1, 1.0], [-a2, 0.0]];
+        let b = |[b0, b1, b2, a1, a2]: [f64; 5]| [b1 - a1 * b0, b2 - a2 * b0];
+        let product = |i: usize, number: &dyn Fn([f64; 5], usize) -> f64| {
+            lanes(&|f| a(f)[i][0] * number(f, 0) + a(f)[i][1] * number(f, 1))
+        };
+        Self {
+            b0: lanes(&|f| f[0]),
+            a: [0, 1].map(|i| [0, 1].map(|k| lanes(&|f| a(f)[i][k]))),
+            b: [0, 1].map(|i| lanes(&|f| b(f)[i])),
+            a2: [0, 1].map(|i| [0, 1].map(|k| product(i, &|f, j| a(f)[j][k]))),
+            ab: [0, 1].map(|i| product(i, &|f, j| b(f)[j])),
+            state: [[0.0; 4]; 2],
+            between: [[0.0; 2]; 2],
+        }
     }
 
-    /// Two frames through it.
+    /// Takes pairs of frames in; the sum of squares of what comes out.
+    fn squares(&mut self, level: Level, pairs: &[[[f32; 2]; 2]]) -> f64 {
+        dispatch!(level, simd => self.squares_in(simd, pairs))
+    }
+
     #[inline(always)]
-    fn pair(&mut self, x: [Two; 2]) -> [Two; 2] {
-        let [s, t] = self.state;
-        let mut y = [[0.0; 2]; 2];
-        for c in 0..2 {
-            y[0][c] = self.b0 * x[0][c] + s[c];
-            let middle = self.a[0][0] * s[c] + self.a[0][1] * t[c] + self.b[0] * x[0][c];
-            y[1][c] = self.b0 * x[1][c] + middle;
-            for k in 0..2 {
-                let fed = self.ab[k] * x[0][c] + self.b[k] * x[1][c];
-                self.state[k][c] = self.a2[k][0] * s[c] + (self.a2[k][1] * t[c] + fed);
-            }
+    fn squares_in<S: Simd>(&mut self, simd: S, pairs: &[[[f32; 2]; 2]]) -> f64 {
+        let load = |x: &Lanes| -> f64x4<S> { (*x).simd_into(simd) };
+        let b0 = load(&self.b0);
+        let (a, b, ab) = (self.a[0].each_ref().map(load), self.b.each_ref().map(load), self.ab.each_ref().map(load));
+        let a2 = self.a2.each_ref().map(|row| row.each_ref().map(load));
+        let mut state = self.state.each_ref().map(load);
+        let mut between: [f64x2<S>; 2] = self.between.map(|y| y.simd_into(simd));
+        let mut sums = f64x4::splat(simd, 0.0);
+        for pair in pairs {
+            let frames: [f64x2<S>; 2] = pair.map(|frame| frame.map(f64::from).simd_into(simd));
+            let x = [frames[0].combine(between[0]), frames[1].combine(between[1])];
+            let [s, t] = state;
+            let middle = a[0] * s + a[1] * t + b[0] * x[0];
+            let y = [b0 * x[0] + s, b0 * x[1] + middle];
+            state = [0, 1].map(|k| a2[k][0] * s + (a2[k][1] * t + (ab[k] * x[0] + b[k] * x[1])));
+            between = y.map(|y| y.split().0);
+            sums += y[0] * y[0] + y[1] * y[1];
         }
-        y
+        self.state = state.map(Into::into);
+        self.between = between.map(Into::into);
+        sums[2] + sums[3]
     }
 
     /// Far below what is heard: numbers that make processors slow.
     fn settle(&mut self) {
-        for x in self.state.as_flattened_mut().iter_mut().filter(|x| x.abs() < 1e-30) {
-            *x = 0.0;
-        }
+        let numbers = self.state.as_flattened_mut().iter_mut().chain(self.between.as_flattened_mut());
+        numbers.filter(|x| x.abs() < 1e-30).for_each(|x| *x = 0.0);
     }
 }
 
 /// The meter.
 pub struct Programme {
-    filters: [Filter; 2],
+    filters: Filters,
+    /// Which instructions there are.
+    level: Level,
     /// A frame that waits for its second.
     odd: Option<[f32; 2]>,
     /// Sum of squares and frames since the last look; the sums between the last looks.
@@ -94,7 +123,8 @@ impl Programme {
     /// Nothing has been heard.
     pub fn new() -> Self {
         Self {
-            filters: [HEAD, HIGH_PASS].map(Filter::new),
+            filters: Filters::new([HEAD, HIGH_PASS]),
+            level: Level::new(),
             odd: None,
             sum: 0.0,
             frames: 0,
@@ -124,18 +154,10 @@ impl Programme {
 
     /// An even number of frames, up to the next look.
     fn take(&mut self, frames: &[[f32; 2]]) {
-        let [head, high_pass] = &mut self.filters;
-        let mut sums = [0.0; 2];
-        for pair in frames.as_chunks::<2>().0 {
-            let y = high_pass.pair(head.pair(pair.map(|frame| frame.map(f64::from))));
-            for c in 0..2 {
-                sums[c] += y[0][c] * y[0][c] + y[1][c] * y[1][c];
-            }
-        }
-        self.sum += sums[0] + sums[1];
+        self.sum += self.filters.squares(self.level, frames.as_chunks().0);
         self.frames += frames.len();
         if self.frames == STRIDE {
-            self.filters.iter_mut().for_each(Filter::settle);
+            self.filters.settle();
             self.sums[self.looks % BLOCK] = std::mem::take(&mut self.sum);
             (self.looks, self.frames) = (self.looks + 1, 0);
             let square = self.sums.iter().sum::<f64>() / (BLOCK * STRIDE) as f64;

@@ -11,12 +11,12 @@ use super::whole_file::WholeFile;
 use crate::exhibit::Exhibit;
 use crate::math::decibels;
 use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use crate::sound::{MAX_COMMANDS, RoomSpec, SoundCommand, Synth};
+use crate::sound::{MAX_COMMANDS, RoomSpec, SoundCommand, Synth, peak};
 
 /// Stereo.
 const CHANNELS: u16 = 2;
 /// Steps whose sound is made at once: how it is cut does not matter to it, and there is less to begin and to end.
-const TOGETHER: usize = 8;
+const TOGETHER: usize = 24;
 /// Samples of a step, of both channels.
 const STEP: usize = SAMPLES_PER_STEP as usize * CHANNELS as usize;
 
@@ -96,7 +96,7 @@ impl Soundtrack {
         let early = self.early.min(samples);
         self.early -= early;
         let block = &block[early..];
-        self.peak = block.iter().fold(self.peak, |peak, s| peak.max(s.abs()));
+        self.peak = self.peak.max(peak(block));
         self.loudness.hear(block.as_chunks().0);
         self.file.as_mut().map_or(Ok(()), |file| file.write(block))
     }

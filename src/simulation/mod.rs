@@ -322,9 +322,9 @@ impl Simulation {
     }
 
     /// Sees what hides the surfaces that breath leans to from the lips, where there is a choice. What stands in the way changes
-    /// slowly: of the choices one looks at one of them, and while nobody blows every fourth.
+    /// slowly: of the choices one looks at one of them, and while nobody blows every eighth.
     fn look_at_targets(&mut self, choice: u64) {
-        let (every, surfaces) = (if self.speed > 0.0 { 1 } else { 4 }, self.leant_to.len());
+        let (every, surfaces) = (if self.speed > 0.0 { 1 } else { 8 }, self.leant_to.len());
         if surfaces < 2 || !choice.is_multiple_of(every) {
             return;
         }

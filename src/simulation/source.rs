@@ -31,6 +31,9 @@ struct Swing {
 impl Swing {
     /// `speed` one step of `dt` seconds later; exactly 0 soon after the goal is 0.
     fn follow(&self, speed: f64, goal: f64, dt: f64) -> f64 {
+        if speed == goal {
+            return goal;
+        }
         let time = if goal > speed { self.attack } else { self.release };
         let next = goal + (speed - goal) * exp(-dt / time);
         if goal == 0.0 && next < STILL { 0.0 } else { next }

@@ -36,6 +36,7 @@ pub use modes::{Mode, PlateMode, free_plate_modes};
 pub use room::{BANDS, Room, RoomSpec, STEEPEST, T60_RANGE};
 pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, MOST_PARTIALS, Synth};
 pub use timbre::{Preset, TimbreError};
+pub use true_peak::peak;
 pub use volume::{PROGRAMME, Volume, VolumeSettings};
 
 /// What the synth is told. Fixed size, so that it travels through a wait-free ring.

@@ -51,6 +51,8 @@ const NEAREST: f32 = 0.1;
 /// Plays the instruments of one exhibit.
 pub struct Synth {
     sample_rate: f64,
+    /// Of the way to what they glide to, wind and what slides go so much from one point of the control grid to the next.
+    shares: [f64; 2],
     seed: u64,
     instruments: Vec<Instrument>,
     bodies: Vec<Body>,
@@ -158,6 +160,7 @@ impl Synth {
             voices.iter_mut().for_each(|voice| instrument.graph.make_room(&mut voice.operators, sample_rate));
         }
         Self {
+            shares: [WIND_GLIDE, SLIDE_GLIDE].map(|glide| 1.0 - exp(-(CONTROL as f64) / (glide * sample_rate))),
             sample_rate,
             seed,
             sliders: vec![Slider::default(); instruments.len()],
@@ -412,7 +415,7 @@ impl Synth {
             let graph = &self.instruments[voice.instrument].graph;
             graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
-        let share = 1.0 - exp(-(CONTROL as f64) / (WIND_GLIDE * self.sample_rate));
+        let [share, slides] = self.shares;
         let calm_before = self.wind.speed == 0.0;
         self.across.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
         self.wind.glide(share);
@@ -422,13 +425,12 @@ impl Synth {
             gust: self.wind.gust,
             ..Inputs::default()
         };
-        let share = 1.0 - exp(-(CONTROL as f64) / (SLIDE_GLIDE * self.sample_rate));
         for voice in &mut self.lasting {
             let instrument = &self.instruments[voice.instrument];
             let slider = &mut self.sliders[voice.instrument];
             let (inputs, pan, distance, still_before, still) = if instrument.player == Player::Slide {
                 let parted = slider.force == 0.0;
-                slider.glide(share);
+                slider.glide(slides);
                 let slide = slider.target;
                 let inputs =
                     Inputs { slip_speed: slider.speed, normal_force: slider.force, position: slider.position, ..air };

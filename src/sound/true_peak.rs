@@ -50,8 +50,7 @@ impl TruePeak {
 
     /// What no point is above when these frames come next.
     pub fn bound(&self, frames: &[[f32; 2]]) -> f64 {
-        let largest = |frames: &[[f32; 2]]| frames.as_flattened().iter().fold(0.0, |most: f32, x| most.max(x.abs()));
-        self.most * f64::from(largest(frames).max(largest(&self.last[..TAPS])))
+        self.most * f64::from(peak(frames.as_flattened()).max(peak(self.last[..TAPS].as_flattened())))
     }
 
     /// Takes frames in without looking.
@@ -81,5 +80,33 @@ impl TruePeak {
         }
         let samples = last[TAPS / 2 - 1].iter().chain(&last[TAPS / 2]);
         samples.chain(&sums).fold(0.0, |peak: f32, x| peak.max(x.abs()))
+    }
+}
+
+/// The largest of some samples, whatever their sign; eight side by side, that none waits for the one before.
+pub fn peak(samples: &[f32]) -> f32 {
+    let larger = |most: &mut f32, x: &f32| {
+        if x.abs() > *most {
+            *most = x.abs();
+        }
+    };
+    let (eights, rest) = samples.as_chunks::<8>();
+    let mut most = [0.0; 8];
+    eights.iter().for_each(|eight| most.iter_mut().zip(eight).for_each(|(most, x)| larger(most, x)));
+    most.iter_mut().zip(rest).for_each(|(most, x)| larger(most, x));
+    most.into_iter().fold(0.0, f32::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_peak_of_any_number_of_samples_is_the_largest_of_them() {
+        for n in 0..40 {
+            let samples: Vec<f32> = (0..n).map(|k| ((k * 29) % 37) as f32 - 18.0).collect();
+            let one_by_one = samples.iter().fold(0.0f32, |most, x| most.max(x.abs()));
+            assert_eq!(peak(&samples), one_by_one, "{n} samples");
+        }
     }
 }

@@ -29,7 +29,10 @@
 use std::cell::Cell;
 use std::ops::Range;
 
-use super::breath::{AIR_DENSITY, Breath};
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::breath::Breath;
+use super::drag::{Coefficients, Quad, all, by_lane, lane, sum};
 use super::front::Front;
 use super::patches::{Face, Patch, split};
 use super::weather::{Upwind, Weather, Wind};
@@ -38,7 +41,8 @@ use crate::articulation::block::{Vec6, add_wrench, angular, linear, vec6};
 use crate::articulation::spatial::matrix;
 use crate::bodies::RigidBody;
 use crate::geometry::rays::{Hint, Occluders};
-use crate::math::{DVec3, PI};
+use crate::math::DVec3;
+use crate::math::lanes::WIDTH;
 use crate::noise::perlin3_vector;
 
 /// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
@@ -65,13 +69,13 @@ const FAR: f64 = 50.0;
 struct Feeler {
     body: usize,
     patches: Vec<Patch>,
+    /// The same by fours.
+    quads: Vec<Quad>,
     /// What hid each patch the last time.
     hints: Vec<Cell<Hint>>,
     /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
     groups: Vec<(DVec3, Range<usize>)>,
-    drag_normal: f64,
-    drag_tangential: f64,
-    gain: f64,
+    coefficients: Coefficients,
 }
 
 impl Feeler {
@@ -80,42 +84,22 @@ impl Feeler {
         let mut patches = split(surface);
         let mut groups = Vec::new();
         gather(&mut patches, 0, alike, &mut groups);
+        let coefficients =
+            Coefficients { normal: surface.drag_normal, tangential: surface.drag_tangential, gain: surface.gain };
         Self {
             body: surface.body,
             hints: vec![Cell::default(); patches.len()],
             groups,
+            quads: patches.chunks(WIDTH).map(|four| Quad::new(four, &coefficients)).collect(),
             patches,
-            drag_normal: surface.drag_normal,
-            drag_tangential: surface.drag_tangential,
-            gain: surface.gain,
-        }
-    }
-
-    /// Drag of a patch in the relative wind `v` (m/s), N; both in the body's frame.
-    fn drag(&self, patch: &Patch, v: DVec3) -> DVec3 {
-        let axis = patch.axis;
-        let pressure = 0.5 * AIR_DENSITY * patch.area * self.gain;
-        let along = v.dot(axis);
-        let across = v - along * axis;
-        let (mut c_along, c_across) = self.coefficients(patch.face);
-        if patch.face == Face::Side && along >= 0.0 {
-            c_along = 0.0;
-        }
-        pressure * (c_along * along.abs() * along * axis + c_across * across.length() * across)
-    }
-
-    /// Drag coefficients along a patch's axis and across it.
-    fn coefficients(&self, face: Face) -> (f64, f64) {
-        match face {
-            Face::Side | Face::Sheet => (self.drag_normal, self.drag_tangential),
-            Face::Wire => (PI * self.drag_tangential, self.drag_normal),
+            coefficients,
         }
     }
 
     /// H g: what a patch takes of the turbulence `g` (in the body's frame), never more than all of it.
     fn shaken(&self, patch: &Patch, g: DVec3) -> DVec3 {
         let axis = patch.axis;
-        let (c_along, c_across) = self.coefficients(patch.face);
+        let (c_along, c_across) = self.coefficients.of(patch.face);
         let most = c_along.max(c_across);
         if most <= 0.0 {
             return DVec3::ZERO;
@@ -204,31 +188,50 @@ pub struct WindField {
     occluders: Occluders,
     seed: u64,
     blown: Vec<Vec6>,
+    /// Air at the patches of the surface in hand.
+    winds: Vec<DVec3>,
+    /// Which instructions there are.
+    level: Level,
 }
 
 impl WindField {
     /// Surfaces, shelters and winds of an exhibit with `bodies` bodies.
     pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
         let weather = Weather::new(winds);
+        let feelers: Vec<_> = surfaces.iter().map(|surface| Feeler::new(surface, weather.alike())).collect();
         Self {
-            feelers: surfaces.iter().map(|surface| Feeler::new(surface, weather.alike())).collect(),
             weather,
             occluders: Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh))),
             seed,
             blown: vec![[0.0; 6]; bodies],
+            winds: Vec::with_capacity(feelers.iter().map(|feeler| feeler.quads.len() * WIDTH).max().unwrap_or(0)),
+            feelers,
+            level: Level::new(),
         }
     }
 
     /// Adds the wrenches (N, N m about each centre of mass) of all winds at `time` (s since the reset) to `out`.
     pub fn push(&mut self, bodies: &[RigidBody], time: f64, blown: Option<&Blown>, out: &mut [Vec6]) -> WindReport {
         self.weather.turn_to(time);
-        let still = blown.is_none() && self.weather.is_empty();
-        if !still {
+        if blown.is_some() || !self.weather.is_empty() {
             self.occluders.refit(|body| bodies[body].pose());
         }
-        let mut report = WindReport::default();
         self.blown.fill([0.0; 6]);
+        dispatch!(self.level, simd => self.push_in(simd, bodies, blown, out))
+    }
+
+    #[inline(always)]
+    fn push_in<S: Simd>(
+        &mut self,
+        simd: S,
+        bodies: &[RigidBody],
+        blown: Option<&Blown>,
+        out: &mut [Vec6],
+    ) -> WindReport {
+        let still = blown.is_none() && self.weather.is_empty();
+        let mut report = WindReport::default();
         let (mut total, mut fastest) = (0.0, 0.0);
+        let mut winds = std::mem::take(&mut self.winds);
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
             // What stands still in still air feels nothing.
@@ -239,49 +242,59 @@ impl WindField {
             // In the body's own frame, in which its patches lie still.
             let frame = matrix(body.rotation);
             let inward = frame.transpose();
-            let (velocity, spin) = (inward * body.velocity, inward * body.angular_velocity);
-            let mut sum = [0.0; 6];
-            let mut sum_blown = [0.0; 6];
-            let each = feeler.groups.iter().flat_map(|(center, range)| {
-                let aimless = if still {
-                    DVec3::ZERO
-                } else {
-                    inward * self.stirs(body.position + frame * (*center - body.properties.center))
-                };
-                range.clone().map(move |index| (index, aimless))
-            });
-            for (index, aimless) in each {
+            let center = body.properties.center;
+            let spin = inward * body.angular_velocity;
+            let origin = inward * body.velocity - spin.cross(center);
+            let place = |patch: &Patch| (body.position + frame * (patch.point - center), frame * patch.axis);
+            let open = |index: usize, from: Upwind| {
                 let patch = &feeler.patches[index];
-                let arm = patch.point - body.properties.center;
-                let own = velocity + spin.cross(arm);
-                if still {
-                    add_wrench(&mut sum, arm, feeler.drag(patch, -own));
-                    continue;
-                }
-                let (point, axis) = (body.position + frame * arm, frame * patch.axis);
-                let open = |from| open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
-                let wind = aimless + inward * self.aimed(point, open);
-                let before = feeler.drag(patch, wind - own);
-                add_wrench(&mut sum, arm, before);
-                let Some(blown) = blown else { continue };
-                let (air, source) = blown.air(point);
-                if source <= 0.0 || !open(Upwind::Place(blown.breath.vertex())) {
-                    continue;
-                }
-                let added = feeler.drag(patch, wind + inward * air - own) - before;
-                let shaken = feeler.shaken(patch, inward * self.eddy(&blown.breath, point));
-                let added = added + TURBULENCE * added.length() * shaken;
-                total += added.length();
-                fastest = source.max(fastest);
-                add_wrench(&mut sum_blown, arm, added);
+                let (point, axis) = place(patch);
+                open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from)
+            };
+            if !still {
+                self.feel(feeler, body, &mut winds, open);
             }
-            let [sum, sum_blown] = [sum, sum_blown].map(|sum| vec6(frame * linear(&sum), frame * angular(&sum)));
+            let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
+            let mut sum_blown = [0.0; 6];
+            for (first, quad) in (0..).step_by(WIDTH).zip(&feeler.quads) {
+                let mut wind = -quad.velocities(simd, origin, spin);
+                if !still {
+                    wind += by_lane(simd, |k| inward * winds[first + k]);
+                }
+                let before = quad.drag(simd, wind);
+                force += before;
+                moment += quad.moments(simd, before);
+                let Some(blown) = blown else { continue };
+                let airs: [(DVec3, f64); WIDTH] = std::array::from_fn(|k| {
+                    let Some(patch) = feeler.patches.get(first + k) else { return (DVec3::ZERO, 0.0) };
+                    let (air, source) = blown.air(place(patch).0);
+                    let arrives = source > 0.0 && open(first + k, Upwind::Place(blown.breath.vertex()));
+                    if arrives { (air, source) } else { (DVec3::ZERO, 0.0) }
+                });
+                if airs.iter().all(|(_, source)| *source == 0.0) {
+                    continue;
+                }
+                let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
+                for (k, (_, source)) in airs.iter().enumerate().filter(|(_, (_, source))| *source > 0.0) {
+                    let patch = &feeler.patches[first + k];
+                    let added = lane(&added, k);
+                    let shaken = feeler.shaken(patch, inward * self.eddy(&blown.breath, place(patch).0));
+                    let added = added + TURBULENCE * added.length() * shaken;
+                    total += added.length();
+                    fastest = source.max(fastest);
+                    add_wrench(&mut sum_blown, patch.point - center, added);
+                }
+            }
+            let force = sum(&force);
+            let own = vec6(frame * force, frame * (sum(&moment) - center.cross(force)));
+            let sum_blown = vec6(frame * linear(&sum_blown), frame * angular(&sum_blown));
             for k in 0..6 {
-                out[feeler.body][k] += sum[k];
+                out[feeler.body][k] += own[k];
                 self.blown[feeler.body][k] += sum_blown[k];
             }
-            report.force += linear(&sum);
+            report.force += linear(&own);
         }
+        self.winds = winds;
         if let Some(blown) = blown {
             let most = blown.breath.momentum_flow(fastest);
             let share = blown.gain * if total > most { most / total } else { 1.0 };
@@ -289,7 +302,7 @@ impl WindField {
                 for k in 0..6 {
                     out[k] += share * wrench[k];
                 }
-                report.breath += share * DVec3::new(wrench[0], wrench[1], wrench[2]);
+                report.breath += share * linear(wrench);
             }
             report.force += report.breath;
             report.bound = blown.gain * most;
@@ -297,6 +310,18 @@ impl WindField {
             report.gust = self.eddy(&blown.breath, ahead).dot(blown.breath.direction);
         }
         report
+    }
+
+    /// The air of all winds but the breath at each patch of a surface, world, m/s; nothing where a quad has no patch.
+    fn feel(&self, feeler: &Feeler, body: &RigidBody, winds: &mut Vec<DVec3>, open: impl Fn(usize, Upwind) -> bool) {
+        let place = |point: DVec3| body.position + body.rotation * (point - body.properties.center);
+        winds.clear();
+        for (center, range) in &feeler.groups {
+            let aimless = self.stirs(place(*center));
+            let patches = range.clone().map(|index| (index, place(feeler.patches[index].point)));
+            winds.extend(patches.map(|(index, point)| aimless + self.aimed(point, |from| open(index, from))));
+        }
+        winds.resize(feeler.quads.len() * WIDTH, DVec3::ZERO);
     }
 
     /// Velocity at a point of the winds that come from all sides, m/s.

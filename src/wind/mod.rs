@@ -4,6 +4,7 @@ use crate::geometry::TriangleMesh;
 
 pub mod blow;
 pub mod breath;
+mod drag;
 pub mod force;
 pub mod front;
 pub mod generate;

@@ -28,7 +28,7 @@ mod absorption;
 mod network;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x16};
+use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 
 use absorption::{Absorption, Absorptions};
 use network::{CHUNK, Delay, Network};
@@ -143,9 +143,6 @@ impl Room {
 
     #[inline(always)]
     fn answer_in<S: Simd>(&mut self, simd: S, mut frames: &mut [[f32; 2]]) {
-        for frame in frames.iter_mut() {
-            *frame = frame.map(|x| if x.is_finite() { x.clamp(-LOUDEST, LOUDEST) } else { 0.0 });
-        }
         while !frames.is_empty() {
             if self.quiet > self.forgets {
                 // What is silent already is its answer to silence.
@@ -165,22 +162,31 @@ impl Room {
     #[inline(always)]
     fn run<S: Simd>(&mut self, simd: S, frames: &mut [[f32; 2]]) {
         let n = frames.len();
-        let mut sides = [[0.0; CHUNK]; 2];
-        for (k, frame) in frames.iter().enumerate() {
-            (sides[0][k], sides[1][k]) = (frame[0], frame[1]);
+        let mut both = [[0.0; 2]; CHUNK];
+        match frames.first_chunk() {
+            Some(whole) => both = *whole,
+            None => both[..n].copy_from_slice(frames),
         }
-        let mut fed: [f32x16<S>; 2] = sides.map(|side| side.simd_into(simd));
+        let (first, second) = both.as_flattened().split_at(CHUNK);
+        let (first, second) = (f32x16::from_slice(simd, first), f32x16::from_slice(simd, second));
+        let mut fed = [first.unzip_low(second), first.unzip_high(second)].map(sane);
+        let heard = fed.map(|side| side.abs().bitcast::<u32x16<S>>());
         for (x, allpasses) in fed.iter_mut().zip(&mut self.diffusers) {
             for allpass in allpasses {
                 *x = allpass.diffuse(simd, *x, n);
             }
         }
-        let (answer, into) = self.network.run(simd, fed, n);
-        let loud = (0..n).rposition(|k| frames[k] != [0.0; 2] || into[k] != 0.0);
+        let ([left, right], into) = self.network.run(simd, fed, n);
+        let any: [u32; CHUNK] = (heard[0] | heard[1] | into).into();
+        let loud = any[..n].iter().rposition(|&bits| bits != 0);
         self.quiet = loud.map_or(self.quiet + n, |last| n - 1 - last);
-        let [left, right]: [[f32; CHUNK]; 2] = answer.map(|side| (side * self.level).into());
-        for (k, frame) in frames.iter_mut().enumerate() {
-            *frame = [left[k], right[k]];
+        let (left, right) = (left * self.level, right * self.level);
+        let (first, second) = both.as_flattened_mut().split_at_mut(CHUNK);
+        left.zip_low(right).store_slice(first);
+        left.zip_high(right).store_slice(second);
+        match frames.first_chunk_mut() {
+            Some(whole) => *whole = both,
+            None => frames.copy_from_slice(&both[..n]),
         }
     }
 
@@ -190,6 +196,13 @@ impl Room {
         self.diffusers.iter_mut().flatten().for_each(Delay::clear);
         self.quiet = 0;
     }
+}
+
+/// Within what is ever loud; 0 for what is no number.
+#[inline(always)]
+fn sane<S: Simd>(x: f32x16<S>) -> f32x16<S> {
+    let bounded = x.min(LOUDEST).max(-LOUDEST);
+    x.abs().simd_lt(f32::INFINITY).select(bounded, f32x16::splat(x.simd, 0.0))
 }
 
 /// Amplitude of the answer to an impulse at a level of 0 dB.

@@ -6,7 +6,7 @@
 //! lengths give the same bits.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16};
+use fearless_simd::{Simd, f32x16, u32x16};
 
 use super::absorption::{Absorptions, SHELVES};
 use super::{FLOOR, LINES};
@@ -21,26 +21,22 @@ const HALF: usize = SHELVES / 2;
 
 /// Coefficient of the allpasses.
 const DIFFUSION: f32 = 0.6;
-/// Into the lines: energy 1 for either side, which has eight of them (1/√8).
-const INTO: [f32; LINES] = row(6, 0.353_553_4);
-/// Out of the lines.
-const LEFT: [f32; LINES] = row(9, 0.25);
-const RIGHT: [f32; LINES] = row(12, 0.25);
+/// Of H/4.
+const MIXED: f32 = 0.25;
+/// Into the lines: energy 1 for either side, which has eight of them (1/√8), with the signs of a row of H.
+const INTO: f32 = 0.353_553_4;
+const INTO_ROW: usize = 6;
+/// Out of the lines: rows of H/4, which the mixing makes anyway.
+const LEFT: usize = 9;
+const RIGHT: usize = 12;
 
-/// Row of the Hadamard matrix H_ri = (−1)^popcount(r & i), times a factor.
-const fn row(r: usize, factor: f32) -> [f32; LINES] {
-    let mut out = [factor; LINES];
-    let mut i = 0;
-    while i < LINES {
-        if (r & i).count_ones() % 2 == 1 {
-            out[i] = -factor;
-        }
-        i += 1;
-    }
-    out
+/// Is H_ri = (−1)^popcount(r & i), of the Hadamard matrix, below 0?
+const fn is_negative(r: usize, i: usize) -> bool {
+    (r & i).count_ones() % 2 == 1
 }
 
-/// A delay: what goes in comes out again after as many frames as it is long.
+/// A delay: what goes in comes out again after as many frames as it is long. Behind the end of the ring its first chunk stands once
+/// more, so that a chunk lies in one piece wherever it begins.
 pub(super) struct Delay {
     samples: Vec<f32>,
     at: usize,
@@ -49,12 +45,12 @@ pub(super) struct Delay {
 impl Delay {
     /// Silent, of so many frames; not less than [`CHUNK`], or no chunk may be longer.
     pub fn new(frames: usize) -> Self {
-        Self { samples: vec![0.0; frames], at: 0 }
+        Self { samples: vec![0.0; frames + CHUNK], at: 0 }
     }
 
     /// Frames.
     pub fn length(&self) -> usize {
-        self.samples.len()
+        self.samples.len() - CHUNK
     }
 
     /// Silent.
@@ -65,18 +61,8 @@ impl Delay {
     /// What comes out next.
     #[inline(always)]
     fn read<S: Simd>(&self, simd: S) -> f32x16<S> {
-        match self.samples[self.at..].first_chunk::<CHUNK>() {
-            Some(chunk) => (*chunk).simd_into(simd),
-            None => self.read_around().simd_into(simd),
-        }
-    }
-
-    /// What comes out next, beyond the end of the ring. Rare, and so kept apart: or the common case, too, would gather its numbers
-    /// one by one, and a register could not be loaded before all of them have arrived.
-    #[cold]
-    #[inline(never)]
-    fn read_around(&self) -> Chunk {
-        std::array::from_fn(|k| self.samples[(self.at + k) % self.length()])
+        let chunk: Chunk = self.samples[self.at..].first_chunk().copied().unwrap_or_default();
+        chunk.simd_into(simd)
     }
 
     /// Takes in the first `n` of a chunk for those that came out.
@@ -84,17 +70,16 @@ impl Delay {
     fn write(&mut self, chunk: &Chunk, n: usize) {
         match self.samples[self.at..].first_chunk_mut() {
             Some(place) if n == CHUNK => *place = *chunk,
-            _ => {
-                for (k, x) in chunk[..n].iter().enumerate() {
-                    let at = self.at + k;
-                    let wrapped = if at < self.samples.len() { at } else { at - self.samples.len() };
-                    self.samples[wrapped] = *x;
-                }
-            }
+            _ => self.samples[self.at..self.at + n].copy_from_slice(&chunk[..n]),
         }
-        self.at += n;
-        if self.at >= self.samples.len() {
-            self.at -= self.samples.len();
+        let length = self.length();
+        let (from, next) = (self.at, self.at + n);
+        self.at = if next < length { next } else { next - length };
+        if next > length {
+            self.samples.copy_within(length..next, 0);
+        }
+        if from < CHUNK {
+            self.samples.copy_within(..CHUNK, length);
         }
     }
 
@@ -127,36 +112,31 @@ impl Network {
         self.states = [[[0.0; LINES]; 2]; SHELVES];
     }
 
-    /// Takes `n` frames of the left and of the right side in; answers what comes out on either, and the largest number of
-    /// each frame that has gone into any line.
+    /// Takes `n` frames of the left and of the right side in; answers what comes out on either, and whether at a frame anything has
+    /// gone into any line: 0 where nothing has.
     #[inline(always)]
-    pub fn run<S: Simd>(&mut self, simd: S, fed: [f32x16<S>; 2], n: usize) -> ([f32x16<S>; 2], Chunk) {
-        let silence = f32x16::splat(simd, 0.0);
+    pub fn run<S: Simd>(&mut self, simd: S, fed: [f32x16<S>; 2], n: usize) -> ([f32x16<S>; 2], u32x16<S>) {
         let by_lines: [f32x16<S>; LINES] = std::array::from_fn(|i| self.lines[i].read(simd));
         let mut frames = turned(by_lines);
         self.absorb(simd, &mut frames[..n]);
         let mut y = turned(frames);
-        let (mut left, mut right) = (silence, silence);
-        for i in 0..LINES {
-            left += y[i] * LEFT[i];
-            right += y[i] * RIGHT[i];
-        }
         mix(&mut y);
-        let mut largest = silence;
+        let fed = fed.map(|side| side * INTO);
+        let mut any = u32x16::splat(simd, 0);
         for i in 0..LINES {
-            let into = floored(y[i] + fed[i % 2] * INTO[i]);
-            largest = largest.max(into.abs());
+            let side = fed[i % 2];
+            let into = floored(if is_negative(INTO_ROW, i) { y[i] - side } else { y[i] + side });
+            any |= into.bitcast::<u32x16<S>>();
             self.lines[i].write(&into.into(), n);
         }
-        ([left, right], largest.into())
+        ([y[LEFT], y[RIGHT]], any)
     }
 
     /// Each frame through the filters of the lines: half of the shelves at a time, whose numbers a processor's registers hold.
     #[inline(always)]
     fn absorb<S: Simd>(&mut self, simd: S, frames: &mut [f32x16<S>]) {
         let load = |x: &[f32; LINES]| -> f32x16<S> { (*x).simd_into(simd) };
-        let gain = load(&self.absorption.gain);
-        frames.iter_mut().for_each(|frame| *frame *= gain);
+        let gain = load(&self.absorption.gain) * MIXED;
         for half in 0..2 {
             let own = HALF * half..HALF * (half + 1);
             let shelves: [[f32x16<S>; 4]; HALF] =
@@ -164,7 +144,7 @@ impl Network {
             let mut states: [[f32x16<S>; 2]; HALF] =
                 std::array::from_fn(|k| self.states[own.start + k].each_ref().map(load));
             for frame in &mut *frames {
-                let mut y = *frame;
+                let mut y = if half == 0 { *frame * gain } else { *frame };
                 for ([c1, c2, a1, a2], [s1, s2]) in shelves.iter().zip(&mut states) {
                     let (x, w) = (y, *s1);
                     y = x + w;
@@ -180,7 +160,7 @@ impl Network {
     }
 }
 
-/// H/4 by the fast transform: sums and differences of pairs.
+/// H by the fast transform: sums and differences of pairs. The 1/4 of H/4 is in the lines' gain already.
 #[inline(always)]
 fn mix<S: Simd>(y: &mut [f32x16<S>; LINES]) {
     for half in [8, 4, 2, 1] {
@@ -188,7 +168,6 @@ fn mix<S: Simd>(y: &mut [f32x16<S>; LINES]) {
             (y[i], y[i + half]) = (y[i] + y[i + half], y[i] - y[i + half]);
         }
     }
-    y.iter_mut().for_each(|y| *y *= 0.25);
 }
 
 /// Rows for columns: each round takes the highest bit of a number's row for the lowest of its column.
