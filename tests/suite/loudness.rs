@@ -207,7 +207,7 @@ fn a_room_has_the_same_bits_in_every_build() {
 }
 
 /// Hash of the second of hits, equal in debug and release.
-const GOLDEN: u64 = 0x6a4d_9a74_6af9_b6a9;
+const GOLDEN: u64 = 0x6c7d_6861_8ba2_6a59;
 
 #[test]
 fn a_room_adds_its_tail_and_keeps_the_sound_itself() {
