@@ -60,6 +60,8 @@ pub struct Synth {
     body_of: Vec<Option<usize>>,
     most_partials: usize,
     voices: Vec<Voice>,
+    /// None from here on sounds.
+    used: usize,
     /// Voices that go on as long as the wind or a slide plays them.
     lasting: Vec<Voice>,
     wind: Wind,
@@ -171,6 +173,7 @@ impl Synth {
             body_of,
             most_partials: MOST_PARTIALS,
             voices,
+            used: 0,
             lasting,
             wind: Wind::default(),
             commands: VecDeque::with_capacity(MAX_COMMANDS),
@@ -351,12 +354,13 @@ impl Synth {
         let most = instrument.max_voices;
         self.make_room(most, |voice| voice.instrument == index);
         self.make_room(MAX_VOICES, |_| true);
-        let Some(voice) = self.voices.iter_mut().find(|voice| voice.state == VoiceState::Free) else {
+        let Some(free) = self.voices.iter().position(|voice| voice.state == VoiceState::Free) else {
             // Every place fades: more than FADING_VOICES hits in 3 ms. Its click is not heard; what rings is.
             self.lost += 1;
             return;
         };
-        let instrument = &self.instruments[index];
+        self.used = self.used.max(free + 1);
+        let (voice, instrument) = (&mut self.voices[free], &self.instruments[index]);
         let seed = hash_words(&[self.seed, self.strikes]);
         voice.begin(index, gains);
         voice.inputs = inputs;
@@ -410,7 +414,10 @@ impl Synth {
             }
         }
         self.keep_few();
-        for voice in self.voices.iter_mut().filter(|voice| voice.state != VoiceState::Free) {
+        while self.used > 0 && self.voices[self.used - 1].state == VoiceState::Free {
+            self.used -= 1;
+        }
+        for voice in self.voices[..self.used].iter_mut().filter(|voice| voice.state != VoiceState::Free) {
             voice.grid_point();
             let graph = &self.instruments[voice.instrument].graph;
             graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
@@ -486,7 +493,8 @@ impl Synth {
 
     fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
         let at = (self.position % CONTROL as u64) as usize;
-        for voice in self.voices.iter_mut().chain(&mut self.lasting).filter(|voice| voice.state != VoiceState::Free) {
+        let voices = self.voices[..self.used].iter_mut().chain(&mut self.lasting);
+        for voice in voices.filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
             let body = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
             let force = body.map(|body| self.bodies[body].force(at));

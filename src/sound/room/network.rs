@@ -75,12 +75,21 @@ impl Delay {
         let length = self.length();
         let (from, next) = (self.at, self.at + n);
         self.at = if next < length { next } else { next - length };
-        if next > length {
-            self.samples.copy_within(length..next, 0);
+        if from < CHUNK || next > length {
+            self.write_again(&chunk[..n], from);
         }
-        if from < CHUNK {
-            self.samples.copy_within(..CHUNK, length);
-        }
+    }
+
+    /// What went in at `from` once more, where it stands behind the end or passes it: from the chunk, as what has just been written
+    /// to the ring would be waited for. Rare, and so kept apart: or a chunk would always be put together in memory.
+    #[cold]
+    #[inline(never)]
+    fn write_again(&mut self, chunk: &[f32], from: usize) {
+        let length = self.length();
+        let within = chunk.len().min(length - from);
+        self.samples[..chunk.len() - within].copy_from_slice(&chunk[within..]);
+        let first = chunk.len().min(CHUNK.saturating_sub(from));
+        self.samples[length + from.min(CHUNK)..][..first].copy_from_slice(&chunk[..first]);
     }
 
     /// One Schroeder allpass: y = v[n−m] − k v, v = x + k v[n−m].
