@@ -57,6 +57,9 @@ struct Wheel {
     train: usize,
     /// ρ.
     ratio: f64,
+    /// After so many turns of the train it stands where it stood: they are taken off in whole numbers, or the rounding of 2π and
+    /// of ρ would move phases with every turn.
+    cycle: i64,
     freedom: Freedom,
     /// From the pivot to the centre of mass, body axes, m.
     arm: DVec3,
@@ -189,6 +192,10 @@ impl Trains {
                     body,
                     train,
                     ratio: of(body) / of(fastest),
+                    cycle: match freedom {
+                        Freedom::Turn { .. } => denominator(of(body) / of(fastest)).unwrap_or(i64::MAX),
+                        Freedom::Slide(_) => i64::MAX,
+                    },
                     freedom,
                     arm,
                     origin: start,
@@ -335,7 +342,7 @@ impl Trains {
                     wheel.given = vec6(-v, -w);
                 }
                 Asked::Place => {
-                    let q = wheel.ratio * (train.angle + 2.0 * PI * train.turns as f64);
+                    let q = wheel.ratio * (train.angle + 2.0 * PI * (train.turns % wheel.cycle) as f64);
                     wheel.given = wheel.placing(q, quads);
                 }
             }
@@ -477,6 +484,28 @@ impl Wheel {
     }
 }
 
+/// The denominator of a ratio of whole numbers: of the first convergent of its continued fraction that is the ratio but for
+/// rounding. Where no small one is, none.
+fn denominator(ratio: f64) -> Option<i64> {
+    /// Products of some ratios of teeth.
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    /// A ratio that is none of teeth comes so near to one with a larger denominator only.
+    const LARGEST: f64 = 1e6;
+    let (mut rest, mut above, mut below) = (ratio.abs(), [0.0, 1.0], [1.0, 0.0]);
+    loop {
+        let whole = rest.floor();
+        above = [above[1], whole * above[1] + above[0]];
+        below = [below[1], whole * below[1] + below[0]];
+        if below[1].is_nan() || below[1] > LARGEST {
+            return None;
+        }
+        if (above[1] / below[1] - ratio.abs()).abs() <= ROUNDING * ratio.abs() {
+            return Some(below[1] as i64);
+        }
+        rest = 1.0 / (rest - whole);
+    }
+}
+
 /// Does it always act, whatever it carries, without friction?
 fn always(constraint: &Constraint) -> bool {
     let Constraint { schedule, breaking, friction, slips, .. } = constraint;
@@ -555,4 +584,21 @@ fn tie(constraint: &Constraint, free: &[Option<Freedom>], bodies: &[RigidBody]) 
     let [a, b] = &terms[..] else { return None };
     let (a, b) = (of(a)?, of(b)?);
     (a.0 != b.0 && a.1 != 0.0 && b.1 != 0.0).then_some([a, b])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::denominator;
+
+    #[test]
+    fn ratios_of_teeth_come_round() {
+        for (above, below, round) in
+            [(1, 1, 1), (12, 60, 5), (-7, 3, 3), (78 * 80, 6 * 7, 7), (6 * 6 * 8, 78 * 80 * 77, 5005)]
+        {
+            let found = denominator(f64::from(above) / f64::from(below)).expect("a ratio of whole numbers");
+            assert_eq!(found, round, "{above}/{below}");
+        }
+        assert_eq!(denominator(std::f64::consts::PI), None);
+        assert_eq!(denominator(f64::NAN), None);
+    }
 }
