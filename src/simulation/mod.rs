@@ -343,7 +343,7 @@ impl Simulation {
         }
         self.front.advance(self.speed, DT);
         let time = (self.step - self.start_step) as f64 * DT;
-        self.onset.advance(self.speed > 0.0, DT);
+        self.onset.advance(self.speed, DT);
         let mut blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         if let Some(blown) = &mut blown
             && self.settings.profile == Profile::Gallery
