@@ -171,7 +171,8 @@ impl Aim {
         self.chosen = self.chosen.filter(keeps).or(best);
     }
 
-    /// Leans to what is chosen, as it stands now, for `dt` seconds; with nothing to lean to it follows the sight line.
+    /// Leans to what is chosen, as it stands now, for `dt` seconds, all the way in infinite ones; with nothing to lean to it follows
+    /// the sight line.
     pub fn lean(&mut self, target: Option<&AimTarget>, dt: f64) {
         let leant = target.map(|target| self.sight.goal(target));
         let (goal, coming) = leant.map_or((self.sight.on_plane, DVec3::ZERO), |goal| (goal, self.sight.coming(goal)));

@@ -50,6 +50,11 @@ impl Onset {
         }
     }
 
+    /// Did it begin in this step?
+    pub fn begins(&self) -> bool {
+        self.quiet == 0.0 && self.blown == 0.0
+    }
+
     /// Multiplies the force of the breath.
     pub fn gain(&self) -> f64 {
         1.0 + 2.0 * LOST / WITHIN * (1.0 - self.blown / WITHIN).max(0.0)
@@ -91,7 +96,10 @@ mod tests {
     fn who_blows_into_a_demonstration_begins_too() {
         let mut onset = Onset::default();
         made_up(&mut onset, 0.6);
+        assert!(!onset.begins());
         assert_eq!(made_up(&mut onset, 1.5), 0.0, "it only swells");
-        assert!(made_up(&mut onset, 5.0) > 0.9 * LOST, "another breath");
+        onset.advance(5.0, DT);
+        assert!(onset.begins(), "another breath");
+        assert!(onset.gain() > 2.0);
     }
 }
