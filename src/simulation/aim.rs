@@ -14,7 +14,8 @@
 //! the breath goes to the surface with the least (e + e₀)/(f q)
 //! e   how far the ray passes by the inner half of the ball around it, m
 //! f   √(s dᵀ⟨n nᵀ⟩d), √s |cos θ| for a plate: wind along d, from the lips to its middle, presses on a surface by A f²
-//!     (A: its area, n: its normals, s: how much of what faces the lips nothing hides from them)
+//!     (A: its area, n: its normals, s: how much of what faces the lips nothing hides from them); what takes less than a
+//!     tenth of it so is an edge
 //! q   ⁴√(w A), over the largest of all: where the joints let 1 N move its middle by w m/s², wind that it faces sets off
 //!     an acceleration in proportion to w A
 //! ```
@@ -65,6 +66,8 @@ pub fn compare(targets: &mut [(usize, AimTarget)]) {
 
 /// e₀: what lies so near the ray is in the middle of the breath, m.
 const NEAR: f64 = 0.03;
+/// A surface on which wind presses by less than this share of its area is an edge.
+const EDGE: f64 = 0.1;
 /// What an edge counts for, or what cannot move: with nothing else before it, the breath leans to it all the same.
 const LEAST: f64 = 0.05;
 /// Nobody blows at what hangs beside or behind their lips: the least cosine between the way there and the ray.
@@ -113,7 +116,8 @@ impl Sight {
     fn lacks(&self, target: &AimTarget) -> f64 {
         let way = (target.center - self.lips_before(target.center)).try_normalize().unwrap_or(self.ray);
         let ahead = way.dot(self.ray) > AHEAD;
-        let face = if ahead { (target.seen * way.dot(target.faces * way)).max(0.0).sqrt() } else { 0.0 };
+        let pressed = if ahead { target.seen * way.dot(target.faces * way) } else { 0.0 };
+        let face = if pressed > EDGE { pressed.sqrt() } else { 0.0 };
         let past = (self.off(target).length() - INNER * target.radius).max(0.0);
         (past + NEAR) / (face * target.answers).max(LEAST)
     }
