@@ -17,9 +17,11 @@
 //! to the force of all else has four further rules:
 //!
 //! ```text
-//! beside       F_i = F(b + w/√G − u) − F(w/√G − u)  b the breath's air, w the room's own, which comes from all sides, G ≥ 1
-//!                                                   the gain: it makes a breath stronger as √G times its speed would, and
-//!                                                   so what stirs beside it as much weaker, which would else hide it
+//! beside       F_i = F(b + w/√G − u) − F(w/√G − u)  on a solid, b the breath's air, w the room's own, which comes from all
+//!                                                   sides, G ≥ 1 the gain: it makes a breath stronger as √G times its
+//!                                                   speed would, and what stirs beside it as much weaker. The breath only
+//!                                                   reaches windward faces, where air against it would else hide it; a
+//!                                                   sheet feels both
 //! turbulence   F_i += β |F_i| H g(x_i − U_e t, t)   |g| < 1 seeded vector noise of any direction, carried downstream:
 //!                                                   nearly the same in neighbours, and the same from run to run; H is
 //!                                                   what a patch takes of it, as of the wind: of what presses on a face
@@ -261,6 +263,8 @@ impl WindField {
             if !still {
                 self.feel(feeler, body, (&mut winds, &mut stirred), open);
             }
+            let solid = feeler.patches.first().is_some_and(|patch| patch.face == Face::Side);
+            let beside = blown.filter(|_| solid).map_or(1.0, |blown| 1.0 / blown.gain.max(1.0).sqrt());
             let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
             let mut sum_blown = [0.0; 6];
             for (first, quad) in (0..).step_by(WIDTH).zip(&feeler.quads) {
@@ -279,10 +283,12 @@ impl WindField {
                 if airs.iter().all(|(_, source)| *source == 0.0) {
                     continue;
                 }
-                let weaker = 1.0 - 1.0 / blown.gain.max(1.0).sqrt();
-                let beside =
-                    if still { calm } else { room - by_lane(simd, |k| weaker * (inward * stirred[first + k])) };
-                let added = quad.drag(simd, beside + by_lane(simd, |k| inward * airs[k].0)) - quad.drag(simd, beside);
+                let (mut wind, mut before) = (room, dragged);
+                if beside < 1.0 && !still {
+                    wind -= by_lane(simd, |k| (1.0 - beside) * (inward * stirred[first + k]));
+                    before = quad.drag(simd, wind);
+                }
+                let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
                 for (k, (_, source)) in airs.iter().enumerate().filter(|(_, (_, source))| *source > 0.0) {
                     let patch = &feeler.patches[first + k];
                     let added = lane(&added, k);
