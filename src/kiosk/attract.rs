@@ -19,7 +19,7 @@ pub const COUNTDOWN_S: f64 = 10.0;
 
 /// Breaths of the script are blown so much more softly, and swell within so long, s. They show that breath moves the work; whoever
 /// comes and blows meanwhile, though gently, shall see that theirs moves it more.
-const SOFTLY: f64 = 0.18;
+const SOFTLY: f64 = 0.15;
 const SWELLS_S: f64 = 0.3;
 /// A work swings for so long after a breath of the script before it is calmed, s.
 const SWINGS_S: f64 = 1.0;
