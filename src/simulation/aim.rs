@@ -4,7 +4,8 @@
 //! the eye. In the *true* profile the breath follows the ray. In the *gallery* profile it leans towards the nearest
 //! surface when the ray passes it by, as a visitor leans to blow at a thing: without it, a breath at the centre of
 //! the picture could pass between the plates and move nothing. The lips too come to the height of that surface, as a visitor
-//! stoops: what hangs low would else be blown at from above, past all that hangs before it.
+//! stoops: what hangs low would else be blown at from above, past all that hangs before it. And where it hangs behind the
+//! plane they come nearer by as much, as a visitor steps up: from afar a small disc would get a breath's rim only.
 //!
 //! A visitor blows at what will move: not at the edge of a plate when another shows its face, nor at the heavy end of a
 //! rod when a light disc hangs beside it. Yet what is pointed at is left only for what answers far better:
@@ -13,7 +14,8 @@
 //! the breath goes to the surface with the least (e + e₀)/(f q)
 //! e   how far the ray passes by the inner half of the ball around it, m
 //! f   √(s dᵀ⟨n nᵀ⟩d), √s |cos θ| for a plate: wind along d, from the lips to its middle, presses on a surface by A f²
-//!     (A: its area, n: its normals, s: how much of what faces the lips nothing hides from them)
+//!     (A: its area, n: its normals, s: how much of what faces the lips nothing hides from them); what takes less than a
+//!     tenth of it so is an edge
 //! q   ⁴√(w A), over the largest of all: where the joints let 1 N move its middle by w m/s², wind that it faces sets off
 //!     an acceleration in proportion to w A
 //! ```
@@ -64,6 +66,8 @@ pub fn compare(targets: &mut [(usize, AimTarget)]) {
 
 /// e₀: what lies so near the ray is in the middle of the breath, m.
 const NEAR: f64 = 0.03;
+/// A surface on which wind presses by less than this share of its area is an edge.
+const EDGE: f64 = 0.1;
 /// What an edge counts for, or what cannot move: with nothing else before it, the breath leans to it all the same.
 const LEAST: f64 = 0.05;
 /// Nobody blows at what hangs beside or behind their lips: the least cosine between the way there and the ray.
@@ -78,7 +82,8 @@ const MIDDLE: f64 = 0.2;
 /// The lean follows its goal with this time constant, s: no jumps while blowing.
 const LEAN_TIME: f64 = 0.08;
 
-/// A sight line, and lips on it that come to the height of something: across the ray, upright in the picture.
+/// A sight line, and lips on it that come to something: to its height, across the ray and upright in the picture, and as near to
+/// it as to the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Sight {
     origin: DVec3,
@@ -90,14 +95,15 @@ struct Sight {
 }
 
 impl Sight {
-    /// How far the lips rise to a place, m.
-    fn rise(&self, place: DVec3) -> f64 {
-        (place - self.lips).dot(self.upright)
+    /// How the lips come to a place, m: they rise, and go nearer where it lies behind the plane.
+    fn coming(&self, place: DVec3) -> DVec3 {
+        let nearer = (place - self.on_plane).dot(self.ray).max(0.0);
+        (place - self.lips).dot(self.upright) * self.upright + nearer * self.ray
     }
 
-    /// The lips at the height of a place.
+    /// The lips that have come to a place.
     fn lips_before(&self, place: DVec3) -> DVec3 {
-        self.lips + self.rise(place) * self.upright
+        self.lips + self.coming(place)
     }
 
     /// From the ray to a target's middle, m.
@@ -110,7 +116,8 @@ impl Sight {
     fn lacks(&self, target: &AimTarget) -> f64 {
         let way = (target.center - self.lips_before(target.center)).try_normalize().unwrap_or(self.ray);
         let ahead = way.dot(self.ray) > AHEAD;
-        let face = if ahead { (target.seen * way.dot(target.faces * way)).max(0.0).sqrt() } else { 0.0 };
+        let pressed = if ahead { target.seen * way.dot(target.faces * way) } else { 0.0 };
+        let face = if pressed > EDGE { pressed.sqrt() } else { 0.0 };
         let past = (self.off(target).length() - INNER * target.radius).max(0.0);
         (past + NEAR) / (face * target.answers).max(LEAST)
     }
@@ -136,8 +143,8 @@ pub struct Aim {
     pub target: DVec3,
     chosen: Option<usize>,
     sight: Sight,
-    /// How far the lips have risen, m.
-    risen: f64,
+    /// How the lips have come to it, m.
+    come: DVec3,
 }
 
 impl Aim {
@@ -168,14 +175,15 @@ impl Aim {
         self.chosen = self.chosen.filter(keeps).or(best);
     }
 
-    /// Leans to what is chosen, as it stands now, for `dt` seconds; with nothing to lean to it follows the sight line.
+    /// Leans to what is chosen, as it stands now, for `dt` seconds, all the way in infinite ones; with nothing to lean to it follows
+    /// the sight line.
     pub fn lean(&mut self, target: Option<&AimTarget>, dt: f64) {
         let leant = target.map(|target| self.sight.goal(target));
-        let (goal, rise) = leant.map_or((self.sight.on_plane, 0.0), |goal| (goal, self.sight.rise(goal)));
+        let (goal, coming) = leant.map_or((self.sight.on_plane, DVec3::ZERO), |goal| (goal, self.sight.coming(goal)));
         let first = self.direction == DVec3::ZERO;
         let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
-        self.risen += share * (rise - self.risen);
-        self.mouth = self.sight.lips + self.risen * self.sight.upright;
+        self.come += share * (coming - self.come);
+        self.mouth = self.sight.lips + self.come;
         let direction = (goal - self.mouth).try_normalize().unwrap_or(self.sight.ray);
         self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
         self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
@@ -243,6 +251,16 @@ mod tests {
             assert!((aim.mouth.y - height).abs() < 0.05, "leans: {leans}, {}", aim.mouth);
             assert!((aim.mouth.z - 0.5).abs() < ROUNDING && aim.mouth.x.abs() < ROUNDING, "no nearer: {}", aim.mouth);
             assert!(aim.direction.y.abs() < 0.1, "they blow level: {}", aim.direction);
+        }
+    }
+
+    #[test]
+    fn the_lips_come_as_near_to_what_hangs_behind_as_to_the_plane() {
+        const ROUNDING: f64 = 1e-12;
+        for (behind, nearer) in [(0.2, 0.2), (-0.2, 0.0)] {
+            let disc = AimTarget { center: DVec3::new(0.0, 0.0, -behind), ..disc(0.0, DVec3::Z) };
+            let mouth = aimed(&[disc], true).mouth;
+            assert!((mouth - DVec3::Z * (0.5 - nearer)).length() < ROUNDING, "{behind} m behind: {mouth}");
         }
     }
 

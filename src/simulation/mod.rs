@@ -182,6 +182,7 @@ impl Simulation {
             self.begin_anew();
         }
         (self.speed, self.estimate) = self.source.advance(input, DT);
+        self.onset.advance(self.speed, DT);
         let mended = self.dynamics.mend();
         self.take_aim(input);
         self.blow();
@@ -298,7 +299,7 @@ impl Simulation {
         self.gathering.as_ref().map(|(gathering, _)| gathering.way(&self.dynamics.bodies))
     }
 
-    /// Points the breath. What it leans to is chosen again sixty times a second.
+    /// Points the breath. What it leans to is chosen again sixty times a second, and at once by a breath that begins.
     fn take_aim(&mut self, input: &StepInput) {
         const EVERY: u64 = STEPS_PER_SECOND / 60;
         self.eye.look(&self.exhibit, input.aspect, input.turn);
@@ -306,9 +307,10 @@ impl Simulation {
         let Settings { distance, profile, .. } = self.settings;
         let Eye { aspect, ref view, .. } = self.eye;
         self.aim.point(view, view.ray(pointer, aspect), distance);
-        let chooses = profile == Profile::Gallery && self.step.is_multiple_of(EVERY);
+        let begins = self.onset.begins();
+        let chooses = profile == Profile::Gallery && (begins || self.step.is_multiple_of(EVERY));
         if chooses {
-            self.look_at_targets(self.step / EVERY);
+            self.look_at_targets(self.step / EVERY, begins);
         }
         let (surfaces, bodies) = (&self.exhibit.wind_surfaces, &self.dynamics.bodies);
         let stands = |(surface, target): &(usize, AimTarget)| target.at(bodies[surfaces[*surface].body].pose());
@@ -318,20 +320,25 @@ impl Simulation {
             self.aim.choose(&self.aim_targets);
         }
         let chosen = self.aim.chosen().map(|index| stands(&self.leant_to[index]));
-        self.aim.lean(chosen.as_ref(), DT);
+        self.aim.lean(chosen.as_ref(), if begins { f64::INFINITY } else { DT });
     }
 
-    /// Sees what hides the surfaces that breath leans to from the lips, where there is a choice. What stands in the way changes
-    /// slowly: of the choices one looks at one of them, and while nobody blows every eighth.
-    fn look_at_targets(&mut self, choice: u64) {
+    /// Sees what hides the surfaces that breath leans to from the lips, where there is a choice: all of them for a breath that
+    /// begins. What stands in the way then changes slowly, but for lips that follow a pointer: of the choices one looks at the
+    /// surface that is chosen and at another in turn, and while nobody blows every eighth.
+    fn look_at_targets(&mut self, choice: u64, begins: bool) {
         let (every, surfaces) = (if self.speed > 0.0 { 1 } else { 8 }, self.leant_to.len());
-        if surfaces < 2 || !choice.is_multiple_of(every) {
+        if surfaces < 2 || !(begins || choice.is_multiple_of(every)) {
             return;
         }
-        let (surface, target) = &mut self.leant_to[(choice / every % surfaces as u64) as usize];
-        let pose = self.dynamics.bodies[self.exhibit.wind_surfaces[*surface].body].pose();
-        let lips = self.aim.lips_before(pose.point(target.center));
-        target.seen = self.wind.shown(*surface, &self.dynamics.bodies, lips);
+        let next = (choice / every % surfaces as u64) as usize;
+        for (index, (surface, target)) in self.leant_to.iter_mut().enumerate() {
+            if begins || index == next || self.aim.chosen() == Some(index) {
+                let pose = self.dynamics.bodies[self.exhibit.wind_surfaces[*surface].body].pose();
+                let lips = self.aim.lips_before(pose.point(target.center));
+                target.seen = self.wind.shown(*surface, &self.dynamics.bodies, lips);
+            }
+        }
     }
 
     /// Turns the breath into forces.
@@ -343,7 +350,6 @@ impl Simulation {
         }
         self.front.advance(self.speed, DT);
         let time = (self.step - self.start_step) as f64 * DT;
-        self.onset.advance(self.speed > 0.0, DT);
         let mut blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
         if let Some(blown) = &mut blown
             && self.settings.profile == Profile::Gallery

@@ -57,9 +57,17 @@ impl Breath {
         AIR_DENSITY * 0.25 * PI * self.lip_diameter * self.lip_diameter * speed * speed
     }
 
-    /// The vertex of the cone, l₀ behind the lips: from there the air fans out, and what it sees feels the breath.
+    /// The vertex of the cone, l₀ behind the lips: from there the air fans out.
     pub fn vertex(&self) -> DVec3 {
         self.mouth - self.vertex_distance() * self.direction
+    }
+
+    /// Where the lips let out the air that comes to a point before them, world, m. What stands behind the lips, though it stand
+    /// before the vertex, hides nothing from the breath.
+    pub fn origin(&self, point: DVec3) -> DVec3 {
+        let (vertex, behind) = (self.vertex(), self.vertex_distance());
+        let x = (point - self.mouth).dot(self.direction).max(0.0);
+        vertex + behind / (behind + x) * (point - vertex)
     }
 
     /// l₀, m.

@@ -12,11 +12,16 @@
 //! This is quadratic drag at Reynolds numbers of 10³–10⁵ (the source calls it Stokes drag). Because v is relative,
 //! still air damps; because plates have many patches, rotation is damped too.
 //!
-//! The air w is the sum of the winds of `weather.rs` and of the breath. Breath, fans and draughts reach only patches
-//! that face them and see where they come from, past every shelter: for the breath that is the vertex of its cone. What
-//! the breath adds to the force of all else has three further rules:
+//! The air w is the sum of the winds of `weather.rs`, or of those and the breath. Breath, fans and draughts reach only patches
+//! that face them and see where they come from, past every shelter: for the breath that is the lips. What the breath adds
+//! to the force of all else has four further rules:
 //!
 //! ```text
+//! beside       F_i = F(b + w/√G − u) − F(w/√G − u)  on a solid, b the breath's air, w the room's own, which comes from all
+//!                                                   sides, G ≥ 1 the gain: it makes a breath stronger as √G times its
+//!                                                   speed would, and what stirs beside it as much weaker. The breath only
+//!                                                   reaches windward faces, where air against it would else hide it; a
+//!                                                   sheet feels both
 //! turbulence   F_i += β |F_i| H g(x_i − U_e t, t)   |g| < 1 seeded vector noise of any direction, carried downstream:
 //!                                                   nearly the same in neighbours, and the same from run to run; H is
 //!                                                   what a patch takes of it, as of the wind: of what presses on a face
@@ -176,7 +181,7 @@ pub struct Sample {
     pub axis: DVec3,
     /// m².
     pub area: f64,
-    /// Does it face the vertex of the breath's cone, and see it?
+    /// Does it face the lips, and see them?
     pub seen: bool,
 }
 
@@ -190,6 +195,8 @@ pub struct WindField {
     blown: Vec<Vec6>,
     /// Air at the patches of the surface in hand.
     winds: Vec<DVec3>,
+    /// The part of it that comes from all sides.
+    stirred: Vec<DVec3>,
     /// Which instructions there are.
     level: Level,
 }
@@ -199,12 +206,14 @@ impl WindField {
     pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
         let weather = Weather::new(winds);
         let feelers: Vec<_> = surfaces.iter().map(|surface| Feeler::new(surface, weather.alike())).collect();
+        let most = feelers.iter().map(|feeler| feeler.quads.len() * WIDTH).max().unwrap_or(0);
         Self {
             weather,
             occluders: Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh))),
             seed,
             blown: vec![[0.0; 6]; bodies],
-            winds: Vec::with_capacity(feelers.iter().map(|feeler| feeler.quads.len() * WIDTH).max().unwrap_or(0)),
+            winds: Vec::with_capacity(most),
+            stirred: Vec::with_capacity(most),
             feelers,
             level: Level::new(),
         }
@@ -231,7 +240,7 @@ impl WindField {
         let still = blown.is_none() && self.weather.is_empty();
         let mut report = WindReport::default();
         let (mut total, mut fastest) = (0.0, 0.0);
-        let mut winds = std::mem::take(&mut self.winds);
+        let [mut winds, mut stirred] = [&mut self.winds, &mut self.stirred].map(std::mem::take);
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
             // What stands still in still air feels nothing.
@@ -252,27 +261,32 @@ impl WindField {
                 open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from)
             };
             if !still {
-                self.feel(feeler, body, &mut winds, open);
+                self.feel(feeler, body, (&mut winds, &mut stirred), open);
             }
+            let solid = feeler.patches.first().is_some_and(|patch| patch.face == Face::Side);
+            let beside = blown.filter(|_| solid).map_or(1.0, |blown| 1.0 / blown.gain.max(1.0).sqrt());
             let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
             let mut sum_blown = [0.0; 6];
             for (first, quad) in (0..).step_by(WIDTH).zip(&feeler.quads) {
-                let mut wind = -quad.velocities(simd, origin, spin);
-                if !still {
-                    wind += by_lane(simd, |k| inward * winds[first + k]);
-                }
-                let before = quad.drag(simd, wind);
-                force += before;
-                moment += quad.moments(simd, before);
+                let calm = -quad.velocities(simd, origin, spin);
+                let room = if still { calm } else { calm + by_lane(simd, |k| inward * winds[first + k]) };
+                let dragged = quad.drag(simd, room);
+                force += dragged;
+                moment += quad.moments(simd, dragged);
                 let Some(blown) = blown else { continue };
                 let airs: [(DVec3, f64); WIDTH] = std::array::from_fn(|k| {
                     let Some(patch) = feeler.patches.get(first + k) else { return (DVec3::ZERO, 0.0) };
                     let (air, source) = blown.air(place(patch).0);
-                    let arrives = source > 0.0 && open(first + k, Upwind::Place(blown.breath.vertex()));
+                    let arrives = source > 0.0 && open(first + k, Upwind::Place(blown.breath.origin(place(patch).0)));
                     if arrives { (air, source) } else { (DVec3::ZERO, 0.0) }
                 });
                 if airs.iter().all(|(_, source)| *source == 0.0) {
                     continue;
+                }
+                let (mut wind, mut before) = (room, dragged);
+                if beside < 1.0 && !still {
+                    wind -= by_lane(simd, |k| (1.0 - beside) * (inward * stirred[first + k]));
+                    before = quad.drag(simd, wind);
                 }
                 let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
                 for (k, (_, source)) in airs.iter().enumerate().filter(|(_, (_, source))| *source > 0.0) {
@@ -294,7 +308,7 @@ impl WindField {
             }
             report.force += linear(&own);
         }
-        self.winds = winds;
+        (self.winds, self.stirred) = (winds, stirred);
         if let Some(blown) = blown {
             let most = blown.breath.momentum_flow(fastest);
             let share = blown.gain * if total > most { most / total } else { 1.0 };
@@ -312,16 +326,25 @@ impl WindField {
         report
     }
 
-    /// The air of all winds but the breath at each patch of a surface, world, m/s; nothing where a quad has no patch.
-    fn feel(&self, feeler: &Feeler, body: &RigidBody, winds: &mut Vec<DVec3>, open: impl Fn(usize, Upwind) -> bool) {
+    /// The air of all winds but the breath at each patch of a surface, and what of it comes from all sides, world, m/s; nothing
+    /// where a quad has no patch.
+    fn feel(
+        &self,
+        feeler: &Feeler,
+        body: &RigidBody,
+        (winds, stirred): (&mut Vec<DVec3>, &mut Vec<DVec3>),
+        open: impl Fn(usize, Upwind) -> bool,
+    ) {
         let place = |point: DVec3| body.position + body.rotation * (point - body.properties.center);
         winds.clear();
+        stirred.clear();
         for (center, range) in &feeler.groups {
             let aimless = self.stirs(place(*center));
             let patches = range.clone().map(|index| (index, place(feeler.patches[index].point)));
             winds.extend(patches.map(|(index, point)| aimless + self.aimed(point, |from| open(index, from))));
+            stirred.resize(winds.len(), aimless);
         }
-        winds.resize(feeler.quads.len() * WIDTH, DVec3::ZERO);
+        [winds, stirred].into_iter().for_each(|air| air.resize(feeler.quads.len() * WIDTH, DVec3::ZERO));
     }
 
     /// Velocity at a point of the winds that come from all sides, m/s.
@@ -375,7 +398,7 @@ impl WindField {
             let pose = bodies[feeler.body].pose();
             for (index, patch) in feeler.patches.iter().enumerate() {
                 let (point, axis) = (pose.point(patch.point), pose.vector(patch.axis));
-                let from = Upwind::Place(breath.vertex());
+                let from = Upwind::Place(breath.origin(point));
                 let seen = open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
                 samples.push(Sample { surface, patch: index, point, axis, area: patch.area, seen });
             }

@@ -132,7 +132,8 @@ fn no_handling_breaks_anything_in_twenty_seconds() {
 fn no_handling_breaks_anything_in(seconds: usize) {
     /// Rad and m: what four hands ask at once may not be possible; joints give way by no more.
     const OPEN: f64 = 1e-6;
-    /// The same of a bead whose nail comes back while it is held at the end of its rail, m: it is drawn home from there.
+    /// The same of a bead whose nail comes back, at twelve seconds, while it is held at the end of its rail, m: it is drawn home
+    /// from there.
     const RAIL: f64 = 0.165 + OPEN;
     /// Steps put back: limbs that four hands pull straight against their stops leave the laws no answer, about once
     /// a minute; the figure then stands still for a step.
@@ -166,7 +167,7 @@ fn no_handling_breaks_anything_in(seconds: usize) {
             assert!(faults <= FAULTS, "{id}, {mode:?}: {faults} faults, seed {SEED}");
             // A reset lets go of all.
             simulation.step(&StepInput { commands: &[Command::Reset], ..StepInput::default() });
-            let most = if id == "loose-nail" { RAIL } else { OPEN };
+            let most = if id == "loose-nail" && seconds > 12 { RAIL } else { OPEN };
             assert!(worst < most, "{id}, {mode:?}: joints open by {worst}, seed {SEED}");
         }
     }

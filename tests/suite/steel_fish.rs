@@ -174,6 +174,25 @@ fn a_childs_gentle_breath_visibly_moves_it_within_a_second() {
     assert!(way > 5e-3 || turn.to_degrees() > 2.0, "{way} m, {turn} rad");
 }
 
+#[test]
+fn who_blows_into_a_demonstration_is_aimed_at_once() {
+    /// What the breath's way still turns by in the next twentieth of a second, while plates begin to move, degrees.
+    const TURNS: f64 = 1.0;
+    let mut simulation = Simulation::new(steel_fish(), Settings::default());
+    let mut blow = |speed, pointer, steps: usize| {
+        let commands = [Command::Blow(Some(speed))];
+        let input = StepInput { pointer: Some(pointer), commands: &commands, ..StepInput::default() };
+        (0..steps).for_each(|_| simulation.step(&input));
+        simulation.snapshot().breath.direction
+    };
+    let demonstration = blow(0.6, [0.27, 0.21], steps(2.0));
+    let first = blow(5.0, PLATES, 1);
+    let next = blow(5.0, PLATES, steps(0.05));
+    assert!(demonstration.angle_between(first).to_degrees() > 5.0, "it goes elsewhere");
+    let turned = first.angle_between(next).to_degrees();
+    assert!(turned < TURNS, "{turned} degrees");
+}
+
 fn play_into(folder: &Path, breath: &str) -> (Summary, Vec<Vec<u8>>) {
     let exhibit = steel_fish();
     let recording = wav::read(self::folder().join("breaths").join(breath)).expect("a shipped breath");

@@ -78,7 +78,7 @@ fn measure() -> Row {
     });
     let each = best(&steps[..1], |_, bodies| {
         for sample in field.samples(bodies, &breath) {
-            let way = breath.vertex() - sample.point;
+            let way = breath.origin(sample.point) - sample.point;
             // A hand's breadth of the way is left out as the rays of a step leave out their own face.
             let start = sample.point + way * 1e-3;
             black_box(field.occluders().block_by_each(start, way.normalize(), way.length() * 0.999));

@@ -280,3 +280,27 @@ fn air_on_its_way_pushes_after_the_lips_have_closed() {
     assert!(impulse > 2e-5, "the puff arrives: {impulse} N s");
     assert_eq!(push(&front, 0.0), 0.0, "and has passed");
 }
+
+#[test]
+fn the_rooms_air_hardly_hides_a_solid_from_a_breath_that_the_gallery_makes_stronger() {
+    const SEED: u64 = 27;
+    /// At a hundredfold gain the room's air, a tenth as fast beside the breath, changes it by a tenth as much, but for squares.
+    const GAIN: f64 = 100.0;
+    const LEFT: f64 = 0.2;
+    let breath = breath(3.0);
+    let speed = breath.velocity(DVec3::ZERO).length();
+    let kind = WindKind::Room { scale: 0.5, period: 2.0, seed: SEED };
+    let room = [Wind { name: "room".into(), kind, speed: speed.into(), rhythm: Rhythm::Even }];
+    let felt = |gain: f64, winds: &[Wind], time: f64| {
+        let mut field = WindField::new(&[solid(0, plate(0.02, 0.002), 64)], &[], winds, 1, 1);
+        let blown = Blown { breath, front: None, gain };
+        field.push(&[body(DVec3::ZERO)], time, Some(&blown), &mut [[0.0; 6]]).breath.length() / gain
+    };
+    let changed = |gain: f64| {
+        let share = |second: i32| felt(gain, &room, f64::from(second)) / felt(gain, &[], f64::from(second)) - 1.0;
+        (0..60).map(share).fold(0.0, |most: f64, change| most.max(change.abs()))
+    };
+    let [alike, stronger] = [1.0, GAIN].map(changed);
+    println!("the room's air changes a breath by {alike:.2}, with a gain of {GAIN} by {stronger:.2}");
+    assert!(alike > 0.3 && stronger < LEFT * alike, "{alike} and {stronger}");
+}

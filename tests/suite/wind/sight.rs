@@ -166,6 +166,30 @@ fn a_breath_is_sheltered_like_any_wind() {
 }
 
 #[test]
+fn what_stands_behind_the_lips_hides_nothing() {
+    let breath = blown(8.9).breath;
+    let screens = Shelter { body: None, mesh: cuboid(DVec3::new(0.4, 0.4, 1e-3)) };
+    let screen = |behind: f64| {
+        let at = breath.mouth - behind * breath.direction;
+        let mut mesh = screens.mesh.clone();
+        mesh.positions.iter_mut().for_each(|corner| *corner += at);
+        [Shelter { body: None, mesh }]
+    };
+    let force = |shelters: &[Shelter]| {
+        let mut out = [[0.0; 6]];
+        let mut field = WindField::new(&[sheet(0, face(0.1), 64)], shelters, &[], 1, 1);
+        field.push(&[body(DVec3::ZERO)], 0.0, Some(&blown(8.9)), &mut out);
+        linear(&out[0])
+    };
+    let open = force(&[]);
+    assert!(open.length() > 0.0);
+    for behind in [0.1, 0.5, 0.9].map(|share| share * breath.vertex_distance()) {
+        assert_eq!(force(&screen(behind)), open, "{behind} m behind the lips");
+        assert_eq!(force(&screen(-behind)), DVec3::ZERO, "{behind} m before them");
+    }
+}
+
+#[test]
 fn what_stands_still_and_feels_no_wind_shelters_too() {
     let plate = sheet(0, face(0.1), 64);
     let post = Shelter { body: None, mesh: cuboid(DVec3::new(0.4, 0.4, 0.02)) };
