@@ -10,6 +10,7 @@
 //! set swinging comes to rest soon after each of its breaths, and at once when somebody comes.
 
 use crate::exhibit::{self, AttractAction};
+use crate::math::exp;
 use crate::offline::feed::WavFeed;
 use crate::simulation::{Command, STEPS_PER_SECOND};
 use crate::wind::blow::BlowDetector;
@@ -21,6 +22,10 @@ pub const COUNTDOWN_S: f64 = 10.0;
 /// comes and blows meanwhile, though gently, shall see that theirs moves it more.
 const SOFTLY: f64 = 0.15;
 const SWELLS_S: f64 = 0.3;
+/// And the more softly the faster the work moves than before them: half as hard where something does so by this much, m/s. The
+/// fastest of what moved before is remembered over so long, s.
+const SWAYS_M_S: f64 = 0.03;
+const MOVED_S: f64 = 1.0;
 /// A work swings for so long after a breath of the script before it is calmed, s.
 const SWINGS_S: f64 = 1.0;
 
@@ -46,6 +51,9 @@ pub struct Attract {
     round: Option<Round>,
     /// Rounds that have ended.
     rounds: u32,
+    /// How fast the fastest part of the work moves, and moved lately, m/s.
+    moves: f64,
+    moved: f64,
 }
 
 /// One round of the script.
@@ -57,6 +65,8 @@ struct Round {
     breath: Option<(WavFeed, BlowDetector)>,
     /// How far it has swollen, 0 … 1.
     swollen: f64,
+    /// How fast something moved before it, m/s.
+    before: f64,
     /// Steps until the work is calmed.
     swings: Option<u64>,
     aim: Option<[f64; 2]>,
@@ -65,7 +75,16 @@ struct Round {
 impl Attract {
     /// Attract mode with the exhibit's `script` after `idle_s` seconds without a visitor.
     pub fn new(script: exhibit::Attract, idle_s: f64) -> Self {
-        Self { script, idle_limit: steps(idle_s).max(1), idle: 0, met: false, round: None, rounds: 0 }
+        Self {
+            script,
+            idle_limit: steps(idle_s).max(1),
+            idle: 0,
+            met: false,
+            round: None,
+            rounds: 0,
+            moves: 0.0,
+            moved: 0.0,
+        }
     }
 
     /// Plays from the next step on, for nobody has come.
@@ -74,8 +93,11 @@ impl Attract {
         self
     }
 
-    /// Advances by one simulation step; `visitor` says that somebody did something since the last.
-    pub fn step(&mut self, visitor: bool) -> Cue {
+    /// Advances by one simulation step; `visitor` says that somebody did something since the last, and the fastest part of the
+    /// work `moves` so fast, m/s.
+    pub fn step(&mut self, visitor: bool, moves: f64) -> Cue {
+        self.moved = moves.max(self.moved * exp(-1.0 / (MOVED_S * STEPS_PER_SECOND as f64)));
+        self.moves = moves;
         if visitor {
             (self.idle, self.met) = (0, true);
             let over = self.round.take().is_some();
@@ -129,7 +151,7 @@ impl Attract {
                 AttractAction::Blow { samples, sample_rate, aim } => {
                     let feed = WavFeed::new(samples.clone(), *sample_rate);
                     round.breath = Some((feed, BlowDetector::new(*sample_rate)));
-                    round.aim = *aim;
+                    (round.aim, round.before) = (*aim, self.moved);
                 }
             }
             round.next += 1;
@@ -140,7 +162,8 @@ impl Attract {
             let speed = if over { 0.0 } else { detector.estimate().speed };
             let more = 1.0 / (SWELLS_S * STEPS_PER_SECOND as f64);
             round.swollen = if speed > 0.0 { (round.swollen + more).min(1.0) } else { 0.0 };
-            commands.push(Command::Blow(Some(SOFTLY * round.swollen * speed)));
+            let faster = (self.moves - round.before).max(0.0) / SWAYS_M_S;
+            commands.push(Command::Blow(Some(SOFTLY * round.swollen * speed / (1.0 + faster))));
             if over {
                 (round.breath, round.swings) = (None, Some(steps(SWINGS_S)));
             }

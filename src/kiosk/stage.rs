@@ -7,6 +7,7 @@
 use std::sync::Arc;
 
 use crate::audio_io::Words;
+use crate::bodies::RigidBody;
 use crate::exhibit::{Exhibit, Leeway, View};
 use crate::offline::feed::WavFeed;
 use crate::simulation::{
@@ -159,7 +160,9 @@ impl Stage {
         // Whoever cleans is here too, though not to play: attract mode waits.
         let visitor = breathing || pressed || controls.inert || controls.activity != self.activity;
         self.activity = controls.activity;
-        let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor)).unwrap_or_default();
+        let fastest = |fastest: f64, body: &RigidBody| fastest.max(body.velocity.length());
+        let moves = self.simulation.bodies().iter().fold(0.0, fastest);
+        let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor, moves)).unwrap_or_default();
         if self.calm {
             cue.commands.iter_mut().for_each(gentler);
         }

@@ -5,7 +5,9 @@
 //! surface when the ray passes it by, as a visitor leans to blow at a thing: without it, a breath at the centre of
 //! the picture could pass between the plates and move nothing. The lips too come to the height of that surface, as a visitor
 //! stoops: what hangs low would else be blown at from above, past all that hangs before it. And where it hangs behind the
-//! plane they come nearer by as much, as a visitor steps up: from afar a small disc would get a breath's rim only.
+//! plane they come nearer by as much, as a visitor steps up: from afar a small disc would get a breath's rim only; and a step
+//! back from what hangs right before them. What hangs flat and turns its edge to them as they begin they blow at from the side, as a
+//! visitor steps aside, at 30° to it.
 //!
 //! A visitor blows at what will move: not at the edge of a plate when another shows its face, nor at the heavy end of a
 //! rod when a light disc hangs beside it. Yet what is pointed at is left only for what answers far better:
@@ -34,6 +36,8 @@ pub struct AimTarget {
     pub radius: f64,
     /// Mean of n nᵀ over the area: the orientation tensor, of trace 1.
     pub faces: DMat3,
+    /// The way that what is flat faces, unit: the tensor's first eigenvector; 0 of what is not.
+    pub normal: DVec3,
     /// q: how readily it answers a wind that it faces, 0 … 1.
     pub answers: f64,
     /// s: how much of it the lips see, 0 … 1.
@@ -48,14 +52,34 @@ impl AimTarget {
         let mut answer = [DMat3::ZERO];
         dynamics.answers(&[(body, at)], &mut answer);
         let [w] = answer.map(|w| (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0);
-        Self { center, radius, faces: mesh.orientation(), answers: (w * mesh.area()).max(0.0).sqrt().sqrt(), seen: 1.0 }
+        let (faces, answers) = (mesh.orientation(), (w * mesh.area()).max(0.0).sqrt().sqrt());
+        let normal = first_eigenvector(faces);
+        let normal = if normal.dot(faces * normal) > FLAT { normal } else { DVec3::ZERO };
+        Self { center, radius, faces, normal, answers, seen: 1.0 }
     }
 
     /// Carried to where a body stands.
     pub fn at(&self, pose: Pose) -> Self {
         let turn = DMat3::from_quat(pose.rotation);
-        Self { center: pose.point(self.center), faces: turn * self.faces * turn.transpose(), ..*self }
+        Self {
+            center: pose.point(self.center),
+            faces: turn * self.faces * turn.transpose(),
+            normal: turn * self.normal,
+            ..*self
+        }
     }
+}
+
+/// Of a tensor with no negative eigenvalue, by squaring it, unit.
+fn first_eigenvector(tensor: DMat3) -> DVec3 {
+    let power = (0..10).fold(tensor, |m, _| {
+        let m = m * m;
+        m * (1.0 / (m.x_axis.x + m.y_axis.y + m.z_axis.z).max(f64::MIN_POSITIVE))
+    });
+    let columns = [power.x_axis, power.y_axis, power.z_axis];
+    let longest =
+        columns.into_iter().fold(DVec3::ZERO, |a, b| if b.length_squared() > a.length_squared() { b } else { a });
+    longest.try_normalize().unwrap_or(DVec3::X)
 }
 
 /// Makes the readiest of some targets count 1.
@@ -68,8 +92,16 @@ pub fn compare(targets: &mut [(usize, AimTarget)]) {
 const NEAR: f64 = 0.03;
 /// A surface on which wind presses by less than this share of its area is an edge.
 const EDGE: f64 = 0.1;
+/// What faces one way and the other with more of itself than this is flat.
+const FLAT: f64 = 0.7;
+/// And stands upright up to this sine of its tilt, 30°: nobody blows from above or from below at what lies.
+const UPRIGHT: f64 = 0.5;
+/// Sine of the angle between lips and edge from which nobody steps aside, 30°.
+const ASIDE: f64 = 0.5;
 /// What an edge counts for, or what cannot move: with nothing else before it, the breath leans to it all the same.
 const LEAST: f64 = 0.05;
+/// Lips are never nearer to what they blow at than this share of their distance from the plane: a breath is a thread there.
+const CLOSEST: f64 = 0.5;
 /// Nobody blows at what hangs beside or behind their lips: the least cosine between the way there and the ray.
 const AHEAD: f64 = 0.5;
 /// Another surface must be better by this share before the breath leaves the one it leans to.
@@ -95,10 +127,17 @@ struct Sight {
 }
 
 impl Sight {
-    /// How the lips come to a place, m: they rise, and go nearer where it lies behind the plane.
+    /// How the lips come to a place, m: they rise, go nearer where it lies behind the plane, and step back where it is before
+    /// them by less than half of what the plane is.
     fn coming(&self, place: DVec3) -> DVec3 {
-        let nearer = (place - self.on_plane).dot(self.ray).max(0.0);
-        (place - self.lips).dot(self.upright) * self.upright + nearer * self.ray
+        let [before, usual] = [place, self.on_plane].map(|place| (place - self.lips).dot(self.ray));
+        let nearer = (before - usual).max(0.0) + if before > 0.0 { (before - CLOSEST * usual).min(0.0) } else { 0.0 };
+        self.rising(place) + nearer * self.ray
+    }
+
+    /// How the lips rise to the height of a place, m.
+    fn rising(&self, place: DVec3) -> DVec3 {
+        (place - self.lips).dot(self.upright) * self.upright
     }
 
     /// The lips that have come to a place.
@@ -114,8 +153,9 @@ impl Sight {
 
     /// How little is to be had of a target.
     fn lacks(&self, target: &AimTarget) -> f64 {
-        let way = (target.center - self.lips_before(target.center)).try_normalize().unwrap_or(self.ray);
-        let ahead = way.dot(self.ray) > AHEAD;
+        let from = |lips: DVec3| (target.center - lips).try_normalize().unwrap_or(self.ray);
+        let ahead = from(self.lips + self.rising(target.center)).dot(self.ray) > AHEAD;
+        let way = from(self.lips_before(target.center));
         let pressed = if ahead { target.seen * way.dot(target.faces * way) } else { 0.0 };
         let face = if pressed > EDGE { pressed.sqrt() } else { 0.0 };
         let past = (self.off(target).length() - INNER * target.radius).max(0.0);
@@ -142,6 +182,8 @@ pub struct Aim {
     /// Where the axis comes nearest to what it is aimed at, world, m.
     pub target: DVec3,
     chosen: Option<usize>,
+    /// To which side of it the lips have stepped, −1 or 1; 0 where they have not.
+    side: f64,
     sight: Sight,
     /// How the lips have come to it, m.
     come: DVec3,
@@ -172,21 +214,55 @@ impl Aim {
         let lacks = |&index: &usize| self.sight.lacks(&targets[index]);
         let best = (0..targets.len()).min_by(|a, b| lacks(a).total_cmp(&lacks(b)));
         let keeps = |old: &usize| best.is_some_and(|best| lacks(old) * LOYALTY < lacks(&best));
-        self.chosen = self.chosen.filter(keeps).or(best);
+        let chosen = self.chosen.filter(keeps).or(best);
+        if chosen != std::mem::replace(&mut self.chosen, chosen) {
+            self.side = 0.0;
+        }
     }
 
     /// Leans to what is chosen, as it stands now, for `dt` seconds, all the way in infinite ones; with nothing to lean to it follows
     /// the sight line.
     pub fn lean(&mut self, target: Option<&AimTarget>, dt: f64) {
         let leant = target.map(|target| self.sight.goal(target));
-        let (goal, coming) = leant.map_or((self.sight.on_plane, DVec3::ZERO), |goal| (goal, self.sight.coming(goal)));
+        let (goal, mut coming) =
+            leant.map_or((self.sight.on_plane, DVec3::ZERO), |goal| (goal, self.sight.coming(goal)));
         let first = self.direction == DVec3::ZERO;
+        if let Some(target) = target {
+            let way = goal - self.sight.lips - coming;
+            // Whoever blows stays where they stand.
+            if first || dt == f64::INFINITY {
+                self.side = self.side_of(target, way.normalize_or_zero());
+            }
+            coming += self.aside(target, way);
+        }
         let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
         self.come += share * (coming - self.come);
         self.mouth = self.sight.lips + self.come;
         let direction = (goal - self.mouth).try_normalize().unwrap_or(self.sight.ray);
         self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
         self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
+    }
+}
+
+impl Aim {
+    /// To which side the lips step of what lies so before them as they begin: 0 unless that is flat, upright and on edge.
+    fn side_of(&self, target: &AimTarget, ahead: DVec3) -> f64 {
+        let upright = target.normal != DVec3::ZERO && target.normal.dot(self.sight.upright).abs() < UPRIGHT;
+        let edge = ahead.dot(target.faces * ahead) < ASIDE * ASIDE;
+        let side = if ahead.dot(target.normal) < 0.0 { -1.0 } else { 1.0 };
+        if upright && edge { side } else { 0.0 }
+    }
+
+    /// How the lips step aside of a target's edge that lies so before them, m: as far from it, in the plane of the way to it and of
+    /// its normal.
+    fn aside(&self, target: &AimTarget, way: DVec3) -> DVec3 {
+        let (distance, ahead) = (way.length(), way.normalize_or_zero());
+        let across = ahead.dot(target.normal);
+        let along = (ahead - across * target.normal).normalize_or_zero();
+        if self.side == 0.0 || across * self.side > ASIDE || along == DVec3::ZERO {
+            return DVec3::ZERO;
+        }
+        way - distance * ((1.0 - ASIDE * ASIDE).sqrt() * along + ASIDE * self.side * target.normal)
     }
 }
 
@@ -200,7 +276,7 @@ mod tests {
     fn disc(x: f64, normal: DVec3) -> AimTarget {
         let n = normal.normalize();
         let faces = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-        AimTarget { center: DVec3::X * x, radius: 0.05, faces, answers: 1.0, seen: 1.0 }
+        AimTarget { center: DVec3::X * x, radius: 0.05, faces, normal: n, answers: 1.0, seen: 1.0 }
     }
 
     /// Where a breath goes that is pointed at the plane's middle for a while.
@@ -255,13 +331,37 @@ mod tests {
     }
 
     #[test]
-    fn the_lips_come_as_near_to_what_hangs_behind_as_to_the_plane() {
+    fn the_lips_come_as_near_to_what_hangs_behind_as_to_the_plane_and_step_back_from_what_hangs_close() {
         const ROUNDING: f64 = 1e-12;
-        for (behind, nearer) in [(0.2, 0.2), (-0.2, 0.0)] {
+        for (behind, nearer) in [(0.2, 0.2), (-0.2, 0.0), (-0.4, -0.15)] {
             let disc = AimTarget { center: DVec3::new(0.0, 0.0, -behind), ..disc(0.0, DVec3::Z) };
             let mouth = aimed(&[disc], true).mouth;
             assert!((mouth - DVec3::Z * (0.5 - nearer)).length() < ROUNDING, "{behind} m behind: {mouth}");
         }
+    }
+
+    #[test]
+    fn the_lips_step_aside_of_an_edge() {
+        const ROUNDING: f64 = 1e-12;
+        for off in [-0.4_f64, -0.1, 0.0, 0.1, 0.4] {
+            let edge = disc(0.0, DVec3::new(1.0, 0.0, off));
+            let aim = aimed(&[edge], true);
+            let (faces, far) = (aim.direction.dot(edge.normal), (edge.center - aim.mouth).length());
+            assert!((faces.abs() - ASIDE).abs() < ROUNDING && faces * off <= 0.0, "{off}: {faces}");
+            assert!((far - 0.5).abs() < ROUNDING, "as far from it: {far}");
+        }
+        let face = aimed(&[disc(0.0, DVec3::new(0.6, 0.0, 0.8))], true);
+        assert!((face.mouth - 0.5 * DVec3::Z).length() < ROUNDING, "{}", face.mouth);
+    }
+
+    #[test]
+    fn a_tensors_first_eigenvector_is_the_way_most_of_it_faces() {
+        const ROUNDING: f64 = 1e-9;
+        let n = DVec3::new(1.0, -2.0, 3.0).normalize();
+        let rim = DMat3::from_diagonal(DVec3::splat(0.1 / 3.0));
+        let plate = DMat3::from_cols(n * n.x, n * n.y, n * n.z) * 0.9 + rim;
+        assert!((first_eigenvector(plate).dot(n).abs() - 1.0).abs() < ROUNDING);
+        assert!((first_eigenvector(rim).length() - 1.0).abs() < ROUNDING, "of a ball any");
     }
 
     #[test]

@@ -386,11 +386,11 @@ mod live {
     fn attract_mode_begins_after_the_idle_time_and_ends_at_the_first_input() {
         let mut attract = Attract::new(script(), 2.0);
         for step in 1..480 {
-            assert!(!attract.step(false).active, "step {step}");
+            assert!(!attract.step(false, 0.0).active, "step {step}");
         }
-        assert!(attract.step(false).active, "two seconds are 480 steps");
+        assert!(attract.step(false, 0.0).active, "two seconds are 480 steps");
         assert_eq!(attract.text(), Some("invite"));
-        let cue = attract.step(true);
+        let cue = attract.step(true, 0.0);
         assert!(!cue.active && !attract.is_active());
         assert_eq!(
             cue.commands,
@@ -398,11 +398,11 @@ mod live {
             "the breath is the visitor's again, and the work"
         );
         assert_eq!(attract.text(), None);
-        assert!(attract.step(true).commands.is_empty());
+        assert!(attract.step(true, 0.0).commands.is_empty());
         for step in 1..480 {
-            assert!(!attract.step(false).active, "the idle time starts anew, step {step}");
+            assert!(!attract.step(false, 0.0).active, "the idle time starts anew, step {step}");
         }
-        assert!(attract.step(false).active);
+        assert!(attract.step(false, 0.0).active);
     }
 
     #[test]
@@ -410,7 +410,7 @@ mod live {
         let mut attract = Attract::new(script(), 1.0 / 240.0);
         for round in 0..2 {
             for step in 0..240 {
-                let cue = attract.step(false);
+                let cue = attract.step(false, 0.0);
                 let place = format!("round {round}, step {step}");
                 assert!(cue.active, "{place}");
                 assert_eq!(cue.aim, (step >= 60).then_some([0.25, 0.75]), "{place}");
@@ -425,18 +425,19 @@ mod live {
     #[test]
     fn what_the_attract_script_has_set_swinging_is_calmed_a_second_later() {
         let mut attract = Attract::new(Script { duration: 4.0, ..script() }, 1.0 / 240.0);
-        let calmed = (0..960).filter(|_| attract.step(false).commands.contains(&Command::Calm)).count();
+        let calmed = (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Calm)).count();
         assert_eq!(calmed, 1);
         // The breath ends at step 180 of each round.
-        let calmed: Vec<u64> = (0..960).filter(|_| attract.step(false).commands.contains(&Command::Calm)).collect();
+        let calmed: Vec<u64> =
+            (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Calm)).collect();
         assert_eq!(calmed, [420]);
     }
 
     #[test]
     fn an_empty_script_still_waits_for_visitors() {
         let mut attract = Attract::new(Script::default(), 0.0);
-        assert!(attract.step(false).active && attract.step(false).active);
-        assert!(!attract.step(true).active);
+        assert!(attract.step(false, 0.0).active && attract.step(false, 0.0).active);
+        assert!(!attract.step(true, 0.0).active);
     }
 
     #[test]

@@ -80,6 +80,7 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
         (Condition::Impulses, count(480.0)),
         (Condition::Alike, count(120.0)),
         (Condition::Isolated, count(180.0)),
+        (Condition::Spoken, count(180.0)),
     ];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(45.0))));
     all.extend([5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Aside(snr), count(45.0))));
@@ -230,6 +231,7 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
             takes(5.0 * 3.0),
         ));
     }
+    rows.push(("breath after talk".to_owned(), Condition::Spoken, takes(5.0)));
     for room in 0..3 {
         rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));
         rows.push((format!("breath that it answers, room {}", room + 1), Condition::Answered(room), takes(60.0)));

@@ -49,6 +49,8 @@ pub enum Condition {
     Noisy(f64),
     /// Breath past the microphone in a museum, its hiss this far above that of the noise, dB.
     Aside(f64),
+    /// Breath at the microphone by who has just talked there; a companion may talk on.
+    Spoken,
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
     /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
@@ -172,7 +174,7 @@ impl World {
             Condition::Cell(distance, angle, child) => {
                 self.blow(condition, index, (distance, angle, child), hearing, &mut random)
             }
-            Condition::Noisy(_) | Condition::Answered(_) => {
+            Condition::Noisy(_) | Condition::Answered(_) | Condition::Spoken => {
                 let child = random.unit() < 0.4;
                 let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
@@ -266,18 +268,20 @@ impl World {
         let snr = if let Condition::Noisy(snr) | Condition::Aside(snr) = condition { Some(snr) } else { None };
         let loudness = if matches!(condition, Condition::Aside(_)) { hiss } else { power };
         let noisy = snr.is_some();
-        let dry = if noisy {
-            if random.unit() < 0.5 {
-                self.throng(seconds, random)
-            } else {
-                self.museum_sounds(seconds, random.range(0.5, 2.5), random)
-            }
-        } else {
-            Dry::silent(streams[0].len())
+        let dry = match condition {
+            Condition::Spoken => self.talk_before(breaths[0].onset, seconds, random),
+            _ if noisy && random.unit() < 0.5 => self.throng(seconds, random),
+            _ if noisy => self.museum_sounds(seconds, random.range(0.5, 2.5), random),
+            _ => Dry::silent(streams[0].len()),
         };
         let mut channels = self.heard(&dry, hearing.stereo, random);
         channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
-        let air_dbfs = if noisy { random.range(-70.0, -30.0) } else { random.range(-72.0, -58.0) };
+        let loudest = match condition {
+            _ if noisy => -30.0,
+            Condition::Spoken => -45.0,
+            _ => -58.0,
+        };
+        let air_dbfs = random.range(if noisy { -70.0 } else { -72.0 }, loudest);
         Self::add_air(&mut channels, air_dbfs, random);
         let during = |samples: &[f64], b: &Breath| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec();
         if let Some(snr) = snr {
@@ -442,6 +446,7 @@ impl Condition {
             Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
             Self::Aside(snr) => hash_words(&[7, snr.to_bits()]),
             Self::Alike => 6,
+            Self::Spoken => 8,
             Self::OwnVoice(room) => 100 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),
         }

@@ -24,6 +24,10 @@ const DETECTION_0_DB_TWO: f64 = 0.84;
 /// Of made breaths that the kiosk answers, as loudly as it can, half of them while it rings from before: 0.85 is reached over
 /// hours, less what three dozen may scatter by.
 const DETECTION_ANSWERED: f64 = 0.72;
+/// Of made breaths by who has just talked at the kiosk: 0.97 of eight hundred, less two deviations of two dozen; and their
+/// median, s: 0.2.
+const SPOKEN: f64 = 0.88;
+const SPOKEN_S: f64 = 0.25;
 /// Wind without breath, per hour of speech, crowd, steps, music, rain, thunder and machines: the goal. The set holds some
 /// five minutes of it, so that one trigger is 11 an hour.
 const FALSE_PER_HOUR: f64 = 12.0;
@@ -121,6 +125,8 @@ fn a_made_breath_is_heard_and_a_made_museum_is_not() {
     assert!(near.heard.0 >= 10 && quantile(&near.latency, 0.5) <= 0.14, "{near}");
     let beside = scenes(Condition::Cell(0.2, 60.0, true), 10, PLAIN);
     assert!(beside.heard.0 >= 8, "a child beside the microphone: {beside}");
+    let spoken = scenes(Condition::Spoken, 16, PLAIN);
+    assert!(spoken.share() >= SPOKEN && quantile(&spoken.latency, 0.5) <= SPOKEN_S, "by who has just talked: {spoken}");
     let drowned = scenes(Condition::Noisy(0.0), 24, PLAIN);
     assert!(drowned.share() >= DETECTION_0_DB, "{drowned}");
     assert!(scenes(Condition::Museum, 3, PLAIN).ghosts <= MUSEUM_GHOSTS);

@@ -113,6 +113,24 @@ impl World {
         dry
     }
 
+    /// Somebody talks at the kiosk and stops shortly before a breath at `onset` (s); a companion may talk all the while.
+    pub(super) fn talk_before(&self, onset: f64, seconds: f64, random: &mut Random) -> Dry {
+        let mut dry = Dry::silent((seconds * R) as usize);
+        let until = (onset - random.range(0.1, 3.0)).max(0.3);
+        let from = (until - random.range(0.8, 6.0)).max(0.0);
+        let loud = random.range(-45.0, -8.0);
+        let words = self.speech(until - from, random);
+        dry.put("talk at the kiosk", PLACES - 1, from, &words, from_decibels(loud));
+        if random.unit() < 0.3 {
+            dry.put_puffs(from, &voices::plosives(until - from, random), from_decibels(loud + random.range(0.0, 6.0)));
+        }
+        if random.unit() < 0.3 {
+            let (at, gain) = ((random.unit() * PLACES as f64) as usize, from_decibels(loud - random.range(6.0, 30.0)));
+            dry.put("a companion's talk", at, 0.0, &self.speech(seconds, random), gain);
+        }
+        dry
+    }
+
     /// What each of so many capsules (1 or 2) hears of a museum, before the microphone's own part: full scale ±1 at
     /// [`RATE`](super::super::RATE).
     pub fn crowd(&self, seconds: f64, busy: f64, capsules: usize, random: &mut Random) -> Vec<Vec<f64>> {
