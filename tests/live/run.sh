@@ -58,7 +58,7 @@ hash_in() { sed -n 's/.*"state_hash":"\([0-9a-f]*\)".*/\1/p' "$1"; }
 # ---- a breath moves the sculpture and sounds; speech does neither ----------------------------------------------
 a_visitor() {
     local before during speech t_on t_off at differ
-    start_kiosk visitor --no-attract --trace "$room/visitor.csv" --record "$room/visitor.jsonl" --for 26
+    start_kiosk visitor --no-attract --trace "$room/visitor.csv" --record "$room/visitor.jsonl" --for 30
     within 10 grep -q 'supervisor: microphone: ' "$room/visitor.err"
     start speakers parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 \
         --raw
@@ -68,7 +68,8 @@ a_visitor() {
     # The detector has learnt the room after 0.25 s.
     sleep 3
     for speech in "$room"/speech-*.wav; do before_microphone "$speech"; done
-    sleep 1
+    # Speech with peaks at full scale is as loud as a shout into the microphone: what it leaves in the ear fades.
+    sleep 4
     import -window root "$room/before.png"
     t_on=$(now)
     before_microphone "$room/strong.wav" &
@@ -96,7 +97,7 @@ a_visitor() {
     after=$(level "$room/speakers.out" "$(awk "BEGIN { print $t_off - $t_rec + 3 }")" 1.5)
     bar "wind is heard" "$during > $before + 15 && $during > $after + 10" "$before, $during, $after dBFS before, during, after"
     # The room's own air moves the work a little, the same in every run: what speech must not change is any digit of it.
-    "$soffio" play "$exhibit" --trace "$room/empty.csv" --seconds 26 >/dev/null
+    "$soffio" play "$exhibit" --trace "$room/empty.csv" --seconds 30 >/dev/null
     local rows
     read -r rows differ < <(awk -F, -v to="$(awk "BEGIN { print $at - 0.05 }")" '
         NR == FNR { empty[FNR] = $0; next }
