@@ -22,7 +22,7 @@ pub const COUNTDOWN_S: f64 = 10.0;
 /// comes and blows meanwhile, though gently, shall see that theirs moves it more.
 const SOFTLY: f64 = 0.15;
 const SWELLS_S: f64 = 0.3;
-/// And the more softly the faster the work moves than before them: half as hard where something does so by this much, m/s. The
+/// And the more softly the faster the work moves than before them: half as fast where something does so by this much, m/s. The
 /// fastest of what moved before is remembered over so long, s.
 const SWAYS_M_S: f64 = 0.03;
 const MOVED_S: f64 = 1.0;
@@ -51,8 +51,7 @@ pub struct Attract {
     round: Option<Round>,
     /// Rounds that have ended.
     rounds: u32,
-    /// How fast the fastest part of the work moves, and moved lately, m/s.
-    moves: f64,
+    /// How fast the fastest part of the work moved lately, m/s.
     moved: f64,
 }
 
@@ -75,16 +74,7 @@ struct Round {
 impl Attract {
     /// Attract mode with the exhibit's `script` after `idle_s` seconds without a visitor.
     pub fn new(script: exhibit::Attract, idle_s: f64) -> Self {
-        Self {
-            script,
-            idle_limit: steps(idle_s).max(1),
-            idle: 0,
-            met: false,
-            round: None,
-            rounds: 0,
-            moves: 0.0,
-            moved: 0.0,
-        }
+        Self { script, idle_limit: steps(idle_s).max(1), idle: 0, met: false, round: None, rounds: 0, moved: 0.0 }
     }
 
     /// Plays from the next step on, for nobody has come.
@@ -97,7 +87,6 @@ impl Attract {
     /// work `moves` so fast, m/s.
     pub fn step(&mut self, visitor: bool, moves: f64) -> Cue {
         self.moved = moves.max(self.moved * exp(-1.0 / (MOVED_S * STEPS_PER_SECOND as f64)));
-        self.moves = moves;
         if visitor {
             (self.idle, self.met) = (0, true);
             let over = self.round.take().is_some();
@@ -109,7 +98,7 @@ impl Attract {
             return Cue::default();
         }
         self.met = false;
-        self.play()
+        self.play(moves)
     }
 
     /// Rounds of the script that have ended.
@@ -135,7 +124,7 @@ impl Attract {
 
     /// One step of the script. Kept apart: it makes room for a new ear on the stack, which no other step needs.
     #[inline(never)]
-    fn play(&mut self) -> Cue {
+    fn play(&mut self, moves: f64) -> Cue {
         let mut commands = Vec::new();
         // A last breath may be longer than the round: the next round waits for it.
         let over = |round: &Round| round.step >= steps(self.script.duration) && round.breath.is_none();
@@ -162,7 +151,7 @@ impl Attract {
             let speed = if over { 0.0 } else { detector.estimate().speed };
             let more = 1.0 / (SWELLS_S * STEPS_PER_SECOND as f64);
             round.swollen = if speed > 0.0 { (round.swollen + more).min(1.0) } else { 0.0 };
-            let faster = (self.moves - round.before).max(0.0) / SWAYS_M_S;
+            let faster = (moves - round.before).max(0.0) / SWAYS_M_S;
             commands.push(Command::Blow(Some(SOFTLY * round.swollen * speed / (1.0 + faster))));
             if over {
                 (round.breath, round.swings) = (None, Some(steps(SWINGS_S)));

@@ -242,9 +242,7 @@ impl Aim {
         self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
         self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
     }
-}
 
-impl Aim {
     /// To which side the lips step of what lies so before them as they begin: 0 unless that is flat, upright and on edge.
     fn side_of(&self, target: &AimTarget, ahead: DVec3) -> f64 {
         let upright = target.normal != DVec3::ZERO && target.normal.dot(self.sight.upright).abs() < UPRIGHT;

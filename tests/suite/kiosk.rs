@@ -176,6 +176,7 @@ mod live {
     use soffio::kiosk::shelf::{News, Offer, Places, Shelf, folders, id};
     use soffio::kiosk::words::{WORDS, language_name, words};
     use soffio::simulation::Command;
+    use soffio::wind::generate;
 
     #[test]
     fn an_hour_of_uneven_waking_is_exactly_240_steps_a_second() {
@@ -431,6 +432,25 @@ mod live {
         let calmed: Vec<u64> =
             (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Calm)).collect();
         assert_eq!(calmed, [420]);
+    }
+
+    #[test]
+    fn the_attract_scripts_breath_grows_softer_the_faster_the_work_moves_than_before_it() {
+        const ROUNDING: f64 = 1e-9;
+        // The fastest breath of a round, of a work that moves so fast (m/s) before and during it.
+        let samples: Arc<[f32]> = generate::breath(48_000, 7, &generate::BreathShape::default()).into();
+        let blow = AttractAction::Blow { samples, sample_rate: 48_000, aim: None };
+        let script = Script { steps: vec![AttractStep { at: 0.25, action: blow }], duration: 8.0 };
+        let fastest = |before: f64, during: f64| {
+            let mut attract = Attract::new(script.clone(), 1.0 / 240.0);
+            let cues =
+                (0..1440).flat_map(|step| attract.step(false, if step <= 60 { before } else { during }).commands);
+            let speeds = cues.filter_map(|command| if let Command::Blow(speed) = command { speed } else { None });
+            speeds.fold(0.0, f64::max)
+        };
+        let [calm, swings, swung_before] = [fastest(0.0, 0.0), fastest(0.0, 0.09), fastest(0.09, 0.09)];
+        assert!(calm > 0.0 && (4.0 * swings / calm - 1.0).abs() < ROUNDING, "{calm} and {swings} m/s");
+        assert!((swung_before / calm - 1.0).abs() < ROUNDING, "a clock swings anyhow: {swung_before} m/s");
     }
 
     #[test]
