@@ -23,9 +23,12 @@ pub struct Args {
     /// Where the table goes; without it nothing is written.
     #[arg(long, value_name = "FILE.rs")]
     out: Option<PathBuf>,
-    /// Go on with the present ear, instead of one that knows nothing; what is written is the mean of both.
+    /// Go on with the present ear, instead of one that knows nothing; what is written is a mean of both.
     #[arg(long)]
     go_on: bool,
+    /// Share of the present ear in that mean, 0 to 1: the more, the less of what it knew is forgotten.
+    #[arg(long, default_value_t = 0.5, value_parser = share, requires = "go_on")]
+    keep: f64,
     /// Lessons, each in new worlds, twice as many as the last one.
     #[arg(long, default_value_t = 4)]
     lessons: u64,
@@ -56,7 +59,7 @@ pub fn run(args: &Args) -> Outcome {
         None => Vec::new(),
     };
     let Args { lessons, worlds, size, rounds, seed, .. } = *args;
-    let begin = if args.go_on { Begin::Present } else { Begin::Untaught };
+    let begin = if args.go_on { Begin::Present(args.keep) } else { Begin::Untaught };
     let course = Course { begin, lessons, worlds, size, rounds, seed };
     let made = course::learn(&course, |lesson, learnt| {
         println!("lesson {}: {} examples, loss {:.4}", lesson + 1, learnt.examples.len(), learnt.loss);
@@ -77,6 +80,12 @@ pub fn run(args: &Args) -> Outcome {
     let file = WholeFile::create(path).map_err(fail)?;
     file.reopen().and_then(|mut out| out.write_all(train::table(&model).as_bytes())).map_err(fail)?;
     file.finish().map_err(fail)
+}
+
+/// A share, 0 … 1.
+fn share(given: &str) -> Result<f64, String> {
+    let share = given.parse::<f64>().ok().filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| format!("{given:?} is no share. Give a number from 0 to 1."))
 }
 
 /// Marks a model on made scenes.

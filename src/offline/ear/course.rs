@@ -29,12 +29,12 @@ const RAILED: f64 = 0.08;
 const RAILED_DB: f64 = 28.0;
 
 /// Where learning begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Begin {
     /// With an ear that knows nothing; what it hears in its first lesson is forgotten after it.
     Untaught,
-    /// With the ear that the program has: what comes of it is the mean of both.
-    Present,
+    /// With the ear that the program has: what comes of it is a mean of both, in which the present one has this share, 0 … 1.
+    Present(f64),
 }
 
 /// How much is learnt.
@@ -111,7 +111,11 @@ fn settings(model: &Model) -> BlowSettings {
 
 /// Learns from made worlds, lesson by lesson; `tell` hears of each.
 pub fn learn(course: &Course, mut tell: impl FnMut(u64, &Learnt)) -> Learnt {
-    let model = if course.begin == Begin::Present { Model::clone(&BlowSettings::default().model) } else { untaught() };
+    let model = if matches!(course.begin, Begin::Present(_)) {
+        Model::clone(&BlowSettings::default().model)
+    } else {
+        untaught()
+    };
     let mut learnt = Learnt { examples: Vec::new(), model, loss: 0.0 };
     for lesson in 0..course.lessons {
         if lesson == 1 && course.begin == Begin::Untaught {
@@ -143,14 +147,18 @@ pub fn refined(course: &Course, made: &Learnt, recordings: &[&Take], fold: u64) 
         }
     }
     let (model, loss) = train(&made.model, &all, course.rounds, course.seed);
-    (if course.begin == Begin::Present { halfway(&BlowSettings::default().model, &model) } else { model }, loss)
+    let model = match course.begin {
+        Begin::Present(share) => mixed(&BlowSettings::default().model, &model, share),
+        Begin::Untaught => model,
+    };
+    (model, loss)
 }
 
 /// Who goes on in new worlds forgets some of what the old ones taught. The mean of both ears knows both (Wortsman et al.,
-/// "Model soups", 2022).
-fn halfway(before: &Model, after: &Model) -> Model {
+/// "Model soups", 2022); the present one has this share of it, 0 … 1.
+fn mixed(present: &Model, after: &Model, share: f64) -> Model {
     let mut mean = after.clone();
-    mean.weights.iter_mut().zip(&before.weights).for_each(|(w, before)| *w = 0.5 * (*w + before));
+    mean.weights.iter_mut().zip(&present.weights).for_each(|(w, present)| *w += share * (present - *w));
     mean
 }
 
@@ -293,4 +301,22 @@ pub fn parallel<T: Send, R: Send>(items: Vec<T>, map: impl Fn(T) -> R + Sync) ->
     let mut done = done.into_inner().unwrap_or_default();
     done.sort_by_key(|(i, _)| *i);
     done.into_iter().map(|(_, result)| result).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_present_ear_has_its_share_of_the_mean() {
+        const ROUNDING: f64 = 1e-12;
+        let present = &BlowSettings::default().model;
+        let after = untaught();
+        for share in [0.0, 0.25, 1.0] {
+            let mean = mixed(present, &after, share);
+            for ((w, before), after) in mean.weights.iter().zip(&present.weights).zip(&after.weights) {
+                assert!((w - (share * before + (1.0 - share) * after)).abs() < ROUNDING, "{share}: {w}");
+            }
+        }
+    }
 }
