@@ -20,7 +20,7 @@ pub const COUNTDOWN_S: f64 = 10.0;
 
 /// Breaths of the script are blown so much more softly, and swell within so long, s. They show that breath moves the work; whoever
 /// comes and blows meanwhile, though gently, shall see that theirs moves it more.
-const SOFTLY: f64 = 0.15;
+const SOFTLY: f64 = 0.13;
 const SWELLS_S: f64 = 0.3;
 /// And the more softly the faster the work moves than before them: half as fast where something does so by this much, m/s. The
 /// fastest of what moved before is remembered over so long, s.

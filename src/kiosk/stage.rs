@@ -201,7 +201,8 @@ impl Stage {
         };
         let Told { pointer, aspect, turn, mode, ref commands } = self.told;
         self.simulation.step(&StepInput {
-            microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone).filter(|_| !controls.inert),
+            microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
+            deaf: controls.inert,
             hold: self.holds,
             hands: self.gestures.hands(),
             strength: controls.strength,
@@ -241,7 +242,12 @@ impl Stage {
             let next = Attract::new(exhibit.attract.clone(), self.idle_s);
             if before.is_active() { next.go_on() } else { next }
         });
-        self.simulation = Simulation::new(exhibit, Settings { clock, ..*self.simulation.settings() });
+        self.begin(exhibit, Settings { clock, ..*self.simulation.settings() });
+    }
+
+    /// Lets an exhibit begin, before the same room.
+    fn begin(&mut self, exhibit: Arc<Exhibit>, settings: Settings) {
+        self.simulation = Simulation::new(exhibit, settings).listening_on(&mut self.simulation);
         self.snapshot = self.simulation.snapshot();
     }
 
@@ -249,8 +255,7 @@ impl Stage {
     pub fn settle(&mut self, settings: Settings, idle_s: Option<f64>) {
         let before = Settings { clock: settings.clock, ..*self.simulation.settings() };
         if settings != before {
-            self.simulation = Simulation::new(self.exhibit().clone(), settings);
-            self.snapshot = self.simulation.snapshot();
+            self.begin(self.exhibit().clone(), settings);
         }
         if idle_s != self.attract.as_ref().map(|_| self.idle_s) {
             self.attract = idle_s.map(|idle| Attract::new(self.exhibit().attract.clone(), idle));

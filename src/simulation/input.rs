@@ -126,6 +126,8 @@ pub enum Command {
 pub struct StepInput<'a> {
     /// `None`: no microphone, wind from it is exactly 0.
     pub microphone: Option<Microphone<'a>>,
+    /// Nobody's breath counts now, and wind from it is exactly 0; but the ear goes on to learn the room.
+    pub deaf: bool,
     /// Hold-to-blow (pointer, touch, key, switch).
     pub hold: bool,
     /// How hard a breath controller is blown (gamepad trigger, MIDI, OSC, serial line), 0 … 1.

@@ -165,6 +165,12 @@ impl Simulation {
         }
     }
 
+    /// The same, with the ear that `before` has listened with so far.
+    pub fn listening_on(mut self, before: &mut Self) -> Self {
+        self.source.listen_on(&mut before.source);
+        self
+    }
+
     /// Leaves the dust out: nobody will look at the air. It is only seen, and changes nothing that moves or sounds.
     pub fn leave_dust_out(&mut self) {
         self.motes.leave();

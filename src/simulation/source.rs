@@ -69,6 +69,14 @@ impl BreathSource {
         Self { settings: BlowSettings { sensitivity_db, ..BlowSettings::default() }, ..Self::default() }
     }
 
+    /// Listens with the ear that another one has listened with so far: it knows the room, and the kiosk's own sound in it.
+    pub fn listen_on(&mut self, before: &mut Self) {
+        self.detector = before.detector.take();
+        if let Some((_, detector)) = &mut self.detector {
+            detector.set_sensitivity(self.settings.sensitivity_db);
+        }
+    }
+
     /// Sets or releases the commanded speed, m/s.
     pub fn command(&mut self, speed: Option<f64>) {
         self.commanded = speed.filter(|s| s.is_finite()).map(|s| s.max(0.0));
@@ -77,7 +85,8 @@ impl BreathSource {
     /// Hears one step of `dt` seconds. Returns the source speed (m/s, exactly 0 when nobody blows) and what the
     /// detector says.
     pub fn advance(&mut self, input: &StepInput, dt: f64) -> (f64, BlowEstimate) {
-        let estimate = self.hear(input.microphone);
+        let heard = self.hear(input.microphone);
+        let estimate = if input.deaf { BlowEstimate::default() } else { heard };
         self.held_for = if input.hold { self.held_for + dt } else { 0.0 };
         let hold = input.hold && self.held_for < LUNGS;
         self.held = HELD.follow(self.held, if hold { HELD_SPEED } else { 0.0 }, dt);

@@ -87,7 +87,7 @@ fn joints(out: &mut String, work: &Mobile, point: &str) {
 
 /// What a mobile does between visitors.
 const CALM: &str = "# Whoever blows next shall see their own breath, not the swing of the last one: left alone, it comes to rest.\n\
-                    [wind.calm]\nafter = \"4 s\"\ntime = \"2.5 s\"\n\n";
+                    [wind.calm]\nafter = \"3 s\"\ntime = \"2.5 s\"\n\n";
 
 /// A collider, a surface for the wind and a sound for a plate.
 fn plates(out: &mut String, names: &[&str]) {

@@ -21,13 +21,15 @@
 //! ```text
 //! δ = Σ_k ⟨|L_k − g_k R_k|²⟩ / Σ_k (⟨|L_k|²⟩ + |g_k|² ⟨|R_k|²⟩)      over 47–250 Hz, ⟨·⟩ of 64 ms; 1 for wind
 //! ℓ_sum ← ℓ_sum + clamp(12 (δ − 0.3), −0.5, 4), in so far as the low band has risen
-//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 3 … 7)
+//! ℓ_difference ← ℓ_difference + clamp(0.5 (10 lg δ + 13), −6, 3 … 8)
 //! ```
 //!
-//! and the greater one counts; the difference says the more the farther it has risen above its own room, which knows no crowd. A
-//! puff of p or b into the microphone is wind too, and one may follow another: what δ says for breath, it says by and by, once
-//! the difference has stood for 60 to 140 ms near its peak. Breath wavers by 10 dB and more while it towers over the room, so
-//! near is less than a third of its rise away, or 8 dB; and a moment below takes twice as long off what it has stood.
+//! and the greater one counts; the difference says the more the farther it has risen above its own room, which knows no crowd.
+//! What towers over the room and is the same in both to a hundredth is a sound from afar, however much like breath it rumbles, a
+//! lorry, a door, thunder: then ℓ_sum loses 8 more. A puff of p or b into the microphone is wind too, and one may follow another:
+//! what δ says for breath, it says by and by, once the difference has stood for 60 to 140 ms near its peak. Breath wavers by 10 dB
+//! and more while it towers over the room, so near is less than a third of its rise away, or 8 dB; and a moment below takes twice
+//! as long off what it has stood.
 //!
 //! One capsule copied into two channels is coherent in everything it hears, and a channel that is dead, or hears only
 //! itself, in nothing. So there are two capsules only once both have heard the same below 400 Hz while the treble, above
@@ -56,13 +58,18 @@ const NEUTRAL: f64 = 0.3;
 const SLOPE: f64 = 12.0;
 const SUM_SAYS: (f64, f64) = (-0.5, 4.0);
 const RISE_DB: (f64, f64) = (4.0, 10.0);
+/// And what towers over the room, and is the same in both to a hundredth, is sound from afar: log-odds; rise of the low band, and δ,
+/// from which it begins to count, and counts in full, dB.
+const ALIKE_SAYS: f64 = -8.0;
+const ALIKE_RISE_DB: (f64, f64) = (8.0, 14.0);
+const ALIKE_DB: (f64, f64) = (-10.0, -20.0);
 /// Of the difference: δ of which nothing can be said, dB, log-odds for each dB above, and what it may say, against and for; for
 /// what towers over the room so much more, from one rise to another, dB.
 const NEUTRAL_DB: f64 = -13.0;
 const SLOPE_DB: f64 = 0.5;
 const DIFFERENCE_SAYS: (f64, f64) = (-6.0, 3.0);
-const TOWERING_SAYS: f64 = 4.0;
-const TOWERING_DB: (f64, f64) = (12.0, 24.0);
+const TOWERING_SAYS: f64 = 5.0;
+const TOWERING_DB: (f64, f64) = (8.0, 18.0);
 /// What speaks for wind begins to count, and counts in full, when the difference has stood for so long above the room, s, and
 /// no farther below its peak, dB, or by this share of its rise: the puff of a p or b is wind as well, and dies away.
 const PUFF_S: (f64, f64) = (0.06, 0.14);
@@ -218,7 +225,11 @@ impl Capsules {
     pub fn of_sum(&self, rise_db: f64) -> f64 {
         let weight = part(rise_db, RISE_DB);
         let most = self.lasting() * SUM_SAYS.1;
-        self.share.map_or(0.0, |share| weight * (SLOPE * (share - NEUTRAL)).clamp(SUM_SAYS.0, most))
+        let says = |share| {
+            let alike = part(rise_db, ALIKE_RISE_DB) * part(decibels(share), ALIKE_DB);
+            weight * (SLOPE * (share - NEUTRAL)).clamp(SUM_SAYS.0, most) + ALIKE_SAYS * alike
+        };
+        self.share.map_or(0.0, says)
     }
 
     /// What δ adds to the log-odds of the difference, whose low band has risen by `rise_db` over its room.
@@ -295,6 +306,17 @@ mod tests {
         // Of what is the same in both nothing remains, of the eddies all: 0.5 · 0.16 of 1 + 0.5 · 0.16.
         assert!((low / sum - 0.08 / 1.08).abs() < 0.02, "{}", low / sum);
         assert!(says > 0.0, "{says}");
+    }
+
+    #[test]
+    fn what_towers_and_is_the_same_in_both_comes_from_afar() {
+        let mut capsules = Capsules::new();
+        for (share, least, most) in [(0.001, -9.0, -8.0), (0.03, -6.0, -3.0), (0.2, -0.5, -0.4), (0.9, 0.0, 4.0)] {
+            capsules.share = Some(share);
+            let says = capsules.of_sum(20.0);
+            assert!((least..=most).contains(&says), "{says} of {share}");
+            assert!(capsules.of_sum(7.0) >= -0.5, "what hardly rises may be hiss of lips amid a rumble");
+        }
     }
 
     #[test]

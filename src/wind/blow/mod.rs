@@ -167,6 +167,11 @@ impl BlowDetector {
         }
     }
 
+    /// Sets [`BlowSettings::sensitivity_db`], and keeps all that was learnt.
+    pub fn set_sensitivity(&mut self, db: f64) {
+        self.settings.sensitivity_db = db;
+    }
+
     /// Hears mono `samples` (full scale ±1). `reference` is what the kiosk's loudspeaker played in the same time
     /// (mono, same rate, same length), or empty where the microphone cannot hear it.
     pub fn push(&mut self, samples: &[f32], reference: &[f32]) {

@@ -53,6 +53,34 @@ fn a_recording_on_the_stage_is_the_run_that_the_simulation_makes_of_it() {
 }
 
 #[test]
+fn the_ear_listens_on_while_another_work_comes_and_while_nobody_is_heard() {
+    /// A new ear hears nothing so long, steps.
+    const SETTLES: usize = 60;
+    let chimes = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/wind-chimes");
+    let chimes = Arc::new(exhibit::load(&chimes).expect("the shipped exhibit is valid"));
+    let breath = generate::breath(RATE, 7, &BreathShape::default());
+    // The breath is at its height from 1.1 to 2.3 s.
+    let (change, heard_again) = (360, 420);
+    for cleans in [false, true] {
+        let mut stage = Stage::new(steel_fish(), Settings::default(), None, None);
+        for (step, block) in breath.chunks_exact(RATE as usize / 240).enumerate().take(heard_again + SETTLES) {
+            let inert = cleans && (change..heard_again).contains(&step);
+            if step == change && !cleans {
+                stage.swap(chimes.clone(), None);
+            }
+            let microphone = Microphone { samples: block, second: None, sample_rate: RATE, reference: &[] };
+            stage.step(&Controls { inert, ..Controls::default() }, Some(microphone));
+            let breath = &stage.snapshot().breath;
+            if inert {
+                assert_eq!((breath.speed, breath.estimate), (0.0, BlowEstimate::default()), "step {step}");
+            } else if step >= change {
+                assert!(breath.speed > 1.0, "{} m/s at step {step}, cleaned: {cleans}", breath.speed);
+            }
+        }
+    }
+}
+
+#[test]
 fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
     let capsules = [7, 8].map(|seed| generate::breath(RATE, seed, &BreathShape::default()));
     let frames: Vec<f32> = capsules[0].iter().zip(&capsules[1]).flat_map(|(left, right)| [*left, *right]).collect();
