@@ -2,24 +2,28 @@
 
 use std::io::Write as _;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use super::super::{Failure, Outcome};
 use crate::offline::ear::course::{self, Begin, Course};
 use crate::offline::ear::scenes::Hearing;
-use crate::offline::ear::{Take, recordings, train};
+use crate::offline::ear::train::{self, Subject};
+use crate::offline::ear::{Take, recordings};
 use crate::offline::whole_file::WholeFile;
 use crate::wind::blow::BlowSettings;
-use crate::wind::blow::model::Model;
 
 /// Train the blow detector's model on made scenes and on labelled recordings, and write its table.
 ///
 /// Example: soffio breath train --data ../shared/breath --cross-validate --out src/wind/blow/table.rs
+///
+///          soffio breath train --capsules 2 --size 0.1 --worlds 3 --out src/wind/blow/pair_table.rs
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// A folder of labelled recordings (labels.csv).
     #[arg(long, value_name = "FOLDER")]
     data: Option<PathBuf>,
+    /// Which network: that of one spectrum (1), or that which weighs what two capsules make of it (2).
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
+    capsules: u8,
     /// Where the table goes; without it nothing is written.
     #[arg(long, value_name = "FILE.rs")]
     out: Option<PathBuf>,
@@ -54,6 +58,16 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Outcome {
+    match args.capsules {
+        2 => teach(&train::TWO, args),
+        _ => teach(&train::ONE, args),
+    }
+}
+
+fn teach<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    args: &Args,
+) -> Outcome {
     let known: Vec<Take> = match &args.data {
         Some(folder) => recordings::read(folder).map_err(Failure::input)?,
         None => Vec::new(),
@@ -61,24 +75,31 @@ pub fn run(args: &Args) -> Outcome {
     let Args { lessons, worlds, size, rounds, seed, .. } = *args;
     let begin = if args.go_on { Begin::Present(args.keep) } else { Begin::Untaught };
     let course = Course { begin, lessons, worlds, size, rounds, seed };
-    let made = course::learn(&course, |lesson, learnt| {
+    let made = course::learn(subject, &course, |lesson, learnt| {
         println!("lesson {}: {} examples, loss {:.4}", lesson + 1, learnt.examples.len(), learnt.loss);
         if lesson + 1 == lessons {
-            examine(args, &learnt.model);
+            examine(args, &course::ear(subject, &learnt.network));
         }
     });
     if args.cross_validate {
-        let (table, remarks) = course::cross_validated(&course, &made, &known);
+        let (table, remarks) = course::cross_validated(subject, &course, &made, &known);
         println!("recordings, each by a model that has not met its group\n{table}");
         remarks.iter().for_each(|remark| println!("  {remark}"));
     }
     let Some(path) = &args.out else { return Ok(()) };
-    let (model, loss) = course::refined(&course, &made, &known.iter().collect::<Vec<_>>(), course::FOLDS);
-    println!("with recordings: loss {loss:.4}");
-    examine(args, &model);
+    let network = if known.is_empty() {
+        course::joined(subject, &course, made.network)
+    } else {
+        let known: Vec<_> = known.iter().collect();
+        let (network, loss) = course::refined(subject, &course, &made, &known, course::FOLDS);
+        println!("with recordings: loss {loss:.4}");
+        network
+    };
+    examine(args, &course::ear(subject, &network));
     let fail = |error: std::io::Error| Failure::input(format!("{}: {error}", path.display()));
     let file = WholeFile::create(path).map_err(fail)?;
-    file.reopen().and_then(|mut out| out.write_all(train::table(&model).as_bytes())).map_err(fail)?;
+    let table = train::table(subject, &network);
+    file.reopen().and_then(|mut out| out.write_all(table.as_bytes())).map_err(fail)?;
     file.finish().map_err(fail)
 }
 
@@ -88,12 +109,11 @@ fn share(given: &str) -> Result<f64, String> {
     share.ok_or_else(|| format!("{given:?} is no share. Give a number from 0 to 1."))
 }
 
-/// Marks a model on made scenes.
-fn examine(args: &Args, model: &Model) {
+/// Marks an ear on made scenes.
+fn examine(args: &Args, ear: &BlowSettings) {
     if args.exam > 0.0 {
-        let settings = BlowSettings { model: Arc::new(model.clone()), ..BlowSettings::default() };
-        let plain = Hearing { gain_db: 0.0, stereo: false };
-        let (table, _) = course::examined(&settings, args.exam, args.seed, plain, |_| true);
+        let plain = Hearing { gain_db: 0.0, stereo: args.capsules == 2 };
+        let (table, _) = course::examined(ear, args.exam, args.seed, plain, |_| true);
         println!("{table}");
     }
 }

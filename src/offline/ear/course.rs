@@ -4,16 +4,16 @@
 //! has met neither the recording nor one of its group, nor a scene in which one of them was mixed.
 
 use std::fmt::Write as _;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use super::scenes::{Condition, Hearing, World};
 use super::score::{Table, Verdict, judge};
-use super::train::{Example, examples, train, untaught};
+use super::train::{Example, Subject, examples, train, untaught};
 use super::{Kind, Take};
 use crate::noise::{Random, hash_words};
 use crate::wind::blow::BlowSettings;
 use crate::wind::blow::features::decibels;
-use crate::wind::blow::model::Model;
+use crate::wind::blow::model::Network;
 
 /// Seeds of worlds from here on are never learnt from.
 pub const EXAM: u64 = 1_000_000;
@@ -61,19 +61,19 @@ impl Course {
     }
 }
 
-/// Examples, and the model that they have taught.
+/// Examples, and the network that they have taught.
 #[derive(Clone, Debug)]
-pub struct Learnt {
+pub struct Learnt<const IN: usize, const FIRST: usize, const SECOND: usize> {
     /// All that was heard since the first lesson, which an ear that knew nothing heard.
-    pub examples: Vec<Example>,
+    pub examples: Vec<Example<IN>>,
     /// What came of it.
-    pub model: Model,
+    pub network: Network<IN, FIRST, SECOND>,
     /// Mean loss in the last round.
     pub loss: f64,
 }
 
-/// Scenes that a world teaches with: half of them at gains far from the usual.
-fn scenes(size: f64) -> Vec<(Condition, u64)> {
+/// Scenes that a world teaches one capsule, or two, with: half of them at gains far from the usual.
+fn scenes(size: f64, stereo: bool) -> Vec<(Condition, u64)> {
     let count = |full: f64| (full * size).round() as u64;
     let mut all = vec![
         (Condition::Museum, count(90.0)),
@@ -86,17 +86,26 @@ fn scenes(size: f64) -> Vec<(Condition, u64)> {
     all.extend([5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Aside(snr), count(45.0))));
     all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(24.0))));
     all.extend([0, 1, 2].map(|room| (Condition::Answered(room), count(30.0))));
+    if stereo {
+        // Puffs into the microphone that the kiosk's own sound hides all else of: two capsules hear them as wind.
+        all.extend([0, 1, 2].map(|room| (Condition::TalkedOver(room), count(24.0))));
+    }
     all.into_iter().flat_map(|(condition, n)| (0..n).map(move |i| (condition, i))).collect()
 }
 
 /// Examples of one world.
-fn taught(world: &World, settings: &BlowSettings, course: &Course) -> Vec<Example> {
+fn taught<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    world: &World,
+    settings: &BlowSettings,
+    course: &Course,
+) -> Vec<Example<IN>> {
     let mut out = Vec::new();
-    for (condition, index) in scenes(course.size) {
+    for (condition, index) in scenes(course.size, subject.stereo) {
         let mut random = Random::new(hash_words(&[course.seed, index, 3]));
         let railed = if random.unit() < RAILED { random.range(0.0, RAILED_DB) } else { 0.0 };
-        let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB) + railed, stereo: false };
-        examples(&world.take(condition, index, hearing), settings, &mut out);
+        let hearing = Hearing { gain_db: random.range(-GAIN_DB, GAIN_DB) + railed, stereo: subject.stereo };
+        examples(&world.take(condition, index, hearing), settings, subject.inputs, &mut out);
     }
     out
 }
@@ -105,60 +114,87 @@ fn world_seed(course: &Course, i: u64) -> u64 {
     hash_words(&[course.seed, i]) % EXAM
 }
 
-fn settings(model: &Model) -> BlowSettings {
-    BlowSettings { model: Arc::new(model.clone()), ..BlowSettings::default() }
+/// An ear with this network.
+pub fn ear<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    network: &Network<IN, FIRST, SECOND>,
+) -> BlowSettings {
+    let mut settings = BlowSettings::default();
+    (subject.give)(&mut settings, network.clone());
+    settings
 }
 
 /// Learns from made worlds, lesson by lesson; `tell` hears of each.
-pub fn learn(course: &Course, mut tell: impl FnMut(u64, &Learnt)) -> Learnt {
-    let model = if matches!(course.begin, Begin::Present(_)) {
-        Model::clone(&BlowSettings::default().model)
-    } else {
-        untaught()
+pub fn learn<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    course: &Course,
+    mut tell: impl FnMut(u64, &Learnt<IN, FIRST, SECOND>),
+) -> Learnt<IN, FIRST, SECOND> {
+    let network = match course.begin {
+        Begin::Present(_) => (subject.of)(&BlowSettings::default()).clone(),
+        Begin::Untaught => untaught(),
     };
-    let mut learnt = Learnt { examples: Vec::new(), model, loss: 0.0 };
+    let mut learnt = Learnt { examples: Vec::new(), network, loss: 0.0 };
     for lesson in 0..course.lessons {
         if lesson == 1 && course.begin == Begin::Untaught {
             learnt.examples.clear();
         }
         let worlds = course.worlds_before(lesson)..course.worlds_before(lesson + 1);
-        let ear = settings(&learnt.model);
-        let met = parallel(worlds.collect(), |i| taught(&World::new(world_seed(course, i)), &ear, course));
+        let ear = ear(subject, &learnt.network);
+        let met = parallel(worlds.collect(), |i| taught(subject, &World::new(world_seed(course, i)), &ear, course));
         learnt.examples.extend(met.into_iter().flatten());
-        (learnt.model, learnt.loss) = train(&learnt.model, &learnt.examples, course.rounds, course.seed + lesson);
+        (learnt.network, learnt.loss) = train(&learnt.network, &learnt.examples, course.rounds, course.seed + lesson);
         tell(lesson, &learnt);
     }
     learnt
 }
 
-/// Goes on with recordings, which are also mixed into a world of their own.
-pub fn refined(course: &Course, made: &Learnt, recordings: &[&Take], fold: u64) -> (Model, f64) {
+/// Goes on with recordings, which are also mixed into a world of their own; the network and its loss.
+pub fn refined<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    course: &Course,
+    made: &Learnt<IN, FIRST, SECOND>,
+    recordings: &[&Take],
+    fold: u64,
+) -> (Network<IN, FIRST, SECOND>, f64) {
     let mut all = made.examples.clone();
-    let ear = settings(&made.model);
+    let ear = ear(subject, &made.network);
     let world = World::new(world_seed(course, 1000 + fold)).with_recordings(recordings.iter().copied());
-    all.extend(taught(&world, &ear, course));
+    all.extend(taught(subject, &world, &ear, course));
     for copy in 0..COPIES {
         let mut random = Random::new(hash_words(&[course.seed, copy, 4]));
         for take in recordings {
             let gain = random.range(-GAIN_DB, GAIN_DB);
             let from = all.len();
-            examples(&take.with_gain(if copy == 0 { 0.0 } else { gain }), &ear, &mut all);
+            examples(&take.with_gain(if copy == 0 { 0.0 } else { gain }), &ear, subject.inputs, &mut all);
             all[from..].iter_mut().for_each(|example| example.weight *= RECORDED);
         }
     }
-    let (model, loss) = train(&made.model, &all, course.rounds, course.seed);
-    let model = match course.begin {
-        Begin::Present(share) => mixed(&BlowSettings::default().model, &model, share),
-        Begin::Untaught => model,
-    };
-    (model, loss)
+    let (network, loss) = train(&made.network, &all, course.rounds, course.seed);
+    (joined(subject, course, network), loss)
+}
+
+/// What came of a course: where it went on with the present network, the mean of both.
+pub fn joined<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    course: &Course,
+    network: Network<IN, FIRST, SECOND>,
+) -> Network<IN, FIRST, SECOND> {
+    match course.begin {
+        Begin::Present(share) => mixed((subject.of)(&BlowSettings::default()), &network, share),
+        Begin::Untaught => network,
+    }
 }
 
 /// Who goes on in new worlds forgets some of what the old ones taught. The mean of both ears knows both (Wortsman et al.,
 /// "Model soups", 2022); the present one has this share of it, 0 … 1.
-fn mixed(present: &Model, after: &Model, share: f64) -> Model {
+fn mixed<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    present: &Network<IN, FIRST, SECOND>,
+    after: &Network<IN, FIRST, SECOND>,
+    share: f64,
+) -> Network<IN, FIRST, SECOND> {
     let mut mean = after.clone();
-    mean.weights.iter_mut().zip(&present.weights).for_each(|(w, present)| *w += share * (present - *w));
+    mean.weights.to_mut().iter_mut().zip(&*present.weights).for_each(|(w, present)| *w += share * (present - *w));
     mean
 }
 
@@ -169,15 +205,20 @@ pub fn fold(group: &str) -> u64 {
 }
 
 /// Marks of recordings, each by the model of its fold, which has not met its group.
-pub fn cross_validated(course: &Course, made: &Learnt, recordings: &[Take]) -> (Table, Vec<String>) {
+pub fn cross_validated<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    course: &Course,
+    made: &Learnt<IN, FIRST, SECOND>,
+    recordings: &[Take],
+) -> (Table, Vec<String>) {
     let (mut table, mut remarks) = (Table::default(), Vec::new());
-    let models = parallel((0..FOLDS).collect(), |k| {
+    let networks = parallel((0..FOLDS).collect(), |k| {
         let known: Vec<&Take> = recordings.iter().filter(|t| fold(&t.group) != k).collect();
-        refined(course, made, &known, k).0
+        refined(subject, course, made, &known, k).0
     });
-    for (k, model) in (0..FOLDS).zip(models) {
+    for (k, network) in (0..FOLDS).zip(networks) {
         let held: Vec<Take> = recordings.iter().filter(|t| fold(&t.group) == k).cloned().collect();
-        marked(&settings(&model), &held, &mut table, &mut remarks);
+        marked(&ear(subject, &network), &held, &mut table, &mut remarks);
     }
     (table, remarks)
 }
@@ -242,6 +283,11 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
     rows.push(("breath after talk".to_owned(), Condition::Spoken, takes(5.0)));
     for room in 0..3 {
         rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));
+        rows.push((
+            format!("the kiosk itself, talked over, room {}", room + 1),
+            Condition::TalkedOver(room),
+            takes(180.0),
+        ));
         rows.push((format!("breath that it answers, room {}", room + 1), Condition::Answered(room), takes(60.0)));
     }
     rows
@@ -314,7 +360,7 @@ mod tests {
         let after = untaught();
         for share in [0.0, 0.25, 1.0] {
             let mean = mixed(present, &after, share);
-            for ((w, before), after) in mean.weights.iter().zip(&present.weights).zip(&after.weights) {
+            for ((w, before), after) in mean.weights.iter().zip(&*present.weights).zip(&*after.weights) {
                 assert!((w - (share * before + (1.0 - share) * after)).abs() < ROUNDING, "{share}: {w}");
             }
         }

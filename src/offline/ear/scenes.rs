@@ -53,6 +53,8 @@ pub enum Condition {
     Spoken,
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
+    /// The same, and somebody talks right before it; nobody blows.
+    TalkedOver(u32),
     /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
     Answered(u32),
 }
@@ -184,7 +186,9 @@ impl World {
                 let mouth = (random.range(0.1, 0.45), random.range(20.0, 60.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
             }
-            Condition::OwnVoice(room) => self.own_voice(index, room, hearing, &mut random),
+            Condition::OwnVoice(room) | Condition::TalkedOver(room) => {
+                self.own_voice(condition, index, room, hearing, &mut random)
+            }
         }
     }
 
@@ -348,17 +352,22 @@ impl World {
         }
     }
 
-    fn own_voice(&self, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
+    fn own_voice(&self, condition: Condition, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 60.0;
         let played = own::kiosk(seconds, &self.speech(seconds, random), random);
         let mut channels = vec![vec![0.0; played.len()]; 1 + usize::from(hearing.stereo)];
+        let mut events = Vec::new();
+        if let Condition::TalkedOver(_) = condition {
+            let dry = self.talk_on(seconds, random);
+            channels = self.heard(&dry, hearing.stereo, random);
+            channels.iter_mut().for_each(|channel| channel.resize(played.len(), 0.0));
+            events = dry.events;
+        }
         let loud = random.range(-8.0, 4.0);
         self.hear_itself(&played, (room, loud), &mut channels, random);
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
-        let mut take =
-            self.finish(Condition::OwnVoice(room), index, channels, Kind::Noise, Vec::new(), hearing, random);
-        take.played = played.iter().map(|x| *x as f32).collect();
-        take
+        let take = self.finish(condition, index, channels, Kind::Noise, Vec::new(), hearing, random);
+        Take { events, played: played.iter().map(|x| *x as f32).collect(), ..take }
     }
 
     /// The microphone.
@@ -448,6 +457,7 @@ impl Condition {
             Self::Alike => 6,
             Self::Spoken => 8,
             Self::OwnVoice(room) => 100 + u64::from(room),
+            Self::TalkedOver(room) => 300 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),
         }
     }

@@ -13,13 +13,13 @@
 //! is sure of and right about, a few stand for all.
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use super::{Kind, Take};
 use crate::math::{PI, cos, exp};
 use crate::noise::Random;
-use crate::wind::blow::features::{COUNT, MEANS_S, MEASURED, NAMES};
-use crate::wind::blow::model::{B, C, FIRST, Model, PARAMETERS, SECOND};
-use crate::wind::blow::{BlowDetector, BlowSettings};
+use crate::wind::blow::model::Network;
+use crate::wind::blow::{BlowDetector, BlowSettings, Heard, features, pair};
 
 /// Weight of a frame of noise, and what is added on the way to a ghost; to one that may never be, so many times as much.
 const NOISE_WEIGHT: f32 = 1.5;
@@ -48,17 +48,59 @@ const JITTER: f64 = 0.2;
 
 /// One frame to learn from.
 #[derive(Clone, Copy, Debug)]
-pub struct Example {
-    /// As the front end gives them.
-    pub features: [f32; COUNT],
+pub struct Example<const IN: usize> {
+    /// What the network weighs.
+    pub inputs: [f32; IN],
     /// Somebody blows.
     pub breath: bool,
     /// How much it counts.
     pub weight: f32,
 }
 
+/// Which of the ear's networks learns.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<const IN: usize, const FIRST: usize, const SECOND: usize> {
+    /// Takes have two capsules.
+    pub stereo: bool,
+    /// What it weighs of a frame; `None` where it is not asked.
+    pub inputs: fn(&Heard<'_>) -> Option<[f64; IN]>,
+    /// The network of an ear.
+    pub of: fn(&BlowSettings) -> &Network<IN, FIRST, SECOND>,
+    /// Gives an ear a network.
+    pub give: fn(&mut BlowSettings, Network<IN, FIRST, SECOND>),
+    /// The constant and the type of its table, and what each input is, in words.
+    pub name: [&'static str; 3],
+    /// What each input is, in words.
+    pub input: fn(usize) -> String,
+}
+
+/// The network of one spectrum.
+pub const ONE: Subject<{ features::COUNT }, 64, 24> = Subject {
+    stereo: false,
+    inputs: |heard| Some(*heard.features),
+    of: |settings| &settings.model,
+    give: |settings, network| settings.model = Arc::new(network),
+    name: ["one spectrum", "model", "Model"],
+    input: features::name,
+};
+
+/// The network of two capsules.
+pub const TWO: Subject<{ pair::COUNT }, 32, 12> = Subject {
+    stereo: true,
+    inputs: |heard| heard.pair.copied(),
+    of: |settings| &settings.pair,
+    give: |settings, network| settings.pair = Arc::new(network),
+    name: ["two capsules", "pair", "PairModel"],
+    input: pair::name,
+};
+
 /// Appends the examples of a take, as an ear of these settings hears it.
-pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
+pub fn examples<const IN: usize>(
+    take: &Take,
+    settings: &BlowSettings,
+    inputs: fn(&Heard<'_>) -> Option<[f64; IN]>,
+    out: &mut Vec<Example<IN>>,
+) {
     if take.kind == Kind::Ambiguous || take.breaths.iter().any(|b| b.faint) {
         return;
     }
@@ -68,7 +110,11 @@ pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
     let ghost_weight = GHOST_WEIGHT * if never { NEVER } else { 1.0 };
     let mut frames = 0;
     for (i, &sample) in take.left.iter().enumerate() {
-        ear.push(&[sample], take.played.get(i..=i).unwrap_or_default());
+        let played = take.played.get(i..=i).unwrap_or_default();
+        match &take.right {
+            Some(right) => ear.push_stereo(&[sample], &right[i..=i], played),
+            None => ear.push(&[sample], played),
+        }
         let heard = ear.heard();
         if heard.frames == frames {
             continue;
@@ -99,31 +145,41 @@ pub fn examples(take: &Take, settings: &BlowSettings, out: &mut Vec<Example>) {
             }
             weight *= SPARED as f32;
         }
-        out.push(Example { features: heard.features.map(|x| x as f32), breath: is_breath, weight });
+        let inputs = inputs(&heard).map(|inputs| inputs.map(|x| x as f32));
+        out.extend(inputs.map(|inputs| Example { inputs, breath: is_breath, weight }));
     }
 }
 
-/// A model that knows nothing: it calls every frame as likely as not, and so never hears a breath.
-pub fn untaught() -> Model {
-    Model { scale: [[0.0, 1.0]; COUNT], weights: [0.0; PARAMETERS] }
+/// A network that knows nothing: it calls every frame as likely as not, and so never hears a breath.
+pub fn untaught<const IN: usize, const FIRST: usize, const SECOND: usize>() -> Network<IN, FIRST, SECOND> {
+    let weights = vec![0.0; Network::<IN, FIRST, SECOND>::PARAMETERS];
+    Network { scale: [[0.0, 1.0]; IN], weights: weights.into() }
 }
 
-/// Trains a model for so many rounds over all examples; returns it with its mean loss. One that knows nothing begins
+/// Trains a network for so many rounds over all examples; returns it with its mean loss. One that knows nothing begins
 /// anew.
-pub fn train(taught: &Model, examples: &[Example], rounds: usize, seed: u64) -> (Model, f64) {
+pub fn train<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    taught: &Network<IN, FIRST, SECOND>,
+    examples: &[Example<IN>],
+    rounds: usize,
+    seed: u64,
+) -> (Network<IN, FIRST, SECOND>, f64) {
     let mut random = Random::new(seed);
-    let mut model = taught.clone();
-    let new = model == untaught();
+    let mut network = taught.clone();
+    let new = network == untaught();
+    let parameters = network.weights.len();
+    let weights = network.weights.to_mut();
     if new {
-        model.scale = scale(examples);
+        network.scale = scale(examples);
         // Each row starts at random, of a size that keeps its sum near 1 (Glorot and Bengio 2010).
-        let (first, rest) = model.weights.split_at_mut(B);
-        first.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (COUNT + FIRST) as f64).sqrt());
+        let (first, rest) = weights.split_at_mut(Network::<IN, FIRST, SECOND>::B);
+        first.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (IN + FIRST) as f64).sqrt());
         rest.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (FIRST + SECOND) as f64).sqrt());
     }
     let longest = if new { RATE } else { REVISION * RATE };
     let mut order: Vec<u32> = (0..examples.len() as u32).collect();
-    let (mut mean, mut square) = (vec![0.0; PARAMETERS], vec![0.0; PARAMETERS]);
+    let (mut mean, mut square) = (vec![0.0; parameters], vec![0.0; parameters]);
+    let mut gradient = vec![0.0; parameters];
     let (mut decay1, mut decay2) = (1.0, 1.0);
     let steps = (examples.len() / BATCH).max(1) * rounds;
     let (mut step, mut loss) = (0, 0.0);
@@ -132,36 +188,37 @@ pub fn train(taught: &Model, examples: &[Example], rounds: usize, seed: u64) -> 
             order.swap(i, (random.unit() * (i + 1) as f64) as usize);
         }
         loss = 0.0;
-        let mut weights = 1e-9;
+        let mut counted = 1e-9;
         for batch in order.chunks(BATCH) {
-            let mut gradient = [0.0; PARAMETERS];
+            gradient.fill(0.0);
             let mut weight = 0.0;
             for &i in batch {
                 let example = &examples[i as usize];
-                loss += descend(&model, example, &mut random, &mut gradient);
+                loss += descend(&network, example, &mut random, &mut gradient);
                 weight += f64::from(example.weight);
             }
-            weights += weight;
+            counted += weight;
             let rate = longest * (0.02 + 0.49 * (1.0 + cos(PI * step as f64 / steps as f64)));
             step += 1;
             (decay1, decay2) = (0.9 * decay1, 0.999 * decay2);
-            for (((w, g), m), s) in model.weights.iter_mut().zip(&gradient).zip(&mut mean).zip(&mut square) {
+            let weights = network.weights.to_mut();
+            for (((w, g), m), s) in weights.iter_mut().zip(&gradient).zip(&mut mean).zip(&mut square) {
                 let g = g / weight + RIDGE * *w;
                 *m += 0.1 * (g - *m);
                 *s += 0.001 * (g * g - *s);
                 *w -= rate * (*m / (1.0 - decay1)) / ((*s / (1.0 - decay2)).sqrt() + 1e-8);
             }
         }
-        loss /= weights;
+        loss /= counted;
     }
-    (model, loss)
+    (network, loss)
 }
 
-/// Mean and deviation of each feature.
-fn scale(examples: &[Example]) -> [[f64; 2]; COUNT] {
+/// Mean and deviation of each input.
+fn scale<const IN: usize>(examples: &[Example<IN>]) -> [[f64; 2]; IN] {
     let n = examples.len().max(1) as f64;
     std::array::from_fn(|i| {
-        let values = || examples.iter().map(|e| f64::from(e.features[i]));
+        let values = || examples.iter().map(|e| f64::from(e.inputs[i]));
         let mean = values().sum::<f64>() / n;
         let square = values().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
         [mean, square.sqrt().max(1e-3)]
@@ -169,9 +226,15 @@ fn scale(examples: &[Example]) -> [[f64; 2]; COUNT] {
 }
 
 /// Adds one example's gradient; returns its loss.
-fn descend(model: &Model, example: &Example, random: &mut Random, gradient: &mut [f64; PARAMETERS]) -> f64 {
-    let input = model.standardised(&example.features.map(f64::from)).map(|x| x + JITTER * random.signed());
-    let layers = model.layers(&input);
+fn descend<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    network: &Network<IN, FIRST, SECOND>,
+    example: &Example<IN>,
+    random: &mut Random,
+    gradient: &mut [f64],
+) -> f64 {
+    let (b, c) = (Network::<IN, FIRST, SECOND>::B, Network::<IN, FIRST, SECOND>::C);
+    let input = network.standardised(&example.inputs.map(f64::from)).map(|x| x + JITTER * random.signed());
+    let layers = network.layers(&input);
     let z = layers.log_odds.clamp(-30.0, 30.0);
     let p = 1.0 / (1.0 + exp(-z));
     let (y, weight) = (f64::from(u8::from(example.breath)), f64::from(example.weight));
@@ -180,17 +243,17 @@ fn descend(model: &Model, example: &Example, random: &mut Random, gradient: &mut
     let bend = |s: f64| (1.0 - s.abs()) * (1.0 - s.abs());
     let mut d2 = [0.0; SECOND];
     for j in 0..SECOND {
-        gradient[C + j] += slope * layers.second[j];
-        d2[j] = slope * model.weights[C + j] * bend(layers.second[j]);
+        gradient[c + j] += slope * layers.second[j];
+        d2[j] = slope * network.weights[c + j] * bend(layers.second[j]);
     }
-    gradient[C + SECOND] += slope;
+    gradient[c + SECOND] += slope;
     let mut d1 = [0.0; FIRST];
     for i in 0..FIRST {
-        let row = &model.weights[B + i * SECOND..][..SECOND];
+        let row = &network.weights[b + i * SECOND..][..SECOND];
         d1[i] = row.iter().zip(&d2).map(|(w, d)| w * d).sum::<f64>() * bend(layers.first[i]);
     }
-    add_outer(&mut gradient[B..C], &layers.first, &d2);
-    add_outer(&mut gradient[..B], &layers.input, &d1);
+    add_outer(&mut gradient[b..c], &layers.first, &d2);
+    add_outer(&mut gradient[..b], &layers.input, &d1);
     let likely = if example.breath { p } else { 1.0 - p };
     -weight * crate::math::ln(likely.max(1e-12))
 }
@@ -204,22 +267,26 @@ fn add_outer<const N: usize, const M: usize>(gradient: &mut [f64], x: &[f64; N],
     }
 }
 
-/// The model as the source of `src/wind/blow/table.rs`.
-pub fn table(model: &Model) -> String {
-    let mut out = String::from(
-        "//! The trained model: written by `soffio breath train`, not by hand.\n\nuse super::model::Model;\n\n\
-         /// The trained model.\n#[rustfmt::skip]\n\
-         #[allow(clippy::approx_constant)] // what was learnt, whatever it resembles\npub static TRAINED: Model = Model {\n    scale: [\n",
+/// A network as the source of its table.
+pub fn table<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    subject: &Subject<IN, FIRST, SECOND>,
+    network: &Network<IN, FIRST, SECOND>,
+) -> String {
+    let [what, module, kind] = subject.name;
+    let mut out = format!(
+        "//! What the network of {what} has learnt: written by `soffio breath train`, not by hand.\n\n\
+         use std::borrow::Cow;\n\nuse super::{module}::{kind};\n\n/// What was learnt.\n#[rustfmt::skip]\n\
+         #[allow(clippy::approx_constant)] // what was learnt, whatever it resembles\n\
+         pub static TRAINED: {kind} = {kind} {{\n    scale: [\n"
     );
-    for (i, ([mean, deviation], name)) in model.scale.iter().zip(NAMES.iter().cycle()).enumerate() {
-        let over = i.checked_sub(MEASURED).map(|i| format!(", mean of {} s", MEANS_S[i / MEASURED]));
-        let _ = writeln!(out, "        [{mean:.4}, {deviation:.4}], // {name}{}", over.unwrap_or_default());
+    for (i, [mean, deviation]) in network.scale.iter().enumerate() {
+        let _ = writeln!(out, "        [{mean:.4}, {deviation:.4}], // {}", (subject.input)(i));
     }
-    out.push_str("    ],\n    weights: [\n");
-    for row in model.weights.chunks(11) {
+    out.push_str("    ],\n    weights: Cow::Borrowed(&[\n");
+    for row in network.weights.chunks(11) {
         let cells: Vec<String> = row.iter().map(|w| format!("{w:.4}")).collect();
         let _ = writeln!(out, "        {},", cells.join(", "));
     }
-    out.push_str("    ],\n};\n");
+    out.push_str("    ]),\n};\n");
     out
 }

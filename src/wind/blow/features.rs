@@ -66,11 +66,15 @@ pub const NAMES: [&str; MEASURED] = [
     "peakedness of the treble over 0.16 s",
 ];
 
+/// What a feature is, in words.
+pub fn name(feature: usize) -> String {
+    let over = feature.checked_sub(MEASURED).map(|i| format!(", mean of {} s", MEANS_S[i / MEASURED]));
+    format!("{}{}", NAMES[feature % MEASURED], over.unwrap_or_default())
+}
+
 /// One frame's features: what is measured in the order of [`NAMES`], then its means, the shorter one first.
 pub type Features = [f64; COUNT];
 
-/// Index of the rise of 1625–3400 Hz.
-pub const HISS_RISE: usize = 5;
 /// Index of the periodicity over 80 ms.
 pub const PERIODICITY: usize = 15;
 /// Index of the falls of low and middle.
@@ -92,13 +96,13 @@ const PITCH_LAGS: (usize, usize) = (20, 100);
 /// Smoothing of the powers, s: longer would make a pop look like a breath.
 const SMOOTHING_S: f64 = 0.008;
 /// A room is never taken to be quieter than this in a band, power (−75 dBFS): below it lies a converter's own noise.
-const QUIETEST: f64 = 3.2e-8;
+pub(super) const QUIETEST: f64 = 3.2e-8;
 /// Below the room by more than this, it is the room that has become quieter, dB.
 const SUNK_DB: f64 = -6.0;
 /// Unrest of a steady noise, dB: what its frames scatter by.
 const CALM_DB: f64 = 2.0;
 /// Part of the predicted own sound that may remain after it is taken away.
-const RESIDUE: f64 = 0.03;
+pub(super) const RESIDUE: f64 = 0.03;
 /// Keeps logarithms finite; far below [`QUIETEST`].
 const NOTHING: f64 = 1e-14;
 /// Below this rise nothing has risen, dB.

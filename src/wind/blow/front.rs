@@ -1,7 +1,7 @@
 //! From raw samples to features: what the detector and its training share.
 
 use super::capsules::Capsules;
-use super::features::{COUNT, FALL, Features, HISS_RISE, Levels, Listener, Still, decibels};
+use super::features::{COUNT, FALL, Features, Levels, Listener, Still, decibels};
 use super::nearness::Nearness;
 use super::own::OwnVoice;
 use super::resample::Resampler;
@@ -29,7 +29,7 @@ pub struct FrontEnd {
     /// Listens to what differs between two capsules.
     apart: Listener,
     pub(super) capsules: Capsules,
-    nearness: Nearness,
+    pub(super) nearness: Nearness,
     /// Samples of two capsules have come.
     stereo: bool,
 }
@@ -43,8 +43,6 @@ pub struct Frame {
     pub levels: Levels,
     /// Both, of what differs between two capsules.
     pub difference: Option<(Features, Levels)>,
-    /// What adds to the log-odds of half the sum of two capsules: whether its hiss is of lips.
-    pub nearness: f64,
     /// Level of the frame, dB of full scale.
     pub level_dbfs: f64,
     /// Samples are at the rails.
@@ -109,7 +107,6 @@ impl FrontEnd {
         let input = self.input.take();
         let fault = self.input.fault_hold > 0;
         let (mut features, mut levels, mut difference) = ([0.0; COUNT], Levels::default(), None);
-        let mut nearness = 0.0;
         if !fault {
             self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
             let covered = self.own_voice.masks(&self.framer.microphone);
@@ -127,17 +124,13 @@ impl FrontEnd {
                 self.capsules.note(heard.1.rise_db, 10.0 * heard.0[FALL[0]]);
                 let told = self.capsules.share.is_some() && self.apart.age() >= SETTLING_S;
                 difference = Some(heard).filter(|_| told);
-                self.nearness.push(capsules);
-                if self.capsules.share.is_some() {
-                    nearness = self.nearness.of_sum(10.0 * features[HISS_RISE], levels.rise_db);
-                }
+                self.nearness.push(capsules, own, !(blowing || likely), *scale);
             }
         }
         Frame {
             features,
             levels,
             difference,
-            nearness,
             level_dbfs: decibels(input.square / f64::from(input.count.max(1))).max(SILENCE_DBFS),
             clipping: input.railed > 1,
             fault,

@@ -3,7 +3,7 @@
 //! ```text
 //! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
 //!         [→ capsules (what differs between two)] → features (rise over the room, shape, pitch, past) → model (log-odds)
-//!         → decision (48 ms … 6 s) → speed
+//!         [→ pair (log-odds of all that two tell, with nearness: what is one wave)] → decision (48 ms … 6 s) → speed
 //! ```
 //!
 //! A breath that strikes a capsule is turbulence, not sound: noise below 200 Hz that towers over the room. Level alone
@@ -21,6 +21,8 @@ mod gain;
 pub mod model;
 mod nearness;
 mod own;
+pub mod pair;
+mod pair_table;
 mod past;
 mod resample;
 mod spectrum;
@@ -35,6 +37,7 @@ use features::{Features, Levels, blend, decibels};
 use front::{Frame, FrontEnd, SETTLING_S, SILENCE_DBFS};
 use gain::GainControl;
 use model::Model;
+use pair::PairModel;
 use spectrum::band;
 
 /// Speed of the hardest blow, m/s.
@@ -103,14 +106,17 @@ pub struct BlowSettings {
     pub sensitivity_db: f64,
     /// Weighs the features; shared, since it is far larger than all that an ear keeps of its own.
     pub model: Arc<Model>,
+    /// Weighs what two capsules make of a frame.
+    pub pair: Arc<PairModel>,
     /// Turns log-odds into a decision.
     pub rules: Rules,
 }
 
 impl Default for BlowSettings {
     fn default() -> Self {
-        static TRAINED: LazyLock<Arc<Model>> = LazyLock::new(|| Arc::new(table::TRAINED.clone()));
-        Self { sensitivity_db: 0.0, model: TRAINED.clone(), rules: Rules::default() }
+        static ONE: LazyLock<Arc<Model>> = LazyLock::new(|| Arc::new(table::TRAINED.clone()));
+        static TWO: LazyLock<Arc<PairModel>> = LazyLock::new(|| Arc::new(pair_table::TRAINED.clone()));
+        Self { sensitivity_db: 0.0, model: ONE.clone(), pair: TWO.clone(), rules: Rules::default() }
     }
 }
 
@@ -119,6 +125,8 @@ impl Default for BlowSettings {
 pub struct Heard<'a> {
     /// What was weighed.
     pub features: &'a Features,
+    /// What was weighed of two capsules, where there are two.
+    pub pair: Option<&'a pair::Inputs>,
     /// Frames so far.
     pub frames: u64,
     /// Enough rose above the room for it to be weighed at all.
@@ -140,6 +148,7 @@ pub struct BlowDetector {
     decision: Decision,
     gain: GainControl,
     features: Features,
+    pair: Option<pair::Inputs>,
     log_odds: f64,
     frames: u64,
     /// Smoothed excess of low and of the middle, dB of full scale.
@@ -161,6 +170,7 @@ impl BlowDetector {
             decision: Decision::default(),
             gain: GainControl::default(),
             features: [0.0; features::COUNT],
+            pair: None,
             log_odds: 0.0,
             frames: 0,
             intensity_dbfs: [SILENCE_DBFS; 2],
@@ -204,6 +214,7 @@ impl BlowDetector {
         let possible = self.decision.is_possible();
         Heard {
             features: &self.features,
+            pair: self.pair.as_ref(),
             frames: self.frames,
             possible,
             log_odds: self.log_odds,
@@ -249,16 +260,21 @@ impl BlowDetector {
         }
     }
 
-    /// Log-odds, features and levels of the frame, or of what differs in it between two capsules, whichever is more like breath.
-    fn weigh(&self, frame: &Frame) -> (f64, Features, Levels) {
-        let (model, capsules) = (&self.settings.model, &self.front.capsules);
-        let sum = model.log_odds(&frame.features) + capsules.of_sum(frame.levels.rise_db) + frame.nearness;
-        let difference = frame.difference.map(|(features, levels)| {
-            let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
-            let log_odds = model.log_odds(&features) + capsules.of_difference(levels.rise_db);
-            (if rumbles { log_odds } else { f64::NEG_INFINITY }, features, levels)
-        });
-        difference.filter(|other| other.0 > sum).unwrap_or((sum, frame.features, frame.levels))
+    /// Log-odds, features and levels of the frame; where there are two capsules, the log-odds of all that they tell, and the levels
+    /// of what differs between them where that is what has risen.
+    fn weigh(&mut self, frame: &Frame) -> (f64, Features, Levels) {
+        let model = &self.settings.model;
+        let alone = model.log_odds(&frame.features);
+        self.pair = None;
+        let Some((features, levels)) = frame.difference else {
+            return (alone, frame.features, frame.levels);
+        };
+        let spectra = [(alone, &frame.features), (model.log_odds(&features), &features)];
+        let inputs = pair::inputs(spectra, &self.front.capsules, &self.front.nearness);
+        self.pair = Some(inputs);
+        let log_odds = self.settings.pair.log_odds(&inputs);
+        let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
+        if rumbles { (log_odds, features, levels) } else { (log_odds, frame.features, frame.levels) }
     }
 
     /// The strongest single argument against breath.

@@ -1,37 +1,37 @@
-//! The model that weighs the features: a small network of two layers, bounded everywhere.
+//! The networks that weigh what was heard: small, of two layers, bounded everywhere.
 //!
 //! ```text
 //! x_i = clamp((f_i − m_i) / s_i, ±3),   h = σ(A x + a),   g = σ(B h + b),   ℓ = C · g + c,   σ(z) = z / (1 + |z|)
 //! ```
 //!
 //! ℓ is the log-odds of breath in one frame. σ needs no transcendental and never saturates to a number that cannot be
-//! left again in training. Trained by `soffio breath train`, which writes [`super::table`].
+//! left again in training. One weighs the features of a spectrum ([`Model`]), another one what two capsules make of it
+//! ([`super::pair`]). Trained by `soffio breath train`, which writes [`super::table`] and [`super::pair_table`].
 
-use super::features::{COUNT, Features};
+use std::borrow::Cow;
 
-/// Width of the first layer.
-pub const FIRST: usize = 64;
-/// Width of the second layer.
-pub const SECOND: usize = 24;
-/// Parameters that are trained.
-pub const PARAMETERS: usize = FIRST * (COUNT + 1) + SECOND * (FIRST + 1) + SECOND + 1;
+use super::features;
+
+/// The network that weighs the features of one spectrum.
+pub type Model = Network<{ features::COUNT }, 64, 24>;
+
 /// Standardised features are cut here: what was never met in training says no more than the farthest that was.
 const FARTHEST: f64 = 3.0;
 
-/// All numbers of the model.
+/// All numbers of a network of so many inputs, with layers of so many cells.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Model {
-    /// Mean and deviation of each feature, m and s.
-    pub scale: [[f64; 2]; COUNT],
-    /// Aᵀ row by row, then a; Bᵀ, b; C, c.
-    pub weights: [f64; PARAMETERS],
+pub struct Network<const IN: usize, const FIRST: usize, const SECOND: usize> {
+    /// Mean and deviation of each input, m and s.
+    pub scale: [[f64; 2]; IN],
+    /// Aᵀ row by row, then a; Bᵀ, b; C, c: [`Self::PARAMETERS`] of them.
+    pub weights: Cow<'static, [f64]>,
 }
 
 /// Values of the layers at one frame: what training differentiates.
 #[derive(Clone, Debug)]
-pub struct Layers {
-    /// Standardised features x.
-    pub input: [f64; COUNT],
+pub struct Layers<const IN: usize, const FIRST: usize, const SECOND: usize> {
+    /// Standardised inputs x.
+    pub input: [f64; IN],
     /// h.
     pub first: [f64; FIRST],
     /// g.
@@ -40,27 +40,29 @@ pub struct Layers {
     pub log_odds: f64,
 }
 
-/// Where Bᵀ, and C, begin among the weights.
-pub const B: usize = FIRST * (COUNT + 1);
-/// See [`B`].
-pub const C: usize = B + SECOND * (FIRST + 1);
+impl<const IN: usize, const FIRST: usize, const SECOND: usize> Network<IN, FIRST, SECOND> {
+    /// Where Bᵀ, and C, begin among the weights.
+    pub const B: usize = FIRST * (IN + 1);
+    /// See [`Self::B`].
+    pub const C: usize = Self::B + SECOND * (FIRST + 1);
+    /// Parameters that are trained.
+    pub const PARAMETERS: usize = Self::C + SECOND + 1;
 
-impl Model {
     /// Log-odds of breath.
-    pub fn log_odds(&self, features: &Features) -> f64 {
-        self.layers(&self.standardised(features)).log_odds
+    pub fn log_odds(&self, inputs: &[f64; IN]) -> f64 {
+        self.layers(&self.standardised(inputs)).log_odds
     }
 
-    /// x of the features.
-    pub fn standardised(&self, features: &Features) -> [f64; COUNT] {
-        std::array::from_fn(|i| ((features[i] - self.scale[i][0]) / self.scale[i][1]).clamp(-FARTHEST, FARTHEST))
+    /// x of the inputs.
+    pub fn standardised(&self, inputs: &[f64; IN]) -> [f64; IN] {
+        std::array::from_fn(|i| ((inputs[i] - self.scale[i][0]) / self.scale[i][1]).clamp(-FARTHEST, FARTHEST))
     }
 
-    /// All layers at standardised features.
-    pub fn layers(&self, input: &[f64; COUNT]) -> Layers {
-        let first = affine(&self.weights[..B], input).map(bend);
-        let second = affine(&self.weights[B..C], &first).map(bend);
-        let [log_odds] = affine(&self.weights[C..], &second);
+    /// All layers at standardised inputs.
+    pub fn layers(&self, input: &[f64; IN]) -> Layers<IN, FIRST, SECOND> {
+        let first = affine(&self.weights[..Self::B], input).map(bend);
+        let second = affine(&self.weights[Self::B..Self::C], &first).map(bend);
+        let [log_odds] = affine(&self.weights[Self::C..], &second);
         Layers { input: *input, first, second, log_odds }
     }
 }

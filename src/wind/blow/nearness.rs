@@ -6,37 +6,33 @@
 //! of it:
 //!
 //! ```text
-//! γ = Σ_B |Σ_{k∈B} ⟨L_k R*_k⟩| / Σ_B √(Σ_{k∈B} ⟨|L_k|²⟩ Σ_{k∈B} ⟨|R_k|²⟩)       bands B of 172 Hz from 2 to 3.4 kHz, ⟨·⟩ of 64 ms
+//! C = Σ_B |Σ_{k∈B} ⟨L_k R*_k⟩|        γ = C / Σ_B √(Σ_{k∈B} ⟨|L_k|²⟩ Σ_{k∈B} ⟨|R_k|²⟩)        bands B of 172 Hz, ⟨·⟩ of 64 ms
 //! ```
 //!
-//! 1 for one wave, from wherever it comes: over a band's width the 6 cm between capsules turn it by a thirtieth of a turn at the most.
-//! Of sound from everywhere sin(k d)/(k d) is left (at 2.7 kHz 0.25 of 5 cm, 0.67 of 3 cm), and a few tenths of chance. What is not the same, 1 − γ, is
-//! of the room what it is; of hiss that rises by r dB it is 10^(−r/10) of that at most. It speaks where hiss has risen and rumble
-//! has not:
-//!
-//! ```text
-//! ℓ_sum ← ℓ_sum − clamp(0.6 (10 lg (1 − γ) + 12.5), −2, 4)
-//! ```
+//! over three regions of the treble. γ is 1 for one wave, from wherever it comes: over a band's width the 6 cm between capsules turn
+//! it by a thirtieth of a turn at the most. Of sound from everywhere sin(k d)/(k d) is left (at 2.7 kHz 0.25 of 5 cm, 0.67 of 3 cm),
+//! and a few tenths of chance. C is the power of what is one wave: a crowd has less of it than of all power by some decibels, and
+//! by so much more hiss of lips rises above it.
 
 use rustfft::num_complex::Complex;
 
-use super::capsules::{Pair, part};
-use super::features::{blend, decibels};
-use super::spectrum::BINS;
+use super::capsules::Pair;
+use super::features::{QUIETEST, RESIDUE, blend, decibels};
+use super::spectrum::{BINS, Power};
 
-/// First bin, 2 kHz; bands, and bins of each.
-const FIRST: usize = 128;
-const BANDS: usize = 8;
+/// First bin, 406 Hz; bands, and bins of each, to 3.4 kHz; and the regions they make, 406–922 Hz, to 1.95 kHz, and above.
+const FIRST: usize = 26;
+const BANDS: usize = 17;
 const WIDTH: usize = 11;
+const EDGES: [usize; REGIONS + 1] = [0, 3, 9, BANDS];
+/// Number of regions.
+pub const REGIONS: usize = 3;
 /// Memory, s.
 const MEMORY_S: f64 = 0.064;
-/// 1 − γ of which nothing can be said, dB, log-odds for each dB below, and what it may say, against and for.
-const NEUTRAL_DB: f64 = -12.5;
-const SLOPE_DB: f64 = 0.6;
-const SAYS: (f64, f64) = (-4.0, 2.0);
-/// Rise of the hiss from which it begins to count, and counts in full, dB; and of the rumble from which it no longer does.
-const HISS_DB: (f64, f64) = (6.0, 12.0);
-const RUMBLE_DB: (f64, f64) = (4.0, 10.0);
+/// The room of what is one wave is learnt as fast down, and up, s; one frame weighs at most so many times the room.
+const DOWN_S: f64 = 0.4;
+const UP_S: f64 = 1.5;
+const BANG: f64 = 4.0;
 /// Keeps quotients finite.
 const NOTHING: f64 = 1e-30;
 
@@ -44,37 +40,54 @@ const NOTHING: f64 = 1e-30;
 #[derive(Clone, Debug)]
 pub struct Nearness {
     bins: [Pair; BANDS * WIDTH],
-    /// 1 − γ.
-    apart: f64,
+    /// Power that is one wave in a room where nobody blows.
+    room: [f64; REGIONS],
+    learnt: u64,
+    /// 1 − γ of each region.
+    pub apart: [f64; REGIONS],
+    /// How far what is one wave has risen above the room's, dB.
+    pub rise_db: [f64; REGIONS],
 }
 
 impl Nearness {
     /// Nothing heard yet.
     pub fn new() -> Self {
-        Self { bins: [Pair::default(); BANDS * WIDTH], apart: 1.0 }
-    }
-
-    /// Takes one frame of both capsules.
-    pub fn push(&mut self, [l, r]: &[[Complex<f64>; BINS]; 2]) {
-        let weight = blend(MEMORY_S);
-        let (mut same, mut all) = (0.0, NOTHING);
-        for (band, bins) in self.bins.chunks_exact_mut(WIDTH).enumerate() {
-            let mut sum = Pair::default();
-            for (k, pair) in bins.iter_mut().enumerate() {
-                let k = FIRST + WIDTH * band + k;
-                pair.push(weight, l[k], r[k]);
-                sum.add(pair);
-            }
-            same += sum.cross.norm();
-            all += sum.scale();
+        Self {
+            bins: [Pair::default(); BANDS * WIDTH],
+            room: [0.0; REGIONS],
+            learnt: 0,
+            apart: [1.0; REGIONS],
+            rise_db: [0.0; REGIONS],
         }
-        self.apart = (1.0 - same / all).max(NOTHING);
     }
 
-    /// What it adds to the log-odds of half the sum, whose hiss and whose rumble have risen so far over the room, dB.
-    pub fn of_sum(&self, hiss_db: f64, rumble_db: f64) -> f64 {
-        let weight = part(hiss_db, HISS_DB) * (1.0 - part(rumble_db, RUMBLE_DB));
-        weight * (SLOPE_DB * (NEUTRAL_DB - decibels(self.apart))).clamp(SAYS.0, SAYS.1)
+    /// Takes one frame of both capsules, of which `own` is explained by the kiosk itself; `scale` is power of square amplitude,
+    /// and `learn` is false while somebody blows.
+    pub fn push(&mut self, [l, r]: &[[Complex<f64>; BINS]; 2], own: &Power, learn: bool, scale: f64) {
+        let weight = blend(MEMORY_S);
+        self.learnt += u64::from(learn);
+        let early = 1.0 / self.learnt.max(1) as f64;
+        for (region, edges) in EDGES.windows(2).enumerate() {
+            let (mut same, mut all) = (0.0, NOTHING);
+            for band in edges[0]..edges[1] {
+                let mut sum = Pair::default();
+                for i in WIDTH * band..WIDTH * (band + 1) {
+                    self.bins[i].push(weight, l[FIRST + i], r[FIRST + i]);
+                    sum.add(&self.bins[i]);
+                }
+                same += sum.cross.norm();
+                all += sum.scale();
+            }
+            self.apart[region] = (1.0 - same / all).max(NOTHING);
+            let (heard, room) = (scale * same, &mut self.room[region]);
+            let own = own[FIRST + WIDTH * edges[0]..FIRST + WIDTH * edges[1]].iter().sum::<f64>();
+            self.rise_db[region] = decibels(((heard - own).max(0.0) + QUIETEST) / (*room + RESIDUE * own + QUIETEST));
+            if learn {
+                let (now, seconds) =
+                    if heard < *room { (heard, DOWN_S) } else { (heard.min(BANG * *room + QUIETEST), UP_S) };
+                *room += blend(seconds).max(early) * (now - *room);
+            }
+        }
     }
 }
 
@@ -88,35 +101,60 @@ mod tests {
         Complex::new(random.signed(), random.signed())
     }
 
-    /// Log-odds of hiss that has risen by 20 dB, heard for two seconds.
-    fn says(mut frame: impl FnMut(usize, &mut Random) -> [Complex<f64>; 2]) -> f64 {
+    /// 1 − γ of the highest region, heard for two seconds.
+    fn apart(mut frame: impl FnMut(usize, &mut Random) -> [Complex<f64>; 2]) -> f64 {
         let (mut nearness, mut random) = (Nearness::new(), Random::new(5));
         for _ in 0..250 {
             let mut pair = [[Complex::default(); BINS]; 2];
             for k in 1..BINS {
                 [pair[0][k], pair[1][k]] = frame(k, &mut random);
             }
-            nearness.push(&pair);
+            nearness.push(&pair, &[0.0; BINS], true, 1.0);
         }
-        assert_eq!(nearness.of_sum(20.0, 15.0), 0.0, "rumble speaks for itself");
-        assert_eq!(nearness.of_sum(3.0, 0.0), 0.0, "nothing has risen");
-        nearness.of_sum(20.0, 0.0)
+        nearness.apart[REGIONS - 1]
+    }
+
+    /// From the side, 6 cm later at the second capsule, which is 1.5 dB louder and hisses a little itself.
+    fn lips(k: usize, random: &mut Random) -> [Complex<f64>; 2] {
+        let (l, late) = (noise(random), 2.0 * PI * 15.625 * k as f64 * 0.06 / 343.0);
+        [l, 1.19 * l * Complex::new(cos(late), -sin(late)) + 0.1 * noise(random)]
+    }
+
+    /// Half of it is the same.
+    fn crowd(random: &mut Random) -> [Complex<f64>; 2] {
+        let same = noise(random);
+        [same + noise(random), same + noise(random)]
     }
 
     #[test]
-    fn one_wave_speaks_for_lips_and_many_speak_against() {
-        // From the side, 6 cm later at the second capsule, which is 1.5 dB louder and hisses a little itself.
-        let late = |k: usize| 2.0 * PI * 15.625 * k as f64 * 0.06 / 343.0;
-        let lips = says(|k, random| {
-            let l = noise(random);
-            [l, 1.19 * l * Complex::new(cos(late(k)), -sin(late(k))) + 0.1 * noise(random)]
-        });
-        assert!(lips > 1.0, "{lips}");
-        // Half of it is the same.
-        let crowd = says(|_, random| {
-            let same = noise(random);
-            [same + noise(random), same + noise(random)]
-        });
-        assert!(crowd < -2.0, "{crowd}");
+    fn lips_are_one_wave_and_a_crowd_is_many() {
+        let [lips, crowd] = [apart(lips), apart(|_, random| crowd(random))];
+        // Its own noise is 0.01 of 1.42, and of a band's width the delay turns away another hundredth.
+        assert!(lips < 0.03, "{lips}");
+        assert!((0.3..0.6).contains(&crowd), "{crowd}");
+    }
+
+    #[test]
+    fn lips_amid_a_crowd_rise_above_what_of_it_is_one_wave() {
+        /// The crowd's own powers scatter by this much, dB.
+        const SCATTERS: f64 = 2.0;
+        let (mut nearness, mut random) = (Nearness::new(), Random::new(6));
+        let mut rise = |blows: bool| {
+            let mut mean = 0.0;
+            for _ in 0..250 {
+                let mut pair = [[Complex::default(); BINS]; 2];
+                for k in 1..BINS {
+                    let ([l, r], [a, b]) = (crowd(&mut random), lips(k, &mut random));
+                    let much = if blows { 2.0 } else { 0.0 };
+                    (pair[0][k], pair[1][k]) = (l + much * a, r + much * b);
+                }
+                nearness.push(&pair, &[0.0; BINS], !blows, 1e-4);
+                mean += nearness.rise_db[REGIONS - 1] / 250.0;
+            }
+            mean
+        };
+        // Of a crowd of power 2 a half is one wave; lips add 4 to that: 10 lg 5, where all power rises by 10 lg 3.
+        let [_, _, without, with] = [false, false, false, true].map(&mut rise);
+        assert!((with - without - 7.0).abs() < SCATTERS, "{with} after {without}");
     }
 }

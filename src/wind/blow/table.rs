@@ -1,8 +1,10 @@
-//! The trained model: written by `soffio breath train`, not by hand.
+//! What the network of one spectrum has learnt: written by `soffio breath train`, not by hand.
+
+use std::borrow::Cow;
 
 use super::model::Model;
 
-/// The trained model.
+/// What was learnt.
 #[rustfmt::skip]
 #[allow(clippy::approx_constant)] // what was learnt, whatever it resembles
 pub static TRAINED: Model = Model {
@@ -128,7 +130,7 @@ pub static TRAINED: Model = Model {
         [-0.0646, 0.0783], // peakedness of the treble over 40 ms, mean of 0.5 s
         [-0.0661, 0.0745], // peakedness of the treble over 0.16 s, mean of 0.5 s
     ],
-    weights: [
+    weights: Cow::Borrowed(&[
         -0.0946, -0.2230, -0.2455, 0.1670, -0.2295, 0.1137, 0.1134, -0.1521, 0.2580, -0.4997, -0.2476,
         -0.8228, 0.3426, 0.1046, 0.1789, -0.2851, -0.2073, -0.3900, -0.0549, -0.4646, 0.0469, -0.2113,
         -0.3110, 0.1034, 0.8084, 0.1253, -0.3967, 0.1779, -0.2388, -0.0795, 0.0092, -0.1692, 0.1237,
@@ -978,5 +980,5 @@ pub static TRAINED: Model = Model {
         2.8354, 1.6057, -3.0328, -1.7367, 1.6496, 1.7915, 2.5320, 3.1370, 1.6981, 3.3306, -2.7477,
         -1.8028, 1.3000, -2.2055, -3.2431, 3.5133, 2.8531, -1.4882, -1.5913, -4.0793, -2.2201, -1.4894,
         0.9442,
-    ],
+    ]),
 };

@@ -7,6 +7,8 @@ mod scores;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio::noise::Random;
+use soffio::offline::ear::course::EXAM;
+use soffio::offline::ear::scenes::{Condition, Hearing, World};
 use soffio::wind::blow::{BlowDetector, BlowEstimate, Reason};
 use soffio::wind::generate::{self, BreathShape};
 
@@ -234,6 +236,15 @@ fn the_ear_never_allocates() {
             detector.push_stereo(block, block, &[]);
         });
     }
+    // Two capsules that are told apart.
+    let stereo = Hearing { gain_db: 0.0, stereo: true };
+    let take = World::new(EXAM + 80).take(Condition::Noisy(5.0), 0, stereo);
+    let right = take.right.expect("two capsules");
+    let mut detector = BlowDetector::new(take.sample_rate);
+    for (left, right) in take.left.chunks(66).zip(right.chunks(66)) {
+        assert_no_alloc(|| detector.push_stereo(left, right, left));
+    }
+    assert!(detector.heard().pair.is_some());
 }
 
 #[test]

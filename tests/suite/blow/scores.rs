@@ -6,8 +6,10 @@
 
 use std::path::{Path, PathBuf};
 
+use soffio::noise::Random;
 use soffio::offline::ear::scenes::{Condition, Hearing, World, with_gain_control};
 use soffio::offline::ear::score::{Marks, Table, judge, poisson, quantile, spearman, wilson};
+use soffio::offline::ear::train::{self, Example};
 use soffio::offline::ear::{Kind, Take, course, recordings};
 use soffio::wind::blow::BlowSettings;
 
@@ -152,6 +154,9 @@ fn two_capsules_hear_no_less() {
     assert_eq!(scenes(Condition::Impulses, 6, stereo).ghosts, 0, "knocks, claps, pops, doors");
     let [one, two] = [PLAIN, stereo].map(|hearing| scenes(Condition::Noisy(0.0), 24, hearing));
     assert!(two.share() >= DETECTION_0_DB_TWO && two.share() > one.share(), "in a crowd as loud: {one}; {two}");
+    for room in 0..3 {
+        assert_eq!(scenes(Condition::TalkedOver(room), 1, stereo).ghosts, 0, "puffs amid its own sound in room {room}");
+    }
     // The same capsule in both channels, or nothing in the second, is one capsule.
     let world = World::new(course::EXAM + 78);
     for index in 0..3 {
@@ -175,6 +180,23 @@ fn a_microphone_that_changes_its_gain_is_found_out() {
     }
     assert!(told[0] == 0, "plain microphones are not accused: {told:?} of 4");
     assert!(told[1] >= 3, "gain control is seen: {told:?} of 4");
+}
+
+#[test]
+fn a_network_learns_what_parts_two_heaps() {
+    // Breath lies on one side of a ring and not in it: no straight line parts them.
+    let mut random = Random::new(31);
+    let examples: Vec<Example<2>> = (0..4000)
+        .map(|_| {
+            let inputs = [random.signed() as f32, random.signed() as f32];
+            Example { inputs, breath: inputs[0].hypot(inputs[1]) > 0.8, weight: 1.0 }
+        })
+        .collect();
+    let (learnt, loss) = train::train::<2, 16, 8>(&train::untaught(), &examples, 12, 5);
+    let right = examples.iter().filter(|e| (learnt.log_odds(&e.inputs.map(f64::from)) > 0.0) == e.breath).count();
+    assert!(right > 9 * examples.len() / 10 && loss < 0.3, "{right} of {}, loss {loss}", examples.len());
+    let (again, _) = train::train::<2, 16, 8>(&train::untaught(), &examples, 12, 5);
+    assert!(learnt == again, "the same lesson teaches the same, to the bit");
 }
 
 #[test]

@@ -131,6 +131,21 @@ impl World {
         dry
     }
 
+    /// Somebody talks right before the kiosk, now and then into its microphone.
+    pub(super) fn talk_on(&self, seconds: f64, random: &mut Random) -> Dry {
+        let mut dry = Dry::silent((seconds * R) as usize);
+        let mut at = random.range(0.3, 6.0);
+        while at < seconds - 1.0 {
+            let (length, loud) = (random.range(0.8, 12.0).min(seconds - at), random.range(-45.0, -8.0));
+            dry.put("talk at the kiosk", PLACES - 1, at, &self.speech(length, random), from_decibels(loud));
+            if random.unit() < 0.7 {
+                dry.put_puffs(at, &voices::plosives(length, random), from_decibels(loud + random.range(0.0, 6.0)));
+            }
+            at += length + random.range(0.3, 6.0);
+        }
+        dry
+    }
+
     /// What each of so many capsules (1 or 2) hears of a museum, before the microphone's own part: full scale ±1 at
     /// [`RATE`](super::super::RATE).
     pub fn crowd(&self, seconds: f64, busy: f64, capsules: usize, random: &mut Random) -> Vec<Vec<f64>> {
