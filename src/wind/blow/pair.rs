@@ -49,7 +49,7 @@ pub fn name(input: usize) -> String {
     let of = if input < SPECTRUM { "sum" } else { "difference" };
     match input.checked_sub(2 * SPECTRUM) {
         Some(rest) => REST[rest].to_owned(),
-        None if input % SPECTRUM == 0 => format!("{of}: log-odds, 10"),
+        None if input.is_multiple_of(SPECTRUM) => format!("{of}: log-odds, 10"),
         None => format!("{of}: {}", features::name(input % SPECTRUM - 1)),
     }
 }
