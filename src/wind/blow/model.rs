@@ -6,7 +6,7 @@
 //!
 //! ℓ is the log-odds of breath in one frame. σ needs no transcendental and never saturates to a number that cannot be
 //! left again in training. One weighs the features of a spectrum ([`Model`]), another one what two capsules make of it
-//! ([`super::pair`]). Trained by `soffio breath train`, which writes [`super::table`] and [`super::pair_table`].
+//! ([`super::pair`]). Trained by `soffio breath train`, which writes `table.rs` and `pair_table.rs`.
 
 use std::borrow::Cow;
 

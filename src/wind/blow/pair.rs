@@ -1,8 +1,8 @@
 //! What two capsules make of a frame: one network over both spectra, and over what is the same at both.
 //!
 //! The spectrum of half the sum says what one capsule would say, that of half the difference what of it is wind
-//! ([`super::capsules`]), and how much of the treble is one wave says whether it comes from one place near by
-//! ([`super::nearness`]). None of them knows a breath by itself: hiss of one wave is lips', or that of an s; rumble that
+//! (`capsules.rs`), and how much of the treble is one wave says whether it comes from one place near by
+//! (`nearness.rs`). None of them knows a breath by itself: hiss of one wave is lips', or that of an s; rumble that
 //! differs is wind, or a hand on the table. Together they do, and how they are to be weighed is learnt as the rest is.
 
 use super::capsules::Capsules;
