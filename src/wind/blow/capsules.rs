@@ -47,7 +47,7 @@ const TREBLE: std::ops::Range<usize> = 26..218;
 const SHARE_S: f64 = 0.064;
 const TREBLE_S: f64 = 0.5;
 const MATCH_S: f64 = 4.0;
-/// Part of what is the same at both that may be left in the difference, dB of amplitude: what g has not learnt.
+/// How much of what is the same at both may be left in the difference, dB: what g has not learnt.
 const LEFT_DB: f64 = -13.0;
 /// It begins to last, and lasts, when the difference has stood for so long above the room, s, and no farther below its peak,
 /// dB, or by this share of its rise: the puff of a p or b is wind as well, and dies away.
