@@ -15,7 +15,7 @@ use crate::wind::blow::BlowSettings;
 ///
 /// Example: soffio breath train --data ../shared/breath --cross-validate --out src/wind/blow/table.rs
 ///
-///          soffio breath train --capsules 2 --size 0.1 --worlds 3 --out src/wind/blow/pair_table.rs
+/// Example: soffio breath train --capsules 2 --size 0.1 --worlds 3 --out src/wind/blow/pair_table.rs
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// A folder of labelled recordings (labels.csv).
