@@ -2,10 +2,13 @@
 //!
 //! Every eighth step's moment is kept for some seconds; what is asked about later is drawn then, by the kiosk's own
 //! renderer, before a plain ground. Dust, and shadows on the wall, are left out: the question is whether the work itself
-//! moves, and without them a picture costs a tenth.
+//! moves, and without them a picture costs a tenth. It still costs more than the kiosk's second that it shows, so the
+//! onlooker has a thread of its own; what it says does not depend on when it says it.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
 
 use super::judge::{Answer, BEFORE, FPS, Picture, answer};
 use crate::exhibit::Exhibit;
@@ -21,17 +24,36 @@ const EVERY: u64 = STEPS_PER_SECOND / FPS;
 const GROUND: f32 = 0.6;
 /// Moments that are kept: two seconds about an onset, and some more.
 const KEPT: usize = 3 * FPS as usize;
+/// Questions that wait to be looked at, at most: the day waits then.
+const WAITING: usize = 8;
 
-/// The onlooker.
-pub struct Eyes {
-    works: Vec<(Arc<Exhibit>, ImageRenderer)>,
-    /// Number, work, time since its reset, poses.
-    moments: VecDeque<(u64, usize, f64, Vec<Pose>)>,
-    /// Pictures drawn so far.
+/// A moment that was kept: number, work, time since its reset, poses.
+type Moment = (u64, usize, f64, Vec<Pose>);
+
+/// The onlooker: what it keeps of the day.
+pub struct Eyes<Q> {
+    moments: VecDeque<Moment>,
+    asked: SyncSender<Case<Q>>,
+    onlooker: JoinHandle<Result<Seen<Q>, RenderError>>,
+}
+
+/// What an onlooker is asked: a name for the answer, the moments of two seconds, the poses had nobody come.
+struct Case<Q> {
+    question: Q,
+    kept: Vec<Moment>,
+    alone: Vec<Vec<Pose>>,
+}
+
+/// What an onlooker has seen, in the order of the questions.
+#[derive(Debug)]
+pub struct Seen<Q> {
+    /// Each question and its answer; `None` where another work came in between, or some moments are not kept.
+    pub answers: Vec<(Q, Option<Answer>)>,
+    /// Pictures drawn.
     pub drawn: u64,
 }
 
-impl Eyes {
+impl<Q: Send + 'static> Eyes<Q> {
     /// Before these works. Needs a Vulkan driver; software is enough.
     pub fn new(works: &[Arc<Exhibit>]) -> Result<Self, RenderError> {
         let before_a_ground = |work: &Arc<Exhibit>| {
@@ -39,12 +61,9 @@ impl Eyes {
             Ok((work.clone(), ImageRenderer::new(work, |options| ground(&mut options.look))?))
         };
         let works = works.iter().map(before_a_ground).collect::<Result<_, RenderError>>()?;
-        Ok(Self { works, moments: VecDeque::new(), drawn: 0 })
-    }
-
-    /// The number of the picture at a time or the last one before it.
-    pub fn picture_at(seconds: f64) -> u64 {
-        (seconds * FPS as f64).floor().max(0.0) as u64
+        let (asked, questions) = sync_channel(WAITING);
+        let onlooker = std::thread::spawn(move || Onlooker { works, drawn: 0 }.look_on(questions));
+        Ok(Self { moments: VecDeque::new(), asked, onlooker })
     }
 
     /// Takes notice of the moment after a step, with the work on show.
@@ -57,11 +76,52 @@ impl Eyes {
         }
     }
 
-    /// What is seen of the second before and after a picture, beside the poses of those after it had nobody come. `None` where
-    /// another work came in between, or some are not kept.
-    pub fn judge(&mut self, middle: u64, alone: &[Vec<Pose>]) -> Result<Option<Answer>, RenderError> {
+    /// Could a picture not be drawn? Then nothing more is looked at, and [`Self::seen`] says why.
+    pub fn have_failed(&self) -> bool {
+        self.onlooker.is_finished()
+    }
+
+    /// Asks what is seen of the second before and after a picture, beside the poses of those after it had nobody come.
+    /// Waits where too much is asked already.
+    pub fn ask(&self, question: Q, middle: u64, alone: Vec<Vec<Pose>>) {
         let span = middle.saturating_sub(BEFORE as u64)..=middle + BEFORE as u64;
-        let kept = self.moments.iter().filter(|(number, ..)| span.contains(number)).collect::<Vec<_>>();
+        let kept = self.moments.iter().filter(|(number, ..)| span.contains(number)).cloned().collect();
+        // Who has failed takes no more questions.
+        let _ = self.asked.send(Case { question, kept, alone });
+    }
+
+    /// All answers.
+    ///
+    /// # Errors
+    /// A picture could not be drawn.
+    pub fn seen(self) -> Result<Seen<Q>, RenderError> {
+        drop(self.asked);
+        self.onlooker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    }
+}
+
+/// The number of the picture at a time or the last one before it.
+pub fn picture_at(seconds: f64) -> u64 {
+    (seconds * FPS as f64).floor().max(0.0) as u64
+}
+
+/// Who draws and looks.
+struct Onlooker {
+    works: Vec<(Arc<Exhibit>, ImageRenderer)>,
+    drawn: u64,
+}
+
+impl Onlooker {
+    fn look_on<Q>(mut self, questions: Receiver<Case<Q>>) -> Result<Seen<Q>, RenderError> {
+        let answers = questions.into_iter().map(|Case { question, kept, alone }| {
+            let answer = self.judge(&kept, &alone)?;
+            Ok((question, answer))
+        });
+        let answers = answers.collect::<Result<_, RenderError>>()?;
+        Ok(Seen { answers, drawn: self.drawn })
+    }
+
+    fn judge(&mut self, kept: &[Moment], alone: &[Vec<Pose>]) -> Result<Option<Answer>, RenderError> {
         let work = kept.first().map_or(0, |(_, work, ..)| *work);
         if kept.len() != 2 * BEFORE + 1 || kept.iter().any(|(_, other, ..)| *other != work) {
             return Ok(None);

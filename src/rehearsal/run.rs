@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::day::{Day, Duty, Task};
 use super::ears::Ears;
-use super::eyes::Eyes;
+use super::eyes::{Eyes, Seen, picture_at};
 use super::house::House;
 use super::judge::{self, FPS};
 use super::machine::Machine;
@@ -46,15 +46,18 @@ pub fn run(
     let day = Day::new(rehearsal.seed, length, rehearsal.works.len(), rehearsal.site.idle_s);
     let mut course = Course::new(&rehearsal, day, house)?;
     for step in 0..(length * STEPS_PER_SECOND as f64) as u64 {
-        course.step(step)?;
+        course.step(step);
         if step % STEPS_PER_SECOND == 0 {
             on_second(step / STEPS_PER_SECOND);
         }
         if stop.load(Ordering::Relaxed) {
             return Err(RehearsalError::Interrupted);
         }
+        if course.eyes.have_failed() {
+            break;
+        }
     }
-    Ok(course.report(&rehearsal))
+    course.report(&rehearsal)
 }
 
 /// A moment that is judged when its pictures are there.
@@ -74,7 +77,8 @@ struct Course<'a> {
     day: Day,
     house: House,
     machine: Machine,
-    eyes: Eyes,
+    /// Is asked about a visitor's doing (which entry) or about a moment of no meaning.
+    eyes: Eyes<(usize, bool)>,
     ears: Ears,
     controls: Controls,
     blocks: u64,
@@ -90,14 +94,12 @@ struct Course<'a> {
     waiting: Vec<Moment>,
     /// Did the entry's onset end attract mode?
     woke: Vec<usize>,
-    answers: Vec<(usize, Option<judge::Answer>)>,
     /// Entries whose doing made wind, and after how long, s.
     heard: Vec<(usize, f64)>,
     /// How far each entry's first breath stood above the house, dB.
     above: Vec<Option<[f64; 2]>>,
     /// What the ear said in the second after each entry's onset, and how often.
     ear: Vec<BTreeMap<String, u32>>,
-    shuffled: Vec<(f64, bool)>,
     phantoms: Vec<Nobody>,
     /// When attract mode last played, and when there last was wind inside the kiosk, s.
     attracted: f64,
@@ -129,18 +131,16 @@ impl<'a> Course<'a> {
             pulled: None,
             waiting: Vec::new(),
             woke: Vec::new(),
-            answers: Vec::new(),
             heard: Vec::new(),
             above: vec![None; entries],
             ear: vec![BTreeMap::new(); entries],
-            shuffled: Vec::new(),
             phantoms: Vec::new(),
             attracted: f64::NEG_INFINITY,
             blew: f64::NEG_INFINITY,
         })
     }
 
-    fn step(&mut self, step: u64) -> Result<(), RehearsalError> {
+    fn step(&mut self, step: u64) {
         let now = step as f64 / STEPS_PER_SECOND as f64;
         self.programme(now);
         while (self.blocks + 1) * FRAMES as u64 <= step * SAMPLES_PER_STEP {
@@ -155,7 +155,7 @@ impl<'a> Course<'a> {
         let plugged = !self.on_duty(now, Task::Unplug);
         self.controls.inert = self.on_duty(now, Task::Clean);
         for moment in self.waiting.iter_mut().filter(|moment| begins(moment.at, now)) {
-            moment.alone = left_alone(&self.machine.stage, &self.controls, Eyes::picture_at(moment.at));
+            moment.alone = left_alone(&self.machine.stage, &self.controls, picture_at(moment.at));
         }
         self.machine.step(&self.controls, plugged);
         if self.machine.stage.attracts() {
@@ -167,7 +167,7 @@ impl<'a> Course<'a> {
         self.note_heard(now);
         self.watch_staff(now);
         self.eyes.look(step + 1, self.work, self.machine.stage.snapshot());
-        self.judge((step + 1) * FPS / STEPS_PER_SECOND)
+        self.ask((step + 1) * FPS / STEPS_PER_SECOND);
     }
 
     fn on_duty(&self, now: f64, task: Task) -> bool {
@@ -292,23 +292,23 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Judges what is due, the pictures up to `picture` being there.
-    fn judge(&mut self, picture: u64) -> Result<(), RehearsalError> {
-        let due = |moment: &Moment| Eyes::picture_at(moment.at) + judge::BEFORE as u64 <= picture;
+    /// Has what is due judged, the pictures up to `picture` being there.
+    fn ask(&mut self, picture: u64) {
+        let due = |moment: &Moment| picture_at(moment.at) + judge::BEFORE as u64 <= picture;
         while let Some(index) = self.waiting.iter().position(due) {
             let Moment { entry, at, real, alone } = self.waiting.swap_remove(index);
-            let answer = self.eyes.judge(Eyes::picture_at(at), &alone)?;
-            if real {
-                self.answers.push((entry, answer));
-            } else {
-                self.shuffled.extend(answer.map(|answer| (answer.contingency, answer.is_answer())));
-            }
+            self.eyes.ask((entry, real), picture_at(at), alone);
         }
-        Ok(())
     }
 
-    fn report(self, rehearsal: &Rehearsal) -> Report {
-        let judged = self.answers.iter().filter_map(|(index, answer)| {
+    fn report(self, rehearsal: &Rehearsal) -> Result<Report, RehearsalError> {
+        let Seen { answers, drawn } = self.eyes.seen()?;
+        let shuffled: Vec<_> = answers
+            .iter()
+            .filter_map(|((_, real), answer)| answer.filter(|_| !real))
+            .map(|answer| (answer.contingency, answer.is_answer()))
+            .collect();
+        let judged = answers.iter().filter(|((_, real), _)| *real).filter_map(|((index, _), answer)| {
             let entry = &self.day.entries[*index];
             let onset = entry.visit.onset()?;
             let before = onset - UNTOUCHED_S..onset;
@@ -316,7 +316,7 @@ impl<'a> Course<'a> {
             let mut groups = entry.visit.groups();
             groups.extend(entry.after.map(Task::after));
             groups.extend(self.woke.contains(index).then_some("wakes it from attract mode"));
-            let middle = Eyes::picture_at(onset) as f64;
+            let middle = picture_at(onset) as f64;
             let after = |picture: usize| (middle + picture as f64) / FPS as f64 - onset;
             let acts = self.day.entries.iter().flat_map(|entry| entry.visit.acts());
             let last = acts.map(|(_, until)| until).filter(|until| *until < onset).fold(f64::NEG_INFINITY, f64::max);
@@ -343,7 +343,7 @@ impl<'a> Course<'a> {
             from_s: duty.from,
             good: *good,
         });
-        Report {
+        Ok(Report {
             seed: rehearsal.seed,
             hours: rehearsal.hours,
             room: rehearsal.room.clone(),
@@ -362,13 +362,13 @@ impl<'a> Course<'a> {
             changed_after_s: None,
             staff: staff.collect(),
             attract_returned: (self.returned, self.attract_asked),
-            pictures: self.eyes.drawn,
+            pictures: drawn,
             bars: Vec::new(),
             failures: Vec::new(),
             visits: judged.collect(),
             phantoms: self.phantoms.clone(),
         }
-        .conclude(&self.shuffled)
+        .conclude(&shuffled))
     }
 }
 
