@@ -7,6 +7,7 @@
 
 use std::collections::VecDeque;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
@@ -30,11 +31,14 @@ const WAITING: usize = 8;
 /// A moment that was kept: number, work, time since its reset, poses.
 type Moment = (u64, usize, f64, Vec<Pose>);
 
-/// The onlooker: what it keeps of the day.
+/// The onlooker: what it keeps of the day. Dropped unseen, it leaves after the picture at hand.
 pub struct Eyes<Q> {
     moments: VecDeque<Moment>,
-    asked: SyncSender<Case<Q>>,
-    onlooker: JoinHandle<Result<Seen<Q>, RenderError>>,
+    /// `None` once nothing more is asked.
+    asked: Option<SyncSender<Case<Q>>>,
+    /// `None` once it has come back.
+    onlooker: Option<JoinHandle<Result<Seen<Q>, RenderError>>>,
+    leave: Arc<AtomicBool>,
 }
 
 /// What an onlooker is asked: a name for the answer, the moments of two seconds, the poses had nobody come.
@@ -62,8 +66,10 @@ impl<Q: Send + 'static> Eyes<Q> {
         };
         let works = works.iter().map(before_a_ground).collect::<Result<_, RenderError>>()?;
         let (asked, questions) = sync_channel(WAITING);
-        let onlooker = std::thread::spawn(move || Onlooker { works, drawn: 0 }.look_on(questions));
-        Ok(Self { moments: VecDeque::new(), asked, onlooker })
+        let leave = Arc::new(AtomicBool::new(false));
+        let onlooker = Onlooker { works, drawn: 0, leave: leave.clone() };
+        let onlooker = std::thread::spawn(move || onlooker.look_on(questions));
+        Ok(Self { moments: VecDeque::new(), asked: Some(asked), onlooker: Some(onlooker), leave })
     }
 
     /// Takes notice of the moment after a step, with the work on show.
@@ -78,7 +84,7 @@ impl<Q: Send + 'static> Eyes<Q> {
 
     /// Could a picture not be drawn? Then nothing more is looked at, and [`Self::seen`] says why.
     pub fn have_failed(&self) -> bool {
-        self.onlooker.is_finished()
+        self.onlooker.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
     /// Asks what is seen of the second before and after a picture, beside the poses of those after it had nobody come.
@@ -87,16 +93,29 @@ impl<Q: Send + 'static> Eyes<Q> {
         let span = middle.saturating_sub(BEFORE as u64)..=middle + BEFORE as u64;
         let kept = self.moments.iter().filter(|(number, ..)| span.contains(number)).cloned().collect();
         // Who has failed takes no more questions.
-        let _ = self.asked.send(Case { question, kept, alone });
+        let _ = self.asked.as_ref().map(|asked| asked.send(Case { question, kept, alone }));
     }
 
     /// All answers.
     ///
     /// # Errors
     /// A picture could not be drawn.
-    pub fn seen(self) -> Result<Seen<Q>, RenderError> {
-        drop(self.asked);
-        self.onlooker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    pub fn seen(mut self) -> Result<Seen<Q>, RenderError> {
+        self.asked = None;
+        let nothing = || Ok(Seen { answers: Vec::new(), drawn: 0 });
+        let come_back = self.onlooker.take().map(JoinHandle::join);
+        come_back.map_or_else(nothing, |seen| seen.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    }
+}
+
+impl<Q> Drop for Eyes<Q> {
+    /// A program must not end while a picture is drawn: the driver's own threads would work on memory that is gone.
+    fn drop(&mut self) {
+        self.leave.store(true, Ordering::Relaxed);
+        self.asked = None;
+        if let Some(onlooker) = self.onlooker.take() {
+            let _ = onlooker.join();
+        }
     }
 }
 
@@ -109,6 +128,8 @@ pub fn picture_at(seconds: f64) -> u64 {
 struct Onlooker {
     works: Vec<(Arc<Exhibit>, ImageRenderer)>,
     drawn: u64,
+    /// Nobody wants to know any more.
+    leave: Arc<AtomicBool>,
 }
 
 impl Onlooker {
@@ -128,17 +149,26 @@ impl Onlooker {
         }
         let (exhibit, renderer) = &mut self.works[work];
         let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-        let mut draw = |poses: &[Pose], time: f64| -> Result<Picture, RenderError> {
+        let mut draw = |poses: &[Pose], time: f64| -> Result<Option<Picture>, RenderError> {
+            if self.leave.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
             let picture = renderer.draw(&Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0, time })?;
-            Ok(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect()))
+            Ok(Some(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect())))
         };
-        let pictures = kept.iter().map(|(.., time, poses)| draw(poses, *time)).collect::<Result<Vec<_>, _>>()?;
+        let pictures = kept.iter().map(|(.., time, poses)| draw(poses, *time).transpose());
+        let Some(pictures) = pictures.collect::<Option<Result<Vec<_>, _>>>().transpose()? else {
+            return Ok(None);
+        };
         // Bodies that stand alike look alike: most visits begin so, and are drawn once.
         let mut drawn = pictures.len();
         let mut beside = Vec::with_capacity(alone.len());
         for ((poses, (.., time, own)), picture) in alone.iter().zip(&kept[BEFORE + 1..]).zip(&pictures[BEFORE + 1..]) {
             let alike = poses == own;
-            beside.push(if alike { picture.clone() } else { draw(poses, *time)? });
+            let Some(picture) = (if alike { Some(picture.clone()) } else { draw(poses, *time)? }) else {
+                return Ok(None);
+            };
+            beside.push(picture);
             drawn += usize::from(!alike);
         }
         self.drawn += drawn as u64;

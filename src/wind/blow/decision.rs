@@ -53,7 +53,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-4.0, 9.0), drift: 2.9, on: 0.13, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
+        Self { believed: (-4.0, 9.0), drift: 2.9, on: 0.17, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
     }
 }
 
