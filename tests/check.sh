@@ -47,8 +47,8 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind contrast flashes fuzz rehearse \
-        answered groups shuffled nobody staff attract; do
+    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind contrast flashes rehearse \
+        answered groups shuffled nobody staff attract fuzz; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue

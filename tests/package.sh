@@ -49,6 +49,8 @@ cmp "$scratch/etc/soffio/kiosk.toml" kiosk-config/kiosk.toml || fail "the instal
 if command -v systemd-analyze >/dev/null; then
     sed 's#^ExecStart=/usr/bin/cage #ExecStart=/bin/true #' "$scratch/usr/lib/systemd/system/soffio.service" >"$work/soffio.service"
     systemd-analyze verify "$work/soffio.service" 2>"$work/verify" && [ ! -s "$work/verify" ] || { cat "$work/verify" >&2; fail "the unit"; }
+else
+    echo "package: the unit is not verified: no systemd-analyze here" >&2
 fi
 
 # The installed program finds its exhibits and its configuration from anywhere.

@@ -31,7 +31,7 @@ pub struct Problem {
     pub column: usize,
     /// What is wrong.
     pub message: String,
-    /// What to do; may be empty.
+    /// What to do.
     pub help: String,
 }
 
@@ -53,21 +53,21 @@ impl fmt::Display for ConfigError {
             if *line > 0 {
                 write!(f, ":{line}:{column}")?;
             }
-            write!(f, ": {message}")?;
-            if !help.is_empty() {
-                write!(f, "\n  help: {help}")?;
-            }
+            write!(f, ": {message}\n  help: {help}")?;
         }
         Ok(())
     }
 }
+
+/// What to do where the grammar is broken.
+const GRAMMAR: &str = "a line is `key = value`, with words in \"quotes\" and lists in [ ]; a table begins with [name]";
 
 /// Reads the configuration in `text`.
 pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
     let fail = |problems| Err(ConfigError { file: file.into(), problems });
     let document = match Document::parse(text) {
         Ok(document) => document,
-        Err(error) => return fail(vec![located(text, error.span(), error.message().into(), String::new())]),
+        Err(error) => return fail(vec![located(text, error.span(), error.message().into(), GRAMMAR.into())]),
     };
     let mut look = Look { text, problems: Vec::new() };
     look.table(document.as_table(), &defaults(), "");
@@ -78,7 +78,9 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
         Ok(config) => config,
         Err(error) => {
             let message = error.message().lines().next().unwrap_or_default().to_owned();
-            return fail(vec![located(text, error.span(), message, String::new())]);
+            let key = error.span().and_then(|span| as_in(document.as_table(), &defaults(), span.start));
+            let help = key.unwrap_or_else(|| format!("{} shows how it is written", super::FILE));
+            return fail(vec![located(text, error.span(), message, help)]);
         }
     };
     let one_end = if config.night.from.is_some() { "from" } else { "to" };
@@ -150,6 +152,20 @@ fn defaults() -> toml::Table {
     toml::Table::try_from(Config::default()).unwrap_or_default()
 }
 
+/// What to do about the key whose value stands at that byte: its default shows how it is written.
+fn as_in(table: &dyn TableLike, known: &toml::Table, at: usize) -> Option<String> {
+    /// Longer defaults explain nothing.
+    const SHORT: usize = 60;
+    table.iter().find_map(|(name, item)| match (known.get(name)?, item.as_table_like()) {
+        (toml::Value::Table(known), Some(table)) => as_in(table, known, at),
+        (default, _) if item.span().is_some_and(|span| span.contains(&at)) => {
+            let default = default.to_string();
+            (default.len() <= SHORT).then(|| format!("write it as the default is written: {name} = {default}"))
+        }
+        _ => None,
+    })
+}
+
 /// A walk over the syntax tree beside the table of defaults.
 struct Look<'a> {
     text: &'a str,
@@ -175,19 +191,20 @@ impl Look<'_> {
                     let help = format!("write [{key}] on a line of its own, and the keys under it");
                     self.problems.push(located(self.text, at, format!("`{key}` is a table"), help));
                 }
-                _ => self.range(&key, item),
+                (Some(default), _) => self.range(&key, item, default),
             }
         }
     }
 
     /// Is a number inside its range?
-    fn range(&mut self, key: &str, item: &Item) {
+    fn range(&mut self, key: &str, item: &Item, default: &toml::Value) {
         let Some(limit) = LIMITS.iter().find(|limit| limit.key == key) else { return };
         let Some(value) = item.as_float().or_else(|| item.as_integer().map(|i| i as f64)) else { return };
         if !(limit.low..=limit.high).contains(&value) {
             let unit = if limit.unit == "1" { String::new() } else { format!(" {}", limit.unit) };
             let message = format!("`{key}` is {value}{unit}, outside {} to {}{unit}", limit.low, limit.high);
-            self.problems.push(located(self.text, item.span(), message, String::new()));
+            let help = format!("choose a number in between; the default is {default}{unit}");
+            self.problems.push(located(self.text, item.span(), message, help));
         }
     }
 }

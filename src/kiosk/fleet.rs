@@ -99,7 +99,12 @@ impl Fleet {
 
     /// What is asked of a new run's loudness, so that it is as staff left it.
     pub fn wishes(&self) -> Wishes {
-        Wishes { louder: 0, mutes: self.kept.muted.into(), nights: self.kept.night_by.presses() }
+        Wishes { mutes: self.kept.muted.into(), nights: self.kept.night_by.presses(), ..Wishes::default() }
+    }
+
+    /// Is somebody here?
+    pub fn is_visited(&self) -> bool {
+        self.visits.goes_on()
     }
 
     /// A picture came so many seconds after the one before.

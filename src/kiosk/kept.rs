@@ -197,10 +197,22 @@ impl Keeper {
     }
 }
 
-/// The last configuration that was good, where one was kept: for a kiosk whose file is broken when it starts.
-pub fn last_good() -> Option<Config> {
-    let file = folder(&Config::default())?.join(LAST_GOOD);
-    Config::load(Some(&file)).ok().map(|(config, _)| config)
+/// The last configuration that was good, where one was kept: for a kiosk whose `file` is broken when it starts. As far as it
+/// can be read it still says where.
+pub fn last_good(file: &Path) -> Option<Config> {
+    let named = std::fs::read_to_string(file).ok().and_then(|text| state_named_in(&text));
+    let folders = [named, folder(&Config::default())].into_iter().flatten();
+    let mut good = folders.filter_map(|folder| Config::load(Some(&folder.join(LAST_GOOD))).ok());
+    good.next().map(|(config, _)| config)
+}
+
+/// `state` of `[staff]`, from a text of which another line may be broken.
+fn state_named_in(text: &str) -> Option<PathBuf> {
+    let staff = text.lines().map(str::trim).skip_while(|line| !line.starts_with("[staff]")).skip(1);
+    let mut within = staff.take_while(|line| !line.starts_with('['));
+    let line: toml::Table =
+        within.find(|line| line.split('=').next().is_some_and(|key| key.trim() == "state"))?.parse().ok()?;
+    line.get("state")?.as_str().filter(|folder| !folder.is_empty()).map(PathBuf::from)
 }
 
 /// What is kept there now, for whoever only looks.
@@ -225,6 +237,27 @@ fn make(folder: &Path) -> std::io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_broken_configuration_still_says_where_its_last_good_copy_is() {
+        let broken =
+            "[visit]\nbreth = tru\n[[[\n[staff]\npin = \n  state = \"/srv/kiosk 2\"  # ours\n[mqtt]\nstate = \"no\"\n";
+        assert_eq!(state_named_in(broken), Some("/srv/kiosk 2".into()));
+        assert_eq!(state_named_in("state = \"/elsewhere\"\n[staff]\nstate = \"\"\n"), None);
+        assert_eq!(state_named_in("[staff]\nstate = [\n"), None);
+    }
+
+    #[test]
+    fn the_last_good_copy_lies_in_the_folder_that_the_broken_file_names() {
+        let home = tempfile::tempdir().expect("a folder");
+        let (file, state) = (home.path().join("kiosk.toml"), home.path().join("state"));
+        let site = |more: &str| format!("[staff]\nstate = {:?}\n{more}", state.to_string_lossy());
+        std::fs::write(&file, site("[visit]\nbreath = false\n")).expect("written");
+        Keeper::open(Some(state.clone())).0.keep_good(&file);
+        std::fs::write(&file, site("[visit]\nbreath = fals\n")).expect("written");
+        assert!(Config::load(Some(&file)).is_err(), "it is broken");
+        assert!(!last_good(&file).expect("the copy").visit.breath);
+    }
 
     #[test]
     fn three_deaths_in_the_first_minute_ask_for_safe_mode_and_a_life_or_an_orderly_end_forgets_them() {

@@ -57,6 +57,8 @@ pub struct Wishes {
     pub mutes: u32,
     /// Presses of the staff's night key.
     pub nights: u32,
+    /// The last visitor has left, and takes those steps along.
+    pub leaves: bool,
 }
 
 /// The loudness as staff see it.
@@ -116,7 +118,9 @@ impl Loudness {
     pub fn settle(&mut self, volume: VolumeSettings, hours: Hours, silent_attract: bool, anew: bool) {
         let (by, exposure) = (self.by, std::mem::take(&mut self.exposure));
         let before = if anew { (0.0, 0.0) } else { self.before };
-        *self = Self { by, exposure, before, ..Self::new(volume, hours, silent_attract) };
+        let mut kept = self.volume.clone();
+        kept.settle(volume);
+        *self = Self { volume: kept, by, exposure, before, ..Self::new(volume, hours, silent_attract) };
     }
 
     /// Heeds what is asked for, and turns the knobs; `closed` silences them.
@@ -133,8 +137,7 @@ impl Loudness {
             tracing::info!("{}", if self.volume.is_muted() { "muted by staff" } else { "sounds again" });
         }
         (0..wishes.nights).for_each(|_| self.by = self.by.next());
-        if attracts && !self.attracts {
-            // The last visitor has left.
+        if wishes.leaves {
             self.volume.reset();
         }
         self.attracts = attracts;
@@ -188,5 +191,29 @@ impl Loudness {
             level_db,
             laeq_db: level_db.map(|level| self.volume.spl(level)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_staff_mute_outlasts_a_changed_configuration_and_a_visitors_steps_go_with_the_visitor() {
+        let settings =
+            VolumeSettings { default_db: -6.0, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
+        let knobs = Knobs::new(1.0);
+        let mut loudness = Loudness::new(settings, Hours::default(), false);
+        let tend = |loudness: &mut Loudness, wishes| loudness.tend(wishes, (false, false), &knobs);
+        tend(&mut loudness, Wishes { louder: 2, mutes: 1, ..Wishes::default() });
+        assert!(loudness.view().muted && loudness.view().steps == 2);
+
+        loudness.settle(VolumeSettings { default_db: -9.0, ..settings }, Hours::default(), true, false);
+        tend(&mut loudness, Wishes { louder: 1, ..Wishes::default() });
+        assert!(loudness.view().muted, "nobody has unmuted it");
+        assert_eq!((loudness.view().steps, loudness.view().volume_db), (1, -6.0), "the site's new volume, one step up");
+
+        tend(&mut loudness, Wishes { leaves: true, ..Wishes::default() });
+        assert!(loudness.view().muted && loudness.view().steps == 0, "the next visitor finds the site's volume");
     }
 }

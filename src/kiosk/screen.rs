@@ -46,6 +46,8 @@ pub enum Drawn {
     Shown,
     /// The system took the surface away for a moment; the next picture will do.
     Skipped,
+    /// The display takes no picture: it is off, or something covers the window.
+    Dark,
     /// The graphics device is gone: build a new [`Screen`].
     DeviceLost,
 }
@@ -158,16 +160,16 @@ impl Screen {
             }
         }
         let drawn = match self.acquire() {
-            Some(frame) => {
+            Ok(frame) => {
                 self.draw_into(&frame, view, moment, &mut laid_out);
                 self.window.pre_present_notify();
                 self.gpu.queue.present(frame);
                 Drawn::Shown
             }
-            None => {
+            Err(why) => {
                 // A device that is gone says so only when it is asked.
                 let _ = self.gpu.device.poll(wgpu::PollType::Poll);
-                Drawn::Skipped
+                why
             }
         };
         for id in laid_out.textures_delta.free.drain() {
@@ -237,10 +239,11 @@ impl Screen {
     }
 
     /// The next texture of the surface, mending the surface where that is possible.
-    fn acquire(&mut self) -> Option<wgpu::SurfaceTexture> {
+    fn acquire(&mut self) -> Result<wgpu::SurfaceTexture, Drawn> {
         use wgpu::CurrentSurfaceTexture as Current;
         match self.surface.get_current_texture() {
-            Current::Success(frame) | Current::Suboptimal(frame) => return Some(frame),
+            Current::Success(frame) | Current::Suboptimal(frame) => return Ok(frame),
+            Current::Timeout | Current::Occluded => return Err(Drawn::Dark),
             Current::Outdated => self.resize(self.window.inner_size()),
             Current::Lost => match self.gpu.instance.create_surface(self.window.clone()) {
                 Ok(surface) => {
@@ -249,9 +252,9 @@ impl Screen {
                 }
                 Err(error) => tracing::error!("the window's surface is lost and no new one is given: {error}"),
             },
-            Current::Timeout | Current::Occluded | Current::Validation => {}
+            Current::Validation => {}
         }
-        None
+        Err(Drawn::Skipped)
     }
 }
 

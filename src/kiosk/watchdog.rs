@@ -1,7 +1,7 @@
 //! What systemd is told: that the kiosk is ready, what it shows, and that it is alive.
 //!
-//! Alive means that since the last word a picture was handed to the display, the simulation has gone on, and the
-//! loudspeaker, where there is one, has played. If any of the three stands still no word is sent, and after
+//! Alive means that since the last word a picture was handed to the display, or offered to one that is off, the simulation
+//! has gone on, and the loudspeaker, where there is one, has played. If any of the three stands still no word is sent, and after
 //! `WatchdogSec` the unit is started anew. Where no systemd waits for it nothing is sent.
 
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ const WORDS: u32 = 3;
 /// How far everything has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Pictures handed to the display.
+    /// Pictures handed to the display, or offered while it is off.
     pub pictures: u64,
     /// When the last step was due.
     pub due: Instant,

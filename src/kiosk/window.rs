@@ -53,6 +53,8 @@ mod works;
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
 /// Longest sleep of the event loop: a signal, or the end of a run, is seen at the latest after this.
 const NAP: Duration = Duration::from_millis(50);
+/// A picture that is due for so long was not asked for: the display is off.
+const UNASKED: Duration = Duration::from_secs(2);
 
 /// What a kiosk runs on, beside its exhibits.
 pub struct Ground {
@@ -147,6 +149,7 @@ pub fn run(
         staff: Staff::default(),
         cursor: false,
         attracts: false,
+        visited: false,
         deaf: false,
         mute: false,
         clock: Clock::default(),
@@ -156,6 +159,7 @@ pub fn run(
         #[cfg(target_os = "linux")]
         watchdog: super::watchdog::Watchdog::default(),
         pictures_shown: 0,
+        pictures_dark: 0,
         pictures_at_rest: 0,
         sight: FirstSight::default(),
         drift: Drift::default(),
@@ -248,6 +252,8 @@ struct App<'a> {
     unwritten: Vec<&'static str>,
     language: String,
     attracts: bool,
+    /// Was somebody here at the last picture?
+    visited: bool,
     deaf: bool,
     mute: bool,
     clock: Clock,
@@ -260,6 +266,8 @@ struct App<'a> {
     watchdog: super::watchdog::Watchdog,
     /// Pictures so far, and those after which the next one waited because nothing moved.
     pictures_shown: u64,
+    /// For which the display was off.
+    pictures_dark: u64,
     pictures_at_rest: u64,
     sight: FirstSight,
     drift: Drift,
@@ -377,13 +385,17 @@ impl ApplicationHandler for App<'_> {
         self.follow_fleet();
         self.follow_workbench();
         let now = Instant::now();
-        if let Some(show) = &self.show
-            && now >= self.clock.next
-        {
+        let due = now >= self.clock.next;
+        if let Some(show) = self.show.as_ref().filter(|_| due) {
             show.screen.window.request_redraw();
         }
-        // On a graphics processor the next picture is due at once and the display's rhythm makes it wait.
-        events.set_control_flow(ControlFlow::WaitUntil(self.clock.next.min(now + NAP)));
+        // A compositor whose display is off asks for no picture at all: the kiosk offers one, and is alive if it is refused.
+        if now >= self.clock.next + UNASKED {
+            self.draw(events);
+        }
+        // On a graphics processor the next picture is due at once and the display's rhythm makes it wait: its word wakes the loop.
+        let nap = now + NAP;
+        events.set_control_flow(ControlFlow::WaitUntil(if due { nap } else { self.clock.next.min(nap) }));
     }
 }
 

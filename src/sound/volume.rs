@@ -49,6 +49,11 @@ impl Volume {
         Self { settings, steps: 0, ease_db: 0.0, muted: false }
     }
 
+    /// The site says something else: a visitor's steps and what was eased are begun anew, the staff's mute stays.
+    pub fn settle(&mut self, settings: VolumeSettings) {
+        *self = Self { muted: self.muted, ..Self::new(settings) };
+    }
+
     /// So many steps louder, or softer: as far as there are steps, and not beyond what is heard of them.
     pub fn step(&mut self, by: i32) {
         let most = i32::try_from(self.settings.steps).unwrap_or(i32::MAX);

@@ -21,6 +21,7 @@ done
 . "$here/room.sh"
 . "$here/robust.sh"
 . "$here/soak.sh"
+. "$here/screens.sh"
 
 failed=0
 bar() { # bar NAME "CONDITION in awk's arithmetic" "what was measured"
@@ -494,7 +495,7 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice reads_aloud one_run doctor_blow no_devices no_display \
+for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice reads_aloud one_run doctor_blow no_devices no_display every_screen \
     killed crash_loop gpu_lost devices_out disk_full config_broken clock_set monitor_off broker}; do
     "$part"
 done

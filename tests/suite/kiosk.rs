@@ -97,7 +97,7 @@ fn everything_wrong_with_a_configuration_is_said_at_once_and_located() {
         found,
         [
             "2:1 unknown key `breath.gian` did you mean `gain`?",
-            "3:14 `breath.distance_m` is 30 m, outside 0.1 to 2 m ",
+            "3:14 `breath.distance_m` is 30 m, outside 0.1 to 2 m choose a number in between; the default is 0.5 m",
             "5:2 unknown key `screens` did you mean `screen`?",
         ]
     );
@@ -117,6 +117,8 @@ fn wrong_types_words_and_grammar_are_located() {
         assert_eq!(found.len(), 1, "{text}: {found:?}");
         assert!(found[0].starts_with(&format!("{place} ")), "{text}: {found:?}");
     }
+    let found = problems("[attract]\nidle_s = \"a minute\"\n");
+    assert!(found[0].ends_with("write it as the default is written: idle_s = 60.0"), "{found:?}");
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub fn config_in_need(error: &ConfigError) -> Option<Config> {
     if !is_restart() && std::env::var_os(NOTIFIED).is_none() {
         return None;
     }
-    let config = last_good()?;
+    let config = last_good(&error.file)?;
     tracing::error!("{error}\nThe last good configuration is taken instead.");
     Some(config)
 }

@@ -156,10 +156,17 @@ impl App<'_> {
             if self.house.is_open() && !rested {
                 self.fleet.picture(now.duration_since(last).as_secs_f64());
             }
+        }
+        self.pictures_dark += u64::from(drawn == Drawn::Dark);
+        if matches!(drawn, Drawn::Shown | Drawn::Dark) {
             #[cfg(target_os = "linux")]
             self.watchdog.tend(
                 now,
-                Progress { pictures: self.pictures_shown, due: frame.due, played: frame.load.played },
+                Progress {
+                    pictures: self.pictures_shown + self.pictures_dark,
+                    due: frame.due,
+                    played: frame.load.played,
+                },
                 &format!(
                     "{} on show; microphone {}; loudspeaker {}",
                     frame.exhibit.id, frame.load.audio.input, frame.load.audio.output

@@ -52,9 +52,21 @@ impl App<'_> {
         next.inspect(|work| self.shelf.show(&work.folder)).is_some()
     }
 
-    /// When the last visitor has left, the next one finds everything as it was first; meanwhile the works take turns.
+    /// When the last visitor has left, the next one finds everything as it was first, whether the site has an attract mode or
+    /// not; in it the works take turns.
     pub(super) fn follow_attract(&mut self, frame: &Frame) {
-        if frame.attracts && !self.attracts {
+        let visited = self.fleet.is_visited();
+        let leaves =
+            if self.config.attract.enabled { frame.attracts && !self.attracts } else { self.visited && !visited };
+        self.visited = visited;
+        if frame.attracts != self.attracts {
+            tracing::info!(
+                "{}",
+                if frame.attracts { "nobody is here: attract mode begins" } else { "somebody is here" }
+            );
+        }
+        if leaves {
+            self.wish(|wishes| wishes.leaves = true);
             self.visitor.leave();
             self.language.clear();
             (self.menu, self.listens) = (Menu::default(), true);

@@ -257,6 +257,7 @@ fn two_hundred_spoiled_configurations_are_told_where_and_none_ends_the_program()
                 for problem in &error.problems {
                     let placed = (1..=spoiled.lines().count() + 1).contains(&problem.line) && problem.column >= 1;
                     assert!(placed && !problem.message.is_empty(), "round {round}: {problem:?}\n{spoiled}");
+                    assert!(!problem.help.is_empty(), "round {round}, without a remedy: {problem:?}");
                 }
                 assert!(error.to_string().contains("site.toml:"), "round {round}: {error}");
             }
