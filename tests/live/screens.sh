@@ -31,7 +31,8 @@ every_screen() {
     local toml=$room/screens.toml count alike wanted back left share code=0 seen
     # What this machine's fonts cannot write is not offered: Korean.
     wanted=$(grep -c '^\[label\.' "$root/exhibits/pendulum/exhibit.toml")
-    "$soffio" doctor 2>&1 | grep -q 'Korean: none found' && wanted=$((wanted - 1))
+    "$soffio" doctor >"$room/doctor.out" 2>&1 || true
+    if grep -q 'Korean: none found' "$room/doctor.out"; then wanted=$((wanted - 1)); fi
     site() {
         printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[visit]\ncalm = true\n[attract]\nidle_s = 45\n%s\n' \
             "$root/exhibits" "${1:-}" >"$toml"
