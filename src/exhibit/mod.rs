@@ -358,6 +358,8 @@ pub enum AttractAction {
         /// Pointer in picture coordinates; `None` is the centre.
         aim: Option<[f64; 2]>,
     },
+    /// Leads the camera round the work, to the right and up from where it stands, rad.
+    Look([f64; 2]),
     /// Puts everything back to where it started.
     Reset,
 }

@@ -90,10 +90,12 @@ pub struct Leeway {
     pub up: f64,
 }
 
-/// A third of a circle in all, a little down, well up.
-const ASIDE: f64 = PI / 3.0;
-const DOWN: f64 = PI / 18.0;
-const UP: f64 = 5.0 * PI / 18.0;
+/// How far the camera goes round a work, rad: a third of a circle in all, a little down, well up. Aside.
+pub const ASIDE: f64 = PI / 3.0;
+/// Down, rad.
+pub const DOWN: f64 = PI / 18.0;
+/// Up, rad.
+pub const UP: f64 = 5.0 * PI / 18.0;
 /// Highest place of the eye over the target, rad: from straight above there is no upright.
 const STEEPEST: f64 = 4.0 * PI / 9.0;
 

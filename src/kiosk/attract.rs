@@ -38,6 +38,8 @@ pub struct Cue {
     pub commands: Vec<Command>,
     /// Where the script's breath is aimed; `None` is the centre.
     pub aim: Option<[f64; 2]>,
+    /// Where the script leads the camera, to the right and up, rad; `None` where it leaves it.
+    pub look: Option<[f64; 2]>,
 }
 
 /// Watches for visitors, and plays the script when there are none.
@@ -69,6 +71,7 @@ struct Round {
     /// Steps until the work is calmed.
     swings: Option<u64>,
     aim: Option<[f64; 2]>,
+    look: Option<[f64; 2]>,
 }
 
 impl Attract {
@@ -130,12 +133,15 @@ impl Attract {
         let over = |round: &Round| round.step >= steps(self.script.duration) && round.breath.is_none();
         if self.round.as_ref().is_none_or(over) {
             self.rounds += u32::from(self.round.is_some());
-            self.round = Some(Round::default());
+            // A new round leads a camera back that the last one has led away.
+            let look = self.round.take().and_then(|round| round.look).map(|_| [0.0; 2]);
+            self.round = Some(Round { look, ..Round::default() });
         }
         let round = self.round.get_or_insert_default();
         while let Some(step) = self.script.steps.get(round.next).filter(|step| steps(step.at) <= round.step) {
             match &step.action {
                 AttractAction::Show(key) => round.text = Some(key.clone()),
+                AttractAction::Look(turn) => round.look = Some(*turn),
                 AttractAction::Reset => commands.push(Command::Reset),
                 AttractAction::Blow { samples, sample_rate, aim } => {
                     let feed = WavFeed::new(samples.clone(), *sample_rate);
@@ -167,7 +173,7 @@ impl Attract {
             left => left.map(|left| left - 1),
         };
         round.step += 1;
-        Cue { active: true, commands, aim: round.aim }
+        Cue { active: true, commands, aim: round.aim, look: round.look }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Looking round the work: how a visitor's pull turns the camera, and its way home.
+//! Looking round the work: how a visitor's pull turns the camera, where the attract script leads it, and its way home.
 //!
 //! What is pulled is a goal; the camera follows it as two equal lags in a row,
 //!
@@ -14,6 +14,8 @@
 //!         = L − (L − k) e^(−(g − k)/(L − k))  beyond
 //! ```
 //!
+//! The attract script gives it a goal as well, and it goes there more slowly than by anyone's finger.
+//!
 //! Where less motion is wanted, the camera is where the finger puts it and nothing moves on by itself.
 
 use crate::exhibit::Leeway;
@@ -27,12 +29,25 @@ pub const PRESS: f64 = 0.262;
 /// ω of the camera that follows a finger, and of its way home, 1/s.
 const FOLLOWS: f64 = 18.0;
 const RETURNS: f64 = 4.0;
+/// And of one that the attract script leads, 1/s: within five seconds it has gone nine tenths of its way.
+const LED: f64 = 0.8;
 /// Share of the leeway beyond which a pull gives way.
 const FREE: f64 = 0.75;
 /// How far a goal may be beyond its soft end, in lengths of that end: whoever pulls back is answered at once.
 const BEYOND: f64 = 1.5;
 /// Nearer than this to where it goes it is there, rad: a hundredth of a pixel.
 const THERE: f64 = 1e-5;
+
+/// What turns the camera in a step, to the right and up, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// A visitor pulls it on by so much.
+    Pulled([f64; 2]),
+    /// The attract script leads it there.
+    Led([f64; 2]),
+    /// It goes back to where it stands for everybody.
+    Home,
+}
 
 /// The camera's turn over time: to the right and up, rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,18 +59,19 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// Goes on by a step. `pull` is what turns it in this step, to the right and up, rad; `None` leads home. Returns the turn.
-    pub fn step(&mut self, pull: Option<[f64; 2]>, leeway: &Leeway, calm: bool) -> [f64; 2] {
+    /// Goes on by a step. Returns the turn.
+    pub fn step(&mut self, way: Way, leeway: &Leeway, calm: bool) -> [f64; 2] {
         let ends = [[leeway.aside; 2], [leeway.down, leeway.up]];
-        let pulled = pull.filter(|pull| pull.iter().all(|x| x.is_finite()));
-        self.goal = match pull {
-            Some(_) => std::array::from_fn(|i| {
-                let [least, most] = ends[i].map(|end| end * (FREE + BEYOND * (1.0 - FREE)));
-                (self.goal[i] + pulled.map_or(0.0, |pull| pull[i])).clamp(-least, most)
-            }),
-            None => [0.0; 2],
+        let (goal, speed) = match way {
+            Way::Pulled(by) if by.iter().all(|x| x.is_finite()) => ([0, 1].map(|i| self.goal[i] + by[i]), FOLLOWS),
+            Way::Pulled(_) => (self.goal, FOLLOWS),
+            Way::Led(there) => (there, LED),
+            Way::Home => ([0.0; 2], RETURNS),
         };
-        let speed = if pull.is_some() { FOLLOWS } else { RETURNS };
+        self.goal = std::array::from_fn(|i| {
+            let [least, most] = ends[i].map(|end| end * (FREE + BEYOND * (1.0 - FREE)));
+            goal[i].clamp(-least, most)
+        });
         let share = if calm { 1.0 } else { 1.0 - exp(-speed / STEPS_PER_SECOND as f64) };
         for (i, [below, above]) in ends.into_iter().enumerate() {
             let goal = soft(self.goal[i], if self.goal[i] < 0.0 { below } else { above });

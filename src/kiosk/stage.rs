@@ -19,7 +19,7 @@ use crate::sound::SoundCommand;
 use super::attract::Attract;
 use super::gesture::{Gestures, Lift, Press, Touch};
 use super::loudness::Wishes;
-use super::orbit::{self, Orbit};
+use super::orbit::{self, Orbit, Way};
 use super::pointing::Pointing;
 use super::site::Site;
 use super::voice::Trial;
@@ -191,7 +191,9 @@ impl Stage {
         }
         self.holds = controls.hold && !controls.press_once || blows.is_some() || self.gestures.latched();
 
-        let turn = self.turn(controls, !cue.active && controls.round);
+        // Where less motion is wanted, the script does not lead the camera.
+        let led = cue.look.filter(|_| !self.calm).map_or(Way::Home, Way::Led);
+        let turn = self.turn(controls, if cue.active || !controls.round { led } else { self.pulled(controls) });
         self.told = Told {
             pointer: if cue.active { cue.aim } else { blows.or(aim) },
             aspect: controls.aspect,
@@ -216,19 +218,24 @@ impl Stage {
         self.snapshot = self.simulation.snapshot();
     }
 
-    /// Goes on with the camera: as the visitor pulls and pushes, or home.
-    fn turn(&mut self, controls: &Controls, round: bool) -> [f64; 2] {
-        let leeway = match self.leeway {
-            Some((aspect, leeway)) if aspect == controls.aspect => leeway,
-            // Nobody has looked round yet: there is nothing to measure.
-            None if !round => return [0.0; 2],
-            _ => self.simulation.exhibit().leeway(controls.aspect),
-        };
-        self.leeway = Some((controls.aspect, leeway));
+    /// What the visitor's pulls and pushes turn the camera by.
+    fn pulled(&self, controls: &Controls) -> Way {
         let [right, up] = self.gestures.pulled();
         // A stick to the right or down leads the eye there.
         let [x, y] = controls.stick.map(|speed| orbit::TURN * speed / STEPS_PER_SECOND as f64);
-        self.orbit.step(round.then_some([right + x, up - y]), &leeway, self.calm)
+        Way::Pulled([right + x, up - y])
+    }
+
+    /// Goes on with the camera.
+    fn turn(&mut self, controls: &Controls, way: Way) -> [f64; 2] {
+        let leeway = match self.leeway {
+            Some((aspect, leeway)) if aspect == controls.aspect => leeway,
+            // It has never been away: there is nothing to measure.
+            None if way == Way::Home => return [0.0; 2],
+            _ => self.simulation.exhibit().leeway(controls.aspect),
+        };
+        self.leeway = Some((controls.aspect, leeway));
+        self.orbit.step(way, &leeway, self.calm)
     }
 
     /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start. `clock` is the time of

@@ -32,7 +32,8 @@ pub fn attract(puffs: &[Puff]) -> String {
     let end = puffs.last().map_or(20.0, |puff| puff.0 + 18.0);
     let mut out = format!(
         "# ---- when nobody is there ------------------------------------------------------------------------------------\n\
-         # Steps in the order of time, seconds since the round began. A step shows a text, blows, or puts everything back.\n\
+         # Steps in the order of time, seconds since the round began. A step shows a text, blows, looks\n\
+         # round the work (look = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or puts everything back.\n\
          # strength: 0.22 is a gentle breath, 1 the hardest. aim: (0,0) is the picture's top left, (1,1) its bottom right.\n\n\
          [attract]\nduration = {}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n",
         end + 1.0

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::diagnostic::Diagnostic;
+use super::super::quantity::{Angle, Quantity};
 use super::super::source::join;
+use super::super::view::{ASIDE, DOWN, UP};
 use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
 use super::Context;
 use crate::wind::generate::{self, BreathShape, HARDEST_M_S};
@@ -146,14 +148,14 @@ impl Context<'_> {
         at: &str,
         number: usize,
     ) -> Option<AttractAction> {
-        match (&given.show, &given.blow, given.reset) {
-            (Some(key), None, false) => {
+        match (&given.show, &given.blow, &given.look, given.reset) {
+            (Some(key), None, None, false) => {
                 if !labels.languages.is_empty() {
                     self.needs(key, "text", &format!("{at}/show"), |words| &words.text);
                 }
                 Some(AttractAction::Show(key.clone()))
             }
-            (None, Some(blow), false) => {
+            (None, Some(blow), None, false) => {
                 let place = format!("{at}/blow");
                 if blow.aim.is_some_and(|aim| aim.iter().any(|x| !(0.0..=1.0).contains(x))) {
                     let problem = Diagnostic::new(codes::RANGE, "the aim lies outside the picture");
@@ -162,16 +164,33 @@ impl Context<'_> {
                 let (samples, sample_rate) = self.blow(blow, &place, number)?;
                 Some(AttractAction::Blow { samples, sample_rate, aim: blow.aim })
             }
-            (None, None, true) => Some(AttractAction::Reset),
+            (None, None, Some(turn), false) => {
+                Some(AttractAction::Look(self.look(turn.map(Angle::si), &format!("{at}/look"))))
+            }
+            (None, None, None, true) => Some(AttractAction::Reset),
             _ => {
                 let problem = Diagnostic::new(codes::WRONG_SHAPE, "a step does one thing");
                 self.report(
                     at,
-                    problem.help("give one of show, blow and reset = true; two steps may have the same time"),
+                    problem.help("give one of show, blow, look and reset = true; two steps may have the same time"),
                 );
                 None
             }
         }
+    }
+
+    /// How far the camera is led, rad: no farther than visitors may go.
+    fn look(&mut self, turn: [f64; 2], at: &str) -> [f64; 2] {
+        let ends = [[-ASIDE, ASIDE], [-DOWN, UP]];
+        for (i, (turn, [least, most])) in turn.into_iter().zip(ends).enumerate() {
+            if !(least..=most).contains(&turn) {
+                let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
+                let problem = Diagnostic::new(codes::RANGE, format!("the camera does not go by {} deg", degrees(turn)));
+                let help = format!("give {} to {} deg", degrees(least), degrees(most));
+                self.report(&format!("{at}/{i}"), problem.help(help));
+            }
+        }
+        turn
     }
 
     /// Samples and rate of a breath: the recording's, or made from its strength; `seed` makes two of them differ.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::super::quantity::Time;
+use super::super::quantity::{Angle, Time};
 
 /// What happens when nobody is there.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
@@ -17,7 +17,7 @@ pub struct Attract {
     pub duration: Option<Time>,
 }
 
-/// One step of the attract script: one of show, blow, reset.
+/// One step of the attract script: one of show, blow, look, reset.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AttractStep {
@@ -27,6 +27,8 @@ pub struct AttractStep {
     pub show: Option<String>,
     /// A breath.
     pub blow: Option<Blow>,
+    /// Leads the camera round the work, to the right and up from where it stands; [0, 0] leads it back.
+    pub look: Option<[Angle; 2]>,
     /// Puts everything back to where it started.
     #[serde(default)]
     pub reset: bool,

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{Exhibit, Leeway, View};
+use soffio::exhibit::{Attract, AttractAction, AttractStep, Exhibit, Leeway, View};
 use soffio::kiosk::gesture::{Lift, Press};
 use soffio::kiosk::orbit::{PRESS, TURN, soft};
 use soffio::kiosk::recording::Recording;
@@ -172,6 +172,58 @@ fn it_comes_home_when_nobody_is_there_when_it_is_asked_to_and_with_another_work(
     stage.swap(load("wind-chimes"), None);
     stage.step(&plain, None);
     assert_eq!(stage.snapshot().turn, [0.0; 2], "another work is seen from its own view");
+}
+
+#[test]
+fn the_attract_script_leads_it_softly_round_and_home_and_nowhere_where_less_motion_is_wanted() {
+    /// What is left of the way after eight seconds, and after two of the way home, of all of it.
+    const NEARLY: f64 = 0.02;
+    /// Fastest turn of two equal lags of 0.8/s, of the way, 1/s: 0.8/e.
+    const FASTEST: f64 = 0.8 / std::f64::consts::E;
+    /// A step of 1/240 s is a little of a lag.
+    const STEP: f64 = 1e-4;
+    const THERE: [f64; 2] = [0.3, 0.1];
+    let led = |controls: &Controls| {
+        let mut fish = (*load("steel-fish")).clone();
+        let look = |at, there| AttractStep { at, action: AttractAction::Look(there) };
+        fish.attract = Attract { steps: vec![look(1.0, THERE)], duration: 10.0 };
+        let mut stage = Stage::new(Arc::new(fish), Settings::default(), None, Some(1.0));
+        // Two seconds of nobody, then the way there.
+        let mut turns = Vec::new();
+        for _ in 0..10 * 240 {
+            stage.step(controls, None);
+            turns.push(stage.snapshot().turn);
+        }
+        (stage, turns)
+    };
+    let plain = Controls { aspect: ASPECT, ..Controls::default() };
+    let (stage, turns) = led(&plain);
+    let last = *turns.last().expect("steps");
+    for i in 0..2 {
+        assert!((last[i] - THERE[i]).abs() < NEARLY * THERE[i], "{last:?}");
+        let fastest = turns.windows(2).map(|w| 240.0 * (w[1][i] - w[0][i])).fold(0.0, f64::max);
+        assert!(fastest <= (1.0 + STEP) * FASTEST * THERE[i], "{fastest} rad/s");
+        assert!(
+            turns.windows(2).all(|w| w[1][i] >= w[0][i] && w[1][i] <= THERE[i]),
+            "it neither turns back nor overshoots"
+        );
+    }
+    // The round lasts a second more, and in the first of the next one nothing is said of the camera.
+    let mut next_round = stage.clone();
+    wait(&mut next_round, &plain, 2 * 240 - 10);
+    let turn = next_round.snapshot().turn;
+    assert!(next_round.attracts() && turn[0] < 0.9 * THERE[0], "{turn:?}: the next round begins at the front");
+    let mut visited = stage;
+    (1..=2 * 240).for_each(|activity| visited.step(&Controls { activity, ..plain.clone() }, None));
+    assert!(
+        !visited.attracts() && visited.snapshot().turn[0] < NEARLY * THERE[0],
+        "and whoever comes has the work's own view"
+    );
+    let (stage, turns) = led(&Controls { calm: true, ..plain });
+    assert!(
+        stage.attracts() && turns.iter().all(|turn| *turn == [0.0; 2]),
+        "nothing flies where less motion is wanted"
+    );
 }
 
 #[test]
