@@ -33,6 +33,12 @@ ignored() {
         tee /dev/stderr | grep '^test result: ok. 1 passed' >/dev/null
 }
 
+# The suite's own program.
+suite_binary() {
+    cargo test --release --locked --no-run --test suite --message-format=json 2>/dev/null |
+        sed -n 's/.*"executable":"\([^"]*suite-[^"]*\)".*/\1/p' | tail -1
+}
+
 # One bar of the rehearsed day, as its report has it: tells it, and fails where it is not met.
 rehearsed() {
     local bar
@@ -47,7 +53,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live deb hands million-hits clock-hour half-day turning-gears visits blown cabinet wind contrast flashes rehearse \
+    for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands million-hits clock-hour half-day beats turning-gears visits blown cabinet wind contrast flashes minutes rehearse \
         answered groups shuffled nobody staff attract fuzz; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
@@ -69,13 +75,17 @@ long() {
             # 10,000 patches among 5,000 triangles in 4 ms of one core, and 20 times faster than every triangle.
             wind)       "$built/soffio" bench --wind --json | tee /dev/stderr |
                             awk -F'"(ms_per_step|ratio)":' '{ split($2, ms, /[,}]/); split($3, ratio, /[,}]/); exit !(ms[1] <= 4 && ratio[1] >= 20) }' ;;
-            soak-live)  SOFFIO_LIVE_SECONDS=1800 tests/live/run.sh "$built/soffio" ;;
+            soak-live)  SOFFIO_LIVE_SECONDS=7200 tests/live/run.sh "$built/soffio" ;;
             stream-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_STREAM=600 tests/live/run.sh "$built/soffio" ;;
             loaded-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_LOAD=600 tests/live/run.sh "$built/soffio" ;;
+            devices)    SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_SUITE=$(suite_binary) tests/live/run.sh "$built/soffio" ;;
             deb)        deb ;;
             million-hits)  ignored hits::a_million_hits_keep_joints_energy_cone_and_momentum ;;
+            beats)      ignored clock::two_minutes_of_beats_fall_where_a_finer_step_has_them ;;
             turning-gears) ignored motion::gears::gears_keep_their_phase_over_a_hundred_thousand_turns ;;
             half-day)      ignored clock::in_half_a_day_it_strikes_seventy_eight_blows ;;
+            # Rehearsed minutes: the same the second time, and a crowd that is to be answered nothing.
+            minutes)    cargo test --release --locked --quiet --test suite rehearsal:: -- --ignored --nocapture ;;
             # An eight-hour gallery day; its exit code says whether all its bars are met. Each of them is a part of its own, so
             # that one that is missed hides none.
             rehearse)   "$built/soffio" rehearse --hours 8 --json >out/long/rehearse.json || [ -s out/long/rehearse.json ] ;;

@@ -172,6 +172,25 @@ devices_out() {
     bar "devices out: motion" "$rows >= 2030 && $gaps == 0" "$rows moments in 34 s, $gaps gaps"
 }
 
+# ---- what the suite asks of real devices, and of a sound server that dies ---------------------------------------------
+devices() { # devices SUITE
+    local code=0 test
+    "$1" realtime::server --ignored --skip a_lost_server --test-threads 1 >"$room/devices.out" 2>&1 || code=$?
+    bar "devices of the suite" "$code == 0 && $(grep -c '^test .* ok$' "$room/devices.out") == 2" \
+        "$(grep '^test result' "$room/devices.out")"
+    start lost "$1" realtime::server::a_lost_server --ignored --nocapture
+    test=$last
+    sleep 3
+    kill -9 "$server"
+    sleep 3
+    # Who is killed leaves the socket behind.
+    rm -f "$room/run/pulse/native"
+    start_server
+    wait "$test" && code=0 || code=$?
+    bar "the server dies" "$code == 0 && $(grep -c '^test .* ok$' "$room/lost.out") == 1" \
+        "$(grep '^test result' "$room/lost.out")"
+}
+
 # ---- the disk is full: said once, and the kiosk goes on ----------------------------------------------------------------
 # No file may grow beyond nothing (RLIMIT_FSIZE), which is what a full disk does to a write; the log is a pipe.
 disk_full() {

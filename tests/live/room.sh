@@ -63,11 +63,7 @@ load-module module-native-protocol-unix auth-anonymous=1
 load-module module-null-sink sink_name=air rate=48000 channels=3 channel_map=aux0,aux1,aux2 format=float32le norewinds=1
 load-module module-remap-sink sink_name=mic_in master=air channels=1 channel_map=mono master_channel_map=aux0 remix=no
 PA
-    start pulse pulseaudio -n -F "$room/room.pa" --daemonize=no --exit-idle-time=-1 --use-pid-file=no --disallow-exit \
-        --realtime=no --high-priority=no
-    within 10 pactl info || { cat "$room/pulse.err" >&2; return 1; }
-    plug_microphone
-    plug_loudspeaker
+    start_server
     # The server finds a free number itself and says which.
     start xvfb Xvfb -displayfd 1 -screen 0 "${1:-1280x720}x24" -nolisten tcp
     within 10 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
@@ -76,6 +72,16 @@ PA
     # Without a window manager no window becomes fullscreen.
     start openbox openbox
     within 10 xdotool get_desktop
+}
+
+# The sound server, with both plugs in. Its id is in $server.
+start_server() {
+    start pulse pulseaudio -n -F "$room/room.pa" --daemonize=no --exit-idle-time=-1 --use-pid-file=no --disallow-exit \
+        --realtime=no --high-priority=no
+    server=$last
+    within 10 pactl info || { cat "$room/pulse.err" >&2; return 1; }
+    plug_microphone
+    plug_loudspeaker
 }
 
 # The plugs of microphone and loudspeaker.

@@ -3,9 +3,10 @@
 #
 #   tests/live/run.sh target/debug/soffio
 #
-# SOFFIO_LIVE_SECONDS=1800 adds a soak of that length with the visitors of SOFFIO_LIVE_SEED (soak.sh),
+# SOFFIO_LIVE_SECONDS=7200 adds a soak of that length with the visitors of SOFFIO_LIVE_SEED (soak.sh),
 # SOFFIO_LIVE_STREAM=600 a stream of breaths whose delays are measured,
 # SOFFIO_LIVE_LOAD=600 sound under a load of one process more than there are processors;
+# SOFFIO_LIVE_SUITE=target/debug/deps/suite-… the suite's own tests of the devices, which need this room;
 # SOFFIO_LIVE_PARTS names the parts to run; SOFFIO_LIVE_KEEP=FOLDER keeps pictures, logs, traces and sounds.
 # One line per bar; every threshold says why it is what it is. Nothing here depends on how fast the machine draws.
 set -euo pipefail
@@ -495,10 +496,13 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 
 room_tone
 
-for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice reads_aloud one_run doctor_blow no_devices no_display every_screen \
+for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice reads_aloud one_run doctor_blow no_devices no_display every_screen staff_pages \
     killed crash_loop gpu_lost devices_out disk_full config_broken clock_set monitor_off broker}; do
     "$part"
 done
+if [ -n "${SOFFIO_LIVE_SUITE:-}" ]; then
+    devices "$SOFFIO_LIVE_SUITE"
+fi
 if [ -n "${SOFFIO_LIVE_STREAM:-}" ]; then
     streaming "$SOFFIO_LIVE_STREAM"
 fi

@@ -100,6 +100,66 @@ holidays = [\"$(date +%F)\"]"
     end_launcher || code=$?
     bar "no way out" "$code == 130 && $(grep -c 'died' "$room/screens.err") == 0" "it ran until the launcher was ended"
 }
+# The staff panel: its keypad, a wrong PIN and the right one, each page by its tab, and the glass that is cleaned.
+staff_pages() {
+    local toml=$room/staff.toml tabs="815,20 879,20 946,20 1005,20 1062,20 1138,20 832,62 903,62 949,62" tab other
+    local number=0 alike=0 shut covered deaf back code=0
+    # Left of it stands the panel, and the picture goes on moving.
+    local panel=490x720+790+0
+    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[attract]\nenabled = false\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
+        "$root/exhibits" "$(echo 271828 | "$soffio" pin)" "$room/staff.state" "$room/staff.prom" >"$toml"
+    launch_kiosk staff --config "$toml"
+    within 30 picture || true
+    sleep 3
+    xdotool key ctrl+alt+s
+    sleep 1.5
+    shot keypad
+    xdotool type 000000
+    xdotool key Return
+    # Argon2 takes its time, and a wrong PIN two seconds more.
+    sleep 4
+    shot wrong
+    xdotool type 271828
+    xdotool key Return
+    within 10 enters && shut=1 || shut=0
+    bar "staff: only by the PIN" "$(differs keypad wrong $panel) < 0.05 && $shut == 1" \
+        "$(differs keypad wrong $panel) of the keypad changed by a wrong one"
+    for tab in $tabs; do
+        xdotool mousemove "${tab%,*}" "${tab#*,}" click 1
+        # The first one is open already.
+        if [ "$number" = 0 ]; then shot staff-0; else within 6 turns "staff-$number" "staff-$((number - 1))" $panel || true; fi
+        for ((other = 0; other < number; other++)); do
+            holds "$(differs "staff-$other" "staff-$number" $panel) > $ANOTHER" || alike=$((alike + 1))
+        done
+        number=$((number + 1))
+    done
+    bar "staff: every page" "$alike == 0" "$number pages, $alike like another"
+
+    # All input is off for a minute: neither a key nor a finger ends it, and then the picture is there again.
+    xdotool mousemove 815 20 click 1
+    sleep 1.5
+    shot before-cleaning
+    xdotool mousemove 855 110 click 1
+    sleep 1.5
+    shot cleaning
+    xdotool mousemove 640 300 mousedown 1 sleep 0.3 mouseup 1 key Tab key space
+    sleep 1.5
+    shot cleaned
+    covered=$(differs before-cleaning cleaning)
+    deaf=$(differs cleaning cleaned)
+    within 70 uncovered && back=1 || back=0
+    bar "cleaning" "$covered > $PAGE && $deaf < 0.02 && $back == 1 && $(breaths staff hold begins | wc -l) == 0" \
+        "$covered of the glass; $deaf of it changed when pressed; over by itself"
+    end_launcher || code=$?
+    if command -v promtool >/dev/null; then
+        promtool check metrics <"$room/staff.prom" >"$room/promtool.out" 2>&1 && code=0 || code=1
+        promtool check rules "$root/kiosk-config/prometheus/soffio.rules.yml" >>"$room/promtool.out" 2>&1 || code=1
+        bar "promtool" "$code == 0 && $(grep -c '^soffio_' "$room/staff.prom") > 20" \
+            "$(grep -c '^soffio_' "$room/staff.prom") samples and the alert rules"
+    fi
+}
+enters() { shot now && holds "$(differs keypad now 490x720+790+0) > 0.1"; }
+uncovered() { shot now && holds "$(differs cleaning now) > $PAGE"; }
 turns() { shot "$1" && holds "$(differs "$2" "$1" "$3") > $ANOTHER"; }
 left_page() { shot now && holds "$(differs page now) > $PAGE"; }
 dark() { ! picture; }

@@ -43,9 +43,11 @@ const PRESS_MM: f32 = 9.0;
 const ROW: f32 = 17.0;
 
 /// What is not as it should be.
-const BAD: Color32 = Color32::from_rgb(200, 50, 30);
+const BAD: Color32 = Color32::from_rgb(160, 30, 15);
 /// What is.
-const GOOD: Color32 = Color32::from_rgb(40, 120, 60);
+const GOOD: Color32 = Color32::from_rgb(20, 90, 45);
+/// What may not be pressed is paler, and can be read all the same.
+const PALER: f32 = 0.87;
 
 /// What staff ask of the kiosk.
 #[derive(Clone, Debug, PartialEq)]
@@ -247,6 +249,7 @@ impl Staff {
             ui.spacing_mut().interact_size.y = (PRESS_MM * sight.points_per_mm).clamp(18.0, 48.0);
             ui.spacing_mut().item_spacing = vec2(8.0, 6.0);
             ui.visuals_mut().override_text_color = Some(INK);
+            (ui.visuals_mut().disabled_alpha, ui.visuals_mut().weak_text_alpha) = (PALER, PALER);
             if self.gate.has_pin() && !self.gate.is_open() {
                 keypad::show(ui, &mut self.gate, time, sight.points_per_mm);
             } else {

@@ -11,6 +11,7 @@ use image::RgbaImage;
 use soffio::config::Config;
 use soffio::kiosk::languages::{offered, unwritten};
 use soffio::kiosk::page::Reading;
+use soffio::kiosk::staff::Page;
 use soffio::offline::pictures::Pictures;
 
 use super::glass::{Glass, luminance};
@@ -62,7 +63,7 @@ fn contrast(with: &RgbaImage, without: &RgbaImage, place: Rect) -> f64 {
     ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// Letters that a visitor finds, by threes of a line, and the picture with and without them.
+/// Letters that a visitor finds, and the picture with and without them.
 fn seen(visitor: &mut Before, glass: &mut Glass, picture: &RgbaImage) -> (Vec<Letters>, RgbaImage, RgbaImage) {
     let mut laid_out = visitor.lay_out();
     // The invitation fades in.
@@ -73,12 +74,21 @@ fn seen(visitor: &mut Before, glass: &mut Glass, picture: &RgbaImage) -> (Vec<Le
         laid_out = visitor.lay_out();
     }
     glass.learn(&mut laid_out);
+    apart(&visitor.context.clone(), glass, picture, std::mem::take(&mut laid_out.shapes))
+}
+
+/// What is laid out over a picture: its letters, a few at a time, and the picture with and without them.
+fn apart(
+    context: &egui::Context,
+    glass: &mut Glass,
+    picture: &RgbaImage,
+    shapes: Vec<egui::epaint::ClippedShape>,
+) -> (Vec<Letters>, RgbaImage, RgbaImage) {
     let letters = |shape: &egui::Shape| match shape {
         // A halo is type too, in a colour of its own.
         egui::Shape::Text(text) => text.override_text_color.is_none(),
         _ => false,
     };
-    let shapes = std::mem::take(&mut laid_out.shapes);
     let mut lines = Vec::new();
     for clipped in &shapes {
         if let egui::Shape::Text(text) = &clipped.shape
@@ -89,18 +99,22 @@ fn seen(visitor: &mut Before, glass: &mut Glass, picture: &RgbaImage) -> (Vec<Le
                 // A full stop says nothing of a line, and a thin letter alone is half ground. What a ligature has taken
                 // in has no width of its own.
                 let glyphs: Vec<_> = row.glyphs.iter().filter(|glyph| glyph_is_seen(glyph)).collect();
-                for few in glyphs.chunks(3) {
+                let groups = (glyphs.len() / 3).max(1);
+                for i in 0..groups {
+                    let few = if i + 1 == groups { &glyphs[3 * i..] } else { &glyphs[3 * i..3 * i + 3] };
                     let place = few.iter().map(|glyph| glyph.logical_rect()).reduce(Rect::union);
+                    let place = place.map(|place| place.translate(origin));
                     let text = few.iter().map(|glyph| glyph.chr).collect();
-                    lines.extend(place.map(|place| Letters { text, place: place.translate(origin) }));
+                    // What an edge cuts off is not to be read.
+                    let whole = place.filter(|place| clipped.clip_rect.contains_rect(*place));
+                    lines.extend(whole.map(|place| Letters { text, place }));
                 }
             }
         }
     }
     let without = shapes.iter().filter(|clipped| !letters(&clipped.shape)).cloned().collect();
-    let context = visitor.context.clone();
-    let with = glass.draw(&context, picture, shapes);
-    let without = glass.draw(&context, picture, without);
+    let with = glass.draw(context, picture, shapes);
+    let without = glass.draw(context, picture, without);
     (lines, with, without)
 }
 
@@ -170,6 +184,42 @@ fn type_has_this_contrast_over_every_shipped_work_in_every_language() {
         all.extend(look(&mut glass, &id, &["en", "ko", "it"]).0);
     }
     assert!(all.is_empty(), "{}", all.join("\n"));
+}
+
+#[test]
+fn type_on_every_staff_page_has_this_contrast() {
+    const SIZE: (u32, u32) = (1280, 720);
+    /// Grey of the wall behind the panel.
+    const WALL: u8 = 200;
+    /// Where more of a page is below, its last row fades, points.
+    const FOOT: f32 = 20.0;
+    let Some(mut glass) = Glass::new() else { return };
+    let picture = RgbaImage::from_pixel(SIZE.0, SIZE.1, image::Rgba([WALL, WALL, WALL, 255]));
+    let mut staff = super::staff::Before::new("steel-fish");
+    let (mut bad, mut measured) = (Vec::new(), 0);
+    for page in Page::ALL {
+        staff.staff.turn_to(page);
+        // A panel knows its size from its second picture on.
+        let mut shapes = Vec::new();
+        for _ in 0..3 {
+            let (_, mut laid_out) = staff.lay_out(Vec::new());
+            glass.learn(&mut laid_out);
+            shapes = laid_out.shapes;
+        }
+        let (lines, with, without) = apart(&staff.context, &mut glass, &picture, shapes);
+        for line in lines.iter().filter(|line| line.place.bottom() < SIZE.1 as f32 - FOOT) {
+            let ratio = contrast(&with, &without, line.place);
+            measured += 1;
+            if ratio < LEAST {
+                bad.push(format!("{page:?}: {ratio:.2} : 1 for {:?} at {:?}", line.text, line.place));
+            }
+        }
+        if let Some(folder) = std::env::var_os("SOFFIO_PICTURES") {
+            with.save(Path::new(&folder).join(format!("staff-{page:?}.png"))).expect("a folder that can be written");
+        }
+    }
+    assert!(measured > 500, "{measured} pieces");
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
 #[test]

@@ -87,10 +87,10 @@ fn nothing_opens_a_gate_without_a_pin_and_digits_are_digits() {
 }
 
 /// A member of the staff before the glass.
-struct Before {
-    context: egui::Context,
+pub struct Before {
+    pub context: egui::Context,
     stage: Stage,
-    staff: Staff,
+    pub staff: Staff,
     site: Config,
     house: House,
     kept: Kept,
@@ -106,7 +106,7 @@ struct Before {
 }
 
 impl Before {
-    fn new(id: &str) -> Self {
+    pub fn new(id: &str) -> Self {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id);
         let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}")));
         let context = egui::Context::default();
@@ -139,6 +139,15 @@ impl Before {
 
     /// One picture with these events; what is asked for.
     fn look(&mut self, events: Vec<Event>) -> Vec<Wish> {
+        let (wishes, mut laid_out) = self.lay_out(events);
+        laid_out.textures_delta.clear();
+        self.words.clear();
+        laid_out.shapes.iter().for_each(|clipped| collect(&clipped.shape, &mut self.words));
+        wishes
+    }
+
+    /// The same, and what is to be drawn.
+    pub fn lay_out(&mut self, events: Vec<Event>) -> (Vec<Wish>, egui::FullOutput) {
         let look = self.staff.look(&self.site);
         let mut exhibit = self.stage.exhibit().clone();
         if let Some(folder) = &self.folder {
@@ -167,12 +176,9 @@ impl Before {
         let input = egui::RawInput { screen_rect, events, time: Some(self.time), ..egui::RawInput::default() };
         let mut wishes = Vec::new();
         let (context, staff) = (self.context.clone(), &mut self.staff);
-        let mut laid_out = context.run_ui(input, |ui| wishes.extend(staff.show(ui, &sight)));
-        laid_out.textures_delta.clear();
-        self.words.clear();
-        laid_out.shapes.iter().for_each(|clipped| collect(&clipped.shape, &mut self.words));
+        let laid_out = context.run_ui(input, |ui| wishes.extend(staff.show(ui, &sight)));
         self.time += 0.02;
-        wishes
+        (wishes, laid_out)
     }
 
     /// Where these words stand.
