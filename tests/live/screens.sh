@@ -105,12 +105,15 @@ staff_pages() {
     local toml=$room/staff.toml tabs="815,20 879,20 946,20 1005,20 1062,20 1138,20 832,62 903,62 949,62" tab other
     local number=0 alike=0 shut covered deaf back code=0
     # Left of it stands the panel, and the picture goes on moving.
-    local panel=490x720+790+0
-    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[attract]\nenabled = false\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
+    local panel=490x720+790+0 title=400x90+0+620 another
+    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[attract]\nenabled = false\nidle_s = 20\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
         "$root/exhibits" "$(echo 271828 | "$soffio" pin)" "$room/staff.state" "$room/staff.prom" >"$toml"
     launch_kiosk staff --config "$toml"
     within 30 picture || true
     sleep 3
+    shot first
+    xdotool key l
+    within 5 turns other first "$title" && another=1 || another=0
     xdotool key ctrl+alt+s
     sleep 1.5
     shot keypad
@@ -150,6 +153,9 @@ staff_pages() {
     within 70 uncovered && back=1 || back=0
     bar "cleaning" "$covered > $PAGE && $deaf < 0.02 && $back == 1 && $(breaths staff hold begins | wc -l) == 0" \
         "$covered of the glass; $deaf of it changed when pressed; over by itself"
+    # The first language is back after the last visitor, with no attract mode to bring it.
+    within 40 resembles first "$title" && back=1 || back=0
+    bar "reset without attract" "$another == 1 && $back == 1" "another language, and the first one when nobody is here"
     end_launcher || code=$?
     if command -v promtool >/dev/null; then
         promtool check metrics <"$room/staff.prom" >"$room/promtool.out" 2>&1 && code=0 || code=1
@@ -159,6 +165,7 @@ staff_pages() {
     fi
 }
 enters() { shot now && holds "$(differs keypad now 490x720+790+0) > 0.1"; }
+resembles() { shot now && holds "$(differs "$1" now "$2") < $SAME"; }
 uncovered() { shot now && holds "$(differs cleaning now) > $PAGE"; }
 turns() { shot "$1" && holds "$(differs "$2" "$1" "$3") > $ANOTHER"; }
 left_page() { shot now && holds "$(differs page now) > $PAGE"; }
