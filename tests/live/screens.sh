@@ -11,8 +11,18 @@ SWINGS=0.05
 # Of the title's corner: another language, and the same one. Letters cover a tenth of it.
 ANOTHER=0.01
 SAME=0.001
-# The page is paper from edge to edge.
+# The page is paper from edge to edge; the panel stands beside the picture.
 PAGE=0.3
+PANEL=0.1
+
+# Whether a new picture differs from another one by more than a share, on all of the glass or a part of it.
+becomes() { shot "$1" && holds "$(differs "$2" "$1" "${4:-}") > $3"; } # becomes NEW OLD SHARE [PART]
+# Waits until it does, for software graphics may take seconds for a picture, and then until it stands.
+changes() {
+    within 15 becomes "$@" || true
+    sleep 0.7
+    shot "$1"
+}
 
 # Presses L until the first picture is there again: how many languages, each unlike the one before.
 languages() { # languages NAME CORNER
@@ -21,7 +31,7 @@ languages() { # languages NAME CORNER
     for i in {1..12}; do
         xdotool key l
         # Software graphics may take a second for a picture.
-        within 5 turns "$1-$i" "$1-$((i - 1))" "$2" || alike=$((alike + 1))
+        within 15 becomes "$1-$i" "$1-$((i - 1))" $ANOTHER "$2" || alike=$((alike + 1))
         holds "$(differs "$1-0" "$1-$i" "$2") < $SAME" && break
     done
     echo "$i $alike"
@@ -47,37 +57,31 @@ every_screen() {
     bar "walk-up: languages" "$count == $wanted && $alike == 0" "$count of $wanted, $alike like the one before"
     shot front
     xdotool key Tab
-    sleep 1.5
-    shot page
+    changes page front $PAGE
     share=$(differs front page)
     read -r count alike < <(languages page 500x300+0+80)
     bar "page: languages" "$share > $PAGE && $count == $wanted && $alike == 0" "$share of the glass; $count of $wanted, $alike like the one before"
     xdotool key Tab
-    sleep 1.5
-    shot left
+    changes left page $PAGE
     xdotool key Tab
-    sleep 1
+    changes page left $PAGE
     before_microphone "$room/strong.wav"
-    sleep 1.5
-    shot blown
+    changes blown page $PAGE
     bar "page: left" "$(differs front left) < $SWINGS && $(differs page blown) > $PAGE" \
         "by its key, $(differs front left) from before; by a breath, $(differs page blown) from the page"
 
     # The panel has no PIN here: it shows everything and changes nothing.
     xdotool key ctrl+alt+s
-    sleep 1.5
-    shot panel
+    changes panel blown $PANEL
     xdotool key ctrl+alt+s
-    sleep 1.5
-    shot after
+    changes after panel $PANEL
     share=$(differs blown panel)
-    bar "staff: opened and left" "$share > 0.1 && $(differs panel after) > 0.1" "$share of the glass"
+    bar "staff: opened and left" "$share > $PANEL && $(differs panel after) > $PANEL" "$share of the glass"
 
     # The page closes by itself, and then nobody is here.
     xdotool key Tab
-    sleep 1.5
-    shot page
-    within 40 left_page && left=1 || left=0
+    changes page after $PAGE
+    within 40 becomes now page $PAGE && left=1 || left=0
     within 40 grep -q 'attract mode begins' "$room/screens.err" && seen=1 || seen=0
     sleep 2
     shot attract
@@ -113,10 +117,9 @@ staff_pages() {
     sleep 3
     shot first
     xdotool key l
-    within 5 turns other first "$title" && another=1 || another=0
+    within 15 becomes other first $ANOTHER "$title" && another=1 || another=0
     xdotool key ctrl+alt+s
-    sleep 1.5
-    shot keypad
+    changes keypad other $PANEL
     xdotool type 000000
     xdotool key Return
     # Argon2 takes its time, and a wrong PIN two seconds more.
@@ -124,13 +127,13 @@ staff_pages() {
     shot wrong
     xdotool type 271828
     xdotool key Return
-    within 10 enters && shut=1 || shut=0
+    within 10 becomes entered keypad $PANEL $panel && shut=1 || shut=0
     bar "staff: only by the PIN" "$(differs keypad wrong $panel) < 0.05 && $shut == 1" \
         "$(differs keypad wrong $panel) of the keypad changed by a wrong one"
     for tab in $tabs; do
         xdotool mousemove "${tab%,*}" "${tab#*,}" click 1
         # The first one is open already.
-        if [ "$number" = 0 ]; then shot staff-0; else within 6 turns "staff-$number" "staff-$((number - 1))" $panel || true; fi
+        if [ "$number" = 0 ]; then shot staff-0; else within 15 becomes "staff-$number" "staff-$((number - 1))" $ANOTHER $panel || true; fi
         for ((other = 0; other < number; other++)); do
             holds "$(differs "staff-$other" "staff-$number" $panel) > $ANOTHER" || alike=$((alike + 1))
         done
@@ -140,17 +143,15 @@ staff_pages() {
 
     # All input is off for a minute: neither a key nor a finger ends it, and then the picture is there again.
     xdotool mousemove 815 20 click 1
-    sleep 1.5
-    shot before-cleaning
+    changes before-cleaning "staff-$((number - 1))" $ANOTHER $panel
     xdotool mousemove 855 110 click 1
-    sleep 1.5
-    shot cleaning
+    changes cleaning before-cleaning $PAGE
     xdotool mousemove 640 300 mousedown 1 sleep 0.3 mouseup 1 key Tab key space
     sleep 1.5
     shot cleaned
     covered=$(differs before-cleaning cleaning)
     deaf=$(differs cleaning cleaned)
-    within 70 uncovered && back=1 || back=0
+    within 70 becomes now cleaning $PAGE && back=1 || back=0
     bar "cleaning" "$covered > $PAGE && $deaf < 0.02 && $back == 1 && $(breaths staff hold begins | wc -l) == 0" \
         "$covered of the glass; $deaf of it changed when pressed; over by itself"
     # The first language is back after the last visitor, with no attract mode to bring it.
@@ -164,9 +165,5 @@ staff_pages() {
             "$(grep -c '^soffio_' "$room/staff.prom") samples and the alert rules"
     fi
 }
-enters() { shot now && holds "$(differs keypad now 490x720+790+0) > 0.1"; }
 resembles() { shot now && holds "$(differs "$1" now "$2") < $SAME"; }
-uncovered() { shot now && holds "$(differs cleaning now) > $PAGE"; }
-turns() { shot "$1" && holds "$(differs "$2" "$1" "$3") > $ANOTHER"; }
-left_page() { shot now && holds "$(differs page now) > $PAGE"; }
 dark() { ! picture; }
