@@ -7,21 +7,26 @@ format()   { cargo fmt --all -- --check; }
 lints()    { cargo clippy --locked --quiet --all-targets -- -D warnings; }
 headless() { cargo clippy --locked --quiet --all-targets --no-default-features -- -D warnings; }
 suite()    { cargo test --locked --quiet; }
+# The program without devices, as fast as it gets; its path is in $released.
+release() {
+    cargo build --release --locked --quiet --no-default-features
+    released="${CARGO_TARGET_DIR:-target}/release/soffio"
+}
 # The release build ends every exhibit's run in the state that its folder stores; devices have no part in it.
 states() {
     local file id word found
-    cargo build --release --locked --quiet --no-default-features
+    release
     for file in exhibits/*/expected.toml; do
         id=$(basename "$(dirname "$file")")
         word=$(sed -n 's/^state = "\(.*\)"$/\1/p' "$file")
-        found=$("${CARGO_TARGET_DIR:-target}/release/soffio" play "$id" --script tests/cases/gusts.jsonl --seconds 41.6667)
+        found=$("$released" play "$id" --script tests/cases/gusts.jsonl --seconds 41.6667)
         if [[ $found != *"\"state_hash\":\"$word\""* ]]; then
             echo "$id: $word is stored in $file, the release build ends in ${found##*state_hash}" >&2
             return 1
         fi
     done
 }
-exhibits() { cargo run --locked --quiet -- check exhibits kiosk-config/kiosk.toml; }
+exhibits() { release && "$released" check exhibits kiosk-config/kiosk.toml; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
 live()     { cargo build --locked --quiet --bins --example correlate && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
 
