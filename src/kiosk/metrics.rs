@@ -160,14 +160,14 @@ struct Page(String);
 
 impl Page {
     fn head(&mut self, name: &str, kind: &str, help: &str) {
-        let _ = writeln!(self.0, "# HELP soffio_{name} {help}\n# TYPE soffio_{name} {kind}");
+        let _ = writeln!(self.0, "# HELP kiosk_{name} {help}\n# TYPE kiosk_{name} {kind}");
     }
 
     /// A number; one that is not finite is left out.
     fn number(&mut self, name: &str, kind: &str, help: &str, value: f64) {
         if value.is_finite() {
             self.head(name, kind, help);
-            let _ = writeln!(self.0, "soffio_{name} {value}");
+            let _ = writeln!(self.0, "kiosk_{name} {value}");
         }
     }
 
@@ -180,7 +180,7 @@ impl Page {
         for (labels, value) in rows {
             let quoted = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
             let labels: Vec<String> = labels.iter().map(|(key, text)| format!("{key}=\"{}\"", quoted(text))).collect();
-            let _ = writeln!(self.0, "soffio_{name}{{{}}} {value}", labels.join(","));
+            let _ = writeln!(self.0, "kiosk_{name}{{{}}} {value}", labels.join(","));
         }
     }
 
@@ -189,12 +189,12 @@ impl Page {
         let mut below = 0;
         for (i, bound) in bounds.iter().enumerate() {
             below += histogram.counts.get(i).copied().unwrap_or_default();
-            let _ = writeln!(self.0, "soffio_{name}_bucket{{le=\"{bound}\"}} {below}");
+            let _ = writeln!(self.0, "kiosk_{name}_bucket{{le=\"{bound}\"}} {below}");
         }
         let (total, sum) = (histogram.total(), histogram.sum);
         let _ = writeln!(
             self.0,
-            "soffio_{name}_bucket{{le=\"+Inf\"}} {total}\nsoffio_{name}_sum {sum}\nsoffio_{name}_count {total}"
+            "kiosk_{name}_bucket{{le=\"+Inf\"}} {total}\nkiosk_{name}_sum {sum}\nkiosk_{name}_count {total}"
         );
     }
 }

@@ -136,7 +136,9 @@ impl Day {
                 };
                 day.duties.push(Duty { task, from: now, until });
                 day.enter(visit, work, (Some(task), None), random);
-                (after, ready, now) = (Some(task), 0.0, until);
+                // Who blew into a mute kiosk has made way, as in any queue; after the others nothing swings.
+                let apart = if task == Task::Mute { random.range(QUEUE_S.0, QUEUE_S.1) } else { 0.0 };
+                (after, ready, now) = (Some(task), 0.0, until + apart);
             }
             let visit = match after {
                 // Who comes right after staff is who is asked about.

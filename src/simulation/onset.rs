@@ -12,10 +12,10 @@
 //! demonstration begins too: theirs is at once several times as fast, as no breath becomes by itself. What swells from nothing is
 //! hardly moved by it: it is slow while that lasts. The *true* profile makes up for nothing.
 
-/// L: what the ear takes to be sure of a breath, s.
-const LOST: f64 = 0.12;
-/// T: it is made up for within so long, s.
-const WITHIN: f64 = 0.08;
+/// L: what the ear takes to be sure of a breath, and its sound to come to the ear, s.
+const LOST: f64 = 0.15;
+/// T: it is made up for within so long, s: three pictures on a screen.
+const WITHIN: f64 = 0.05;
 /// After so long without one, s, the next breath is a new one: shorter pauses are breath that falters.
 const ANEW: f64 = 0.5;
 /// A breath that is so many times as fast as in the step before is another one.
@@ -82,8 +82,8 @@ mod tests {
 
     #[test]
     fn a_breath_makes_up_for_what_was_lost_and_one_that_falters_does_not_again() {
-        // The sum of a falling line over 19 steps, each at its beginning: half a step too much of ten.
-        const STEPS: f64 = 0.06;
+        // The sum of a falling line over 12 steps, each at its beginning: half a step too much of six.
+        const STEPS: f64 = 0.09;
         let mut onset = Onset::default();
         assert!((made_up(&mut onset, 5.0) / LOST - 1.0).abs() < STEPS);
         pause(&mut onset, 0.3);

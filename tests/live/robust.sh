@@ -51,6 +51,36 @@ until_picture() {
     awk "BEGIN { printf \"%.1f\", $(now) - $from }"
 }
 
+# ---- in the compositor, as the shipped unit starts it: a picture, again after kill -9, and nothing left without it ------
+# The compositor takes no orders from root; its outputs are windows of this room's display.
+compositor() {
+    local glass=$room/glass as=() from took left
+    for tool in cage Xwayland; do
+        command -v "$tool" >/dev/null || { echo "live: not run: the compositor, for $tool is missing"; return 0; }
+    done
+    [ "$(id -u)" != 0 ] || as=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+    mkdir -p "$glass/exhibits" "$glass/run"
+    cp -r "$root/exhibits/pendulum" "$glass/exhibits/"
+    cp "$soffio" "$root/kiosk-config/launch" "$glass/"
+    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n' "$glass/exhibits" >"$glass/kiosk.toml"
+    chmod 700 "$glass/run"
+    [ "$(id -u)" != 0 ] || { chown -R 65534:65534 "$glass" && chmod 711 "$room"; }
+    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME= XDG_CONFIG_HOME= PULSE_SERVER= WLR_BACKENDS=x11 WLR_RENDERER=pixman \
+        WLR_LIBINPUT_NO_DEVICES=1 "${as[@]}" cage -d -- "$glass/launch" "$glass/soffio" kiosk --config "$glass/kiosk.toml"
+    left=$last
+    within 40 picture && took=1 || took=0
+    bar "compositor: a picture" "$took == 1" "in a window of Wayland"
+    from=$(now)
+    pkill -9 -f "^$glass/soffio kiosk"
+    within 5 dark || true
+    took=$(until_picture "$from")
+    bar "compositor: again" "$took < 4" "$took s after kill -9"
+    kill -9 "$left"
+    within 10 nothing_of "$glass" && left=0 || left=1
+    bar "compositor: gone" "$left == 0" "kiosk and launcher end with it"
+}
+nothing_of() { ! pgrep -f "$1/(launch|soffio)" >/dev/null; }
+
 # ---- kill -9: the same work is back, muted as it was, and nothing that was counted is lost ----------------------------
 killed() {
     local t took before after pid second

@@ -497,7 +497,7 @@ sox "$room/b.wav" -r 48000 "$room/speech-b.wav" norm -1
 room_tone
 
 for part in ${SOFFIO_LIVE_PARTS-a_visitor latency replugged speaker_replugged privacy own_voice reads_aloud one_run doctor_blow no_devices no_display every_screen staff_pages \
-    killed crash_loop gpu_lost devices_out disk_full config_broken clock_set monitor_off broker}; do
+    compositor killed crash_loop gpu_lost devices_out disk_full config_broken clock_set monitor_off broker}; do
     "$part"
 done
 if [ -n "${SOFFIO_LIVE_SUITE:-}" ]; then

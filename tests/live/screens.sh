@@ -161,8 +161,8 @@ staff_pages() {
     if command -v promtool >/dev/null; then
         promtool check metrics <"$room/staff.prom" >"$room/promtool.out" 2>&1 && code=0 || code=1
         promtool check rules "$root/kiosk-config/prometheus/soffio.rules.yml" >>"$room/promtool.out" 2>&1 || code=1
-        bar "promtool" "$code == 0 && $(grep -c '^soffio_' "$room/staff.prom") > 20" \
-            "$(grep -c '^soffio_' "$room/staff.prom") samples and the alert rules"
+        bar "promtool" "$code == 0 && $(grep -c '^kiosk_' "$room/staff.prom") > 20" \
+            "$(grep -c '^kiosk_' "$room/staff.prom") samples and the alert rules"
     fi
 }
 resembles() { shot now && holds "$(differs "$1" now "$2") < $SAME"; }

@@ -51,7 +51,7 @@ resident() { awk '/VmRSS/ { print $2 }' "/proc/$1/status"; }
 
 # The 99th percentile of the time from picture to picture between two files of numbers, ms.
 slowest() { # slowest BEFORE AFTER
-    awk -F'["} ]+' '/^soffio_frame_seconds_bucket/ { if (FNR == NR) before[$2] = $NF; else { le[++n] = $2; count[n] = $NF - before[$2] } }
+    awk -F'["} ]+' '/^kiosk_frame_seconds_bucket/ { if (FNR == NR) before[$2] = $NF; else { le[++n] = $2; count[n] = $NF - before[$2] } }
         FNR == 1 { file++ }
         END {
             want = 0.99 * count[n]

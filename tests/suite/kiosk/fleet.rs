@@ -42,27 +42,27 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
         &Numbers { kept: &kept, frames: &frames, safe: true, reloads: false, foam_lasts: 100, content },
     );
     for line in [
-        "soffio_up 1",
-        "soffio_starts_total 7",
-        "soffio_safe_mode 1",
-        "soffio_last_reload_success 0",
-        "soffio_content_info{exhibit=\"pendulum\",version=\"00ff\"} 1",
-        "soffio_audio_xruns_total 3",
-        "soffio_level_day_db -31.5",
-        "soffio_sessions_total 2",
-        "soffio_dwell_seconds_bucket{le=\"5\"} 1",
-        "soffio_dwell_seconds_bucket{le=\"120\"} 2",
-        "soffio_dwell_seconds_bucket{le=\"+Inf\"} 2",
-        "soffio_dwell_seconds_sum 74",
-        "soffio_blows_total{source=\"microphone\"} 5",
-        "soffio_language_total{lang=\"a\\\"b\\\\\"} 1",
-        "soffio_frame_seconds_bucket{le=\"0.012\"} 0",
-        "soffio_frame_seconds_bucket{le=\"0.017\"} 10",
-        "soffio_solver_mode{mode=\"dynamics\"} 1",
+        "kiosk_up 1",
+        "kiosk_starts_total 7",
+        "kiosk_safe_mode 1",
+        "kiosk_last_reload_success 0",
+        "kiosk_content_info{exhibit=\"pendulum\",version=\"00ff\"} 1",
+        "kiosk_audio_xruns_total 3",
+        "kiosk_level_day_db -31.5",
+        "kiosk_sessions_total 2",
+        "kiosk_dwell_seconds_bucket{le=\"5\"} 1",
+        "kiosk_dwell_seconds_bucket{le=\"120\"} 2",
+        "kiosk_dwell_seconds_bucket{le=\"+Inf\"} 2",
+        "kiosk_dwell_seconds_sum 74",
+        "kiosk_blows_total{source=\"microphone\"} 5",
+        "kiosk_language_total{lang=\"a\\\"b\\\\\"} 1",
+        "kiosk_frame_seconds_bucket{le=\"0.012\"} 0",
+        "kiosk_frame_seconds_bucket{le=\"0.017\"} 10",
+        "kiosk_solver_mode{mode=\"dynamics\"} 1",
     ] {
         assert!(text.lines().any(|other| other == line), "{line} is not in\n{text}");
     }
-    assert!(!text.contains("soffio_level_minute_db") && !text.contains("laeq"), "{text}");
+    assert!(!text.contains("kiosk_level_minute_db") && !text.contains("laeq"), "{text}");
     // Every sample follows the one HELP and the one TYPE of its name, and is a number.
     let mut names = Vec::new();
     for line in text.lines() {
@@ -98,12 +98,12 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
     let mut told = text(&frame(Load::default()), &numbers);
     // Told only once there is something to tell.
     told +=
-        "soffio_chirp_bad\nsoffio_blows_total\nsoffio_language_total\nsoffio_laeq_minute_db\nsoffio_level_minute_db\n";
+        "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
     let mut asked = 0;
     for file in ["soffio.rules.yml", "soffio.grafana.json"] {
         let text = std::fs::read_to_string(folder.join(file)).expect(file);
-        for (at, _) in text.match_indices("soffio_") {
+        for (at, _) in text.match_indices("kiosk_") {
             let name: String = text[at..].chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect();
             assert!(told.contains(&name), "{file} asks for {name}");
             asked += 1;
