@@ -38,7 +38,7 @@ everything >"$work/before"
 package_manager --install "$package"
 for file in usr/bin/soffio usr/lib/soffio/launch usr/lib/systemd/system/soffio.service etc/soffio/kiosk.toml \
     usr/share/soffio/exhibits/steel-fish/exhibit.toml usr/share/soffio/exhibits/steel-fish/breaths/normal.wav \
-    usr/share/doc/soffio/README.md; do
+    usr/share/doc/soffio/README.md usr/share/doc/soffio/weston.ini; do
     [ -f "$scratch/$file" ] || fail "$file is not installed"
 done
 [ -z "$(cd "$scratch" && find usr etc -type f -perm /022)" ] || fail "files that others may write"

@@ -13,6 +13,7 @@ use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::keyboard::ModifiersState;
+use winit::platform::wayland::WindowAttributesExtWayland;
 use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::audio_io::DeviceState;
@@ -456,7 +457,9 @@ impl App<'_> {
 
 /// Opens the window: all of the screen, or part of a desk.
 fn open(events: &ActiveEventLoop, on_desk: bool) -> Result<Arc<Window>, String> {
-    let plain = Window::default_attributes().with_title("Soffio").with_inner_size(DESK_SIZE);
+    // By its name a compositor finds the screen that it belongs on.
+    let plain =
+        Window::default_attributes().with_title("Soffio").with_name("soffio", "soffio").with_inner_size(DESK_SIZE);
     let attributes = match on_desk {
         true => plain,
         false => plain.with_decorations(false).with_fullscreen(Some(Fullscreen::Borderless(None))),
