@@ -9,7 +9,8 @@
 //!
 //! ℓ is believed within bounds only: the surest breath needs on / (highest − drift) to begin (a pop or a clap does not
 //! last that long), and a doubtful one needs longer; what is no more likely than e^drift never begins. Where the kiosk's own
-//! sound covers the low band, what its prediction leaves is scattered: a breath that begins there takes longer. No one blows
+//! sound covers the low band, what its prediction leaves is scattered: a breath that begins there takes longer. So does one
+//! that begins soon after another, while the kiosk rings and who has blown turns to go; what hangs there moves anyhow. No one blows
 //! for longer than six seconds, pauses that are shorter than half as long included: then the sound is latched as a
 //! machine's, and belongs to the room, until it has been silent for a moment or unlike breath for seconds. Order of
 //! phases: quiet → waiting → blow → (latched →) quiet.
@@ -31,6 +32,8 @@ const RECOVERY: f64 = 2.0;
 const OVER_S: f64 = 2.0;
 const SILENCE_DB: f64 = -12.0;
 const SILENCE: f64 = 6.0;
+/// Soon after another breath: within this time of its end, s.
+const AGAIN_S: f64 = 5.0;
 /// What somebody blew is remembered over this time, s.
 const BLOWN_S: f64 = 0.5;
 
@@ -45,6 +48,8 @@ pub struct Rules {
     pub on: f64,
     /// And at this one where the kiosk's own sound covers it.
     pub on_covered: f64,
+    /// And at this one soon after another breath.
+    pub on_again: f64,
     /// The sum never exceeds this, so that a breath ends in time, nat·s.
     pub full: f64,
     /// Longest breath, s.
@@ -53,7 +58,7 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { believed: (-4.0, 9.0), drift: 2.9, on: 0.17, on_covered: 0.2, full: 0.3, longest_s: 6.0 }
+        Self { believed: (-4.0, 9.0), drift: 2.9, on: 0.17, on_covered: 0.2, on_again: 0.24, full: 0.3, longest_s: 6.0 }
     }
 }
 
@@ -86,6 +91,8 @@ pub struct Decision {
     possible: bool,
     /// For how long somebody has blown, pauses taken off.
     blowing_s: f64,
+    /// For how much longer a breath comes soon after another one, s.
+    again_s: f64,
     /// For how long the sum has been 0, silence counted more.
     still_s: f64,
     /// How loud the last breath was, dB of full scale.
@@ -103,7 +110,11 @@ impl Decision {
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.likely_s = if self.log_odds > LIKELY { self.likely_s + FRAME_S } else { 0.0 };
-        let on = if levels.covered { rules.on_covered } else { rules.on };
+        let on = match (self.again_s > 0.0, levels.covered) {
+            (true, _) => rules.on_again,
+            (false, true) => rules.on_covered,
+            (false, false) => rules.on,
+        };
         self.progress = (self.sum / on).min(1.0);
         let silent = levels.loud_dbfs < self.blown_dbfs + SILENCE_DB;
         let still = if silent { SILENCE * FRAME_S } else { FRAME_S };
@@ -123,6 +134,7 @@ impl Decision {
             let blend = if self.blowing_s == 0.0 { 1.0 } else { blend(BLOWN_S) };
             self.blown_dbfs += blend * (levels.loud_dbfs - self.blown_dbfs);
         }
+        self.again_s = if self.phase == Phase::Blow { AGAIN_S } else { (self.again_s - FRAME_S).max(0.0) };
         let change = if self.phase == Phase::Blow { FRAME_S } else { -RECOVERY * FRAME_S };
         self.blowing_s = (self.blowing_s + change).max(0.0);
     }
