@@ -160,3 +160,41 @@ impl Decision {
         self.progress * probability
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Breath as likely as it is for the most part, nats.
+    const LIKELY_BREATH: f64 = 6.5;
+
+    fn frames(seconds: f64) -> usize {
+        (seconds / FRAME_S).round() as usize
+    }
+
+    /// Frames until a breath begins, which lasts for a second then.
+    fn begins_after(decision: &mut Decision, rules: &Rules) -> usize {
+        let risen = Levels { rise_db: 20.0, ..Levels::default() };
+        let mut push = |decision: &mut Decision| {
+            decision.push(rules, Some(LIKELY_BREATH), &risen);
+            decision.phase == Phase::Blow
+        };
+        let waited = (1..100).find(|_| push(decision)).expect("it begins");
+        (0..frames(1.0)).for_each(|_| assert!(push(decision), "it lasts"));
+        waited
+    }
+
+    #[test]
+    fn a_breath_begins_at_its_sum_and_soon_after_another_one_at_a_larger_one() {
+        let (rules, mut decision) = (Rules::default(), Decision::default());
+        let pause = |decision: &mut Decision, seconds: f64| {
+            (0..frames(seconds)).for_each(|_| decision.push(&rules, None, &Levels::default()));
+        };
+        let at = |sum: f64| (sum / ((LIKELY_BREATH - rules.drift) * FRAME_S)).ceil() as usize;
+        assert_eq!(begins_after(&mut decision, &rules), at(rules.on));
+        pause(&mut decision, 1.0);
+        assert_eq!(begins_after(&mut decision, &rules), at(rules.on_again), "soon");
+        pause(&mut decision, AGAIN_S + 1.0);
+        assert_eq!(begins_after(&mut decision, &rules), at(rules.on), "later");
+    }
+}
