@@ -65,7 +65,7 @@ compositor() {
     printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n' "$glass/exhibits" >"$glass/kiosk.toml"
     chmod 700 "$glass/run"
     [ "$(id -u)" != 0 ] || { chown -R 65534:65534 "$glass" && chmod 711 "$room"; }
-    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME= XDG_CONFIG_HOME= PULSE_SERVER= WLR_BACKENDS=x11 WLR_RENDERER=pixman \
+    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME="$glass/cache" XDG_CONFIG_HOME="$glass/config" PULSE_SERVER= WLR_BACKENDS=x11 WLR_RENDERER=pixman \
         WLR_LIBINPUT_NO_DEVICES=1 "${as[@]}" cage -d -- "$glass/launch" "$glass/soffio" kiosk --config "$glass/kiosk.toml"
     left=$last
     within 40 picture && took=1 || took=0
