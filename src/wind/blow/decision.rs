@@ -175,7 +175,7 @@ mod tests {
     /// Frames until a breath begins, which lasts for a second then.
     fn begins_after(decision: &mut Decision, rules: &Rules) -> usize {
         let risen = Levels { rise_db: 20.0, ..Levels::default() };
-        let mut push = |decision: &mut Decision| {
+        let push = |decision: &mut Decision| {
             decision.push(rules, Some(LIKELY_BREATH), &risen);
             decision.phase == Phase::Blow
         };
