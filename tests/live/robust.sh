@@ -56,7 +56,7 @@ until_picture() {
 compositor() {
     local glass=$room/glass as=() from took left
     for tool in cage Xwayland; do
-        command -v "$tool" >/dev/null || { echo "live: not run: the compositor, for $tool is missing"; return 0; }
+        command -v "$tool" >/dev/null || { echo "live: SKIP  compositor               $tool is missing; ./check installs it"; return; }
     done
     [ "$(id -u)" != 0 ] || as=(setpriv --reuid=65534 --regid=65534 --clear-groups)
     mkdir -p "$glass/exhibits" "$glass/run"
@@ -65,8 +65,9 @@ compositor() {
     printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n' "$glass/exhibits" >"$glass/kiosk.toml"
     chmod 700 "$glass/run"
     [ "$(id -u)" != 0 ] || { chown -R 65534:65534 "$glass" && chmod 711 "$room"; }
-    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME="$glass/cache" XDG_CONFIG_HOME="$glass/config" PULSE_SERVER= WLR_BACKENDS=x11 WLR_RENDERER=pixman \
-        WLR_LIBINPUT_NO_DEVICES=1 "${as[@]}" cage -d -- "$glass/launch" "$glass/soffio" kiosk --config "$glass/kiosk.toml"
+    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME="$glass/cache" \
+        XDG_CONFIG_HOME="$glass/config" PULSE_SERVER= WLR_BACKENDS=x11 WLR_RENDERER=pixman WLR_LIBINPUT_NO_DEVICES=1 \
+        "${as[@]}" cage -d -- "$glass/launch" "$glass/soffio" kiosk --config "$glass/kiosk.toml"
     left=$last
     within 40 picture && took=1 || took=0
     bar "compositor: a picture" "$took == 1" "in a window of Wayland"
