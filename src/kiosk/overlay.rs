@@ -4,7 +4,7 @@
 //! of the air itself, as wide as the jet is where it meets the sculpture, drawn in perspective; the arc along it is
 //! the breath meter. All else is behind one word, "More" (`menu`).
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
 use crate::config::Group;
 use crate::exhibit::{Exhibit, Label, View};
@@ -13,6 +13,7 @@ use crate::simulation::{BreathView, Snapshot};
 
 use super::bidi::reads_from_right;
 use super::given;
+use super::house::House;
 use super::input::Request;
 use super::menu::{Menu, Tile};
 use super::needs::Needs;
@@ -49,6 +50,8 @@ pub struct Scene<'a> {
     pub attract_text: Option<&'a str>,
     /// Language of the invitation: nobody has chosen one while attract mode plays.
     pub inviting: &'a str,
+    /// Closed, or cleaned: all is covered.
+    pub house: &'a House,
     /// Does anything listen to the visitor's breath?
     pub hears: bool,
     /// Does the site want visitors to blow?
@@ -110,6 +113,9 @@ impl Overlay {
     /// Draws over the whole of `picture`; returns where a press means something else than a breath.
     pub fn paint(&mut self, painter: &Painter, picture: Rect, menu: &mut Menu, scene: &Scene) -> Vec<(Rect, Request)> {
         self.advance(scene);
+        if cover(painter, scene) {
+            return Vec::new();
+        }
         let code = scene.language;
         let Some(label) = scene.exhibit.labels.get(code) else { return Vec::new() };
         let page = Page::new(painter, picture, scene.points_per_mm, scene.needs.reading);
@@ -178,6 +184,24 @@ impl Overlay {
     pub fn invitation(&self) -> f64 {
         self.invitation
     }
+}
+
+/// Covers the picture while the house is closed or the glass is cleaned; says whether it did.
+fn cover(painter: &Painter, scene: &Scene) -> bool {
+    let all = painter.clip_rect();
+    if let Some(left) = scene.house.cleans(scene.time) {
+        painter.rect_filled(all, 0.0, PAPER);
+        let page = Page::new(painter, all, scene.points_per_mm, scene.needs.reading);
+        page.text(all.center(), Align2::CENTER_BOTTOM, words(scene.language).cleaning, 1.8, INK, page.picture.width());
+        let count = FontId::proportional(4.0 * page.em);
+        painter.text(all.center() + vec2(0.0, page.em), Align2::CENTER_TOP, format!("{:.0}", left.ceil()), count, INK);
+        return true;
+    }
+    let closed = !scene.house.is_open();
+    if closed {
+        painter.rect_filled(all, 0.0, Color32::BLACK);
+    }
+    closed
 }
 
 /// The words that invite: what attract mode shows, else the label's own, else the kiosk's.

@@ -45,9 +45,13 @@ pub struct Judged {
     pub contingency: Option<f64>,
     /// Answers to nobody in the ten seconds before.
     pub phantoms: usize,
-    /// Was it answered as it should be?
+    /// How often somebody blew: whoever sees nothing move tries again.
+    pub breaths: usize,
+    /// Was the first thing the visitor did answered as it should be?
+    pub at_once: bool,
+    /// Was one of them?
     pub good: bool,
-    /// Why not.
+    /// Why not the first.
     pub missed: Option<&'static str>,
     /// What the visitor belongs to.
     pub groups: Vec<&'static str>,
@@ -57,7 +61,7 @@ impl Judged {
     /// The first thing that went wrong on the way from breath to picture.
     pub(super) fn miss(&self) -> Option<&'static str> {
         Some(match (self.contingency, self.heard_after_s, self.changed_after_s) {
-            _ if self.good => return None,
+            _ if self.at_once => return None,
             (None, ..) => "another work came",
             _ if self.phantoms > 0 => "answered nobody before",
             (_, None, _) => "not heard",
@@ -147,6 +151,10 @@ pub struct Report {
     pub headline: Share,
     /// The same for each group.
     pub groups: BTreeMap<&'static str, Share>,
+    /// The first blow, or hold, does.
+    pub at_once: Share,
+    /// The same for each group.
+    pub groups_at_once: BTreeMap<&'static str, Share>,
     /// Why visits were not answered as they should be, and how many.
     pub missed: BTreeMap<&'static str, usize>,
     /// Of all visits, those that visibly changed the work within 0.3 s, however much it moved before. Told, not judged.
@@ -182,6 +190,7 @@ impl Report {
     /// answered.
     pub(super) fn conclude(mut self, shuffled: &[(f64, bool)]) -> Self {
         self.headline = Share::of(self.visits.iter(), |visit| visit.good);
+        self.at_once = Share::of(self.visits.iter(), |visit| visit.at_once);
         self.changed = Share::of(self.visits.iter(), |visit| visit.changed_after_s.is_some());
         self.seen = Share::of(self.visits.iter(), |visit| visit.seen_after_s.is_some());
         for missed in self.visits.iter().filter_map(|visit| visit.missed) {
@@ -191,8 +200,9 @@ impl Report {
         names.sort_unstable();
         names.dedup();
         for name in names {
-            let members = self.visits.iter().filter(|visit| visit.groups.contains(&name));
-            self.groups.insert(name, Share::of(members, |visit| visit.good));
+            let members = || self.visits.iter().filter(|visit| visit.groups.contains(&name));
+            self.groups.insert(name, Share::of(members(), |visit| visit.good));
+            self.groups_at_once.insert(name, Share::of(members(), |visit| visit.at_once));
         }
         self.contingency = median(self.visits.iter().filter_map(|visit| visit.contingency).collect());
         self.shuffled_contingency = median(shuffled.iter().map(|(contingency, _)| *contingency).collect());
@@ -213,8 +223,8 @@ impl Report {
     fn hold(&self) -> Vec<Bar> {
         let percent = |share: f64| format!("{:.1} %", 100.0 * share);
         let enough = |visits: usize| visits >= ENOUGH;
-        let Share { visits, share, .. } = self.headline;
-        let all = share.unwrap_or_default();
+        let visits = self.headline.visits;
+        let [all, first] = [self.headline, self.at_once].map(|share| share.share.unwrap_or_default());
         let groups = || self.groups.iter().filter(|(_, group)| enough(group.visits));
         let below = groups().filter_map(|(name, group)| Some((name, group.share.filter(|share| *share < GROUP)?)));
         let below: Vec<String> = below.map(|(name, share)| format!("{name} {}", percent(share))).collect();
@@ -230,6 +240,12 @@ impl Report {
                 format!("{} of all visits", percent(HEADLINE)),
                 format!("{} of {visits}", percent(all)),
                 enough(visits).then_some(all >= HEADLINE),
+            ),
+            bar(
+                "at once",
+                format!("{} of all visits by the first blow", percent(HEADLINE)),
+                format!("{} of {visits}", percent(first)),
+                enough(visits).then_some(first >= HEADLINE),
             ),
             bar(
                 "groups",
@@ -268,11 +284,12 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let percent = |share: Option<f64>| share.map_or("    -".to_owned(), |share| format!("{:5.1}", 100.0 * share));
-        let row = |f: &mut fmt::Formatter<'_>, name: &str, share: &Share| {
+        let row = |f: &mut fmt::Formatter<'_>, name: &str, share: &Share, at_once: Option<&Share>| {
             let (low, high) = share.bounds;
+            let at_once = at_once.map_or(String::new(), |first| format!("   {} %", percent(first.share)));
             writeln!(
                 f,
-                "{name:28} {:6} {:6}   {} %   {:.0} to {:.0} %",
+                "{name:28} {:6} {:6}   {} %   {:3.0} to {:3.0} %      {at_once}",
                 share.visits,
                 share.good,
                 percent(share.share),
@@ -291,10 +308,10 @@ impl fmt::Display for Report {
             self.volume_db,
             self.works.join(", ")
         )?;
-        writeln!(f, "{:28} {:>6} {:>6}   answered  with 95 % of certainty", "", "visits", "good")?;
-        row(f, "all visits", &self.headline)?;
+        writeln!(f, "{:28} {:>6} {:>6}   answered  with 95 % of certainty  by the first blow", "", "visits", "good")?;
+        row(f, "all visits", &self.headline, Some(&self.at_once))?;
         for (name, share) in &self.groups {
-            row(f, name, share)?;
+            row(f, name, share, self.groups_at_once.get(name))?;
         }
         let number = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.2}"));
         writeln!(f, "\ncontingency {}, shuffled {}", number(self.contingency), number(self.shuffled_contingency))?;
@@ -302,8 +319,8 @@ impl fmt::Display for Report {
         if let Some((middle, slow)) = self.changed_after_s {
             writeln!(f, "changed after {middle:.2} s, one in twenty after {slow:.2} s or more")?;
         }
-        row(f, "changed the work in time", &self.changed)?;
-        row(f, "stood out from what moves", &self.seen)?;
+        row(f, "changed the work in time", &self.changed, None)?;
+        row(f, "stood out from what moves", &self.seen, None)?;
         for (why, visits) in &self.missed {
             writeln!(f, "{why:28} {visits:6}")?;
         }

@@ -7,7 +7,7 @@ use super::day::{Day, Duty, Task};
 use super::ears::Ears;
 use super::eyes::{Eyes, Seen, picture_at};
 use super::house::House;
-use super::judge::{self, FPS};
+use super::judge::{self, Answer, FPS};
 use super::machine::Machine;
 use super::report::{Judged, Nobody, Report, Share, StaffCheck};
 use super::twin::left_alone;
@@ -32,6 +32,8 @@ const AFTERMATH_S: f64 = 2.0;
 const EARLY_S: f64 = 0.05;
 /// What staff do has taken effect after this time, s.
 const TAKES_EFFECT_S: f64 = 1.0;
+/// Whoever has blown waits so long for something to move, s.
+const PATIENCE_S: f64 = 1.0;
 /// A pull reaches its end after this time, s: too soon for a press that is meant to blow.
 const PULL_S: f64 = 0.4;
 
@@ -65,8 +67,8 @@ struct Moment {
     entry: usize,
     /// s of the day.
     at: f64,
-    /// The onset of what the visitor does, or a moment of no meaning?
-    real: bool,
+    /// Which of the visitor's breaths, or of other doings the first, begins; `None` for a moment of no meaning.
+    doing: Option<usize>,
     /// The work had nobody come, from then on.
     alone: Vec<Vec<Pose>>,
 }
@@ -77,8 +79,8 @@ struct Course<'a> {
     day: Day,
     house: House,
     machine: Machine,
-    /// Is asked about a visitor's doing (which entry) or about a moment of no meaning.
-    eyes: Eyes<(usize, bool)>,
+    /// Is asked about an entry's doing (which one) or about a moment of no meaning.
+    eyes: Eyes<(usize, Option<usize>)>,
     ears: Ears,
     controls: Controls,
     blocks: u64,
@@ -152,6 +154,7 @@ impl<'a> Course<'a> {
             }
         }
         self.act(now);
+        self.try_again(now);
         let plugged = !self.on_duty(now, Task::Unplug);
         self.controls.inert = self.on_duty(now, Task::Clean);
         for moment in self.waiting.iter_mut().filter(|moment| begins(moment.at, now)) {
@@ -187,8 +190,8 @@ impl<'a> Course<'a> {
             if entry.answered()
                 && let Some(onset) = entry.visit.onset()
             {
-                for (at, real) in [(onset, true), (entry.shuffled, false)] {
-                    self.waiting.push(Moment { entry: self.made, at, real, alone: Vec::new() });
+                for (at, doing) in [(onset, Some(0)), (entry.shuffled, None)] {
+                    self.waiting.push(Moment { entry: self.made, at, doing, alone: Vec::new() });
                 }
             }
             self.made += 1;
@@ -248,6 +251,28 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// Whoever has blown, and seen nothing move since, blows again while nobody else has come; that is looked at too.
+    fn try_again(&mut self, now: f64) {
+        let comes = self.day.entries.get(self.current + 1).map_or(self.day.length, |next| next.visit.arrives);
+        let Some(entry) = self.day.entries.get_mut(self.current).filter(|entry| entry.answered()) else { return };
+        let visit = &mut entry.visit;
+        if visit.onset().is_none_or(|onset| self.blew >= onset) {
+            return;
+        }
+        if visit.blown().is_some_and(|end| begins(end + PATIENCE_S, now))
+            && let Some(breath) = visit.tries_again().filter(|breath| breath.end() + PATIENCE_S < comes)
+        {
+            self.house.put_breath(breath.onset, breath.sound(self.house.capsules()));
+            visit.leaves = visit.leaves.max(breath.end() + PATIENCE_S);
+            visit.breaths.push(breath);
+        }
+        let begins_now = visit.separate().skip(1).find(|(_, breath)| begins(breath.onset, now));
+        if let Some((doing, breath)) = begins_now {
+            let (entry, at, doing) = (self.current, breath.onset, Some(doing));
+            self.waiting.push(Moment { entry, at, doing, alone: Vec::new() });
+        }
+    }
+
     /// Does the kiosk blow within a second of what the visitor does?
     fn note_heard(&mut self, now: f64) {
         let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
@@ -296,8 +321,8 @@ impl<'a> Course<'a> {
     fn ask(&mut self, picture: u64) {
         let due = |moment: &Moment| picture_at(moment.at) + judge::BEFORE as u64 <= picture;
         while let Some(index) = self.waiting.iter().position(due) {
-            let Moment { entry, at, real, alone } = self.waiting.swap_remove(index);
-            self.eyes.ask((entry, real), picture_at(at), alone);
+            let Moment { entry, at, doing, alone } = self.waiting.swap_remove(index);
+            self.eyes.ask((entry, doing), picture_at(at), alone);
         }
     }
 
@@ -305,14 +330,24 @@ impl<'a> Course<'a> {
         let Seen { answers, drawn } = self.eyes.seen()?;
         let shuffled: Vec<_> = answers
             .iter()
-            .filter_map(|((_, real), answer)| answer.filter(|_| !real))
+            .filter_map(|((_, doing), answer)| answer.filter(|_| doing.is_none()))
             .map(|answer| (answer.contingency, answer.is_answer()))
             .collect();
-        let judged = answers.iter().filter(|((_, real), _)| *real).filter_map(|((index, _), answer)| {
+        let firsts = answers.iter().filter(|((_, doing), _)| *doing == Some(0));
+        let judged = firsts.filter_map(|((index, _), answer)| {
             let entry = &self.day.entries[*index];
             let onset = entry.visit.onset()?;
-            let before = onset - UNTOUCHED_S..onset;
-            let phantoms = self.phantoms.iter().filter(|nobody| before.contains(&nobody.at_s)).count();
+            let phantoms = |onset: f64| {
+                let before = onset - UNTOUCHED_S..onset;
+                self.phantoms.iter().filter(|nobody| before.contains(&nobody.at_s)).count()
+            };
+            let answered = |onset: f64, answer: &Option<Answer>| {
+                answer.is_some_and(|answer| answer.is_answer()) && phantoms(onset) == 0
+            };
+            let at_once = answered(onset, answer);
+            let later = answers.iter().filter(|((entry, _), _)| entry == index).any(|((_, doing), answer)| {
+                doing.is_some_and(|doing| doing > 0 && answered(entry.visit.breaths[doing].onset, answer))
+            });
             let mut groups = entry.visit.groups();
             groups.extend(entry.after.map(Task::after));
             groups.extend(self.woke.contains(index).then_some("wakes it from attract mode"));
@@ -331,8 +366,10 @@ impl<'a> Course<'a> {
                 seen_after_s: answer.and_then(|a| a.seen).map(after),
                 energy: answer.map(|answer| answer.energy),
                 contingency: answer.map(|answer| answer.contingency),
-                phantoms,
-                good: answer.is_some_and(|answer| answer.is_answer()) && phantoms == 0,
+                phantoms: phantoms(onset),
+                breaths: entry.visit.breaths.len(),
+                at_once,
+                good: at_once || later,
                 missed: None,
                 groups,
             };
@@ -353,6 +390,8 @@ impl<'a> Course<'a> {
             visitors: self.day.entries.len(),
             headline: Share::default(),
             groups: Default::default(),
+            at_once: Share::default(),
+            groups_at_once: Default::default(),
             missed: Default::default(),
             changed: Share::default(),
             seen: Share::default(),

@@ -34,6 +34,11 @@ const SHOUT_DB: (f64, f64) = (82.0, 98.0);
 const LAUGHTER_DB: (f64, f64) = (70.0, 88.0);
 const STEPS_DB: (f64, f64) = (45.0, 65.0);
 
+/// Between two breaths of one mouth, s.
+const APART_S: (f64, f64) = (1.5, 4.0);
+/// Whoever sees nothing move blows again, and gives up after so many breaths.
+const GIVES_UP: usize = 3;
+
 /// What somebody comes to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
@@ -156,7 +161,7 @@ pub struct Visit {
     pub leaves: f64,
     /// Where the visitor points and when, picture coordinates; most touch nothing before they blow.
     pub aim: Option<(f64, [f64; 2])>,
-    /// In order; the first is what the visit is judged by.
+    /// In order.
     pub breaths: Vec<Breath>,
     /// In order.
     pub presses: Vec<Pressed>,
@@ -202,7 +207,7 @@ impl Visit {
                     end = end.max(other.end());
                 }
                 for _ in 0..[0, 0, 0, 1, 1, 2][(random.unit() * 6.0) as usize] {
-                    let next = breath.again(end + random.range(1.5, 4.0), random);
+                    let next = breath.again(end + random.range(APART_S.0, APART_S.1), random);
                     end = next.end();
                     breaths.push(next);
                 }
@@ -222,6 +227,31 @@ impl Visit {
     pub fn onset(&self) -> Option<f64> {
         let breath = self.breaths.first().map(|breath| breath.onset);
         breath.or(self.presses.first().map(|pressed| pressed.from))
+    }
+
+    /// When the last breath is over, s of the day; `None` for who does not blow.
+    pub fn blown(&self) -> Option<f64> {
+        self.breaths.iter().map(Breath::end).reduce(f64::max)
+    }
+
+    /// What comes next of whoever has blown and sees nothing move: another breath of the same mouth from the same place. `None`
+    /// for who gives up, or touches then.
+    pub fn tries_again(&self) -> Option<Breath> {
+        let tries = self.breaths.len() < GIVES_UP && self.way != Way::ThenTouches;
+        let first = self.breaths.first().filter(|_| tries)?;
+        let mut random = Random::new(hash_words(&[self.seed, 0x7472_6965, self.breaths.len() as u64]));
+        let onset = self.blown()? + random.range(APART_S.0, APART_S.1);
+        Some(first.again(onset, &mut random))
+    }
+
+    /// Which of the breaths begin after all earlier ones are over.
+    pub fn separate(&self) -> impl Iterator<Item = (usize, &Breath)> {
+        let mut end = f64::NEG_INFINITY;
+        self.breaths.iter().enumerate().filter(move |(_, breath)| {
+            let apart = breath.onset > end;
+            end = end.max(breath.end());
+            apart
+        })
     }
 
     /// When something is done that the kiosk may answer, s of the day.

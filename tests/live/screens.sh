@@ -37,15 +37,41 @@ languages() { # languages NAME CORNER
     echo "$i $alike"
 }
 
+# Labels as a curator writes them in Hebrew and Arabic.
+from_the_right() {
+    cat <<'TOML'
+
+[label.he]
+title = "מטוטלת"
+maker = "Soffio"
+body = "מוט פלדה, משקולת פליז וציר אחד. נשפו בקצב שלה, מעט בכל תנודה, והיא תתנדנד רחוק יותר."
+alt = "מוט פלדה דק ובקצהו משקולת פליז עגולה."
+text = { invite = "נשפו בעדינות." }
+caption = { wind = "[הנשימה חולפת]" }
+
+[label.ar]
+title = "البندول"
+maker = "Soffio"
+body = "قضيب من الفولاذ وثقل من النحاس ومفصل واحد. انفخوا على إيقاعه، قليلا في كل تأرجح، فيذهب أبعد."
+alt = "قضيب رفيع من الفولاذ في طرفه ثقل مستدير من النحاس."
+text = { invite = "انفخوا برفق." }
+caption = { wind = "[النفس يمر]" }
+TOML
+}
+
 every_screen() {
-    local toml=$room/screens.toml count alike wanted back left share code=0 seen
-    # What this machine's fonts cannot write is not offered: Korean.
-    wanted=$(grep -c '^\[label\.' "$root/exhibits/pendulum/exhibit.toml")
+    local toml=$room/screens.toml works=$room/works count alike wanted back left share code=0 seen
+    # One of the works is labelled in languages that are read from the right as well.
+    mkdir -p "$works"
+    cp -r "$root/exhibits/pendulum" "$root/exhibits/steel-fish" "$works"
+    from_the_right >>"$works/pendulum/exhibit.toml"
+    # What this machine's fonts cannot write is not offered.
+    wanted=$(grep -c '^\[label\.' "$works/pendulum/exhibit.toml")
     "$soffio" doctor >"$room/doctor.out" 2>&1 || true
-    if grep -q 'Korean: none found' "$room/doctor.out"; then wanted=$((wanted - 1)); fi
+    wanted=$((wanted - $(grep -cE '(Korean|Hebrew|Urdu): none found' "$room/doctor.out" || true)))
     site() {
         printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[visit]\ncalm = true\n[attract]\nidle_s = 45\n%s\n' \
-            "$root/exhibits" "${1:-}" >"$toml"
+            "$works" "${1:-}" >"$toml"
     }
     site
     launch_kiosk screens --config "$toml"

@@ -12,7 +12,7 @@ use soffio::offline::wav::Recording;
 use soffio::rehearsal::day::{Day, Task};
 use soffio::rehearsal::judge::{Answer, BEFORE, CONTINGENT, FPS, Picture, SOON, answer, median};
 use soffio::rehearsal::report::{ENOUGH, Report};
-use soffio::rehearsal::visitor::Way;
+use soffio::rehearsal::visitor::{Visit, Way};
 use soffio::rehearsal::{Crowd, Rehearsal, recorded, run};
 use soffio::wind::generate::{self, BreathShape};
 
@@ -136,6 +136,34 @@ fn a_short_day_has_staff_and_other_works_too() {
         assert!(day.entries.len() >= 6, "seed {seed}: {}", day.entries.len());
         assert!(day.duties.len() >= 3 && !day.changes.is_empty(), "seed {seed}: {day:?}");
         assert!(day.entries.iter().all(|entry| entry.visit.leaves < 720.0), "seed {seed}");
+    }
+}
+
+#[test]
+fn whoever_sees_nothing_move_blows_again_from_the_same_place_and_gives_up() {
+    const BREATHS: usize = 3;
+    for seed in 0..40 {
+        let mut visit = Visit::of(Way::Blows, 100.0, 0.0, &mut Random::new(seed));
+        let mouth = visit.breaths[0].shape;
+        while let Some(next) = visit.tries_again() {
+            let pause = next.onset - visit.blown().expect("it blows");
+            assert!((1.5..4.0).contains(&pause), "seed {seed}: {pause} s");
+            let shape = next.shape;
+            assert_eq!(
+                (shape.distance, shape.angle_deg, shape.attack),
+                (mouth.distance, mouth.angle_deg, mouth.attack)
+            );
+            assert!((0.69 * mouth.strength..1.31 * mouth.strength).contains(&shape.strength), "seed {seed}");
+            assert_eq!(visit.tries_again().map(|breath| breath.onset), Some(next.onset), "the same the second time");
+            visit.breaths.push(next);
+        }
+        assert_eq!((visit.breaths.len(), visit.separate().count()), (BREATHS, BREATHS), "seed {seed}");
+        // Two at once are one doing; who touches then does not try again, and who holds does not blow.
+        let two = Visit::of(Way::TwoAtOnce, 100.0, 0.0, &mut Random::new(seed));
+        assert!(two.breaths[1].onset < two.breaths[0].end() && two.separate().all(|(i, _)| i != 1), "seed {seed}");
+        for way in [Way::ThenTouches, Way::Holds, Way::WalksAway] {
+            assert!(Visit::of(way, 100.0, 0.0, &mut Random::new(seed)).tries_again().is_none(), "seed {seed}");
+        }
     }
 }
 

@@ -2,40 +2,18 @@
 
 use std::time::Instant;
 
-use egui::{Align2, Color32, FontId, Painter, vec2};
 use jiff::{ToSpan, Zoned};
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
 use crate::config::{Day, TimeOfDay};
 use crate::kiosk::fleet::SAFE_MODE;
-use crate::kiosk::house::House;
 use crate::kiosk::input::Request;
 use crate::kiosk::live::Frame;
-use crate::kiosk::overlay::Scene;
-use crate::kiosk::page::{INK, PAPER, Page};
 use crate::kiosk::shelf::{Places, folders, id};
 use crate::kiosk::site::{News, Site, waits_for_restart};
 use crate::kiosk::staff::Wish;
-use crate::kiosk::words::words;
 use crate::simulation::Command;
-
-/// Covers the picture while the house is closed or the glass is cleaned; says whether it did.
-pub(super) fn cover(painter: &Painter, house: &House, scene: &Scene) -> bool {
-    let all = painter.clip_rect();
-    if let Some(left) = house.cleans(scene.time) {
-        painter.rect_filled(all, 0.0, PAPER);
-        let page = Page::new(painter, all, scene.points_per_mm, scene.needs.reading);
-        page.text(all.center(), Align2::CENTER_BOTTOM, words(scene.language).cleaning, 1.8, INK, page.picture.width());
-        let count = FontId::proportional(4.0 * page.em);
-        painter.text(all.center() + vec2(0.0, page.em), Align2::CENTER_TOP, format!("{:.0}", left.ceil()), count, INK);
-        return true;
-    }
-    if !house.is_open() {
-        painter.rect_filled(all, 0.0, Color32::BLACK);
-    }
-    !house.is_open()
-}
 
 impl App<'_> {
     /// Opens and closes by the hours.

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use winit::event_loop::ActiveEventLoop;
 
-use super::{App, Show, day, visit};
+use super::{App, Show, visit};
 use crate::kiosk::languages::{first, offered};
 use crate::kiosk::live::Frame;
 use crate::kiosk::menu::tiles;
@@ -103,6 +103,7 @@ impl App<'_> {
                 view,
                 attract_text: frame.attract_text.as_deref(),
                 inviting: inviting.unwrap_or(&self.language),
+                house: &self.house,
                 hears: !frame.is_deaf() && !frame.deaf,
                 breath: self.config.visit.breath,
                 has_ear: !frame.is_deaf(),
@@ -128,9 +129,6 @@ impl App<'_> {
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
             points = ui.ctx().content_rect();
             self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
-            if day::cover(&painter, &self.house, &scene) {
-                self.buttons.clear();
-            }
             let sight = Sight {
                 frame: &frame,
                 view,

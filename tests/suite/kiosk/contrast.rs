@@ -9,9 +9,11 @@ use std::path::Path;
 use egui::Rect;
 use image::RgbaImage;
 use soffio::config::Config;
+use soffio::kiosk::house::House;
 use soffio::kiosk::languages::{offered, unwritten};
 use soffio::kiosk::page::Reading;
 use soffio::kiosk::staff::Page;
+use soffio::kiosk::words::words;
 use soffio::offline::pictures::Pictures;
 
 use super::glass::{Glass, luminance};
@@ -161,6 +163,55 @@ fn look(glass: &mut Glass, id: &str, languages: &[&str]) -> (Vec<String>, usize)
         }
     }
     (bad, measured)
+}
+
+/// What is written where the kiosk is cleaned, or tells of what it cannot do.
+#[test]
+fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast() {
+    const SIZE: (u32, u32) = (1280, 720);
+    let Some(mut glass) = Glass::new() else { return };
+    let exhibit = load("steel-fish");
+    let mut visitor = Before::new(&exhibit, [SIZE.0 as f32, SIZE.1 as f32]);
+    let mut pictures = Pictures::new(&exhibit, SIZE).expect("a driver that made a device draws");
+    let picture = pictures.draw(&visitor.moment).expect("it draws");
+    glass.learn(&mut visitor.lay_out());
+    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &unwritten());
+    let on_the_glass = visitor.picture();
+    let (mut bad, mut measured) = (Vec::new(), 0);
+    for language in offered {
+        for reading in [Reading::default(), Reading { large: true, contrast: true }] {
+            for cleaned in [false, true] {
+                (visitor.language, visitor.needs.reading) = (language.clone(), reading);
+                (visitor.hears, visitor.silent, visitor.leaves_in) = (false, true, Some(3.0));
+                visitor.house = House::default();
+                if cleaned {
+                    visitor.house.clean(visitor.time);
+                }
+                let (lines, with, without) = seen(&mut visitor, &mut glass, &picture);
+                let own = words(&language);
+                let said = if cleaned { vec![own.cleaning] } else { vec![own.silent, own.ear_off, own.stay_touch] };
+                for said in said {
+                    assert!(visitor.said.iter().any(|line| line == said), "{language}: {said:?} in {:?}", visitor.said);
+                }
+                for line in &lines {
+                    let ratio = contrast(&with, &without, line.place);
+                    measured += 1;
+                    if ratio < LEAST || !on_the_glass.contains_rect(line.place) {
+                        bad.push(format!(
+                            "{language}, {reading:?}, cleaned: {cleaned}: {ratio:.2} : 1 for {:?} at {:?}",
+                            line.text, line.place
+                        ));
+                    }
+                }
+                if let Some(folder) = std::env::var_os("SOFFIO_PICTURES") {
+                    let name = format!("cleaned-{cleaned}-{language}-{}.png", reading.large);
+                    with.save(Path::new(&folder).join(name)).expect("a folder that can be written");
+                }
+            }
+        }
+    }
+    assert!(measured > 200, "{measured} pieces");
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
 #[test]

@@ -9,6 +9,7 @@ use soffio::config::{Config, Group};
 use soffio::exhibit::{self, Exhibit, Label};
 use soffio::kiosk::captions::Captions;
 use soffio::kiosk::fonts;
+use soffio::kiosk::house::House;
 use soffio::kiosk::input::Request;
 use soffio::kiosk::languages::{offered, unwritten};
 use soffio::kiosk::menu::{Menu, Tile, tiles};
@@ -59,6 +60,9 @@ pub struct Before {
     pub breath: bool,
     pub attract: Option<&'static str>,
     pub captions: Vec<String>,
+    pub silent: bool,
+    pub leaves_in: Option<f64>,
+    pub house: House,
     /// What is written on the glass.
     pub said: Vec<String>,
 }
@@ -90,6 +94,9 @@ impl Before {
             breath: true,
             attract: None,
             captions: Vec::new(),
+            silent: false,
+            leaves_in: None,
+            house: House::default(),
             said: Vec::new(),
         }
     }
@@ -133,14 +140,15 @@ impl Before {
             view: self.exhibit.view(f64::from(self.glass[0] / self.glass[1])),
             attract_text: self.attract,
             inviting: &self.language,
+            house: &self.house,
             hears: self.hears,
             breath: self.breath,
             has_ear: true,
             listens: self.hears,
             captions: &self.captions,
             given: [20.0, 400.0],
-            silent: false,
-            leaves_in: None,
+            silent: self.silent,
+            leaves_in: self.leaves_in,
             languages: &self.languages,
             language: &self.language,
             volume: true,
