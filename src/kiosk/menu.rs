@@ -154,8 +154,11 @@ impl Menu {
         let size = vec2(width, SHAPE * width + 2.2 * page.em);
         let turning = page.button + gap;
         let ids: Vec<&str> = scene.tiles.iter().map(|tile| tile.id.as_str()).collect();
-        let all = rows(&ids, scene.groups, columns);
-        let all = leaves(all, room.height() - turning + gap, HEADING * page.em, size.y + gap);
+        let within =
+            |height: f32| leaves(rows(&ids, scene.groups, columns), height + gap, HEADING * page.em, size.y + gap);
+        // Where all works have room on one leaf there is nothing to turn.
+        let whole = Some(within(room.height())).filter(|leaves| leaves.len() == 1);
+        let all = whole.unwrap_or_else(|| within(room.height() - turning));
         self.leaves = all.len();
         self.leaf = self.leaf.min(self.leaves.saturating_sub(1));
         let mut y = room.top();

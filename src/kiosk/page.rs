@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use egui::text::{LayoutJob, TextFormat, TextWrapping};
+use egui::text::{ByteIndex, LayoutJob, LayoutSection, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2};
 
 use super::bidi;
@@ -92,8 +92,13 @@ impl<'a> Page<'a> {
                 job.append("\n", 0.0, format.clone());
             }
             let mut space = if from_right { longest - length } else { 0.0 };
+            // Each piece is a section of its own, which `append` would join with the one before: what is shaped
+            // together is turned about together, and a comma would go to the wrong side of its word.
             for piece in line {
-                job.append(piece, space, format.clone());
+                let start = job.text.len();
+                job.text.push_str(piece);
+                let byte_range = ByteIndex(start)..ByteIndex(job.text.len());
+                job.sections.push(LayoutSection { leading_space: space, byte_range, format: format.clone() });
                 space = 0.0;
             }
         }

@@ -242,7 +242,7 @@ impl Report {
                 enough(visits).then_some(all >= HEADLINE),
             ),
             bar(
-                "at once",
+                "first",
                 format!("{} of all visits by the first blow", percent(HEADLINE)),
                 format!("{} of {visits}", percent(first)),
                 enough(visits).then_some(first >= HEADLINE),

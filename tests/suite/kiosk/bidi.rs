@@ -114,6 +114,9 @@ fn letters_stand_on_the_glass_as_a_reader_from_the_right_expects_them() {
         // Arabic's letters are joined: three together are narrower than three alone.
         let width = |text: &str| page.set(text, 1.0, INK, 600.0).size().x;
         assert!(width("ببب") < 0.8 * 3.0 * width("ب"), "{} {}", width("ببب"), width("ب"));
+        // Signs of Arabic come out of the font of its letters: they stand after their word all the same.
+        assert_eq!(set("كتب، قلم"), "ملق ،بتك");
+        assert_eq!(set("كيف؟ نعم"), "معن ؟فيك");
         // What is read from the left is set as ever.
         assert_eq!(set("By 1941 (steel)"), "By 1941 (steel)");
     });

@@ -372,6 +372,40 @@ fn where_nobody_blows_nobody_is_invited_to_in_any_language() {
 }
 
 #[test]
+fn works_that_have_room_on_one_leaf_are_not_parted() {
+    /// Of a point: what is nearer to its bound may fall to either side.
+    const ROUNDING: f32 = 0.5;
+    const COLUMNS: usize = 3;
+    let exhibit = load("steel-fish");
+    let (mut parted, mut whole) = (0, 0);
+    for (height, works) in (480..=1080).step_by(40).flat_map(|height| (2..9).map(move |works| (height, works))) {
+        let height = height as f32;
+        let mut visitor = Before::new(&exhibit, [16.0 / 9.0 * height, height]);
+        visitor.menu.toggle();
+        visitor.works = works;
+        visitor.groups[0].works = vec!["work-0".into()];
+        let buttons = visitor.look();
+        let of_the_page = |request: &Request| {
+            matches!(request, Request::Work(_) | Request::Leaf(_) | Request::Menu | Request::Nothing)
+        };
+        let bar = buttons.iter().filter(|(_, request)| !of_the_page(request)).map(|(rect, _)| rect.top());
+        let bar = bar.reduce(f32::min).expect("switches in the bar");
+        let first = buttons.iter().find(|(_, request)| *request == Request::Work(0)).expect("the first work").0;
+        // A tile is 9/16 as high as wide and 2.2 em more, each of the two headings 2.2 em; an em lies below every row.
+        let em = (first.height() - 9.0 / 16.0 * first.width()) / 2.2;
+        let rows = 1 + (works - 1).div_ceil(COLUMNS);
+        let all = 2.0 * 2.2 * em + rows as f32 * (first.height() + em);
+        let room = bar - (first.top() - 2.2 * em);
+        if (all - room).abs() > ROUNDING {
+            let turns = buttons.iter().any(|(_, request)| *request == Request::Leaf(1));
+            assert_eq!(turns, all > room, "{works} works on {height} points: {all} of {room}");
+            *(if turns { &mut parted } else { &mut whole }) += 1;
+        }
+    }
+    assert!(parted > 5 && whole > 5, "{parted} parted, {whole} whole");
+}
+
+#[test]
 fn works_stand_under_the_headings_of_their_groups_in_every_language() {
     let exhibit = load("steel-fish");
     for glass in GLASSES {
