@@ -155,7 +155,7 @@ pub struct Report {
     pub at_once: Share,
     /// The same for each group.
     pub groups_at_once: BTreeMap<&'static str, Share>,
-    /// Why visits were not answered as they should be, and how many.
+    /// Why the first blow, or hold, was not answered as it should be, and in how many visits.
     pub missed: BTreeMap<&'static str, usize>,
     /// Of all visits, those that visibly changed the work within 0.3 s, however much it moved before. Told, not judged.
     pub changed: Share,

@@ -198,7 +198,6 @@ fn some_minutes_are_answered_and_the_same_the_second_time() {
     println!("{report}");
     assert_eq!(json(&report), json(&again));
     assert!(report.headline.visits >= 2 && report.headline.good >= 1, "{report}");
-    assert!(report.at_once.good <= report.headline.good, "{report}");
     assert!(report.phantoms.is_empty() && report.staff.iter().all(|check| check.good), "{report}");
 }
 
