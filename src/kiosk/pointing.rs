@@ -2,10 +2,7 @@
 //! or the arrow keys push it on from wherever it is. Whoever moved last counts.
 
 use super::stage::Controls;
-use crate::simulation::STEPS_PER_SECOND;
-
-/// The centre of the picture.
-const CENTRE: [f64; 2] = [0.5, 0.5];
+use crate::simulation::{CENTRE, STEPS_PER_SECOND};
 
 /// The aim over time.
 #[derive(Clone, Debug, Default)]

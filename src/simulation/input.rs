@@ -121,6 +121,9 @@ pub enum Command {
     Blow(Option<f64>),
 }
 
+/// The middle of the picture.
+pub const CENTRE: [f64; 2] = [0.5, 0.5];
+
 /// Everything that varies: the whole input of one step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StepInput<'a> {

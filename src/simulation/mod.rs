@@ -49,7 +49,7 @@ use gather::Gathering;
 pub use gather::LASTS as GATHERING_LASTS;
 pub use hands::Hand;
 use hands::Hands;
-pub use input::{Command, Microphone, MotionMode, Profile, Settings, StepInput};
+pub use input::{CENTRE, Command, Microphone, MotionMode, Profile, Settings, StepInput};
 pub use inspect::{BodyState, Inspection, JointState, Look, WindSample};
 use motes::Motes;
 use onset::Onset;
@@ -88,6 +88,8 @@ pub struct Simulation {
     start_step: u64,
     source: BreathSource,
     aim: Aim,
+    /// Where the breath was pointed in the last step, picture coordinates.
+    pointer: [f64; 2],
     /// Surfaces that breath leans to: which each is and how it is in its body's node frame; and where they are now.
     leant_to: Vec<(usize, AimTarget)>,
     aim_targets: Vec<AimTarget>,
@@ -151,6 +153,7 @@ impl Simulation {
             start_step: 0,
             source: BreathSource::new(settings.sensitivity_db),
             aim: Aim::default(),
+            pointer: CENTRE,
             idle: Idle::default(),
             onset: Onset::default(),
             front: Front::default(),
@@ -305,15 +308,18 @@ impl Simulation {
         self.gathering.as_ref().map(|(gathering, _)| gathering.way(&self.dynamics.bodies))
     }
 
-    /// Points the breath. What it leans to is chosen again sixty times a second, and at once by a breath that begins.
+    /// Points the breath. What it leans to is chosen again sixty times a second, and at once by a breath that begins, or that has
+    /// only just begun when it is pointed elsewhere: whoever wakes the work from attract mode blows a step before the script's
+    /// aim is given up, and what their first moment makes up for would go astray.
     fn take_aim(&mut self, input: &StepInput) {
         const EVERY: u64 = STEPS_PER_SECOND / 60;
         self.eye.look(&self.exhibit, input.aspect, input.turn);
-        let pointer = input.pointer.unwrap_or([0.5, 0.5]);
+        let pointer = input.pointer.unwrap_or(CENTRE);
         let Settings { distance, profile, .. } = self.settings;
         let Eye { aspect, ref view, .. } = self.eye;
         self.aim.point(view, view.ray(pointer, aspect), distance);
-        let begins = self.onset.begins();
+        let leaps = std::mem::replace(&mut self.pointer, pointer) != pointer;
+        let begins = self.onset.begins() || leaps && self.onset.is_fresh();
         let chooses = profile == Profile::Gallery && (begins || self.step.is_multiple_of(EVERY));
         if chooses {
             self.look_at_targets(self.step / EVERY, begins);

@@ -55,6 +55,11 @@ impl Onset {
         self.quiet == 0.0 && self.blown == 0.0
     }
 
+    /// Does it last no longer than what is made up for?
+    pub fn is_fresh(&self) -> bool {
+        self.quiet == 0.0 && self.blown < WITHIN
+    }
+
     /// Multiplies the force of the breath.
     pub fn gain(&self) -> f64 {
         1.0 + 2.0 * LOST / WITHIN * (1.0 - self.blown / WITHIN).max(0.0)

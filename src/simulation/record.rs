@@ -18,13 +18,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Command, Hand, MotionMode, Settings, StepInput};
+use super::{CENTRE, Command, Hand, MotionMode, Settings, StepInput};
 
 /// Version of the format.
 const VERSION: u32 = 1;
-/// Where the pointer is when nobody points.
-const CENTRE: [f64; 2] = [0.5, 0.5];
-
 /// What is wrong with a record, and where.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("line {line}: {problem}")]
