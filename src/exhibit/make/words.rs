@@ -27,16 +27,16 @@ pub fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
-/// What happens when nobody is there: the invitation, breaths, and all is put back.
+/// What happens when nobody is there: the invitation, and breaths. What hangs comes to rest by itself, and is not put back.
 pub fn attract(puffs: &[Puff]) -> String {
-    let end = puffs.last().map_or(20.0, |puff| puff.0 + 18.0);
+    let end = puffs.last().map_or(20.0, |puff| puff.0 + 19.0);
     let mut out = format!(
         "# ---- when nobody is there ------------------------------------------------------------------------------------\n\
          # Steps in the order of time, seconds since the round began. A step shows a text, blows, looks\n\
-         # round the work (look = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or puts everything back.\n\
+         # round the work (look = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or puts everything back to where it\n\
+         # started (reset = true): that is a jump, for works whose parts break or roll away.\n\
          # strength: 0.22 is a gentle breath, 1 the hardest. aim: (0,0) is the picture's top left, (1,1) its bottom right.\n\n\
-         [attract]\nduration = {}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n",
-        end + 1.0
+         [attract]\nduration = {end}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n"
     );
     for (at, strength, [x, y]) in puffs {
         let _ = write!(
@@ -44,7 +44,6 @@ pub fn attract(puffs: &[Puff]) -> String {
             "\n[[attract.step]]\nat = {at}\nblow = {{ strength = {strength}, hold = \"1.5 s\", aim = [{x}, {y}] }}\n"
         );
     }
-    let _ = write!(out, "\n[[attract.step]]\nat = {end}\nreset = true\n");
     out
 }
 

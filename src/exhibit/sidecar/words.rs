@@ -29,7 +29,7 @@ pub struct AttractStep {
     pub blow: Option<Blow>,
     /// Leads the camera round the work, to the right and up from where it stands; [0, 0] leads it back.
     pub look: Option<[Angle; 2]>,
-    /// Puts everything back to where it started.
+    /// Puts everything back to where it started. It jumps there: for works whose parts break or roll away.
     #[serde(default)]
     pub reset: bool,
 }

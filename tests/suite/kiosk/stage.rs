@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use soffio::audio_io::{Heard, input};
-use soffio::exhibit::{self, Exhibit};
+use soffio::exhibit::{self, AttractAction, Exhibit};
 use soffio::kiosk::gesture::Press;
 use soffio::kiosk::governor::Governor;
 use soffio::kiosk::microphone::MicrophoneHealth;
@@ -50,6 +50,41 @@ fn a_recording_on_the_stage_is_the_run_that_the_simulation_makes_of_it() {
         assert_eq!(stage.state_hash(), simulation.state_hash(), "step {step}");
     }
     assert!(simulation.snapshot().diagnostics.wind_force.length() > 0.0 || simulation.energy() != 0.0);
+}
+
+#[test]
+fn whoever_wakes_the_work_blows_at_once_where_any_breath_goes() {
+    /// One step of breath moves a plate by less than this, m.
+    const MOVED: f64 = 1e-3;
+    let script = Some([0.27, 0.21]);
+    let mut waits = Simulation::new(steel_fish(), Settings::default());
+    (0..240).for_each(|_| waits.step(&StepInput { pointer: script, ..StepInput::default() }));
+    // The kiosk knows of a breath a step after the ear: the script's aim lasts so long.
+    let goes = |late: bool| {
+        let mut woken = waits.clone();
+        for step in 0..3 {
+            let pointer = script.filter(|_| late && step == 0);
+            let commands = [Command::Blow(Some(4.0))];
+            woken.step(&StepInput { pointer, commands: &commands, ..StepInput::default() });
+        }
+        woken.snapshot().breath.target
+    };
+    let (woken, at_once) = (goes(true), goes(false));
+    assert!((woken - at_once).length() < MOVED, "{woken}, not {at_once}");
+    assert!((at_once - waits.snapshot().breath.target).length() > 10.0 * MOVED, "the script aims elsewhere");
+}
+
+#[test]
+fn no_script_lets_a_work_jump_that_comes_to_rest_by_itself() {
+    let mut calm = 0;
+    for id in exhibit::ids() {
+        let folder = exhibit::resolve(&id).expect("a shipped work");
+        let work = exhibit::load(&folder).expect("a good one");
+        let resets = work.attract.steps.iter().any(|step| matches!(step.action, AttractAction::Reset));
+        assert!(work.calm.is_none() || !resets, "{id} is put back while it hangs where it came to rest");
+        calm += usize::from(work.calm.is_some());
+    }
+    assert!(calm >= 8, "{calm} works come to rest by themselves");
 }
 
 #[test]
