@@ -180,12 +180,12 @@ impl<'a> Course<'a> {
     /// What begins now: visits, staff, another work.
     fn programme(&mut self, now: f64) {
         while let Some(entry) = self.day.entries.get(self.made).filter(|entry| entry.visit.arrives - AHEAD_S <= now) {
-            let capsules = self.house.capsules();
+            let (capsules, apart) = (self.house.capsules(), self.house.world().apart());
             for (at, sound) in entry.visit.noises(self.house.world(), capsules) {
                 self.house.put(at, sound);
             }
             for breath in &entry.visit.breaths {
-                self.house.put_breath(breath.onset, breath.sound(capsules));
+                self.house.put_breath(breath.onset, breath.sound(capsules, apart));
             }
             if entry.answered()
                 && let Some(onset) = entry.visit.onset()
@@ -262,7 +262,8 @@ impl<'a> Course<'a> {
         if visit.blown().is_some_and(|end| begins(end + PATIENCE_S, now))
             && let Some(breath) = visit.tries_again().filter(|breath| breath.end() + PATIENCE_S < comes)
         {
-            self.house.put_breath(breath.onset, breath.sound(self.house.capsules()));
+            let sound = breath.sound(self.house.capsules(), self.house.world().apart());
+            self.house.put_breath(breath.onset, sound);
             visit.leaves = visit.leaves.max(breath.end() + PATIENCE_S);
             visit.breaths.push(breath);
         }
@@ -433,4 +434,51 @@ fn place(exhibit: &Exhibit, moment: &Snapshot, which: f64) -> [f64; 2] {
     });
     let shown: Vec<[f64; 2]> = plates.filter_map(|point| view.project(point, ASPECT)).collect();
     shown.get((which * shown.len() as f64) as usize).copied().unwrap_or([0.5, 0.5])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::config::Config;
+    use crate::exhibit;
+    use crate::kiosk::site::Site;
+    use crate::noise::Random;
+    use crate::rehearsal::Crowd;
+    use crate::rehearsal::day::Entry;
+    use crate::rehearsal::visitor::{Visit, Way};
+
+    #[test]
+    fn whoever_is_not_heard_blows_again_in_the_day_and_each_breath_is_looked_at() {
+        /// A breath of two seconds at most, and its pause, three times over.
+        const LENGTH_S: f64 = 32.0;
+        /// Nobody is heard from there.
+        const FAR_M: f64 = 30.0;
+        /// Of the second before and the second after, and of the moment itself.
+        const PICTURES: u64 = 2 * judge::BEFORE as u64 + 1;
+        let folder = exhibit::resolve("steel-fish").expect("a shipped work");
+        let work = Arc::new(exhibit::load(&folder).expect("a good one"));
+        let site = Site::new(&Config::default(), 1);
+        let (hours, room) = (LENGTH_S / 3600.0, "gallery".into());
+        let mut rehearsal =
+            Rehearsal { works: vec![work], site, room, capsules: 2, crowd: Crowd::Made, hours, seed: 1 };
+        let house = open_house(&mut rehearsal).expect("a room");
+        let mut visit = Visit::of(Way::Blows, 1.0, 0.0, &mut Random::new(1));
+        visit.breaths.truncate(1);
+        visit.breaths[0].shape.distance = FAR_M;
+        visit.leaves = visit.breaths[0].end() + PATIENCE_S + 0.5;
+        let entries = vec![Entry { visit, work: 0, during: None, after: None, shuffled: 0.5 * LENGTH_S }];
+        let day = Day { entries, length: LENGTH_S, ..Day::default() };
+        let mut course = Course::new(&rehearsal, day, house).expect("a driver");
+        (0..(LENGTH_S * STEPS_PER_SECOND as f64) as u64).for_each(|step| course.step(step));
+        let report = course.report(&rehearsal).expect("pictures");
+        let visit = &report.visits[0];
+        assert!(visit.breaths == 3 && !visit.good && visit.heard_after_s.is_none(), "{visit:?}");
+        assert!(
+            report.pictures >= 4 * PICTURES,
+            "{} pictures: of each breath, and of a moment of no meaning",
+            report.pictures
+        );
+    }
 }

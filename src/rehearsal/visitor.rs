@@ -104,7 +104,9 @@ impl Breath {
             ..BreathShape::default()
         };
         let lips = Lips::random(angle_deg, random);
-        Self { onset, shape, lips, seed: random.word() }
+        let seed = random.word();
+        let past_deg = Random::new(hash_words(&[seed, 0x7061_7374])).range(0.0, 360.0);
+        Self { onset, shape: BreathShape { past_deg, ..shape }, lips, seed }
     }
 
     /// Another one of the same mouth, a little softer or harder.
@@ -119,9 +121,10 @@ impl Breath {
         self.onset + self.shape.duration()
     }
 
-    /// What arrives at each of so many capsules, full scale ±1 at 16 kHz.
-    pub fn sound(&self, capsules: usize) -> Vec<Vec<f64>> {
-        let at = |capsule| self.lips.heard(generate::stream(RATE, self.seed, &self.shape, capsule as u64));
+    /// What arrives at each of so many capsules, two of them so far apart (m); full scale ±1 at 16 kHz.
+    pub fn sound(&self, capsules: usize, apart: f64) -> Vec<Vec<f64>> {
+        let shape = BreathShape { apart: if capsules > 1 { apart } else { 0.0 }, ..self.shape };
+        let at = |capsule| self.lips.heard(generate::stream(RATE, self.seed, &shape, capsule as u64));
         (0..capsules).map(at).collect()
     }
 }

@@ -26,6 +26,8 @@ const LONGEST_S: f64 = 0.6;
 /// Below this, sound from everywhere is the same at both capsules: sin(k d)/(k d) is a half at 2.1 kHz where they are 5 cm
 /// apart, Hz.
 pub const ALIKE_HZ: f64 = 2000.0;
+/// Between two capsules, m.
+pub const APART_M: (f64, f64) = (0.02, 0.06);
 /// Length of the transform of a convolution.
 const BLOCK: usize = 1 << 15;
 
@@ -55,10 +57,15 @@ impl Room {
         let microphone = size * DVec3::new(random.range(0.2, 0.8), random.range(0.1, 0.4), 0.0)
             + DVec3::new(0.0, 0.0, random.range(0.9, 1.4));
         let turn = random.range(0.0, PI);
-        let apart = random.range(0.02, 0.06);
+        let apart = random.range(APART_M.0, APART_M.1);
         let second = DVec3::new(crate::math::cos(turn), crate::math::sin(turn), 0.0) * apart;
         let t60 = (0.161 * size.x * size.y * size.z / (absorption * surface)).clamp(0.2, 3.0);
         Self { size, absorption, microphone, second, t60 }
+    }
+
+    /// Between the two capsules, m.
+    pub fn apart(&self) -> f64 {
+        self.second.length()
     }
 
     /// A place where a source may be, at least half a metre from the walls.

@@ -12,7 +12,7 @@ use crate::noise::{Random, hash_words};
 use crate::wind::generate::filter::{high_passed, low_passed, normalised, parted, power, white};
 use crate::wind::generate::{self, BreathShape};
 
-use super::rooms::{ALIKE_HZ, Room, convolved};
+use super::rooms::{ALIKE_HZ, APART_M, Room, convolved};
 use super::voices::{self, Voice, add};
 use super::{Breath, Event, Kind, RATE, Take, noises, own};
 pub use lips::Lips;
@@ -192,6 +192,11 @@ impl World {
         }
     }
 
+    /// Between the two capsules of its first room, m.
+    pub fn apart(&self) -> f64 {
+        self.rooms.first().map_or(0.0, |(room, _)| room.apart())
+    }
+
     /// A stretch of one of the voices.
     pub fn speech(&self, seconds: f64, random: &mut Random) -> Vec<f64> {
         let track = &self.voices[(random.unit() * VOICES as f64) as usize].1;
@@ -246,12 +251,16 @@ impl World {
         let (distance, angle_deg, child) = mouth;
         // Soft breaths are as frequent as hard ones: they are the harder to hear.
         let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
+        let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
+        let (apart, past_deg) = (pair.range(APART_M.0, APART_M.1), pair.range(0.0, 360.0));
         let first = BreathShape {
             lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
             strength: soft * crate::math::pow(hard / soft, random.unit()),
             lead_out: random.range(0.8, 1.5),
             distance,
             angle_deg,
+            apart: if hearing.stereo { apart } else { 0.0 },
+            past_deg,
             foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
             colour: crate::math::pow(2.0, random.range(-0.8, 1.4)),
             corner_hz: 5.0,

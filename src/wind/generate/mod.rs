@@ -13,12 +13,19 @@
 //! ```
 //!
 //! Beside the axis the rumble is gone and the hiss remains: sound goes everywhere, the stream does not. Two capsules
-//! hear the same hiss and each its own turbulence: eddies at the port are millimetres wide. Last comes the microphone:
-//! its high-pass corner, its noise, and soft saturation at full scale.
+//! hear the same hiss and each its own turbulence: eddies at the port are millimetres wide. Each has its own d and θ, too: with
+//! the lips at the origin and the middle of the pair at D on z, s apart along x, the stream along a,
+//!
+//! ```text
+//! x_c = (±s/2, 0, D)      a = (sin θ cos φ, sin θ sin φ, cos θ)      d_c = |x_c|      θ_c = ∠(a, x_c)
+//! ```
+//!
+//! and who blows past one of them from near by blows the less past the other: of 5 cm at 15 cm, 9.5 degrees less. Last comes the
+//! microphone: its high-pass corner, its noise, and soft saturation at full scale.
 
 pub mod filter;
 
-use crate::math::{PI, cos, exp, from_decibels, pow, sin, tanh};
+use crate::math::{DVec3, PI, atan2, cos, exp, from_decibels, pow, sin, tanh};
 use crate::noise::{Random, hash_words};
 use filter::{gaussian, high_passed, low_passed, normalised, resonance};
 
@@ -42,10 +49,14 @@ pub struct BreathShape {
     pub release: f64,
     /// Quiet after the breath, s.
     pub lead_out: f64,
-    /// Lips to microphone, m.
+    /// D, lips to microphone, m.
     pub distance: f64,
-    /// Between the axis of the stream and the line to the microphone, degrees.
+    /// θ, between the axis of the stream and the line to the microphone, degrees.
     pub angle_deg: f64,
+    /// s, between two capsules that stand side by side before the lips, m; 0 where there is one.
+    pub apart: f64,
+    /// φ, which way the stream goes past them: 0 along their line, towards the second, 90 across it, degrees.
+    pub past_deg: f64,
     /// What a foam shield takes from the rumble, dB.
     pub foam_db: f64,
     /// Corner of the rumble relative to f₁: capsules, grilles and lips differ.
@@ -67,6 +78,8 @@ impl Default for BreathShape {
             lead_out: 1.0,
             distance: 0.1,
             angle_deg: 0.0,
+            apart: 0.0,
+            past_deg: 0.0,
             foam_db: 0.0,
             colour: 1.0,
             corner_hz: 60.0,
@@ -89,6 +102,14 @@ impl BreathShape {
     /// When the air starts and when it has stopped, s.
     pub fn span(&self) -> (f64, f64) {
         (self.lead_in, self.lead_in + self.attack + self.hold + self.release)
+    }
+
+    /// d_c (m) and θ_c (degrees) of a capsule: the first is 0, the second 1.
+    pub fn way_to(&self, capsule: u64) -> (f64, f64) {
+        let [angle, past] = [self.angle_deg, self.past_deg].map(f64::to_radians);
+        let axis = DVec3::new(sin(angle) * cos(past), sin(angle) * sin(past), cos(angle));
+        let at = DVec3::new((capsule as f64 - 0.5) * self.apart, 0.0, self.distance);
+        (at.length(), atan2(axis.cross(at).length(), axis.dot(at)).to_degrees())
     }
 
     /// e(t), 0 … 1: sin² up, a slow fall to three quarters, exponential down.
@@ -131,8 +152,9 @@ pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) ->
     let hiss = low_passed(high_passed(gaussian(count, &mut stream(4)), rate, 400.0, 2), rate, 1800.0, 1);
     let hiss = normalised(low_passed(hiss, rate, 6000.0_f64.min(0.45 * rate), 1));
 
-    let distance_cm = 100.0 * shape.distance;
-    let beside = (shape.angle_deg / JET_ANGLE_DEG) * (shape.angle_deg / JET_ANGLE_DEG);
+    let (distance, angle_deg) = shape.way_to(capsule);
+    let distance_cm = 100.0 * distance;
+    let beside = (angle_deg / JET_ANGLE_DEG) * (angle_deg / JET_ANGLE_DEG);
     let near = exp(-beside) * from_decibels(-shape.foam_db) / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
     let far = 1.0 / (1.0 + distance_cm / 25.0);
     let air = (0..count).map(|i| {
@@ -257,4 +279,40 @@ fn length(sample_rate: u32, seconds: f64) -> usize {
 fn scaled(samples: Vec<f64>, dbfs: f64) -> Vec<f32> {
     let gain = from_decibels(dbfs);
     normalised(samples).into_iter().map(|x| (gain * x).clamp(-1.0, 1.0) as f32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_of_two_capsules_has_its_own_way_to_the_lips() {
+        /// Rounding, m and degrees.
+        const EXACT: f64 = 1e-9;
+        let blown = |angle_deg, past_deg, apart| BreathShape {
+            distance: 0.15,
+            angle_deg,
+            past_deg,
+            apart,
+            ..BreathShape::default()
+        };
+        let near = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < EXACT && (a.1 - b.1).abs() < EXACT;
+        let aside = (0.025_f64 / 0.15).atan().to_degrees();
+        let away = 0.15_f64.hypot(0.025);
+        let one = blown(40.0, 70.0, 0.0);
+        assert!(near(one.way_to(0), (0.15, 40.0)) && near(one.way_to(1), (0.15, 40.0)), "{:?}", one.way_to(0));
+        let straight = blown(0.0, 0.0, 0.05);
+        assert!(near(straight.way_to(0), (away, aside)) && near(straight.way_to(1), (away, aside)));
+        let along = blown(40.0, 0.0, 0.05);
+        assert!(near(along.way_to(0), (away, 40.0 + aside)) && near(along.way_to(1), (away, 40.0 - aside)));
+        let across = blown(40.0, 90.0, 0.05);
+        assert!(near(across.way_to(0), across.way_to(1)) && across.way_to(0).1 > 40.0);
+        // e^(−(θ/22°)²) of 30.5 and 49.5 degrees: the second hears the louder rumble by 27 dB, and as much hiss.
+        let [first, second] = [0, 1].map(|capsule| stream(16000, 3, &along, capsule));
+        let of = |part: fn(Vec<f64>) -> Vec<f64>, x: &[f64]| filter::power(&part(x.to_vec())).sqrt();
+        let rumble = |x: Vec<f64>| low_passed(x, 16000.0, 100.0, 2);
+        let hiss = |x: Vec<f64>| high_passed(x, 16000.0, 1500.0, 2);
+        assert!(of(rumble, &second) > 5.0 * of(rumble, &first));
+        assert!((of(hiss, &second) / of(hiss, &first) - 1.0).abs() < 0.05);
+    }
 }
