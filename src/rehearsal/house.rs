@@ -15,7 +15,7 @@ use super::BLOCK;
 use super::day::busyness;
 use super::rate::Finer;
 use super::room::Echo;
-use super::standing::Standing;
+use super::standing::{Above, Standing};
 use crate::math::{PI, exp, from_decibels};
 use crate::noise::{Random, hash_words};
 use crate::offline::ear::rooms::ALIKE_HZ;
@@ -146,7 +146,7 @@ impl House {
     }
 
     /// How far the breaths of the time that is looked at stand above all else ([`Standing::above_db`]).
-    pub fn above_db(&self) -> Option<[f64; 2]> {
+    pub fn above_db(&self) -> Option<Above> {
         self.standing.above_db()
     }
 
@@ -170,9 +170,7 @@ impl House {
                 let to = if *breath { &mut blown } else { &mut sum };
                 to[into..].iter_mut().zip(&sound[past..]).for_each(|(y, x)| *y += x);
             }
-            if number == 0 {
-                self.standing.hear(from, &blown, &sum);
-            }
+            self.standing.hear(number, from, &blown, &sum);
             sum.iter_mut().zip(&blown).for_each(|(y, x)| *y += x);
             let samples = capsule.record(&sum);
             heard.resize(count * samples.len(), 0.0);

@@ -6,6 +6,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::judge::{FPS, SOON, median};
+use super::standing::Above;
 use crate::offline::ear::score::wilson;
 
 /// Share of all visits that must be answered.
@@ -29,9 +30,10 @@ pub struct Judged {
     /// From the onset to the first wind inside the kiosk, s; null where there is none within a second. Told, not judged: it says
     /// whether a visit that was not answered was not heard, or not seen.
     pub heard_after_s: Option<f64>,
-    /// How far its first 0.3 s stood above the house at the microphone, in rumble (31–203 Hz) and in hiss (406–3400 Hz), dB; null
-    /// where nobody blew. Told, not judged: what lies far below in both, nobody can hear.
-    pub above_db: Option<[f64; 2]>,
+    /// How far its first 0.3 s stood above the house at the microphone, in rumble (31–203 Hz), in hiss (406–3400 Hz) and in the
+    /// rumble that differs between two capsules, dB; null where nobody blew. Told, not judged: what lies far below in all of
+    /// them, nobody can hear.
+    pub above_db: Option<Above>,
     /// What the ear said in that second, and in how many steps of 240 a second, the most frequent first. Told, not judged.
     pub ear: Vec<(String, u32)>,
     /// From the onset to the first picture that is visibly another one than had nobody come, s; null where there is none

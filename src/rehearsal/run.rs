@@ -10,6 +10,7 @@ use super::house::House;
 use super::judge::{self, Answer, FPS};
 use super::machine::Machine;
 use super::report::{Judged, Nobody, Report, Share, StaffCheck};
+use super::standing::Above;
 use super::twin::left_alone;
 use super::visitor::Press;
 use super::{FRAMES, Rehearsal, RehearsalError, open_house};
@@ -99,11 +100,11 @@ struct Course<'a> {
     /// Entries whose doing made wind, and after how long, s.
     heard: Vec<(usize, f64)>,
     /// How far each entry's first breath stood above the house, dB.
-    above: Vec<Option<[f64; 2]>>,
+    above: Vec<Option<Above>>,
     /// What the ear said in the second after each entry's onset, and how often.
     ear: Vec<BTreeMap<String, u32>>,
     phantoms: Vec<Nobody>,
-    /// When attract mode last played, and when there last was wind inside the kiosk, s.
+    /// When attract mode last played, and when the kiosk last blew for somebody, s.
     attracted: f64,
     blew: f64,
     duties: Vec<(Duty, bool)>,
@@ -164,7 +165,7 @@ impl<'a> Course<'a> {
         if self.machine.stage.attracts() {
             self.attracted = now;
         }
-        if self.machine.stage.snapshot().breath.speed > 0.0 {
+        if self.blows() {
             self.blew = now;
         }
         self.note_heard(now);
@@ -274,16 +275,23 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// Does the kiosk blow for somebody? What the invitation blows is nobody's.
+    fn blows(&self) -> bool {
+        self.machine.stage.snapshot().breath.speed > 0.0 && !self.machine.stage.attracts()
+    }
+
     /// Does the kiosk blow within a second of what the visitor does?
     fn note_heard(&mut self, now: f64) {
         let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
         let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now)) else { return };
-        let breath = &self.machine.stage.snapshot().breath;
-        if !self.day.entries[self.current].visit.breaths.is_empty() {
-            self.above[self.current] = self.house.above_db();
+        let blows = self.blows();
+        let above = &mut self.above[self.current];
+        if above.is_none() && !self.day.entries[self.current].visit.breaths.is_empty() {
+            *above = self.house.above_db();
         }
-        *self.ear[self.current].entry(format!("{:?}", breath.estimate.reason)).or_default() += 1;
-        if breath.speed > 0.0 && self.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
+        let reason = self.machine.stage.snapshot().breath.estimate.reason;
+        *self.ear[self.current].entry(format!("{reason:?}")).or_default() += 1;
+        if blows && self.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
             self.heard.push((self.current, now - onset));
         }
     }
