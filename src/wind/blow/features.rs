@@ -97,6 +97,9 @@ const PITCH_LAGS: (usize, usize) = (20, 100);
 const SMOOTHING_S: f64 = 0.008;
 /// A room is never taken to be quieter than this in a band, power (−75 dBFS): below it lies a converter's own noise.
 pub(super) const QUIETEST: f64 = 3.2e-8;
+/// Nor is what differs between two capsules below 406 Hz (−90 dBFS): a house lies 20 to 30 dB lower there than it is, and so does
+/// the breath of who blows past them.
+pub const QUIETEST_DIFFERENCE: f64 = 1e-9;
 /// Below the room by more than this, it is the room that has become quieter, dB.
 const SUNK_DB: f64 = -6.0;
 /// Unrest of a steady noise, dB: what its frames scatter by.
@@ -111,6 +114,8 @@ pub(super) const RISEN_DB: f64 = 5.0;
 /// The room, and what rises above it.
 #[derive(Clone, Debug)]
 pub(super) struct Listener {
+    /// What it never takes the room to be quieter than, power: below the middle, and there.
+    quietest: [f64; 2],
     smooth: Power,
     room: Power,
     /// How much low and middle waver about the room, dB.
@@ -165,9 +170,10 @@ pub struct Levels {
 }
 
 impl Listener {
-    /// A listener that knows no room yet.
-    pub fn new() -> Self {
+    /// A listener that knows no room yet, and takes none to be quieter in a band below the middle than this, power.
+    pub fn new(quietest: f64) -> Self {
         Self {
+            quietest: [quietest, QUIETEST],
             smooth: [0.0; BINS],
             room: [0.0; BINS],
             unrest_db: [CALM_DB; 2],
@@ -247,23 +253,25 @@ impl Listener {
         let early = 1.0 / self.learnt as f64;
         let (down, up) = (blend(0.4).max(early), blend(1.5));
         let new = self.is_new();
-        for (f, s) in self.room.iter_mut().zip(&self.smooth) {
+        let quietest = |bin: usize| self.quietest[usize::from(bin >= MIDDLE.0)];
+        for (bin, (f, s)) in self.room.iter_mut().zip(&self.smooth).enumerate() {
             *f = if new {
                 *f + early * (s - *f)
             } else if s < f {
                 *f + down * (s - *f)
             } else {
-                *f + up * (s.min(4.0 * *f + QUIETEST) - *f)
+                *f + up * (s.min(4.0 * *f + quietest(bin)) - *f)
             };
         }
     }
 
     fn measure(&mut self, own: &Power, still: Still) -> ([f64; MEASURED], Levels) {
         // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
-        let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + QUIETEST;
+        let quietest = |from: usize| self.quietest[usize::from(from >= MIDDLE.0)];
+        let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + quietest(from);
         let cleaned = |from: usize, to: usize| {
             let bins = self.smooth[from..to].iter().zip(&own[from..to]);
-            bins.map(|(s, own)| (s - own).max(0.0)).sum::<f64>() + QUIETEST
+            bins.map(|(s, own)| (s - own).max(0.0)).sum::<f64>() + quietest(from)
         };
         let rise = |(from, to)| decibels(cleaned(from, to) / floor(from, to)).clamp(-5.0, 50.0);
         let excess = |(from, to)| band(&self.excess, from, to) + 0.03 * floor(from, to);
@@ -280,7 +288,7 @@ impl Listener {
             loud_dbfs: decibels(cleaned(LOW.0, LOW.1) + cleaned(MIDDLE.0, MIDDLE.1)),
             excess_dbfs: decibels(band(&self.excess, LOW.0, LOW.1)),
             hiss_dbfs: decibels(band(&self.excess, MIDDLE.0, MIDDLE.1)),
-            floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + QUIETEST),
+            floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + quietest(LOW.0)),
             treble_dbfs: decibels(band(&self.smooth, EDGES[5], EDGES[6])),
             ..Levels::default()
         };

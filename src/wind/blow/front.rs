@@ -1,7 +1,7 @@
 //! From raw samples to features: what the detector and its training share.
 
 use super::capsules::Capsules;
-use super::features::{COUNT, FALL, Features, Levels, Listener, Still, decibels};
+use super::features::{COUNT, FALL, Features, Levels, Listener, QUIETEST, QUIETEST_DIFFERENCE, Still, decibels};
 use super::nearness::Nearness;
 use super::own::OwnVoice;
 use super::resample::Resampler;
@@ -75,8 +75,8 @@ impl FrontEnd {
             input: Input::default(),
             framer: Framer::new(),
             own_voice: OwnVoice::new(),
-            listener: Listener::new(),
-            apart: Listener::new(),
+            listener: Listener::new(QUIETEST),
+            apart: Listener::new(QUIETEST_DIFFERENCE),
             capsules: Capsules::new(),
             nearness: Nearness::new(),
             stereo: false,
@@ -159,5 +159,61 @@ impl Input {
     fn take(&mut self) -> Self {
         let fault_hold = if self.faulty { FAULT_HOLD_FRAMES } else { self.fault_hold.saturating_sub(1) };
         std::mem::replace(self, Self { fault_hold, ..Self::default() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::features::RISEN_DB;
+    use super::*;
+    use crate::math::from_decibels;
+    use crate::noise::Random;
+    use crate::wind::generate::filter::{high_passed, low_passed, normalised, white};
+
+    const RATE: u32 = 8000;
+    const SEED: u64 = 17;
+
+    /// Noise between two frequencies, Hz, this loud, dB of full scale.
+    fn noise((from, to): (f64, f64), dbfs: f64, seconds: u32, random: &mut Random) -> Vec<f64> {
+        let white = white((seconds * RATE) as usize, random);
+        let band = normalised(high_passed(low_passed(white, RATE.into(), to, 3), RATE.into(), from, 3));
+        band.into_iter().map(|x| from_decibels(dbfs) * x).collect()
+    }
+
+    #[test]
+    fn rumble_far_below_the_room_rises_out_of_what_differs() {
+        const WIND_DBFS: f64 = -78.0;
+        const SECONDS: u32 = 8;
+        const BEGINS_S: f64 = 6.0;
+        let mut random = Random::new(SEED);
+        // A room that is the same at both, whose treble is not; eddies of their own from the sixth second on.
+        let room = noise((60.0, 200.0), -58.0, SECONDS, &mut random);
+        let mut capsule = || {
+            let (treble, own) = (noise((1000.0, 3000.0), -60.0, SECONDS, &mut random), white(room.len(), &mut random));
+            let wind = noise((40.0, 150.0), WIND_DBFS, SECONDS, &mut random);
+            let own = own.iter().zip(&treble).map(|(own, treble)| from_decibels(-105.0) * own + treble);
+            let blown = |(i, wind): (usize, &f64)| if i as f64 >= BEGINS_S * f64::from(RATE) { *wind } else { 0.0 };
+            let wind = wind.iter().enumerate().map(blown);
+            room.iter().zip(own).zip(wind).map(|((room, own), wind)| (room + own + wind) as f32).collect::<Vec<_>>()
+        };
+        let (left, right) = (capsule(), capsule());
+        let mut front = FrontEnd::new(RATE);
+        let (mut before, mut after, mut sum) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, (left, right)) in left.iter().zip(&right).enumerate() {
+            let t = i as f64 / f64::from(RATE);
+            let Some(frame) = front.push(*left, Some(*right), 0.0, (t >= BEGINS_S, false)) else { continue };
+            let Some((_, levels)) = frame.difference else { continue };
+            if t > BEGINS_S + 1.0 {
+                after.push(levels.rise_db);
+                sum.push(frame.levels.rise_db);
+            } else if t > BEGINS_S - 2.0 && t < BEGINS_S {
+                before.push(levels.rise_db);
+            }
+        }
+        let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+        let (before, after, sum) = (mean(&before), mean(&after), mean(&sum));
+        assert!(before < 2.0, "it stands {before:.1} dB above its own room");
+        assert!(after > RISEN_DB + 3.0, "two capsules: {after:.1} dB");
+        assert!(sum < RISEN_DB, "one capsule: {sum:.1} dB");
     }
 }
