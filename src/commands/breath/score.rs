@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::super::{Failure, Outcome};
 use crate::offline::ear::scenes::Hearing;
 use crate::offline::ear::score::{Table, spearman};
-use crate::offline::ear::{Take, course, recordings};
+use crate::offline::ear::{Take, course, recordings, tables, train};
 use crate::wind::blow::BlowSettings;
 
 /// Mark the blow detector on a folder of labelled recordings, or on made scenes that it never learnt from.
@@ -34,6 +34,9 @@ pub struct Args {
     /// Louder or quieter, dB.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     gain: f64,
+    /// A table that `soffio breath train` wrote, in place of the ear's own; of more than one of a kind, the mean.
+    #[arg(long, value_name = "FILE.rs")]
+    table: Vec<PathBuf>,
     /// Tell every mistake.
     #[arg(long)]
     remarks: bool,
@@ -41,7 +44,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Outcome {
-    let settings = BlowSettings::default();
+    let settings = ear(&args.table)?;
     for folder in &args.folders {
         if !folder.join("labels.csv").is_file() {
             return Err(Failure::input(format!(
@@ -83,6 +86,28 @@ pub fn run(args: &Args) -> Outcome {
         tell(args, &remarks);
     }
     Ok(())
+}
+
+/// The program's ear, with these tables.
+fn ear(tables: &[PathBuf]) -> Result<BlowSettings, Failure> {
+    let mut settings = BlowSettings::default();
+    let (mut ones, mut twos) = (Vec::new(), Vec::new());
+    for path in tables {
+        let fail = |why: &dyn std::fmt::Display| Failure::input(format!("{}: {why}", path.display()));
+        let source = std::fs::read_to_string(path).map_err(|error| fail(&error))?;
+        match (tables::read(&train::ONE, &source), tables::read(&train::TWO, &source)) {
+            (Ok(one), _) => ones.push(one),
+            (_, Ok(two)) => twos.push(two),
+            (Err(one), Err(two)) => return Err(fail(&format!("{one}; {two}"))),
+        }
+    }
+    if let Some(mean) = course::mean(&ones) {
+        (train::ONE.give)(&mut settings, mean);
+    }
+    if let Some(mean) = course::mean(&twos) {
+        (train::TWO.give)(&mut settings, mean);
+    }
+    Ok(settings)
 }
 
 fn tell(args: &Args, remarks: &[String]) {

@@ -7,7 +7,7 @@ use super::super::{Failure, Outcome};
 use crate::offline::ear::course::{self, Begin, Course};
 use crate::offline::ear::scenes::Hearing;
 use crate::offline::ear::train::{self, Subject};
-use crate::offline::ear::{Take, recordings};
+use crate::offline::ear::{Take, recordings, tables};
 use crate::offline::whole_file::WholeFile;
 use crate::wind::blow::BlowSettings;
 
@@ -98,7 +98,7 @@ fn teach<const IN: usize, const FIRST: usize, const SECOND: usize>(
     examine(args, &course::ear(subject, &network));
     let fail = |error: std::io::Error| Failure::input(format!("{}: {error}", path.display()));
     let file = WholeFile::create(path).map_err(fail)?;
-    let table = train::table(subject, &network);
+    let table = tables::written(subject, &network);
     file.reopen().and_then(|mut out| out.write_all(table.as_bytes())).map_err(fail)?;
     file.finish().map_err(fail)
 }

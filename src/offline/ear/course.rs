@@ -198,6 +198,15 @@ fn mixed<const IN: usize, const FIRST: usize, const SECOND: usize>(
     mean
 }
 
+/// The mean of ears that began alike; of none, none. Inputs are scaled as the first one scales them.
+pub fn mean<const IN: usize, const FIRST: usize, const SECOND: usize>(
+    networks: &[Network<IN, FIRST, SECOND>],
+) -> Option<Network<IN, FIRST, SECOND>> {
+    let (first, rest) = networks.split_first()?;
+    let in_turn = (2..).zip(rest);
+    Some(in_turn.fold(first.clone(), |mean, (count, next)| mixed(next, &mean, 1.0 / f64::from(count))))
+}
+
 /// The part that a group of recordings belongs to.
 pub fn fold(group: &str) -> u64 {
     let letters: Vec<u64> = group.bytes().map(u64::from).collect();
@@ -364,5 +373,8 @@ mod tests {
                 assert!((w - (share * before + (1.0 - share) * after)).abs() < ROUNDING, "{share}: {w}");
             }
         }
+        let third = super::mean(&[after.clone(), (**present).clone(), after]).expect("a mean of three");
+        let far = third.weights.iter().zip(&*present.weights).map(|(w, before)| (w - before / 3.0).abs());
+        assert!(far.fold(0.0, f64::max) < ROUNDING, "one of three");
     }
 }

@@ -13,6 +13,7 @@ pub mod recordings;
 pub mod rooms;
 pub mod scenes;
 pub mod score;
+pub mod tables;
 pub mod train;
 pub mod voices;
 

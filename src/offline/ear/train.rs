@@ -12,7 +12,6 @@
 //! would cost: noise by how near it is to a ghost, breath while it has not been heard yet. Of frames that the ear
 //! is sure of and right about, a few stand for all.
 
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 use super::{Kind, Take};
@@ -265,28 +264,4 @@ fn add_outer<const N: usize, const M: usize>(gradient: &mut [f64], x: &[f64; N],
             *g += d * x;
         }
     }
-}
-
-/// A network as the source of its table.
-pub fn table<const IN: usize, const FIRST: usize, const SECOND: usize>(
-    subject: &Subject<IN, FIRST, SECOND>,
-    network: &Network<IN, FIRST, SECOND>,
-) -> String {
-    let [what, module, kind] = subject.name;
-    let mut out = format!(
-        "//! What the network of {what} has learnt: written by `soffio breath train`, not by hand.\n\n\
-         use std::borrow::Cow;\n\nuse super::{module}::{kind};\n\n/// What was learnt.\n#[rustfmt::skip]\n\
-         #[allow(clippy::approx_constant)] // what was learnt, whatever it resembles\n\
-         pub static TRAINED: {kind} = {kind} {{\n    scale: [\n"
-    );
-    for (i, [mean, deviation]) in network.scale.iter().enumerate() {
-        let _ = writeln!(out, "        [{mean:.4}, {deviation:.4}], // {}", (subject.input)(i));
-    }
-    out.push_str("    ],\n    weights: Cow::Borrowed(&[\n");
-    for row in network.weights.chunks(11) {
-        let cells: Vec<String> = row.iter().map(|w| format!("{w:.4}")).collect();
-        let _ = writeln!(out, "        {},", cells.join(", "));
-    }
-    out.push_str("    ]),\n};\n");
-    out
 }
