@@ -202,6 +202,36 @@ fn a_recording_that_cannot_be_heard_is_refused_with_a_remedy() {
 }
 
 #[test]
+fn a_table_of_the_ear_is_marked_before_it_takes_its_place() {
+    let desk = Desk::new();
+    let score = |tables: &[&str]| {
+        let asked =
+            ["breath", "score", "--generated", "--stereo", "--only", "between two capsules", "--hours", "0.002"];
+        let tables = tables.iter().flat_map(|table| ["--table", table]);
+        desk.soffio(&asked.into_iter().chain(tables).collect::<Vec<_>>())
+    };
+    let shipped = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/wind/blow/pair_table.rs"));
+    let shipped = shipped.expect("a table");
+    desk.write("shipped.rs", &shipped);
+    let (own, given) = (score(&[]), score(&["shipped.rs"]));
+    own.done();
+    given.done();
+    assert_eq!(own.out, given.out, "the same table, the same marks");
+    // Weights of nothing at all: it holds nothing to be likely, and hears nothing.
+    let (scales, weights) = shipped.split_once("weights:").expect("weights");
+    let deaf: String = weights.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+    desk.write("deaf.rs", &format!("{scales}weights:{deaf}"));
+    let deaf = score(&["deaf.rs"]);
+    deaf.done();
+    assert!(deaf.out != own.out && deaf.out.contains("  0.0 % ["), "{}", deaf.out);
+    desk.write("cut.rs", &shipped[..shipped.len() / 2]);
+    score(&["cut.rs"]).refused(1, &["cut.rs", "finite numbers, this one"]);
+    desk.write("words.rs", "not a table");
+    score(&["words.rs"]).refused(1, &["words.rs", "no table of two capsules", "soffio breath train --out"]);
+    score(&["missing.rs"]).refused(1, &["missing.rs"]);
+}
+
+#[test]
 fn a_silent_recording_plays_and_moves_no_air() {
     let desk = Desk::new();
     desk.wav("silent.wav", 48_000, &[0; 24_000]);

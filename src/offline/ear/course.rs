@@ -87,6 +87,8 @@ fn scenes(size: f64, stereo: bool) -> Vec<(Condition, u64)> {
     all.extend([0, 1, 2].map(|room| (Condition::OwnVoice(room), count(24.0))));
     all.extend([0, 1, 2].map(|room| (Condition::Answered(room), count(30.0))));
     if stereo {
+        // Of what goes past them, what differs is often all there is.
+        all.extend([8.0, 14.0, 20.0, 26.0].map(|snr| (Condition::Between(snr), count(60.0))));
         // Puffs into the microphone that the kiosk's own sound hides all else of: two capsules hear them as wind.
         all.extend([0, 1, 2].map(|room| (Condition::TalkedOver(room), count(24.0))));
     }
@@ -286,6 +288,13 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
         rows.push((
             format!("breath past it in a museum, {snr:2.0} dB of hiss"),
             Condition::Aside(snr),
+            takes(5.0 * 3.0),
+        ));
+    }
+    for snr in [10.0, 15.0, 20.0] {
+        rows.push((
+            format!("breath past it in a museum, {snr:2.0} dB between two capsules"),
+            Condition::Between(snr),
             takes(5.0 * 3.0),
         ));
     }

@@ -4,15 +4,15 @@
 //! voice, no room and no event. A scene sums dry sounds at places of a room, takes each place through the room's response to
 //! each capsule, adds breath, the bump that comes through the table, and the microphone: corner, noise, gain, rails.
 
+mod breaths;
 mod bystanders;
 mod lips;
 
 use crate::math::{exp, from_decibels, tanh};
 use crate::noise::{Random, hash_words};
 use crate::wind::generate::filter::{high_passed, low_passed, normalised, parted, power, white};
-use crate::wind::generate::{self, BreathShape};
 
-use super::rooms::{ALIKE_HZ, APART_M, Room, convolved};
+use super::rooms::{ALIKE_HZ, Room, convolved};
 use super::voices::{self, Voice, add};
 use super::{Breath, Event, Kind, RATE, Take, noises, own};
 pub use lips::Lips;
@@ -24,11 +24,6 @@ const SPEECH_S: f64 = 15.0;
 /// Rooms of a world, and places in each.
 const ROOMS: usize = 8;
 const PLACES: usize = 5;
-/// The longest that anybody blows evenly, s: with attack and release, less than what is latched as a machine's.
-const LONGEST_HOLD_S: f64 = 5.0;
-/// How long a scene has gone on before somebody blows, s: visitors come to rooms that have been loud for long, and what
-/// the ear remembers of the seconds before must be as full in a lesson as there.
-const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
 /// By how much two capsules of a kind differ at most: sensitivity, dB; corner, parts.
 pub const UNLIKE: (f64, f64) = (1.5, 0.1);
 
@@ -49,6 +44,9 @@ pub enum Condition {
     Noisy(f64),
     /// Breath past the microphone in a museum, its hiss this far above that of the noise, dB.
     Aside(f64),
+    /// The same past two capsules, of which the rumble of their difference stands this far above that of the noise, dB: often
+    /// all that can be heard of it.
+    Between(f64),
     /// Breath at the microphone by who has just talked there; a companion may talk on.
     Spoken,
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
@@ -181,7 +179,7 @@ impl World {
                 let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
             }
-            Condition::Aside(_) => {
+            Condition::Aside(_) | Condition::Between(_) => {
                 let child = random.unit() < 0.4;
                 let mouth = (random.range(0.1, 0.45), random.range(20.0, 60.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
@@ -237,114 +235,6 @@ impl World {
             let other = noises::air(seconds + 0.001, &mut Random::new(hash_words(&[air[0].to_bits(), 2])));
             add(second, 0.0, &parted(air, other, R, ALIKE_HZ), from_decibels(dbfs));
         }
-    }
-
-    /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
-    fn blow(
-        &self,
-        condition: Condition,
-        index: u64,
-        mouth: (f64, f64, bool),
-        hearing: Hearing,
-        random: &mut Random,
-    ) -> Take {
-        let (distance, angle_deg, child) = mouth;
-        // Soft breaths are as frequent as hard ones: they are the harder to hear.
-        let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
-        let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
-        let (apart, past_deg) = (pair.range(APART_M.0, APART_M.1), pair.range(0.0, 360.0));
-        let first = BreathShape {
-            lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
-            strength: soft * crate::math::pow(hard / soft, random.unit()),
-            lead_out: random.range(0.8, 1.5),
-            distance,
-            angle_deg,
-            apart: if hearing.stereo { apart } else { 0.0 },
-            past_deg,
-            foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
-            colour: crate::math::pow(2.0, random.range(-0.8, 1.4)),
-            corner_hz: 5.0,
-            ..BreathShape::default()
-        };
-        let (shapes, breaths) = Self::row_of_breaths(&first, random);
-        let seconds = shapes.iter().map(BreathShape::duration).sum::<f64>();
-        let seed = random.word();
-        let lips = Lips::random(angle_deg, random);
-        let capsules = 1 + u64::from(hearing.stereo);
-        let streams: Vec<Vec<f64>> = (0..capsules)
-            .map(|capsule| {
-                let air = (0..).zip(&shapes).map(|(i, s)| generate::stream(RATE, hash_words(&[seed, i]), s, capsule));
-                lips.heard(air.collect::<Vec<_>>().concat())
-            })
-            .collect();
-        // How far above the noise: in hiss where the stream goes past the microphone, else in all.
-        let snr = if let Condition::Noisy(snr) | Condition::Aside(snr) = condition { Some(snr) } else { None };
-        let loudness = if matches!(condition, Condition::Aside(_)) { hiss } else { power };
-        let noisy = snr.is_some();
-        let dry = match condition {
-            Condition::Spoken => self.talk_before(breaths[0].onset, seconds, random),
-            _ if noisy && random.unit() < 0.5 => self.throng(seconds, random),
-            _ if noisy => self.museum_sounds(seconds, random.range(0.5, 2.5), random),
-            _ => Dry::silent(streams[0].len()),
-        };
-        let mut channels = self.heard(&dry, hearing.stereo, random);
-        channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
-        let loudest = match condition {
-            _ if noisy => -30.0,
-            Condition::Spoken => -45.0,
-            _ => -58.0,
-        };
-        let air_dbfs = random.range(if noisy { -70.0 } else { -72.0 }, loudest);
-        Self::add_air(&mut channels, air_dbfs, random);
-        let during = |samples: &[f64], b: &Breath| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec();
-        if let Some(snr) = snr {
-            // The first one sets the noise.
-            let [air, noise] = [&streams[0], &channels[0]].map(|samples| loudness(&during(samples, &breaths[0])));
-            let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
-            channels.iter_mut().flatten().for_each(|x| *x *= gain);
-        }
-        let heard = |b: &Breath| above_noise(&during(&streams[0], b), &during(&channels[0], b));
-        let breaths: Vec<Breath> =
-            breaths.iter().map(|b| Breath { snr_db: snr, faint: heard(b) < FAINT_DB, ..*b }).collect();
-        for (channel, stream) in channels.iter_mut().zip(&streams) {
-            channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
-        }
-        let mut played = Vec::new();
-        if let Condition::Answered(room) = condition {
-            played = own::answers(seconds, &breaths, random);
-            // Headphones, a hearing loop or a cable that fell out: the microphone hears little or nothing of it.
-            let loud = if random.unit() < 0.25 { random.range(-60.0, -8.0) } else { random.range(-8.0, 4.0) };
-            self.hear_itself(&played, (room, loud), &mut channels, random);
-        }
-        let take = self.finish(condition, index, channels, Kind::Blow, breaths, hearing, random);
-        let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
-        let played = if matches!(condition, Condition::Answered(_)) { played.collect() } else { Vec::new() };
-        Take { events: dry.events, played, ..take }
-    }
-
-    /// One breath like `first`, or a few of one mouth: short puffs and long ones, hard and soft; when each of them is.
-    fn row_of_breaths(first: &BreathShape, random: &mut Random) -> (Vec<BreathShape>, Vec<Breath>) {
-        let count = if random.unit() < 0.6 { 1 } else { 2 + (random.unit() * 2.0) as usize };
-        let (mut shapes, mut breaths, mut start) = (Vec::new(), Vec::new(), 0.0);
-        for i in 0..count {
-            let long = random.unit() < 0.2;
-            let shape = BreathShape {
-                // A breath is taken between two.
-                lead_in: if i == 0 { first.lead_in } else { random.range(0.4, 1.2) },
-                strength: (first.strength * if i == 0 { 1.0 } else { random.range(0.7, 1.3) }).clamp(3.6, 17.0),
-                attack: random.range(0.04, 0.22),
-                hold: if long { random.range(3.0, LONGEST_HOLD_S) } else { random.range(0.4, 3.0) },
-                release: random.range(0.08, 0.45),
-                lead_out: if i + 1 == count { first.lead_out } else { 0.1 },
-                ..*first
-            };
-            let (onset, offset) = shape.span();
-            let (onset, offset) = (start + onset, start + offset);
-            breaths.push(Breath { onset, offset, strength: shape.strength, snr_db: None, faint: false });
-            start += shape.duration();
-            shapes.push(shape);
-        }
-        (shapes, breaths)
     }
 
     /// Adds what the microphone hears of what the kiosk plays in a room, this loud (dB).
@@ -436,21 +326,6 @@ pub fn resampled(samples: &[f32], sample_rate: u32) -> Vec<f64> {
     (0..(samples.len() as f64 * R / from) as usize).map(at).collect()
 }
 
-/// A breath that nowhere rises by this much above the noise cannot be heard, dB.
-const FAINT_DB: f64 = 3.0;
-
-/// By how much a breath rises above the noise where it does so most: below 250 Hz or above 400 Hz, dB.
-fn above_noise(breath: &[f64], noise: &[f64]) -> f64 {
-    let low = |x: &[f64]| power(&low_passed(x.to_vec(), R, 200.0, 2));
-    let ratio = (low(breath) / low(noise).max(1e-12)).max(hiss(breath) / hiss(noise).max(1e-12));
-    10.0 * crate::math::log10(ratio.max(1e-12))
-}
-
-/// Power of what lies from 500 Hz to 3 kHz.
-fn hiss(x: &[f64]) -> f64 {
-    power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2))
-}
-
 impl Condition {
     /// A word for the seed.
     fn number(self) -> u64 {
@@ -463,6 +338,7 @@ impl Condition {
             }
             Self::Noisy(snr) => hash_words(&[5, snr.to_bits()]),
             Self::Aside(snr) => hash_words(&[7, snr.to_bits()]),
+            Self::Between(snr) => hash_words(&[9, snr.to_bits()]),
             Self::Alike => 6,
             Self::Spoken => 8,
             Self::OwnVoice(room) => 100 + u64::from(room),
