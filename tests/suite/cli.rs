@@ -150,7 +150,7 @@ fn a_broken_sidecar_is_told_by_file_line_reason_and_remedy() {
         ("node = \"RedPlate\"", "node = \"RedPlat\"", &["exhibit.toml:", "no node named \"RedPlat\"", "\"RedPlate\""]),
         ("node = \"RedPlate\"", "node = \"RedPlate\"\nmass = 0", &["exhibit.toml:", "mass = 0", "0 is not above zero"]),
         ("timbre = \"plate\"", "timbre = \"plat\"", &["exhibit.toml:", "no timbre named \"plat\"", "\"plate\""]),
-        ("breaths/normal.wav", "breaths/norma.wav", &["exhibit.toml:", "norma.wav", "cannot be read"]),
+        ("breaths/gentle.wav", "breaths/gentl.wav", &["exhibit.toml:", "gentl.wav", "cannot be read"]),
         ("model = \"steel-fish.glb\"", "model = \"../fish.glb\"", &["exhibit.toml:", "leaves the exhibit folder"]),
     ] {
         let desk = Desk::new();
@@ -220,7 +220,7 @@ fn a_table_of_the_ear_is_marked_before_it_takes_its_place() {
     // Weights of nothing at all: it holds nothing to be likely, and hears nothing.
     let (scales, weights) = shipped.split_once("weights:").expect("weights");
     let deaf: String = weights.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
-    desk.write("deaf.rs", &format!("{scales}weights:{deaf}"));
+    desk.write("deaf.rs", format!("{scales}weights:{deaf}"));
     let deaf = score(&["deaf.rs"]);
     deaf.done();
     assert!(deaf.out != own.out && deaf.out.contains("  0.0 % ["), "{}", deaf.out);
