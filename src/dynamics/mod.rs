@@ -13,10 +13,12 @@
 //! from then on projection keeps the joints closed to rounding.
 
 mod adams;
+mod answers;
 mod clutches;
 mod contacts;
 mod course;
 mod drive;
+mod faults;
 pub mod forces;
 pub mod impulse;
 mod integrate;
@@ -25,11 +27,12 @@ mod moved;
 mod pace;
 mod passes;
 mod sleep;
+mod told;
 
 pub use crate::articulation::Method as Solver;
-use crate::articulation::block::{Vec6, angular, linear, vec6};
-use crate::articulation::quads::{Members, State};
-use crate::articulation::{Break, Constraint, Limit, Spring, System};
+use crate::articulation::block::Vec6;
+use crate::articulation::quads::State;
+use crate::articulation::{Constraint, Limit, Spring, System};
 use crate::bodies::RigidBody;
 use crate::collision::Collider;
 use crate::math::lanes::{Four, One};
@@ -59,12 +62,6 @@ const MOST_EDGES: f64 = 1024.0;
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
 /// it costs a microsecond or two.
 const FEW: usize = 8;
-/// Faster than this is not a sculpture but a fault, m/s and rad/s. Numbers that run away grow manifold in each step and
-/// are past any bound within a few; what really moves stays below: the tip of a whip that has all the energy of its fall
-/// is of a few hundred m/s, and a part of a millimetre that goes at 100 m/s turns at 10⁵ rad/s.
-const SPEED_LIMIT: f64 = 1_000.0;
-const SPIN_LIMIT: f64 = 100_000.0;
-
 /// A hit's time is aimed at this often, until it is right to this, s.
 const AIMS: usize = 3;
 const ON_TIME: f64 = 1e-6;
@@ -525,186 +522,6 @@ impl Dynamics {
     pub fn disturb(&mut self) {
         self.wake_all();
         (self.known, self.sane) = (Known::Nothing, false);
-    }
-
-    /// Constraints that broke in the last step.
-    pub fn breaks(&self) -> &[Break] {
-        &self.system.activity.breaks
-    }
-
-    /// Springs that broke in the last step.
-    pub fn spring_breaks(&self) -> &[Break] {
-        &self.springs.activity.breaks
-    }
-
-    /// Constraints whose triggers fired in the last step, and when (seconds since reset).
-    pub fn fired(&self) -> &[(usize, f64)] {
-        &self.system.activity.fired
-    }
-
-    /// The same of springs.
-    pub fn springs_fired(&self) -> &[(usize, f64)] {
-        &self.springs.activity.fired
-    }
-
-    /// The first body that had bad numbers in the last step, so that the figure was put back.
-    pub fn fault(&self) -> Option<usize> {
-        self.fault
-    }
-
-    /// Seconds since reset.
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Damping of a body.
-    pub fn damping(&self, body: usize) -> Damping {
-        let slot = self.system.quads().slot(body);
-        let [linear, angular] = self.courses[slot.quad].damping.each_ref().map(|rate| rate.0[slot.lane]);
-        Damping { linear, angular }
-    }
-
-    /// Bodies that follow a given motion.
-    pub fn drives(&self) -> &[Drive] {
-        &self.drives
-    }
-
-    /// What can touch, and the limits.
-    pub fn contacts(&self) -> &Contacts {
-        &self.contacts
-    }
-
-    /// The joints' system, for reports.
-    pub fn system(&self) -> &System {
-        &self.system
-    }
-
-    /// The same row by row: what a mover by places is given.
-    pub fn plain_system(&self) -> &System {
-        self.plain.as_deref().unwrap_or(&self.system)
-    }
-
-    /// Factors the joints at the present poses, for impulses.
-    fn prepare_impulses(&mut self) {
-        self.system.evaluate_lean(&self.bodies);
-        self.system.factor();
-        self.known = Known::Nothing;
-    }
-
-    /// How points of the figure (body, world place, m) answer impulses, joints held: block i n + j is the velocity of point
-    /// i for an impulse at point j, 1/kg.
-    pub fn answers(&mut self, points: &[(usize, DVec3)], out: &mut [DMat3]) {
-        points.iter().for_each(|point| self.wake(point.0));
-        self.prepare_impulses();
-        let n = points.len();
-        let arm = |(body, point): (usize, DVec3), bodies: &[RigidBody]| point - bodies[body].position;
-        for (j, &pushed) in points.iter().enumerate() {
-            let lever = arm(pushed, &self.bodies);
-            for axis in 0..3 {
-                let push = DVec3::AXES[axis];
-                self.system.b.fill([0.0; 6]);
-                self.system.b[pushed.0] = vec6(push, lever.cross(push));
-                self.system.solve_impulse();
-                for (i, &asked) in points.iter().enumerate() {
-                    let answer = &self.system.a[asked.0];
-                    let velocity = linear(answer) + angular(answer).cross(arm(asked, &self.bodies));
-                    *out[i * n + j].col_mut(axis) = velocity;
-                }
-            }
-        }
-    }
-
-    /// Does a clutch of this body slip?
-    pub fn slips(&self, body: usize) -> bool {
-        self.contacts.clutches().slips(&self.system, body)
-    }
-
-    /// How a body answers a unit of angular impulse about a world axis, joints held: rad/s about it, 1/(kg m²).
-    pub fn turns(&mut self, body: usize, axis: DVec3) -> f64 {
-        self.wake(body);
-        self.prepare_impulses();
-        self.system.b.fill([0.0; 6]);
-        self.system.b[body] = vec6(DVec3::ZERO, axis);
-        self.system.solve_impulse();
-        angular(&self.system.a[body]).dot(axis)
-    }
-
-    /// Puts the figure back to where the last step began if a body has bad numbers; says which one was the first. A step
-    /// begins with it: whoever looks at the bodies before that, and may have set them, calls it himself.
-    pub fn mend(&mut self) -> Option<usize> {
-        self.fault = None;
-        self.restore_bad_bodies();
-        self.fault
-    }
-
-    /// Puts bodies with bad numbers back to where the step began, at rest. Returns how many.
-    fn restore_bad_bodies(&mut self) -> usize {
-        let sane = |body: &RigidBody| {
-            // What is no number is below nothing.
-            body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
-                && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT
-                && body.is_finite()
-        };
-        if std::mem::replace(&mut self.sane, true) {
-            return 0;
-        }
-        let bad = self.bodies.iter().filter(|body| !sane(body)).count();
-        if bad > 0 {
-            self.fault = self.fault.or(self.bodies.iter().position(|body| !sane(body)));
-            // One bad body has already pulled at its neighbours: the whole figure goes back.
-            for (body, before) in self.bodies.iter_mut().zip(&self.before_step) {
-                before.put(One(0), &Members::first(0), std::slice::from_mut(body));
-                (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-            }
-            self.loads.fill(0.0);
-            self.wake_all();
-            self.system.begin_trains(&self.bodies);
-            self.contacts.forget(&self.bodies);
-            self.run.end();
-            (self.fourth_step, self.stride) = (None, f64::INFINITY);
-            self.known = Known::Nothing;
-        }
-        bad
-    }
-
-    /// Largest distance between the two points of any joint now, m.
-    pub fn joint_error(&self) -> f64 {
-        self.system.largest_gap(&self.bodies)
-    }
-
-    /// The force that the joint of each constraint carried when it was last asked, in the last substep, all lengths between its
-    /// two bodies together, N; `None` for what no joint holds, such as couplings. Of joints of trains it is 0: nobody asks.
-    pub fn loads(&self) -> Vec<Option<f64>> {
-        let mut loads = vec![None; self.system.constraints().len()];
-        for (joint, load) in self.system.joints().iter().zip(&self.loads) {
-            joint.constraints.iter().for_each(|&constraint| loads[constraint] = Some(*load));
-        }
-        loads
-    }
-
-    /// Kinetic and potential energy, J.
-    pub fn energy(&self) -> f64 {
-        forces::energy(&self.bodies, self.settings.gravity) + self.springs.energy(&self.bodies, self.time)
-    }
-
-    /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.
-    pub fn contact_work(&self) -> f64 {
-        self.contacts.work()
-    }
-
-    /// Surfaces that press on each other at the end of the last step.
-    pub fn touching(&self) -> impl Iterator<Item = Touching> + '_ {
-        self.contacts.touching(&self.bodies)
-    }
-
-    /// Pairs of colliders that the last step measured: those whose swept boxes overlapped, once a substep each.
-    pub fn measured_pairs(&self) -> usize {
-        self.contacts.measured()
-    }
-
-    /// Substeps of the last step.
-    pub fn substeps(&self) -> u32 {
-        self.substeps
     }
 }
 
