@@ -10,7 +10,7 @@ use crate::config::{Config, OTHERS};
 use crate::exhibit::{self, Exhibit};
 use crate::kiosk::site::Site;
 use crate::offline::wav;
-use crate::rehearsal::{Crowd, ROOMS, Rehearsal, RehearsalError, recorded, run as rehearse};
+use crate::rehearsal::{Crowd, ROOMS, Rehearsal, RehearsalError, listen, recorded, run as rehearse};
 
 /// Works that visitors choose from: the first ones of the site.
 const FEATURED: usize = 3;
@@ -23,6 +23,7 @@ const LONGEST_H: f64 = 24.0;
 #[command(after_help = "\
 Example: soffio rehearse --hours 8 --room hall
          soffio rehearse --hours 0.5 --seed 7 --crowd our-gallery/recordings --json
+         soffio rehearse --ear --capsules 1
 
 Visits count as answered when a blow, or a hold, visibly changes the work within 0.3 s, three times as much moves in the second
 after it as in the second before, and the kiosk has answered nobody in the ten seconds before. 95 % of all visits and 85 %
@@ -43,6 +44,12 @@ pub struct Args {
     /// A folder of WAVs, recordings of your own crowd, in the place of made ones; microphone's level, nobody blowing.
     #[arg(long, value_name = "WAV-DIR")]
     crowd: Option<PathBuf>,
+    /// Only its ear: no work, no sound, no pictures. In a few minutes: who is heard, how soon, and wind without breath.
+    #[arg(long)]
+    ear: bool,
+    /// With --ear: a table that `soffio breath train` wrote, in place of the ear's own; of more than one of a kind, the mean.
+    #[arg(long, value_name = "FILE.rs", requires = "ear")]
+    table: Vec<PathBuf>,
     /// One JSON object instead of the table.
     #[arg(long)]
     json: bool,
@@ -66,27 +73,41 @@ pub fn run(args: Args) -> Outcome {
         hours: args.hours,
         seed: args.seed,
     };
+    if args.ear {
+        let heard = listen(rehearsal, &super::breath::ear(&args.table)?).map_err(failure)?;
+        return say(&heard, args.json);
+    }
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
     let progress = progress_bar((3600.0 * args.hours) as u64);
     let report = rehearse(rehearsal, &stop, |second| progress.set_position(second));
     progress.finish_and_clear();
-    let report = report.map_err(|error| match error {
-        RehearsalError::Pictures(error) => super::render::failure(error),
-        RehearsalError::Interrupted => Failure { code: 130, message: "interrupted; there is no report".into() },
-        RehearsalError::Room { .. } => Failure { code: 2, message: error.to_string() },
-    })?;
-    if args.json {
-        println!("{}", serde_json::to_string(&report).map_err(Failure::input)?);
-    } else {
-        print!("{report}");
-    }
+    let report = report.map_err(failure)?;
+    say(&report, args.json)?;
     if report.failures.is_empty() {
         Ok(())
     } else {
         // The report has said which.
         Err(Failure { code: 1, message: String::new() })
     }
+}
+
+fn failure(error: RehearsalError) -> Failure {
+    match error {
+        RehearsalError::Pictures(error) => super::render::failure(error),
+        RehearsalError::Interrupted => Failure { code: 130, message: "interrupted; there is no report".into() },
+        RehearsalError::Room { .. } => Failure { code: 2, message: error.to_string() },
+    }
+}
+
+/// One JSON object, or the table.
+fn say(report: &(impl serde::Serialize + std::fmt::Display), json: bool) -> Outcome {
+    if json {
+        println!("{}", serde_json::to_string(report).map_err(Failure::input)?);
+    } else {
+        print!("{report}");
+    }
+    Ok(())
 }
 
 /// The first works of the site.

@@ -10,6 +10,7 @@
 //! below it.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use super::BLOCK;
 use super::day::busyness;
@@ -26,7 +27,7 @@ use crate::wind::generate::filter::{parted, power, white};
 
 const R: f64 = RATE as f64;
 /// The crowd comes in pieces of this length, which fade into each other, s.
-const PIECE_S: f64 = 60.0;
+pub const PIECE_S: f64 = 60.0;
 const FADE_S: f64 = 2.0;
 /// A recording must be so long, s: the fades at its ends and as much between them.
 const SHORTEST_S: f64 = 3.0 * FADE_S;
@@ -74,6 +75,7 @@ pub fn recorded(recordings: &[Recording]) -> Result<Crowd, String> {
 }
 
 /// A sound at the microphone.
+#[derive(Clone)]
 struct Sound {
     /// Sample at which it begins.
     start: u64,
@@ -83,10 +85,11 @@ struct Sound {
 }
 
 /// Everything that the microphone hears.
+#[derive(Clone)]
 pub struct House {
-    world: World,
+    world: Arc<World>,
     seed: u64,
-    crowd: Crowd,
+    crowd: Arc<Crowd>,
     /// Length of the day, s.
     day_s: f64,
     pieces: u64,
@@ -112,8 +115,18 @@ impl House {
             }
         };
         let capsules = (0..capsules).map(capsule).collect();
-        let standing = Standing::default();
+        let (world, crowd, standing) = (Arc::new(world), Arc::new(crowd), Standing::default());
         Self { world, seed, crowd, day_s, pieces: 0, sounds: Vec::new(), standing, echo, capsules, sample: 0 }
+    }
+
+    /// The same house from a piece of the crowd on, each of [`PIECE_S`]; `self` must not have been heard yet.
+    pub fn at(&self, piece: u64) -> Self {
+        Self { pieces: piece, sample: (piece as f64 * PIECE_S * R) as u64, ..self.clone() }
+    }
+
+    /// Until when it has been heard, s of the day.
+    pub fn now(&self) -> f64 {
+        self.sample as f64 / R
     }
 
     /// Its speakers and its room.
@@ -186,7 +199,7 @@ impl House {
         let mut random = Random::new(hash_words(&[self.seed, self.pieces, 0x6372_6f77]));
         let busy = busyness(self.pieces as f64 * PIECE_S / self.day_s);
         let count = self.capsules.len();
-        let mut piece = match &self.crowd {
+        let mut piece = match &*self.crowd {
             Crowd::Made => {
                 let level = HOUSE_DB.0 + HOUSE_DB.1 * busy + random.range(-MINUTE_DB, MINUTE_DB);
                 let crowd = scaled(self.world.crowd(PIECE_S + FADE_S, busy, count, &mut random), loud(level));
@@ -218,6 +231,7 @@ fn heard_by(sound: Vec<f64>, capsules: usize) -> Vec<Vec<f64>> {
 }
 
 /// A capsule of the microphone.
+#[derive(Clone)]
 struct Capsule {
     /// Crowd that is made and not yet heard.
     ahead: VecDeque<f64>,

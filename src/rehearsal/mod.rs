@@ -17,6 +17,7 @@ mod ears;
 mod eyes;
 mod house;
 pub mod judge;
+pub mod listening;
 mod machine;
 mod rate;
 pub mod report;
@@ -37,6 +38,7 @@ use crate::offline::ear::scenes::World;
 use crate::render::RenderError;
 
 pub use house::{Crowd, recorded};
+pub use listening::listen;
 pub use room::ROOMS;
 pub use run::run;
 

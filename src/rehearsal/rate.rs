@@ -25,6 +25,7 @@ fn low_pass() -> [f64; TAPS] {
 }
 
 /// From 48 kHz to 16 kHz.
+#[derive(Clone)]
 pub struct Coarser {
     taps: [f64; TAPS],
     past: [f64; TAPS],
@@ -51,6 +52,7 @@ impl Coarser {
 }
 
 /// From 16 kHz to 48 kHz.
+#[derive(Clone)]
 pub struct Finer {
     taps: [f64; TAPS],
     past: [f64; TAPS / RATIO],

@@ -37,6 +37,7 @@ pub fn room(name: &str, random: &mut Random) -> Option<Room> {
 }
 
 /// The loudspeaker as the microphone hears it.
+#[derive(Clone)]
 pub struct Echo {
     coarser: Coarser,
     /// One-pole high passes of the loudspeaker.

@@ -28,9 +28,9 @@ const AHEAD_S: f64 = 1.0;
 /// No answer to nobody in this time before a visitor's doing, s.
 const UNTOUCHED_S: f64 = 10.0;
 /// What somebody has done is answered for so long after it ends, s: the wind dies down, the room rings.
-const AFTERMATH_S: f64 = 2.0;
+pub(super) const AFTERMATH_S: f64 = 2.0;
 /// Wind may seem to begin this little before the breath that makes it, s: the length of a frame.
-const EARLY_S: f64 = 0.05;
+pub(super) const EARLY_S: f64 = 0.05;
 /// What staff do has taken effect after this time, s.
 const TAKES_EFFECT_S: f64 = 1.0;
 /// Whoever has blown waits so long for something to move, s.

@@ -13,7 +13,8 @@ use soffio::rehearsal::day::{Day, Task};
 use soffio::rehearsal::judge::{Answer, BEFORE, CONTINGENT, FPS, Picture, SOON, answer, median};
 use soffio::rehearsal::report::{ENOUGH, Report};
 use soffio::rehearsal::visitor::{Visit, Way};
-use soffio::rehearsal::{Crowd, Rehearsal, recorded, run};
+use soffio::rehearsal::{Crowd, Rehearsal, listen, recorded, run};
+use soffio::wind::blow::{BlowSettings, Rules};
 use soffio::wind::generate::{self, BreathShape};
 
 use crate::cli::Desk;
@@ -174,6 +175,46 @@ fn a_rehearsal_without_a_driver_and_one_without_a_room_say_so() {
     desk.soffio(&["rehearse", "--room", "cellar"]).refused(2, &["cellar", "gallery", "hall"]);
     desk.soffio(&["rehearse", "--hours", "0"]).refused(2, &["0.05"]);
     desk.soffio(&["rehearse", "--crowd", "nowhere"]).refused(1, &["nowhere", "check the path"]);
+    assert!(desk.files().is_empty());
+}
+
+#[test]
+fn an_ear_alone_hears_a_day_and_a_deaf_one_hears_nobody() {
+    /// Of the day's first breaths, nine of ten are heard within the second at least.
+    const HEARD: f64 = 0.9;
+    const HOURS: f64 = 0.25;
+    let listened = |ear: &BlowSettings| {
+        let rehearsal = rehearsal(HOURS, 3, Crowd::Made);
+        listen(rehearsal, ear).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let heard = listened(&BlowSettings::default());
+    let day = Day::new(3, 3600.0 * HOURS, 1, Site::new(&Config::default(), 3).idle_s);
+    let blown = day.entries.iter().filter(|entry| entry.answered() && !entry.visit.breaths.is_empty());
+    let onsets: Vec<f64> = blown.map(|entry| entry.visit.breaths[0].onset).collect();
+    assert!(onsets.len() > 8 && heard.breaths.iter().map(|breath| breath.onset_s).eq(onsets), "each once, in order");
+    assert!(heard.all.unheard as f64 <= (1.0 - HEARD) * heard.all.breaths as f64, "{heard}");
+    assert!(heard.all.in_time + heard.all.unheard <= heard.all.breaths && heard.all.breaths == heard.breaths.len());
+    assert!(heard == listened(&BlowSettings::default()), "the same day, heard alike, in however many threads");
+    let never = Rules { on: f64::INFINITY, ..Rules::default() };
+    let deaf = listened(&BlowSettings { rules: never, ..BlowSettings::default() });
+    assert_eq!((deaf.all.unheard, deaf.heard_after_s, deaf.nobody_s.len()), (heard.all.breaths, None, 0));
+    // An ear that is as sure of anything as of a breath has wind without one.
+    let credulous = Rules { drift: -9.0, on: 0.02, ..Rules::default() };
+    let credulous = listened(&BlowSettings { rules: credulous, ..BlowSettings::default() });
+    assert!(!credulous.nobody_s.is_empty(), "{credulous}");
+}
+
+#[test]
+fn an_ear_alone_needs_no_pictures() {
+    let desk = Desk::new();
+    let listen = |more: &[&str]| desk.soffio(&[&["rehearse", "--ear", "--hours", "0.05"], more].concat());
+    let table = listen(&[]);
+    table.done();
+    assert!(table.out.contains("first breaths") && table.out.contains("wind without breath: "), "{}", table.out);
+    let json: serde_json::Value = serde_json::from_str(&listen(&["--json", "--capsules", "1"]).out).expect("JSON");
+    assert!(json["all"]["breaths"].as_u64().is_some_and(|breaths| breaths > 0), "{json}");
+    listen(&["--table", "nowhere.rs"]).refused(1, &["nowhere.rs"]);
+    desk.soffio(&["rehearse", "--table", "nowhere.rs"]).refused(2, &["--ear"]);
     assert!(desk.files().is_empty());
 }
 

@@ -13,10 +13,12 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::{Failure, Outcome};
+use crate::offline::ear::train::{ONE, TWO};
+use crate::offline::ear::{course, tables};
 use crate::offline::feed::WavFeed;
 use crate::offline::wav::{self, Recording};
 use crate::simulation::STEPS_PER_SECOND;
-use crate::wind::blow::{BlowDetector, BlowEstimate, Reason};
+use crate::wind::blow::{BlowDetector, BlowEstimate, BlowSettings, Reason};
 
 /// Runs the blow detector alone over WAV files.
 ///
@@ -157,4 +159,26 @@ fn word(reason: Reason) -> &'static str {
         Reason::OwnVoice => "own-voice",
         Reason::Fault => "fault",
     }
+}
+
+/// The program's ear, with these tables.
+pub(super) fn ear(tables: &[PathBuf]) -> Result<BlowSettings, Failure> {
+    let mut settings = BlowSettings::default();
+    let (mut ones, mut twos) = (Vec::new(), Vec::new());
+    for path in tables {
+        let fail = |why: &dyn std::fmt::Display| Failure::input(format!("{}: {why}", path.display()));
+        let source = std::fs::read_to_string(path).map_err(|error| fail(&error))?;
+        match (tables::read(&ONE, &source), tables::read(&TWO, &source)) {
+            (Ok(one), _) => ones.push(one),
+            (_, Ok(two)) => twos.push(two),
+            (Err(one), Err(two)) => return Err(fail(&format!("{one}; {two}"))),
+        }
+    }
+    if let Some(mean) = course::mean(&ones) {
+        (ONE.give)(&mut settings, mean);
+    }
+    if let Some(mean) = course::mean(&twos) {
+        (TWO.give)(&mut settings, mean);
+    }
+    Ok(settings)
 }

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use super::super::{Failure, Outcome};
+use super::ear;
 use crate::offline::ear::scenes::Hearing;
 use crate::offline::ear::score::{Table, spearman};
-use crate::offline::ear::{Take, course, recordings, tables, train};
-use crate::wind::blow::BlowSettings;
+use crate::offline::ear::{Take, course, recordings};
 
 /// Mark the blow detector on a folder of labelled recordings, or on made scenes that it never learnt from.
 ///
@@ -86,28 +86,6 @@ pub fn run(args: &Args) -> Outcome {
         tell(args, &remarks);
     }
     Ok(())
-}
-
-/// The program's ear, with these tables.
-fn ear(tables: &[PathBuf]) -> Result<BlowSettings, Failure> {
-    let mut settings = BlowSettings::default();
-    let (mut ones, mut twos) = (Vec::new(), Vec::new());
-    for path in tables {
-        let fail = |why: &dyn std::fmt::Display| Failure::input(format!("{}: {why}", path.display()));
-        let source = std::fs::read_to_string(path).map_err(|error| fail(&error))?;
-        match (tables::read(&train::ONE, &source), tables::read(&train::TWO, &source)) {
-            (Ok(one), _) => ones.push(one),
-            (_, Ok(two)) => twos.push(two),
-            (Err(one), Err(two)) => return Err(fail(&format!("{one}; {two}"))),
-        }
-    }
-    if let Some(mean) = course::mean(&ones) {
-        (train::ONE.give)(&mut settings, mean);
-    }
-    if let Some(mean) = course::mean(&twos) {
-        (train::TWO.give)(&mut settings, mean);
-    }
-    Ok(settings)
 }
 
 fn tell(args: &Args, remarks: &[String]) {

@@ -17,6 +17,9 @@ const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
 /// A breath that nowhere rises by this much above the noise cannot be heard, dB.
 const FAINT_DB: f64 = 3.0;
 
+/// Power of something that one or two capsules hear.
+type Loudness = fn(&[Vec<f64>]) -> f64;
+
 impl World {
     /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
     pub(super) fn blow(
@@ -57,7 +60,7 @@ impl World {
             })
             .collect();
         // How far above the noise: in hiss where the stream goes past the microphone, in what two capsules tell apart, else in all.
-        let (snr, loudness): (_, fn(&[Vec<f64>]) -> f64) = match condition {
+        let (snr, loudness): (_, Loudness) = match condition {
             Condition::Noisy(snr) => (Some(snr), |heard| power(&heard[0])),
             Condition::Aside(snr) => (Some(snr), |heard| hiss(&heard[0])),
             Condition::Between(snr) => (Some(snr), rumble_apart),
@@ -79,8 +82,11 @@ impl World {
         };
         let air_dbfs = random.range(if noisy { -70.0 } else { -72.0 }, loudest);
         Self::add_air(&mut channels, air_dbfs, random);
-        let during = |heard: &[Vec<f64>], b: &Breath| -> Vec<Vec<f64>> {
-            heard.iter().map(|samples| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec()).collect()
+        let during = |heard: &[Vec<f64>], b: &Breath| {
+            heard
+                .iter()
+                .map(|samples| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec())
+                .collect::<Vec<_>>()
         };
         if let Some(snr) = snr {
             // The first one sets the noise.
@@ -136,7 +142,7 @@ impl World {
 /// By how much a breath rises above the noise where it does so most, dB: below 200 Hz, above 500 Hz, or in the rumble that two
 /// capsules do not share.
 fn above_noise(breath: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
-    let ratio = |of: fn(&[Vec<f64>]) -> f64| of(breath) / of(noise).max(1e-12);
+    let ratio = |of: Loudness| of(breath) / of(noise).max(1e-12);
     let most = ratio(|heard| rumble(&heard[0])).max(ratio(|heard| hiss(&heard[0])));
     let apart = rumble_apart(breath) / (rumble_apart(noise) + QUIETEST_DIFFERENCE);
     10.0 * log10(most.max(apart).max(1e-12))
