@@ -153,7 +153,7 @@ fn rumble(x: &[f64]) -> f64 {
     power(&low_passed(x.to_vec(), R, 200.0, 2))
 }
 
-/// The same of half the difference of two capsules, which have no wave quite alike ([`UNLIKE`]); of one capsule, all of it.
+/// The same of half the difference of two capsules, which have no wave quite alike ([`super::UNLIKE`]); of one capsule, all of it.
 fn rumble_apart(heard: &[Vec<f64>]) -> f64 {
     const LEFT: f64 = 1e-3;
     let [first, second] = heard else { return rumble(&heard[0]) };
