@@ -1,8 +1,8 @@
 //! What the network of two capsules has learnt: written by `soffio breath train`, not by hand.
 //!
-//! Each weight is the mean of the ear before and of two sittings', which went on from one ear in 16 worlds each (`--go-on --keep 0`; Wortsman et al.,
-//! "Model soups", ICML 2022). Before a new sitting takes its place, mark it (`soffio breath score --table`), and count the ghosts
-//! and the lost breaths of both over the same day.
+//! Each weight is the mean of the ear before, which counts half, and of two sittings' that went on from it in 16 worlds each
+//! (`--go-on --keep 0`; Wortsman et al., "Model soups", ICML 2022). Before a new sitting takes its place, mark it (`soffio breath
+//! score --table`), and count the ghosts and the lost breaths of both over the same day (`soffio rehearse --ear --table`).
 
 use std::borrow::Cow;
 
