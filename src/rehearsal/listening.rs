@@ -171,7 +171,8 @@ impl Count {
 
 impl fmt::Display for Listened {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{:28} {:>8} {:>12} {:>8}", "first breaths", "of all", "in 0.25 s", "unheard")?;
+        let in_time = format!("in {IN_TIME_S} s");
+        writeln!(f, "{:28} {:>8} {in_time:>12} {:>8}", "first breaths", "of all", "unheard")?;
         for (name, count) in std::iter::once((&"all", &self.all)).chain(&self.groups) {
             writeln!(f, "  {name:26} {:8} {:12} {:8}", count.breaths, count.in_time, count.unheard)?;
         }
