@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use super::super::{Failure, Outcome};
-use crate::offline::ear::course::{self, Begin, Course};
+use crate::offline::ear::course::{self, Course};
 use crate::offline::ear::scenes::Hearing;
 use crate::offline::ear::train::{self, Subject};
 use crate::offline::ear::{Take, recordings, tables};
@@ -30,6 +30,9 @@ pub struct Args {
     /// Go on with the present ear, instead of one that knows nothing; what is written is a mean of both.
     #[arg(long)]
     go_on: bool,
+    /// Go on with this table in place of the present ear's; of more than one, with the mean.
+    #[arg(long, value_name = "FILE.rs", requires = "go_on")]
+    table: Vec<PathBuf>,
     /// Share of the present ear in that mean, 0 to 1: the more, the less of what it knew is forgotten.
     #[arg(long, default_value_t = 0.5, value_parser = share, requires = "go_on")]
     keep: f64,
@@ -73,9 +76,9 @@ fn teach<const IN: usize, const FIRST: usize, const SECOND: usize>(
         None => Vec::new(),
     };
     let Args { lessons, worlds, size, rounds, seed, .. } = *args;
-    let begin = if args.go_on { Begin::Present(args.keep) } else { Begin::Untaught };
-    let course = Course { begin, lessons, worlds, size, rounds, seed };
-    let made = course::learn(subject, &course, |lesson, learnt| {
+    let began = if args.go_on { (subject.of)(&super::ear(&args.table)?).clone() } else { train::untaught() };
+    let course = Course { keep: args.keep, lessons, worlds, size, rounds, seed };
+    let made = course::learn(subject, &course, began, |lesson, learnt| {
         println!("lesson {}: {} examples, loss {:.4}", lesson + 1, learnt.examples.len(), learnt.loss);
         if lesson + 1 == lessons {
             examine(args, &course::ear(subject, &learnt.network));
@@ -88,7 +91,7 @@ fn teach<const IN: usize, const FIRST: usize, const SECOND: usize>(
     }
     let Some(path) = &args.out else { return Ok(()) };
     let network = if known.is_empty() {
-        course::joined(subject, &course, made.network)
+        course::joined(&course, &made.began, made.network)
     } else {
         let known: Vec<_> = known.iter().collect();
         let (network, loss) = course::refined(subject, &course, &made, &known, course::FOLDS);

@@ -28,20 +28,11 @@ const RECORDED: f32 = 4.0;
 const RAILED: f64 = 0.08;
 const RAILED_DB: f64 = 28.0;
 
-/// Where learning begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Begin {
-    /// With an ear that knows nothing; what it hears in its first lesson is forgotten after it.
-    Untaught,
-    /// With the ear that the program has: what comes of it is a mean of both, in which the present one has this share, 0 … 1.
-    Present(f64),
-}
-
 /// How much is learnt.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
-    /// Where it begins: with an ear that knows nothing, or with one that has been taught.
-    pub begin: Begin,
+    /// What comes of an ear that had been taught is a mean of both, in which the old one has this share, 0 … 1.
+    pub keep: f64,
     /// Lessons: each in new worlds, twice as many as in the last one, with the ear as the last one left it.
     pub lessons: u64,
     /// Worlds of speakers and rooms in the first lesson.
@@ -66,6 +57,8 @@ impl Course {
 pub struct Learnt<const IN: usize, const FIRST: usize, const SECOND: usize> {
     /// All that was heard since the first lesson, which an ear that knew nothing heard.
     pub examples: Vec<Example<IN>>,
+    /// What it began with.
+    pub began: Network<IN, FIRST, SECOND>,
     /// What came of it.
     pub network: Network<IN, FIRST, SECOND>,
     /// Mean loss in the last round.
@@ -76,7 +69,8 @@ pub struct Learnt<const IN: usize, const FIRST: usize, const SECOND: usize> {
 fn scenes(size: f64, stereo: bool) -> Vec<(Condition, u64)> {
     let count = |full: f64| (full * size).round() as u64;
     let mut all = vec![
-        (Condition::Museum, count(90.0)),
+        // Two capsules take a sound of a museum for breath once in hours: so many there must be.
+        (Condition::Museum, count(if stereo { 270.0 } else { 90.0 })),
         (Condition::Impulses, count(480.0)),
         (Condition::Alike, count(120.0)),
         (Condition::Isolated, count(180.0)),
@@ -126,19 +120,18 @@ pub fn ear<const IN: usize, const FIRST: usize, const SECOND: usize>(
     settings
 }
 
-/// Learns from made worlds, lesson by lesson; `tell` hears of each.
+/// Learns from made worlds, lesson by lesson, with a network that has been taught or knows nothing; `tell` hears of each. What
+/// an ear that knows nothing hears in its first lesson is forgotten after it.
 pub fn learn<const IN: usize, const FIRST: usize, const SECOND: usize>(
     subject: &Subject<IN, FIRST, SECOND>,
     course: &Course,
+    began: Network<IN, FIRST, SECOND>,
     mut tell: impl FnMut(u64, &Learnt<IN, FIRST, SECOND>),
 ) -> Learnt<IN, FIRST, SECOND> {
-    let network = match course.begin {
-        Begin::Present(_) => (subject.of)(&BlowSettings::default()).clone(),
-        Begin::Untaught => untaught(),
-    };
-    let mut learnt = Learnt { examples: Vec::new(), network, loss: 0.0 };
+    let new = began == untaught();
+    let mut learnt = Learnt { examples: Vec::new(), network: began.clone(), began, loss: 0.0 };
     for lesson in 0..course.lessons {
-        if lesson == 1 && course.begin == Begin::Untaught {
+        if lesson == 1 && new {
             learnt.examples.clear();
         }
         let worlds = course.worlds_before(lesson)..course.worlds_before(lesson + 1);
@@ -173,30 +166,27 @@ pub fn refined<const IN: usize, const FIRST: usize, const SECOND: usize>(
         }
     }
     let (network, loss) = train(&made.network, &all, course.rounds, course.seed);
-    (joined(subject, course, network), loss)
+    (joined(course, &made.began, network), loss)
 }
 
-/// What came of a course: where it went on with the present network, the mean of both.
+/// What came of a course: where it began with a network that had been taught, the mean of both.
 pub fn joined<const IN: usize, const FIRST: usize, const SECOND: usize>(
-    subject: &Subject<IN, FIRST, SECOND>,
     course: &Course,
+    began: &Network<IN, FIRST, SECOND>,
     network: Network<IN, FIRST, SECOND>,
 ) -> Network<IN, FIRST, SECOND> {
-    match course.begin {
-        Begin::Present(share) => mixed((subject.of)(&BlowSettings::default()), &network, share),
-        Begin::Untaught => network,
-    }
+    if *began == untaught() { network } else { mixed(began, &network, course.keep) }
 }
 
 /// Who goes on in new worlds forgets some of what the old ones taught. The mean of both ears knows both (Wortsman et al.,
-/// "Model soups", 2022); the present one has this share of it, 0 … 1.
+/// "Model soups", 2022); the one before has this share of it, 0 … 1.
 fn mixed<const IN: usize, const FIRST: usize, const SECOND: usize>(
-    present: &Network<IN, FIRST, SECOND>,
+    before: &Network<IN, FIRST, SECOND>,
     after: &Network<IN, FIRST, SECOND>,
     share: f64,
 ) -> Network<IN, FIRST, SECOND> {
     let mut mean = after.clone();
-    mean.weights.to_mut().iter_mut().zip(&*present.weights).for_each(|(w, present)| *w += share * (present - *w));
+    mean.weights.to_mut().iter_mut().zip(&*before.weights).for_each(|(w, before)| *w += share * (before - *w));
     mean
 }
 

@@ -19,7 +19,7 @@ use super::features::{Levels, blend};
 use super::spectrum::FRAME_S;
 use crate::math::exp;
 
-/// Low or middle must rise by this much over the room, dB.
+/// Something must rise by this much over the room, dB.
 pub const LEAST_RISE_DB: f64 = 5.0;
 
 /// Log-odds from which a sound may be a breath that the room must not learn, nats; and for how long at most, s.
@@ -104,7 +104,7 @@ pub struct Decision {
 impl Decision {
     /// Takes one frame; `None` where a frame cannot be breath at all.
     pub fn push(&mut self, rules: &Rules, log_odds: Option<f64>, levels: &Levels) {
-        let possible = log_odds.filter(|_| levels.rise_db.max(levels.middle_rise_db) > LEAST_RISE_DB);
+        let possible = log_odds.filter(|_| levels.most_db() > LEAST_RISE_DB);
         self.possible = possible.is_some();
         self.log_odds = possible.map_or(rules.believed.0, |l| l.clamp(rules.believed.0, rules.believed.1));
         let drift = if self.phase == Phase::Blow { 0.0 } else { rules.drift };

@@ -161,12 +161,23 @@ pub struct Levels {
     pub excess_dbfs: f64,
     /// Excess of the middle, dB of full scale.
     pub hiss_dbfs: f64,
+    /// The same and some of the room there, so that it is never nothing.
+    pub middle_dbfs: f64,
+    /// Rise of what lies above 4 kHz, dB, where two capsules listen.
+    pub upper_rise_db: f64,
     /// Room's low, dB of full scale.
     pub floor_dbfs: f64,
     /// The kiosk's own sound covers the low band.
     pub covered: bool,
     /// What is heard of 1625–3400 Hz, dB of full scale: it shows what a gain control does.
     pub treble_dbfs: f64,
+}
+
+impl Levels {
+    /// How far what has risen most has risen, dB.
+    pub fn most_db(&self) -> f64 {
+        self.rise_db.max(self.middle_rise_db).max(self.upper_rise_db)
+    }
 }
 
 impl Listener {
@@ -288,6 +299,7 @@ impl Listener {
             loud_dbfs: decibels(cleaned(LOW.0, LOW.1) + cleaned(MIDDLE.0, MIDDLE.1)),
             excess_dbfs: decibels(band(&self.excess, LOW.0, LOW.1)),
             hiss_dbfs: decibels(band(&self.excess, MIDDLE.0, MIDDLE.1)),
+            middle_dbfs: decibels(parts[3] + parts[4] + parts[5]),
             floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + quietest(LOW.0)),
             treble_dbfs: decibels(band(&self.smooth, EDGES[5], EDGES[6])),
             ..Levels::default()

@@ -2,10 +2,12 @@
 
 use super::capsules::Capsules;
 use super::features::{COUNT, FALL, Features, Levels, Listener, QUIETEST, QUIETEST_DIFFERENCE, Still, decibels};
-use super::nearness::Nearness;
+use super::nearness::{LOWER, Nearness};
 use super::own::OwnVoice;
+use super::pair::REGIONS;
 use super::resample::Resampler;
 use super::spectrum::{Framer, Sample};
+use super::upper::Upper;
 
 /// The room must have been heard for this long before anything can be a breath, s.
 pub(super) const SETTLING_S: f64 = 0.25;
@@ -19,19 +21,49 @@ const FAULT_HOLD_FRAMES: u32 = 10;
 /// Samples in, features out, a frame every 8 ms.
 #[derive(Clone, Debug)]
 pub struct FrontEnd {
-    left: Resampler,
-    right: Resampler,
-    played: Resampler,
     input: Input,
-    pub(super) framer: Framer,
-    pub(super) own_voice: OwnVoice,
+    /// What lies below 4 kHz. A half is large, and an ear is handed from work to work: it stays where it is.
+    pub(super) lower: Box<Half>,
     pub(super) listener: Listener,
     /// Listens to what differs between two capsules.
     apart: Listener,
     pub(super) capsules: Capsules,
-    pub(super) nearness: Nearness,
+    pub(super) nearness: Nearness<REGIONS>,
+    /// What two capsules hear above 4 kHz.
+    above: Box<Half>,
+    pub(super) upper: Box<Upper>,
     /// Samples of two capsules have come.
     stereo: bool,
+}
+
+/// What lies below 4 kHz, or above: in frames, with what of it the kiosk itself explains.
+#[derive(Clone, Debug)]
+pub(super) struct Half {
+    left: Resampler,
+    right: Resampler,
+    played: Resampler,
+    pub framer: Framer,
+    pub own_voice: OwnVoice,
+}
+
+impl Half {
+    fn new(resampler: Resampler) -> Self {
+        let (left, right) = (resampler.clone(), resampler.clone());
+        Self { left, right, played: resampler, framer: Framer::new(), own_voice: OwnVoice::new() }
+    }
+
+    /// Takes one sample of each capsule and of what was played; true where a new frame is ready.
+    fn push(&mut self, left: f64, right: Option<f64>, played: f64) -> bool {
+        let own = self.played.push(played);
+        let left = self.left.push(left);
+        let right = right.map_or(left, |x| self.right.push(x));
+        let sample = || Some(Sample { left: left?, right: right?, own: own? });
+        sample().is_some_and(|sample| self.framer.push(sample))
+    }
+
+    fn hear_itself(&mut self, learn: bool) {
+        self.own_voice.push(&self.framer.microphone, &self.framer.own, learn);
+    }
 }
 
 /// One frame, as it is judged.
@@ -67,18 +99,15 @@ struct Input {
 impl FrontEnd {
     /// A front end for samples at `sample_rate` Hz (8–192 kHz).
     pub fn new(sample_rate: u32) -> Self {
-        let resampler = Resampler::new(sample_rate);
         Self {
-            left: resampler.clone(),
-            right: resampler.clone(),
-            played: resampler,
             input: Input::default(),
-            framer: Framer::new(),
-            own_voice: OwnVoice::new(),
+            lower: Box::new(Half::new(Resampler::new(sample_rate))),
             listener: Listener::new(QUIETEST),
             apart: Listener::new(QUIETEST_DIFFERENCE),
             capsules: Capsules::new(),
-            nearness: Nearness::new(),
+            nearness: Nearness::new(LOWER),
+            above: Box::new(Half::new(Resampler::upper(sample_rate))),
+            upper: Box::new(Upper::new()),
             stereo: false,
         }
     }
@@ -96,11 +125,12 @@ impl FrontEnd {
         let played = if played.is_finite() { f64::from(played.clamp(-1.0, 1.0)) } else { 0.0 };
         let second = right.map(|x| self.input.push(x));
         self.stereo |= second.is_some();
-        let own = self.played.push(played);
-        let left = self.left.push(heard);
-        let right = if self.stereo { self.right.push(second.unwrap_or(heard)) } else { left };
-        let sample = Sample { left: left?, right: right?, own: own? };
-        self.framer.push(sample).then(|| self.frame(blowing, likely))
+        let second = self.stereo.then(|| second.unwrap_or(heard));
+        if second.is_some() {
+            // Both halves come in step, from the same samples.
+            self.above.push(heard, second, played);
+        }
+        self.lower.push(heard, second, played).then(|| self.frame(blowing, likely))
     }
 
     fn frame(&mut self, blowing: bool, likely: bool) -> Frame {
@@ -108,11 +138,12 @@ impl FrontEnd {
         let fault = self.input.fault_hold > 0;
         let (mut features, mut levels, mut difference) = ([0.0; COUNT], Levels::default(), None);
         if !fault {
-            self.own_voice.push(&self.framer.microphone, &self.framer.own, !blowing);
-            let covered = self.own_voice.masks(&self.framer.microphone);
+            self.lower.hear_itself(!blowing);
+            let Half { framer, own_voice, .. } = &*self.lower;
+            let covered = own_voice.masks(&framer.microphone);
             let room = blowing || likely || covered;
-            let Framer { capsules, scale, microphone, peakedness, .. } = &self.framer;
-            let (own, still) = (&self.own_voice.predicted, Still { room, past: blowing });
+            let Framer { capsules, scale, microphone, peakedness, .. } = framer;
+            let (own, still) = (&own_voice.predicted, Still { room, past: blowing });
             (features, levels) = self.listener.push(microphone, own, *peakedness, still);
             levels.covered = covered;
             if self.stereo {
@@ -125,6 +156,9 @@ impl FrontEnd {
                 let told = self.capsules.share.is_some() && self.apart.age() >= SETTLING_S;
                 difference = Some(heard).filter(|_| told);
                 self.nearness.push(capsules, own, !(blowing || likely), *scale);
+                self.above.hear_itself(!blowing);
+                let Half { framer, own_voice, .. } = &*self.above;
+                self.upper.push(framer, &own_voice.predicted, still, levels.middle_dbfs);
             }
         }
         Frame {

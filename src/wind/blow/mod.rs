@@ -1,9 +1,9 @@
 //! The blow detector: from microphone samples to the speed of the air at the lips.
 //!
 //! ```text
-//! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
+//! samples → resample (8 kHz, twice) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
 //!         [→ capsules (what differs between two)] → features (rise over the room, shape, pitch, past) → model (log-odds)
-//!         [→ pair (log-odds of all that two tell, with nearness: what is one wave)] → decision (48 ms … 6 s) → speed
+//!         [→ pair (log-odds of all that two tell, with nearness: what is one wave, and upper: above 4 kHz)] → decision (48 ms … 6 s) → speed
 //! ```
 //!
 //! A breath that strikes a capsule is turbulence, not sound: noise below 200 Hz that towers over the room. Level alone
@@ -27,6 +27,7 @@ mod past;
 mod resample;
 mod spectrum;
 pub mod table;
+mod upper;
 
 use std::sync::{Arc, LazyLock};
 
@@ -242,7 +243,7 @@ impl BlowDetector {
         let settling = self.front.listener.age() < SETTLING_S;
         self.log_odds = log_odds;
         // Who blows already may go on blowing.
-        let first = self.decision.phase == Phase::Quiet && self.front.own_voice.is_first();
+        let first = self.decision.phase == Phase::Quiet && self.front.lower.own_voice.is_first();
         self.decision.push(&self.settings.rules, (!settling && !first).then_some(log_odds), levels);
         self.gain.push(self.decision.phase == Phase::Blow, levels);
         self.estimate.gain_control = self.gain.seen();
@@ -270,20 +271,23 @@ impl BlowDetector {
             return (alone, frame.features, frame.levels);
         };
         let spectra = [(alone, &frame.features), (model.log_odds(&features), &features)];
-        let inputs = pair::inputs(spectra, &self.front.capsules, &self.front.nearness);
+        let FrontEnd { capsules, nearness, upper, .. } = &self.front;
+        let inputs = pair::inputs(spectra, capsules, nearness, upper);
         self.pair = Some(inputs);
         let log_odds = self.settings.pair.log_odds(&inputs);
         let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
-        if rumbles { (log_odds, features, levels) } else { (log_odds, frame.features, frame.levels) }
+        let (features, levels) = if rumbles { (features, levels) } else { (frame.features, frame.levels) };
+        let hiss_dbfs = levels.hiss_dbfs.max(upper.hiss_dbfs);
+        (log_odds, features, Levels { upper_rise_db: upper.rise_db, hiss_dbfs, ..levels })
     }
 
     /// The strongest single argument against breath.
     fn why_not(&self, levels: &Levels) -> Reason {
         let f = &self.features;
-        if levels.rise_db.max(levels.middle_rise_db) < decision::LEAST_RISE_DB {
+        if levels.most_db() < decision::LEAST_RISE_DB {
             // It rises above the room, but not above what the kiosk itself explains.
-            let heard = decibels(band(&self.front.framer.microphone, features::LOW.0, features::LOW.1));
-            let own = band(&self.front.own_voice.predicted, features::LOW.0, features::MIDDLE.1) > 0.0;
+            let heard = decibels(band(&self.front.lower.framer.microphone, features::LOW.0, features::LOW.1));
+            let own = band(&self.front.lower.own_voice.predicted, features::LOW.0, features::MIDDLE.1) > 0.0;
             let explained = own && heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
             return if explained { Reason::OwnVoice } else { Reason::Quiet };
         }

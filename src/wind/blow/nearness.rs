@@ -9,7 +9,7 @@
 //! C = Σ_B |Σ_{k∈B} ⟨L_k R*_k⟩|        γ = C / Σ_B √(Σ_{k∈B} ⟨|L_k|²⟩ Σ_{k∈B} ⟨|R_k|²⟩)        bands B of 172 Hz, ⟨·⟩ of 64 ms
 //! ```
 //!
-//! over three regions of the treble. γ is 1 for one wave, from wherever it comes: over a band's width the 6 cm between capsules turn
+//! over regions of the treble. γ is 1 for one wave, from wherever it comes: over a band's width the 6 cm between capsules turn
 //! it by a thirtieth of a turn at the most. Of sound from everywhere sin(k d)/(k d) is left (at 2.7 kHz 0.25 of 5 cm, 0.67 of 3 cm),
 //! and a few tenths of chance. C is the power of what is one wave: a crowd has less of it than of all power by some decibels, and
 //! by so much more hiss of lips rises above it.
@@ -20,13 +20,10 @@ use super::capsules::Pair;
 use super::features::{QUIETEST, RESIDUE, blend, decibels};
 use super::spectrum::{BINS, Power};
 
-/// First bin, 406 Hz; bands, and bins of each, to 3.4 kHz; and the regions they make, 406–922 Hz, to 1.95 kHz, and above.
-const FIRST: usize = 26;
-const BANDS: usize = 17;
-const WIDTH: usize = 11;
-const EDGES: [usize; REGIONS + 1] = [0, 3, 9, BANDS];
-/// Number of regions.
-pub const REGIONS: usize = 3;
+/// Bins of a band.
+pub const WIDTH: usize = 11;
+/// First bin of the lower half, 406 Hz; and the bands that end its regions, 406–922 Hz, to 1.95 kHz, to 3.4 kHz.
+pub const LOWER: (usize, [usize; 3]) = (26, [3, 9, 17]);
 /// Memory, s.
 const MEMORY_S: f64 = 0.064;
 /// The room of what is one wave is learnt as fast down, and up, s; one frame weighs at most so many times the room.
@@ -36,10 +33,13 @@ const BANG: f64 = 4.0;
 /// Keeps quotients finite.
 const NOTHING: f64 = 1e-30;
 
-/// How much of the treble is the same wave at two capsules.
+/// How much of the treble is the same wave at two capsules, in so many regions.
 #[derive(Clone, Debug)]
-pub struct Nearness {
-    bins: [Pair; BANDS * WIDTH],
+pub struct Nearness<const REGIONS: usize> {
+    first: usize,
+    /// Bands before the end of each region.
+    ends: [usize; REGIONS],
+    bins: Vec<Pair>,
     /// Power that is one wave in a room where nobody blows.
     room: [f64; REGIONS],
     learnt: u64,
@@ -49,11 +49,14 @@ pub struct Nearness {
     pub rise_db: [f64; REGIONS],
 }
 
-impl Nearness {
-    /// Nothing heard yet.
-    pub fn new() -> Self {
+impl<const REGIONS: usize> Nearness<REGIONS> {
+    /// Nothing heard yet of regions that begin at a bin and end after so many bands each.
+    pub fn new((first, ends): (usize, [usize; REGIONS])) -> Self {
+        let bands = ends.last().map_or(0, |end| *end);
         Self {
-            bins: [Pair::default(); BANDS * WIDTH],
+            first,
+            ends,
+            bins: vec![Pair::default(); WIDTH * bands],
             room: [0.0; REGIONS],
             learnt: 0,
             apart: [1.0; REGIONS],
@@ -67,12 +70,13 @@ impl Nearness {
         let weight = blend(MEMORY_S);
         self.learnt += u64::from(learn);
         let early = 1.0 / self.learnt.max(1) as f64;
-        for (region, edges) in EDGES.windows(2).enumerate() {
+        let mut from = 0;
+        for (region, until) in self.ends.into_iter().enumerate() {
             let (mut same, mut all) = (0.0, NOTHING);
-            for band in edges[0]..edges[1] {
+            for band in from..until {
                 let mut sum = Pair::default();
                 for i in WIDTH * band..WIDTH * (band + 1) {
-                    self.bins[i].push(weight, l[FIRST + i], r[FIRST + i]);
+                    self.bins[i].push(weight, l[self.first + i], r[self.first + i]);
                     sum.add(&self.bins[i]);
                 }
                 same += sum.cross.norm();
@@ -80,7 +84,8 @@ impl Nearness {
             }
             self.apart[region] = (1.0 - same / all).max(NOTHING);
             let (heard, room) = (scale * same, &mut self.room[region]);
-            let own = own[FIRST + WIDTH * edges[0]..FIRST + WIDTH * edges[1]].iter().sum::<f64>();
+            let own = own[self.first + WIDTH * from..self.first + WIDTH * until].iter().sum::<f64>();
+            from = until;
             self.rise_db[region] = decibels(((heard - own).max(0.0) + QUIETEST) / (*room + RESIDUE * own + QUIETEST));
             if learn {
                 let (now, seconds) =
@@ -103,7 +108,7 @@ mod tests {
 
     /// 1 − γ of the highest region, heard for two seconds.
     fn apart(mut frame: impl FnMut(usize, &mut Random) -> [Complex<f64>; 2]) -> f64 {
-        let (mut nearness, mut random) = (Nearness::new(), Random::new(5));
+        let (mut nearness, mut random) = (Nearness::new(LOWER), Random::new(5));
         for _ in 0..250 {
             let mut pair = [[Complex::default(); BINS]; 2];
             for k in 1..BINS {
@@ -111,7 +116,7 @@ mod tests {
             }
             nearness.push(&pair, &[0.0; BINS], true, 1.0);
         }
-        nearness.apart[REGIONS - 1]
+        nearness.apart[2]
     }
 
     /// From the side, 6 cm later at the second capsule, which is 1.5 dB louder and hisses a little itself.
@@ -138,7 +143,7 @@ mod tests {
     fn lips_amid_a_crowd_rise_above_what_of_it_is_one_wave() {
         /// The crowd's own powers scatter by this much, dB.
         const SCATTERS: f64 = 2.0;
-        let (mut nearness, mut random) = (Nearness::new(), Random::new(6));
+        let (mut nearness, mut random) = (Nearness::new(LOWER), Random::new(6));
         let mut rise = |blows: bool| {
             let mut mean = 0.0;
             for _ in 0..250 {
@@ -149,7 +154,7 @@ mod tests {
                     (pair[0][k], pair[1][k]) = (l + much * a, r + much * b);
                 }
                 nearness.push(&pair, &[0.0; BINS], !blows, 1e-4);
-                mean += nearness.rise_db[REGIONS - 1] / 250.0;
+                mean += nearness.rise_db[2] / 250.0;
             }
             mean
         };

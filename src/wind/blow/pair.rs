@@ -8,27 +8,37 @@
 use super::capsules::Capsules;
 use super::features::{self, Features, decibels};
 use super::model::Network;
-use super::nearness::{Nearness, REGIONS};
+use super::nearness::Nearness;
+use super::upper::{self, Upper};
 
 /// The network that weighs them.
 pub type PairModel = Network<COUNT, 32, 12>;
 
-/// Number of inputs: log-odds and features of both spectra, δ, how long the difference has stood, and for each region of the
-/// treble how much of it is not one wave, and how far what is has risen.
-pub const COUNT: usize = 2 * (1 + features::COUNT) + 2 + 2 * REGIONS;
+/// Regions of the treble below 4 kHz.
+pub(super) const REGIONS: usize = 3;
+/// Inputs before what lies above 4 kHz: log-odds and features of both spectra, δ, how long the difference has stood, and for each
+/// region of the treble how much of it is not one wave, and how far what is has risen.
+const BELOW: usize = 2 * (1 + features::COUNT) + 2 + 2 * REGIONS;
+/// Number of inputs.
+pub const COUNT: usize = BELOW + upper::COUNT;
 
 /// One frame's inputs.
 pub type Inputs = [f64; COUNT];
 
 /// The inputs of a frame: log-odds and features of half the sum and of half the difference first.
-pub(super) fn inputs(spectra: [(f64, &Features); 2], capsules: &Capsules, nearness: &Nearness) -> Inputs {
+pub(super) fn inputs(
+    spectra: [(f64, &Features); 2],
+    capsules: &Capsules,
+    nearness: &Nearness<REGIONS>,
+    upper: &Upper,
+) -> Inputs {
     let mut all = [0.0; COUNT];
     let share = 0.1 * decibels(capsules.share.unwrap_or(1.0));
     let of_spectra =
         spectra.into_iter().flat_map(|(log_odds, features)| std::iter::once(0.1 * log_odds).chain(*features));
     let of_waves =
         nearness.apart.iter().map(|apart| 0.1 * decibels(*apart)).chain(nearness.rise_db.map(|rise| 0.1 * rise));
-    let each = of_spectra.chain([share, capsules.lasting()]).chain(of_waves);
+    let each = of_spectra.chain([share, capsules.lasting()]).chain(of_waves).chain(upper.inputs);
     all.iter_mut().zip(each).for_each(|(input, x)| *input = x);
     all
 }
@@ -47,6 +57,9 @@ pub fn name(input: usize) -> String {
         "of 2 to 3.3 kHz",
     ];
     let of = if input < SPECTRUM { "sum" } else { "difference" };
+    if let Some(input) = input.checked_sub(BELOW) {
+        return format!("above: {}", upper::name(input));
+    }
     match input.checked_sub(2 * SPECTRUM) {
         Some(rest) => REST[rest].to_owned(),
         None if input.is_multiple_of(SPECTRUM) => format!("{of}: log-odds, 10"),
@@ -56,6 +69,7 @@ pub fn name(input: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::nearness::LOWER;
     use super::*;
     use crate::wind::blow::model::Model;
     use crate::wind::blow::{BlowSettings, pair_table, table};
@@ -80,7 +94,8 @@ mod tests {
             (0..20).for_each(|_| capsules.note(20.0, 0.0));
             // All as it was in the mean of all lessons, but what the difference says.
             let mut inputs: Inputs = std::array::from_fn(|i| settings.pair.scale[i][0]);
-            let ends = self::inputs([(0.0, &[0.0; features::COUNT]); 2], &capsules, &Nearness::new());
+            let ends =
+                self::inputs([(0.0, &[0.0; features::COUNT]); 2], &capsules, &Nearness::new(LOWER), &Upper::new());
             inputs[2 * (1 + features::COUNT)..][..2].copy_from_slice(&ends[2 * (1 + features::COUNT)..][..2]);
             settings.pair.log_odds(&inputs)
         };

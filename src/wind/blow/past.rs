@@ -10,16 +10,16 @@ use super::features::{LOW, RISEN_DB, blend};
 use super::spectrum::{FRAME_S, Power};
 
 /// Frames that are remembered, 0.24 s.
-const MEMORY: usize = 30;
+pub(super) const MEMORY: usize = 30;
 /// What came before is remembered as shares of time (s), as peaks that sink (dB/s), as a pitch that fades (s).
-const BUSY_S: f64 = 4.0;
-const SINKING_DB_S: f64 = 6.0;
+pub(super) const BUSY_S: f64 = 4.0;
+pub(super) const SINKING_DB_S: f64 = 6.0;
 const PITCH_FADES_S: f64 = 0.8;
 /// Bins of low, and frames of a transform: so far apart they share no sample.
 const LOW_BINS: usize = LOW.1 - LOW.0;
 const APART: usize = 6;
 /// Level of nothing, dB.
-const NONE_DB: f64 = -100.0;
+pub(super) const NONE_DB: f64 = -100.0;
 /// Keeps quotients finite.
 const NOTHING: f64 = 1e-14;
 
@@ -136,7 +136,7 @@ impl Past {
 
 impl Trend {
     /// Of a ring whose newest entry lies at `at`.
-    fn of(ring: &[f64; MEMORY], at: usize) -> Self {
+    pub fn of(ring: &[f64; MEMORY], at: usize) -> Self {
         let ago = |frames: usize| ring[(at + MEMORY - frames) % MEMORY];
         let peak = ring.iter().fold(f64::NEG_INFINITY, |m: f64, l| m.max(*l));
         let mean = (0..20).map(ago).sum::<f64>() / 20.0;
