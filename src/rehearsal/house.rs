@@ -19,7 +19,7 @@ use super::room::Echo;
 use super::standing::{Above, Standing};
 use crate::math::{PI, exp, from_decibels};
 use crate::noise::{Random, hash_words};
-use crate::offline::ear::rooms::alike_hz;
+use crate::offline::ear::rooms::ALIKE_HZ;
 use crate::offline::ear::scenes::{UNLIKE, World, resampled};
 use crate::offline::ear::{RATE, noises};
 use crate::offline::wav::Recording;
@@ -205,14 +205,12 @@ impl House {
                 let crowd = scaled(self.world.crowd(PIECE_S + FADE_S, busy, count, &mut random), loud(level));
                 let level = from_decibels(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * busy).min(1.0));
                 let air = noises::air(PIECE_S + FADE_S, &mut random);
-                let both = heard_by(air, count, self.world.apart()).into_iter().zip(crowd);
+                let both = heard_by(air, count).into_iter().zip(crowd);
                 both.map(|(air, crowd)| crowd.iter().zip(&air).map(|(y, x)| y + level * x).collect()).collect()
             }
-            Crowd::Recorded(recordings) => heard_by(
-                recordings[(self.pieces % recordings.len() as u64) as usize].clone(),
-                count,
-                self.world.apart(),
-            ),
+            Crowd::Recorded(recordings) => {
+                heard_by(recordings[(self.pieces % recordings.len() as u64) as usize].clone(), count)
+            }
         };
         for (capsule, piece) in self.capsules.iter_mut().zip(&mut piece) {
             capsule.append(std::mem::take(piece));
@@ -221,12 +219,12 @@ impl House {
     }
 }
 
-/// What comes from everywhere, as each of so many capsules hears it, so far apart (m): above [`alike_hz`] each by itself.
-fn heard_by(sound: Vec<f64>, capsules: usize, apart: f64) -> Vec<Vec<f64>> {
+/// What comes from everywhere, as each of so many capsules hears it: above [`ALIKE_HZ`] each by itself.
+fn heard_by(sound: Vec<f64>, capsules: usize) -> Vec<Vec<f64>> {
     let other = |_| {
         let mut other = sound.clone();
         other.rotate_left(sound.len() / 3);
-        parted(sound.clone(), other, R, alike_hz(apart))
+        parted(sound.clone(), other, R, ALIKE_HZ)
     };
     let others: Vec<_> = (1..capsules).map(other).collect();
     std::iter::once(sound.clone()).chain(others).collect()

@@ -23,11 +23,9 @@ const SOUND_M_S: f64 = 343.0;
 const IMAGES_S: f64 = 0.12;
 /// Longest response, s.
 const LONGEST_S: f64 = 0.6;
-/// Below this, sound from everywhere is the same at two capsules so far apart, m: sin(k d)/(k d) is a half there, Hz.
-pub fn alike_hz(apart: f64) -> f64 {
-    1.8955 * SOUND_M_S / (2.0 * PI * apart)
-}
-
+/// Below this, sound from everywhere is the same at both capsules: sin(k d)/(k d) is a half at 2.1 kHz where they are 5 cm
+/// apart, Hz.
+pub const ALIKE_HZ: f64 = 2000.0;
 /// Between two capsules, m.
 pub const APART_M: (f64, f64) = (0.02, 0.06);
 /// Length of the transform of a convolution.
@@ -138,11 +136,7 @@ impl Room {
             let mut random = Random::new(seed);
             (from..response.len()).map(|_| random.signed()).collect::<Vec<f64>>()
         };
-        let tail = if low == high {
-            noise(low)
-        } else {
-            filter::parted(noise(low), noise(high), rate, alike_hz(self.apart()))
-        };
+        let tail = if low == high { noise(low) } else { filter::parted(noise(low), noise(high), rate, ALIKE_HZ) };
         for (i, (h, x)) in response[from..].iter_mut().zip(tail).enumerate() {
             *h += level * 1.7 * x * exp(-6.9 * i as f64 / rate / self.t60);
         }

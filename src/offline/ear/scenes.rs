@@ -12,7 +12,7 @@ use crate::math::{exp, from_decibels, tanh};
 use crate::noise::{Random, hash_words};
 use crate::wind::generate::filter::{high_passed, low_passed, normalised, parted, power, white};
 
-use super::rooms::{Room, alike_hz, convolved};
+use super::rooms::{ALIKE_HZ, Room, convolved};
 use super::voices::{self, Voice, add};
 use super::{Breath, Event, Kind, RATE, Take, noises, own};
 pub use lips::Lips;
@@ -227,13 +227,13 @@ impl World {
     }
 
     /// Air of the room at this level, dBFS. It comes from everywhere: two capsules hear the same below some hundred hertz only.
-    fn add_air(&self, channels: &mut [Vec<f64>], dbfs: f64, random: &mut Random) {
+    fn add_air(channels: &mut [Vec<f64>], dbfs: f64, random: &mut Random) {
         let seconds = channels[0].len() as f64 / R;
         let air = noises::air(seconds + 0.001, random);
         add(&mut channels[0], 0.0, &air, from_decibels(dbfs));
         if let Some(second) = channels.get_mut(1) {
             let other = noises::air(seconds + 0.001, &mut Random::new(hash_words(&[air[0].to_bits(), 2])));
-            add(second, 0.0, &parted(air, other, R, alike_hz(self.apart())), from_decibels(dbfs));
+            add(second, 0.0, &parted(air, other, R, ALIKE_HZ), from_decibels(dbfs));
         }
     }
 
@@ -264,7 +264,7 @@ impl World {
         }
         let loud = random.range(-8.0, 4.0);
         self.hear_itself(&played, (room, loud), &mut channels, random);
-        self.add_air(&mut channels, random.range(-72.0, -50.0), random);
+        Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
         let take = self.finish(condition, index, channels, Kind::Noise, Vec::new(), hearing, random);
         Take { events, played: played.iter().map(|x| *x as f32).collect(), ..take }
     }

@@ -81,7 +81,7 @@ impl World {
             _ => -58.0,
         };
         let air_dbfs = random.range(if noisy { -70.0 } else { -72.0 }, loudest);
-        self.add_air(&mut channels, air_dbfs, random);
+        Self::add_air(&mut channels, air_dbfs, random);
         let during = |heard: &[Vec<f64>], b: &Breath| {
             heard
                 .iter()

@@ -162,7 +162,7 @@ impl World {
         let seconds = 60.0;
         let dry = self.museum_sounds(seconds, 1.0, random);
         let mut channels = self.heard(&dry, hearing.stereo, random);
-        self.add_air(&mut channels, random.range(-75.0, -38.0), random);
+        Self::add_air(&mut channels, random.range(-75.0, -38.0), random);
         let take = self.finish(Condition::Museum, index, channels, Kind::Noise, Vec::new(), hearing, random);
         Take { events: dry.events, ..take }
     }
@@ -193,7 +193,7 @@ impl World {
             at += random.range(0.7, 3.0);
         }
         let mut channels = self.heard(&dry, hearing.stereo, random);
-        self.add_air(&mut channels, random.range(-75.0, -50.0), random);
+        Self::add_air(&mut channels, random.range(-75.0, -50.0), random);
         let take = self.finish(Condition::Impulses, index, channels, Kind::Impulse, Vec::new(), hearing, random);
         Take { events: dry.events, ..take }
     }
@@ -220,7 +220,7 @@ impl World {
             at += random.range(0.7, longest);
         }
         let mut channels = self.heard(&dry, hearing.stereo, random);
-        self.add_air(&mut channels, random.range(-75.0, -45.0), random);
+        Self::add_air(&mut channels, random.range(-75.0, -45.0), random);
         let take = self.finish(Condition::Alike, index, channels, Kind::Noise, Vec::new(), hearing, random);
         Take { events: dry.events, ..take }
     }
