@@ -82,12 +82,6 @@ fn first_eigenvector(tensor: DMat3) -> DVec3 {
     longest.try_normalize().unwrap_or(DVec3::X)
 }
 
-/// Makes the readiest of some targets count 1.
-pub fn compare(targets: &mut [(usize, AimTarget)]) {
-    let most = targets.iter().fold(0.0, |most: f64, (_, target)| most.max(target.answers));
-    targets.iter_mut().for_each(|(_, target)| target.answers = if most > 0.0 { target.answers / most } else { 1.0 });
-}
-
 /// e₀: what lies so near the ray is in the middle of the breath, m.
 const NEAR: f64 = 0.03;
 /// A surface on which wind presses by less than this share of its area is an edge.

@@ -14,7 +14,8 @@
 //! Nothing else acts meanwhile: no weight or wind, no springs, stops, gears or touches, and drives stand where they start.
 //! After [`LASTS`] what is left of Δ is below a micrometre, and the exhibit begins.
 
-use super::{Settings, start};
+use super::Settings;
+use super::start::start_bodies;
 use crate::articulation::block::{Vec6, add_wrench};
 use crate::articulation::{Constraint, ConstraintKind, Interpolation, Schedule};
 use crate::bodies::RigidBody;
@@ -46,7 +47,7 @@ pub struct Gathering {
 impl Gathering {
     /// The exhibit scattered, and what calls it together.
     pub fn new(exhibit: &Exhibit, settings: &Settings, seed: u64) -> (Self, Dynamics) {
-        let mut bodies = start(exhibit, settings);
+        let mut bodies = start_bodies(exhibit, settings);
         let mut driven = vec![false; bodies.len()];
         exhibit.drives.iter().for_each(|drive| driven[drive.body] = true);
         let homes: Vec<(DVec3, DQuat)> = bodies.iter().map(|body| (body.position, body.rotation)).collect();

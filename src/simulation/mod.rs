@@ -14,6 +14,7 @@ mod gather;
 mod hands;
 mod input;
 mod inspect;
+mod leaning;
 mod merge;
 mod motes;
 mod onset;
@@ -22,18 +23,17 @@ mod script;
 mod snapshot;
 mod sonify;
 mod source;
+mod start;
 
 use std::sync::Arc;
 
 use crate::articulation::block::Vec6;
 use crate::bodies::RigidBody;
-use crate::dynamics::forces::Damping;
-use crate::dynamics::{self, Dynamics, Figure, Impact};
+use crate::dynamics::{Dynamics, Impact};
 use crate::exhibit::{Exhibit, View};
 use crate::math::{DVec3, StateHash};
 use crate::procedural::{self, Method, Procedural, Reach};
 use crate::sound::SoundCommand;
-use crate::wind::SurfaceShape;
 use crate::wind::blow::BlowEstimate;
 use crate::wind::breath::Breath;
 use crate::wind::force::{Blown, WindField, WindReport};
@@ -51,12 +51,15 @@ pub use hands::Hand;
 use hands::Hands;
 pub use input::{CENTRE, Command, Microphone, MotionMode, Profile, Settings, StepInput};
 pub use inspect::{BodyState, Inspection, JointState, Look, WindSample};
+use leaning::leant_to;
 use motes::Motes;
 use onset::Onset;
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Mote, Snapshot};
 use sonify::{Listener, Wires};
 use source::BreathSource;
+use start::start_carrying;
+pub use start::start_dynamics;
 
 /// Simulation steps per second.
 pub const STEPS_PER_SECOND: u64 = 240;
@@ -68,12 +71,6 @@ pub const SAMPLES_PER_STEP: u64 = SAMPLE_RATE as u64 / STEPS_PER_SECOND;
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
 /// Width over height of a picture nobody described.
 const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
-
-/// Width of the ring that shows a hand, picture heights.
-const HAND_RING: f64 = 0.04;
-
-/// Source speed that fills the breath meter, m/s: a strong breath.
-const FULL_METER: f64 = 16.0;
 
 /// Room for what happens in one step: more makes its list grow, once.
 const LISTED: usize = 256;
@@ -126,7 +123,7 @@ impl Simulation {
         let eye = Eye::new(&exhibit);
         let dynamics = start_dynamics(&exhibit, &settings);
         Self {
-            carrying: carrying(&exhibit, &settings, &dynamics.bodies),
+            carrying: start_carrying(&exhibit, &settings, &dynamics.bodies),
             procedural: Procedural::new(&dynamics, procedural::Settings::default()),
             dynamics,
             wind: WindField::new(
@@ -263,96 +260,6 @@ impl Simulation {
         }
     }
 
-    /// Starts the exhibit anew, in silence.
-    fn reset(&mut self) {
-        self.begin_anew();
-        self.front.clear();
-        self.hands.clear();
-        let sample = self.step * SAMPLES_PER_STEP;
-        self.contact_sound.reset(sample, &mut self.sounds);
-        self.sounds.push(SoundCommand::Silence { sample });
-    }
-
-    /// Starts the exhibit anew from scattered parts, if it gathers itself.
-    #[inline(never)] // as `begin_anew`
-    fn gather(&mut self, seed: u64) {
-        self.reset();
-        if self.exhibit.gathers {
-            let (gathering, scattered) = Gathering::new(&self.exhibit, &self.settings_now(), seed);
-            self.dynamics = scattered;
-            self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
-        }
-    }
-
-    /// Puts the figure where it starts; its time begins. Kept apart from the step, which would else ask for the stack on which a
-    /// new figure is made, 140 KB, every time.
-    #[inline(never)]
-    fn begin_anew(&mut self) {
-        self.gathering = None;
-        let settings = self.settings_now();
-        self.dynamics = start_dynamics(&self.exhibit, &settings);
-        self.carrying = carrying(&self.exhibit, &settings, &self.dynamics.bodies);
-        self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
-        self.start_step = self.step;
-        self.idle = Idle::default();
-    }
-
-    /// The settings of a run that begins now: the day has gone on.
-    fn settings_now(&self) -> Settings {
-        let now = |midnight: f64| midnight + self.step as f64 * DT;
-        Settings { clock: self.settings.clock.map(now), ..self.settings }
-    }
-
-    /// While its parts gather: how far the farthest is from its place, m.
-    pub fn gathers_from(&self) -> Option<f64> {
-        self.gathering.as_ref().map(|(gathering, _)| gathering.way(&self.dynamics.bodies))
-    }
-
-    /// Points the breath. What it leans to is chosen again sixty times a second, and at once by a breath that begins, or that has
-    /// only just begun when it is pointed elsewhere: whoever wakes the work from attract mode blows a step before the script's
-    /// aim is given up, and what their first moment makes up for would go astray.
-    fn take_aim(&mut self, input: &StepInput) {
-        const EVERY: u64 = STEPS_PER_SECOND / 60;
-        self.eye.look(&self.exhibit, input.aspect, input.turn);
-        let pointer = input.pointer.unwrap_or(CENTRE);
-        let Settings { distance, profile, .. } = self.settings;
-        let Eye { aspect, ref view, .. } = self.eye;
-        self.aim.point(view, view.ray(pointer, aspect), distance);
-        let leaps = std::mem::replace(&mut self.pointer, pointer) != pointer;
-        let begins = self.onset.begins() || leaps && self.onset.is_fresh();
-        let chooses = profile == Profile::Gallery && (begins || self.step.is_multiple_of(EVERY));
-        if chooses {
-            self.look_at_targets(self.step / EVERY, begins);
-        }
-        let (surfaces, bodies) = (&self.exhibit.wind_surfaces, &self.dynamics.bodies);
-        let stands = |(surface, target): &(usize, AimTarget)| target.at(bodies[surfaces[*surface].body].pose());
-        if chooses {
-            self.aim_targets.clear();
-            self.aim_targets.extend(self.leant_to.iter().map(stands));
-            self.aim.choose(&self.aim_targets);
-        }
-        let chosen = self.aim.chosen().map(|index| stands(&self.leant_to[index]));
-        self.aim.lean(chosen.as_ref(), if begins { f64::INFINITY } else { DT });
-    }
-
-    /// Sees what hides the surfaces that breath leans to from the lips, where there is a choice: all of them for a breath that
-    /// begins. What stands in the way then changes slowly, but for lips that follow a pointer: of the choices one looks at the
-    /// surface that is chosen and at another in turn, and while nobody blows every eighth.
-    fn look_at_targets(&mut self, choice: u64, begins: bool) {
-        let (every, surfaces) = (if self.speed > 0.0 { 1 } else { 8 }, self.leant_to.len());
-        if surfaces < 2 || !(begins || choice.is_multiple_of(every)) {
-            return;
-        }
-        let next = (choice / every % surfaces as u64) as usize;
-        for (index, (surface, target)) in self.leant_to.iter_mut().enumerate() {
-            if begins || index == next || self.aim.chosen() == Some(index) {
-                let pose = self.dynamics.bodies[self.exhibit.wind_surfaces[*surface].body].pose();
-                let lips = self.aim.lips_before(pose.point(target.center));
-                target.seen = self.wind.shown(*surface, &self.dynamics.bodies, lips);
-            }
-        }
-    }
-
     /// Turns the breath into forces.
     fn blow(&mut self) {
         self.wrenches.fill([0.0; 6]);
@@ -485,49 +392,6 @@ impl Simulation {
         self.dynamics.energy()
     }
 
-    /// The present moment.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            step: self.step,
-            time: self.dynamics.time(),
-            poses: self.dynamics.bodies.iter().map(RigidBody::pose).collect(),
-            breath: BreathView {
-                speed: self.speed,
-                estimate: self.estimate,
-                mouth: self.aim.mouth,
-                direction: self.aim.direction,
-                target: self.aim.target,
-                ring: self.aim_ring(),
-                meter: (self.speed / FULL_METER).clamp(0.0, 1.0),
-            },
-            motes: self.motes.view().collect(),
-            turn: self.eye.turn,
-            diagnostics: Diagnostics {
-                joint_error: self.dynamics.joint_error(),
-                energy: self.dynamics.energy(),
-                impacts: self.impact_count,
-                faults: self.fault_count,
-                substeps: self.dynamics.substeps(),
-                wind_force: self.report.force,
-                mode: self.mode,
-                hands: self.hands.count(),
-            },
-        }
-    }
-
-    /// The breath's own width where it is aimed, or a fingertip where a hand holds.
-    fn aim_ring(&self) -> AimRing {
-        let view = &self.eye.view;
-        if let Some(center) = self.hands.first(&self.dynamics.bodies) {
-            let forward = view.axes().2;
-            let radius = 0.5 * HAND_RING * view.height_at((center - view.eye).dot(forward));
-            return AimRing { center, axis: forward, radius };
-        }
-        let breath = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
-        let radius = breath.half_width(self.aim.target.distance(self.aim.mouth));
-        AimRing { center: self.aim.target, axis: self.aim.direction, radius }
-    }
-
     /// The camera for a picture of this aspect (width / height), turned as the last step was told.
     pub fn view(&self, aspect: f64) -> View {
         self.exhibit.view(aspect).turned(self.eye.turn)
@@ -577,61 +441,4 @@ fn blown<'a>(exhibit: &Exhibit, settings: &Settings, aim: &Aim, front: &'a Front
     let gain = exhibit.breath.gain * settings.breath_gain * settings.profile.gain(speed);
     let blows = speed > 0.0 || front.is_some_and(Front::in_flight);
     (blows && settings.wind).then(|| Blown { breath: breath(exhibit, settings, aim, speed), front, gain })
-}
-
-/// Surfaces of sheets that breath leans to: which, and what is leant to in its node frame.
-fn leant_to(exhibit: &Exhibit, dynamics: &mut Dynamics) -> Vec<(usize, AimTarget)> {
-    let target = |(index, surface): (usize, &crate::wind::Surface)| match &surface.shape {
-        SurfaceShape::Mesh { mesh, .. } => Some((index, AimTarget::of(mesh, surface.body, dynamics))),
-        SurfaceShape::Wire { .. } => None,
-    };
-    let mut targets = exhibit.wind_surfaces.iter().enumerate().filter_map(target).collect::<Vec<_>>();
-    aim::compare(&mut targets);
-    targets
-}
-
-/// The exhibit's bodies as they start, a clock's at the hour.
-fn start(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidBody> {
-    let body = |body: &crate::exhibit::Body| RigidBody {
-        velocity: body.velocity,
-        angular_velocity: body.angular_velocity,
-        ..RigidBody::at_rest(body.properties, body.pose)
-    };
-    let mut bodies: Vec<RigidBody> = exhibit.bodies.iter().map(body).collect();
-    if let (Some(clock), Some(time)) = (&exhibit.clock, settings.clock) {
-        clock.set(time, &mut bodies);
-    }
-    bodies
-}
-
-/// Whoever carries the hands of a clock to the time, where there is one to be set.
-fn carrying(exhibit: &Exhibit, settings: &Settings, bodies: &[RigidBody]) -> Option<Carrying> {
-    let (clock, time) = exhibit.clock.as_ref().zip(settings.clock)?;
-    Some(Carrying::new(clock, bodies, time))
-}
-
-/// The exhibit's figure at its start, to be moved by itself: without air, hands and sound.
-pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
-    let figure = Figure {
-        bodies: start(exhibit, settings),
-        damping: exhibit
-            .bodies
-            .iter()
-            .map(|body| Damping { linear: body.linear_damping, angular: body.angular_damping })
-            .collect(),
-        constraints: &exhibit.constraints,
-        limits: &exhibit.limits,
-        springs: &exhibit.springs,
-        drives: &exhibit.drives,
-        colliders: &exhibit.colliders,
-        pairs: exhibit.pairs().meet.into_iter().map(|pair| exhibit.surface_pair(pair)).collect(),
-    };
-    let dynamics = dynamics::Settings {
-        gravity: exhibit.gravity,
-        friction: settings.friction,
-        stabilization_time: exhibit.stabilization_time,
-        integrator: exhibit.integrator,
-        solver: exhibit.solver,
-    };
-    Dynamics::new(figure, dynamics)
 }

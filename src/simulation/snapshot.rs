@@ -1,8 +1,14 @@
 //! What a picture, a trace and a panel need to know of one moment.
 
-use super::MotionMode;
+use super::{MotionMode, Simulation, breath};
+use crate::bodies::RigidBody;
 use crate::math::{DVec3, Pose};
 use crate::wind::blow::BlowEstimate;
+
+/// Width of the ring that shows a hand, picture heights.
+const HAND_RING: f64 = 0.04;
+/// Source speed that fills the breath meter, m/s: a strong breath.
+const FULL_METER: f64 = 16.0;
 
 /// A speck of dust that shows the wind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -115,5 +121,50 @@ impl Snapshot {
                 }
             }
         }
+    }
+}
+
+impl Simulation {
+    /// The present moment.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            step: self.step,
+            time: self.dynamics.time(),
+            poses: self.dynamics.bodies.iter().map(RigidBody::pose).collect(),
+            breath: BreathView {
+                speed: self.speed,
+                estimate: self.estimate,
+                mouth: self.aim.mouth,
+                direction: self.aim.direction,
+                target: self.aim.target,
+                ring: self.aim_ring(),
+                meter: (self.speed / FULL_METER).clamp(0.0, 1.0),
+            },
+            motes: self.motes.view().collect(),
+            turn: self.eye.turn,
+            diagnostics: Diagnostics {
+                joint_error: self.dynamics.joint_error(),
+                energy: self.dynamics.energy(),
+                impacts: self.impact_count,
+                faults: self.fault_count,
+                substeps: self.dynamics.substeps(),
+                wind_force: self.report.force,
+                mode: self.mode,
+                hands: self.hands.count(),
+            },
+        }
+    }
+
+    /// The breath's own width where it is aimed, or a fingertip where a hand holds.
+    fn aim_ring(&self) -> AimRing {
+        let view = &self.eye.view;
+        if let Some(center) = self.hands.first(&self.dynamics.bodies) {
+            let forward = view.axes().2;
+            let radius = 0.5 * HAND_RING * view.height_at((center - view.eye).dot(forward));
+            return AimRing { center, axis: forward, radius };
+        }
+        let breath = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
+        let radius = breath.half_width(self.aim.target.distance(self.aim.mouth));
+        AimRing { center: self.aim.target, axis: self.aim.direction, radius }
     }
 }
