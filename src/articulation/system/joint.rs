@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::HELD;
 use crate::articulation::activity::Activity;
 use crate::articulation::block::{MAX_ROWS, vec6};
 use crate::articulation::loops::LoopRow;
@@ -11,6 +10,9 @@ use crate::articulation::tree::{JointRows, Link};
 use crate::articulation::{Anchor, Constraint, ConstraintKind};
 use crate::bodies::RigidBody;
 use crate::math::DVec3;
+
+/// Most held rows of a pair of bodies, twice over; three of friction may come after them.
+const HELD: usize = MAX_ROWS - 3;
 
 /// All constraints between one pair of bodies.
 #[derive(Clone, Debug)]

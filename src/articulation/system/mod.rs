@@ -3,7 +3,9 @@
 //! Used in this order: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
+mod build;
 mod closing;
+mod couplings;
 mod geared;
 mod joint;
 mod report;
@@ -13,29 +15,26 @@ use std::ops::Range;
 
 use fearless_simd::{Level, Simd, dispatch};
 
+use super::Constraint;
 use super::activity::Activity;
-use super::block::{MAX_ROWS, RowSquare, RowVec, Vec6, add_scaled};
+use super::block::{RowSquare, RowVec, Vec6, add_scaled};
 use super::dense::Dense;
 use super::hung::Hung;
 use super::loops::{LoopRow, Loops};
 use super::quads::Quads;
 use super::rows::Scene;
-use super::rows::coupling::{self, Gauge};
+use super::rows::coupling;
 use super::spatial::response;
 use super::trains::{Asked, Trains};
-use super::tree::{Form, JointRows, Link, Tree};
-use super::{Axis, Constraint, ConstraintKind, Groups, Measure};
+use super::tree::{Form, JointRows, Tree};
 use crate::bodies::RigidBody;
 use crate::math::{DMat3, DVec3};
+use couplings::Coupling;
 pub use geared::Geared;
 pub use joint::{Joint, RowState};
-use joint::{is_only_point, joints, lone_point};
 
 /// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
 pub(super) const PROJECTION_REACH: f64 = 1e-4;
-
-/// Most held rows of a pair of bodies, twice over; three of friction may come after them.
-const HELD: usize = MAX_ROWS - 3;
 
 /// Which linear solver finds the multipliers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,27 +44,6 @@ pub enum Method {
     Sparse,
     /// One dense matrix of all rows: the reference.
     Dense,
-}
-
-/// A constraint that couples turns and ways.
-#[derive(Clone, Debug)]
-struct Coupling {
-    constraint: usize,
-    at: usize,
-    terms: Vec<(Gauge, f64)>,
-    /// Subtracted from the value: where a clutch holds.
-    offset: f64,
-    /// Index among the loops' rows.
-    outside: usize,
-}
-
-/// A coupling's row, as a clutch asks for it.
-#[derive(Clone, Copy, Debug)]
-pub struct Coupled<'a> {
-    /// λ: 0 where it does not act.
-    pub multiplier: f64,
-    /// J by bodies.
-    pub parts: &'a [(usize, Vec6)],
 }
 
 /// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
@@ -144,137 +122,6 @@ impl System {
             Method::Dense => Trains::default(),
         };
         Self::with(level, bodies, driven, constraints, (method, trains))
-    }
-
-    fn with(
-        level: Level,
-        bodies: &[RigidBody],
-        driven: &[bool],
-        constraints: &[Constraint],
-        (method, trains): (Method, Trains),
-    ) -> Self {
-        let (mut joints, mut count) = joints(constraints);
-        let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
-        let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
-        let points: Vec<bool> = joints
-            .iter()
-            .map(|joint| method == Method::Sparse && joint.constraints.iter().all(|&c| is_only_point(&constraints[c])))
-            .zip(&joints)
-            .map(|(all, joint)| all && joint.constraints.len() == 1)
-            .collect();
-        for joint in &mut joints {
-            joint.in_train = joint.constraints.iter().all(|&constraint| trains.owns(constraint));
-        }
-        // To the tree a train is ground that moves.
-        let given: Vec<bool> = (0..bodies.len()).map(|body| driven[body] || trains.has(body)).collect();
-        let mut groups = Groups::new(bodies.len());
-        for constraint in constraints {
-            groups.join_all((0..bodies.len()).filter(|&body| !driven[body] && constraint.kind.touches(body)));
-        }
-        let tree = Tree::new(level, &given, &links, (&at, &points), &groups);
-        let mut blocks = Vec::new();
-        let mut outside: Vec<LoopRow> = Vec::new();
-        for (index, joint) in joints.iter_mut().enumerate() {
-            joint.point = lone_point(joint, constraints, bodies);
-            let closes = tree.loops().contains(&index) && !joint.in_train;
-            if closes || method == Method::Dense {
-                joint.outside = Some(outside.len());
-                let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
-                for k in 0..joint.capacity {
-                    outside.push(blank_row(joint.at + k, k, &parts, false));
-                }
-            }
-            if !points[index] || closes {
-                joint.block = Some(blocks.len());
-                blocks.push(JointRows::default());
-            }
-        }
-        let mut couplings = Vec::new();
-        for (index, constraint) in constraints.iter().enumerate() {
-            let ConstraintKind::Coupling { terms } = &constraint.kind else { continue };
-            let terms: Vec<_> = terms.iter().map(|t| (Gauge::new(t.measure, bodies), t.coefficient)).collect();
-            let mut parts: Vec<usize> = Vec::new();
-            for body in terms.iter().flat_map(|(gauge, _)| [gauge.bodies().0, gauge.bodies().1]).flatten() {
-                if !parts.contains(&body) {
-                    parts.push(body);
-                }
-            }
-            couplings.push(Coupling { constraint: index, at: count, terms, offset: 0.0, outside: outside.len() });
-            outside.push(blank_row(count, 0, &parts, trains.owns(index)));
-            count += 1;
-        }
-        let (loop_rows, dense) = match method {
-            Method::Sparse => (outside, None),
-            Method::Dense => (Vec::new(), Some(Dense::new(outside, driven))),
-        };
-        let n = bodies.len();
-        for &body in tree.order() {
-            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !given[body]) {
-                joints[joint].hangs = Some(body);
-            }
-        }
-        let ends = |body: usize| {
-            let joint = tree.joint_of(body).map(|joint| &joints[joint]).filter(|joint| joint.hangs == Some(body))?;
-            joint.point.map(|(a, b)| if joint.link.a == body { (a, b) } else { (b, a) })
-        };
-        let hung = Hung::new(&tree, ends);
-        let various = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none());
-        let (mut various, of_trains): (Vec<usize>, Vec<usize>) = various.partition(|&joint| !joints[joint].in_train);
-        let outside_trains = various.len();
-        various.extend(of_trains);
-        let of_joints = joints.iter().filter(|joint| !joint.in_train).map(|joint| joint.at..joint.at + joint.capacity);
-        let of_couplings = couplings.iter().filter(|c| !trains.owns(c.constraint)).map(|c| c.at..c.at + 1);
-        let rows = merged(of_joints.chain(of_couplings));
-        let numbers = |joint: usize| joints[joint].at..joints[joint].at + joints[joint].capacity;
-        let loops = Loops::new(loop_rows, (&tree, &trains), driven, (count, numbers));
-        let asked = !(various.is_empty() && couplings.is_empty());
-        let lean = |constraint: usize| !trains.owns(constraint);
-        let of_rows = |&body: &usize| {
-            let touches = |constraint: &usize| constraints[*constraint].kind.touches(body);
-            let joints = various[..outside_trains].iter().flat_map(|&joint| &joints[joint].constraints);
-            joints.chain(couplings.iter().map(|c| &c.constraint).filter(|c| lean(**c))).any(touches)
-        };
-        let framed = if asked { (0..bodies.len()).filter(of_rows).collect() } else { Vec::new() };
-        let mut states = vec![RowState::default(); count];
-        for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
-            (joint.rows, joint.hard) = (3, 3);
-            for state in &mut states[joint.at..joint.at + 3] {
-                (state.length, state.constraint, state.share) = (true, joint.constraints[0], 1.0);
-            }
-        }
-        Self {
-            gathering: false,
-            activity: Activity::new(constraints),
-            loops,
-            outside_trains,
-            rows,
-            trains,
-            asked: Asked::Impulse,
-            constraints: constraints.to_vec(),
-            joints,
-            couplings,
-            blocks,
-            states,
-            quads: Quads::new(level, tree.members(), bodies),
-            tree,
-            hung,
-            told: false,
-            whole: true,
-            various,
-            dense,
-            frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
-            framed,
-            driven: driven.to_vec(),
-            asleep: vec![false; n],
-            still: Vec::with_capacity(n),
-            idle: vec![false; constraints.len()],
-            asleep_gap: 0.0,
-            lent: vec![DMat3::IDENTITY; n],
-            b: vec![[0.0; 6]; n],
-            g: vec![0.0; count],
-            a: vec![[0.0; 6]; n],
-            lambda: vec![0.0; count],
-        }
     }
 
     /// The constraints, in the order given.
@@ -521,90 +368,4 @@ impl System {
     pub fn has_trains(&self) -> bool {
         !self.trains.is_empty()
     }
-
-    /// Lets trains go on from where these bodies were put.
-    pub fn begin_trains(&mut self, bodies: &[RigidBody]) {
-        if !self.has_trains() {
-            return;
-        }
-        self.quads.look(bodies);
-        self.trains.begin(&self.quads);
-        for (gauge, _) in self.couplings.iter().flat_map(|coupling| &coupling.terms) {
-            if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure {
-                self.trains.turned(body, bodies[body].rotation * direction, gauge.total(bodies));
-            }
-        }
-        self.trains.go_on(&self.quads);
-        // What was turned by more than half a turn in a step has been miscounted.
-        for (gauge, _) in self.couplings.iter_mut().flat_map(|coupling| &mut coupling.terms) {
-            if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure
-                && let Some(turn) = self.trains.turn_of(body, bodies[body].rotation * direction)
-            {
-                gauge.expect(bodies, turn);
-            }
-        }
-    }
-
-    /// Takes over what another system of the same constraints knows of its run: windows and breaks, and counted turns.
-    pub fn exchange_run(&mut self, other: &mut Self) {
-        std::mem::swap(&mut self.activity, &mut other.activity);
-        for (own, others) in self.couplings.iter_mut().zip(&mut other.couplings) {
-            std::mem::swap(&mut own.terms, &mut others.terms);
-            std::mem::swap(&mut own.offset, &mut others.offset);
-        }
-    }
-
-    /// What a coupling was found to be at the last evaluation, and carried in the last solve.
-    ///
-    /// # Panics
-    /// Where the constraint is no coupling.
-    pub fn coupling(&self, constraint: usize) -> Coupled<'_> {
-        let found = self.couplings.iter().find(|coupling| coupling.constraint == constraint);
-        let Some(coupling) = found else { panic!("constraint {constraint} is no coupling") };
-        let multiplier = if self.activity.share(constraint) > 0.0 { self.lambda[coupling.at] } else { 0.0 };
-        Coupled { multiplier, parts: &self.outside_rows()[coupling.outside].parts }
-    }
-
-    /// Lets a clutch slip.
-    pub fn let_slip(&mut self, constraint: usize) {
-        self.activity.slip(constraint, true);
-    }
-
-    /// Lets a clutch hold where the bodies are.
-    pub fn take_hold(&mut self, constraint: usize, bodies: &[RigidBody]) {
-        self.activity.slip(constraint, false);
-        for coupling in self.couplings.iter_mut().filter(|coupling| coupling.constraint == constraint) {
-            coupling.offset = coupling.terms.iter().map(|(gauge, c)| c * gauge.total(bodies)).sum();
-        }
-    }
-
-    /// Counts the turns of couplings up to this state; once a step.
-    pub fn count_turns(&mut self, bodies: &[RigidBody]) {
-        let outside = self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows);
-        for coupling in &mut self.couplings {
-            if outside[coupling.outside].sleeps(&self.asleep) {
-                continue;
-            }
-            for (gauge, _) in &mut coupling.terms {
-                gauge.count(bodies);
-            }
-        }
-    }
-}
-
-/// Ranges that follow each other as one.
-fn merged(ranges: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
-    let mut out: Vec<Range<usize>> = Vec::new();
-    for range in ranges {
-        match out.last_mut() {
-            Some(last) if last.end == range.start => last.end = range.end,
-            _ => out.push(range),
-        }
-    }
-    out
-}
-
-fn blank_row(at: usize, place: usize, bodies: &[usize], held: bool) -> LoopRow {
-    let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
-    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held, alone: 0.0 }
 }
