@@ -11,16 +11,16 @@
 //! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, over the
 //! bands 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz. *Low* are the first two, *middle* the last three.
 
+use super::means::{self, Means, TOLD};
 use super::past::{Past, Present};
+use super::room::Weight;
 use super::spectrum::{BINS, FRAME_S, Power, TRANSFORM, band};
 use crate::math::{PI, cos, exp, ln, log10};
 
 /// What is measured in each frame.
 pub const MEASURED: usize = 40;
-/// Number of features: what is measured, and its means over [`MEANS_S`].
-pub const COUNT: usize = MEASURED * (1 + MEANS_S.len());
-/// A frame alone is doubtful; what it was like lately makes it clear. Time constants of the means, s.
-pub const MEANS_S: [f64; 2] = [0.1, 0.5];
+/// Number of features: what is measured, and its means.
+pub const COUNT: usize = MEASURED * TOLD;
 
 /// Names of what is measured, in order.
 pub const NAMES: [&str; MEASURED] = [
@@ -68,8 +68,7 @@ pub const NAMES: [&str; MEASURED] = [
 
 /// What a feature is, in words.
 pub fn name(feature: usize) -> String {
-    let over = feature.checked_sub(MEASURED).map(|i| format!(", mean of {} s", MEANS_S[i / MEASURED]));
-    format!("{}{}", NAMES[feature % MEASURED], over.unwrap_or_default())
+    means::name(&NAMES, feature)
 }
 
 /// One frame's features: what is measured in the order of [`NAMES`], then its means, the shorter one first.
@@ -135,7 +134,7 @@ pub(super) struct Listener {
     /// Over 40 ms and over 0.16 s.
     peakedness: [f64; 2],
     past: Past,
-    means: [[f64; MEASURED]; MEANS_S.len()],
+    means: Means<MEASURED>,
     cosine: Vec<f64>,
 }
 
@@ -199,7 +198,7 @@ impl Listener {
             risen_for: 0.0,
             peakedness: [0.0; 2],
             past: Past::new(),
-            means: [[0.0; MEASURED]; MEANS_S.len()],
+            means: Means::new(),
             cosine: (0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect(),
         }
     }
@@ -237,19 +236,9 @@ impl Listener {
                 *unrest += blend(2.0) * (now - *unrest).min(6.0);
             }
         }
-        (self.with_means(&measured), levels)
-    }
-
-    /// What is measured now, and what it was like lately.
-    fn with_means(&mut self, measured: &[f64; MEASURED]) -> Features {
-        for (means, seconds) in self.means.iter_mut().zip(MEANS_S) {
-            let blend = if self.frames == 1 { 1.0 } else { blend(seconds) };
-            means.iter_mut().zip(measured).for_each(|(mean, x)| *mean += blend * (x - *mean));
-        }
         let mut features = [0.0; COUNT];
-        let rows = std::iter::once(measured).chain(&self.means);
-        features.chunks_exact_mut(MEASURED).zip(rows).for_each(|(out, row)| out.copy_from_slice(row));
-        features
+        self.means.push(&measured, &mut features);
+        (features, levels)
     }
 
     /// Has it heard the room for less than a third of a second?
@@ -258,21 +247,18 @@ impl Listener {
     }
 
     fn learn_room(&mut self) {
-        // The first third of a second counts in full; then down within 0.4 s, up at no more than 9 dB a second,
-        // whatever the bang: one frame weighs at most four times the room.
         self.learnt += 1;
-        let early = 1.0 / self.learnt as f64;
-        let (down, up) = (blend(0.4).max(early), blend(1.5));
-        let new = self.is_new();
+        let (mean, new) = (1.0 / self.learnt as f64, self.is_new());
+        let known = Weight::known();
+        let weight = Weight { down: known.down.max(mean), ..known };
         let quietest = |bin: usize| self.quietest[usize::from(bin >= MIDDLE.0)];
         for (bin, (f, s)) in self.room.iter_mut().zip(&self.smooth).enumerate() {
-            *f = if new {
-                *f + early * (s - *f)
-            } else if s < f {
-                *f + down * (s - *f)
+            // The first third of a second counts in full.
+            if new {
+                *f += mean * (s - *f);
             } else {
-                *f + up * (s.min(4.0 * *f + quietest(bin)) - *f)
-            };
+                weight.learn(f, *s, quietest(bin));
+            }
         }
     }
 

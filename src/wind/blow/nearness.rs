@@ -18,6 +18,7 @@ use rustfft::num_complex::Complex;
 
 use super::capsules::Pair;
 use super::features::{QUIETEST, RESIDUE, blend, decibels};
+use super::room::Weight;
 use super::spectrum::{BINS, Power};
 
 /// Bins of a band.
@@ -26,10 +27,6 @@ pub const WIDTH: usize = 11;
 pub const LOWER: (usize, [usize; 3]) = (26, [3, 9, 17]);
 /// Memory, s.
 const MEMORY_S: f64 = 0.064;
-/// The room of what is one wave is learnt as fast down, and up, s; one frame weighs at most so many times the room.
-const DOWN_S: f64 = 0.4;
-const UP_S: f64 = 1.5;
-const BANG: f64 = 4.0;
 /// Keeps quotients finite.
 const NOTHING: f64 = 1e-30;
 
@@ -69,7 +66,7 @@ impl<const REGIONS: usize> Nearness<REGIONS> {
     pub fn push(&mut self, [l, r]: &[[Complex<f64>; BINS]; 2], own: &Power, learn: bool, scale: f64) {
         let weight = blend(MEMORY_S);
         self.learnt += u64::from(learn);
-        let early = 1.0 / self.learnt.max(1) as f64;
+        let of_room = Weight::nth(self.learnt);
         let mut from = 0;
         for (region, until) in self.ends.into_iter().enumerate() {
             let (mut same, mut all) = (0.0, NOTHING);
@@ -88,9 +85,7 @@ impl<const REGIONS: usize> Nearness<REGIONS> {
             from = until;
             self.rise_db[region] = decibels(((heard - own).max(0.0) + QUIETEST) / (*room + RESIDUE * own + QUIETEST));
             if learn {
-                let (now, seconds) =
-                    if heard < *room { (heard, DOWN_S) } else { (heard.min(BANG * *room + QUIETEST), UP_S) };
-                *room += blend(seconds).max(early) * (now - *room);
+                of_room.learn(room, heard, QUIETEST);
             }
         }
     }

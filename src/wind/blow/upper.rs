@@ -13,10 +13,12 @@
 //! Symbols as in `features.rs`: S_k smoothed power of bin k, F_k room, O_k the kiosk's own. Bin k lies at 8 kHz − k · 15.6 Hz
 //! (`resample.rs`).
 
-use super::features::{MEANS_S, QUIETEST, RESIDUE, RISEN_DB, Still, blend, decibels};
+use super::features::{QUIETEST, RESIDUE, RISEN_DB, Still, blend, decibels};
+use super::means::{self, Means, TOLD};
 use super::nearness::{Nearness, WIDTH};
 use super::past::{BUSY_S, MEMORY, NONE_DB, SINKING_DB_S, Trend};
 use super::resample::UPPER_LIFT_DB;
+use super::room::Weight;
 use super::spectrum::{BINS, FRAME_S, Framer, Power, band};
 
 /// Regions, from 7 kHz down to 5.6 and to 4.4 kHz.
@@ -26,10 +28,7 @@ const EDGES: [usize; REGIONS + 1] = [WAVES.0, WAVES.0 + WAVES.1[0] * WIDTH, WAVE
 const ALL: std::ops::Range<usize> = EDGES[0]..EDGES[REGIONS];
 /// Smoothing of the powers, s: of a single bin a frame alone scatters by 5 dB.
 const SMOOTHING_S: f64 = 0.02;
-/// The room is learnt as fast down, and up, s, and a frame weighs at most so many times the room; its unrest, s.
-const DOWN_S: f64 = 0.4;
-const UP_S: f64 = 1.5;
-const BANG: f64 = 4.0;
+/// The room's unrest is learnt in this time, s.
 const UNREST_S: f64 = 2.0;
 /// Which of the bins is the quietest third's loudest, by its rise.
 const THIRD: usize = (EDGES[REGIONS] - EDGES[0]) / 3;
@@ -38,8 +37,8 @@ const HISS_DB: f64 = 9.2;
 
 /// What is measured in each frame.
 const MEASURED: usize = 16;
-/// What is measured, and its means over [`MEANS_S`].
-pub const COUNT: usize = MEASURED * (1 + MEANS_S.len());
+/// What is measured, and its means.
+pub const COUNT: usize = MEASURED * TOLD;
 
 /// Names of what is measured, in order.
 const NAMES: [&str; MEASURED] = [
@@ -63,8 +62,7 @@ const NAMES: [&str; MEASURED] = [
 
 /// What an input is, in words.
 pub fn name(input: usize) -> String {
-    let over = input.checked_sub(MEASURED).map(|i| format!(", mean of {} s", MEANS_S[i / MEASURED]));
-    format!("{}{}", NAMES[input % MEASURED], over.unwrap_or_default())
+    means::name(&NAMES, input)
 }
 
 /// What is heard above the voices.
@@ -80,7 +78,7 @@ pub struct Upper {
     busy: f64,
     peak: f64,
     nearness: Nearness<REGIONS>,
-    means: [[f64; MEASURED]; MEANS_S.len()],
+    means: Means<MEASURED>,
     /// What is measured of the last frame, then its means.
     pub inputs: [f64; COUNT],
     /// How far it has risen above the room, dB.
@@ -102,7 +100,7 @@ impl Upper {
             busy: 0.0,
             peak: NONE_DB,
             nearness: Nearness::new(WAVES),
-            means: [[0.0; MEASURED]; MEANS_S.len()],
+            means: Means::new(),
             inputs: [0.0; COUNT],
             rise_db: 0.0,
             hiss_dbfs: NONE_DB,
@@ -120,21 +118,13 @@ impl Upper {
         }
         self.nearness.push(&framer.capsules, own, !still.room, framer.scale);
         let measured = self.measure(own, still, middle_dbfs).map(|x| 0.1 * x.clamp(-60.0, 60.0));
-        for (means, seconds) in self.means.iter_mut().zip(MEANS_S) {
-            let blend = if self.frames == 1 { 1.0 } else { blend(seconds) };
-            means.iter_mut().zip(&measured).for_each(|(mean, x)| *mean += blend * (x - *mean));
-        }
-        let rows = std::iter::once(&measured).chain(&self.means);
-        self.inputs.chunks_exact_mut(MEASURED).zip(rows).for_each(|(out, row)| out.copy_from_slice(row));
+        self.means.push(&measured, &mut self.inputs);
     }
 
     fn learn_room(&mut self) {
         self.learnt += 1;
-        let early = 1.0 / self.learnt as f64;
-        let (down, up) = (blend(DOWN_S).max(early), blend(UP_S).max(early));
-        for (f, s) in self.room.iter_mut().zip(&self.smooth) {
-            *f += if s < f { down * (s - *f) } else { up * (s.min(BANG * *f + QUIETEST) - *f) };
-        }
+        let weight = Weight::nth(self.learnt);
+        self.room.iter_mut().zip(&self.smooth).for_each(|(f, s)| weight.learn(f, *s, QUIETEST));
     }
 
     fn measure(&mut self, own: &Power, still: Still, middle_dbfs: f64) -> [f64; MEASURED] {
