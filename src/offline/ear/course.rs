@@ -75,6 +75,7 @@ fn scenes(size: f64, stereo: bool) -> Vec<(Condition, u64)> {
         (Condition::Alike, count(120.0)),
         (Condition::Isolated, count(180.0)),
         (Condition::Spoken, count(180.0)),
+        (Condition::Companions, count(180.0)),
     ];
     all.extend([0.0, 5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Noisy(snr), count(45.0))));
     all.extend([5.0, 10.0, 15.0, 20.0].map(|snr| (Condition::Aside(snr), count(45.0))));
@@ -289,6 +290,7 @@ pub fn exam(hours: f64) -> Vec<(String, Condition, u64)> {
         ));
     }
     rows.push(("breath after talk".to_owned(), Condition::Spoken, takes(5.0)));
+    rows.push(("breath amid companions' talk".to_owned(), Condition::Companions, takes(5.0)));
     for room in 0..3 {
         rows.push((format!("the kiosk itself, room {}", room + 1), Condition::OwnVoice(room), takes(180.0)));
         rows.push((

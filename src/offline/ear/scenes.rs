@@ -49,6 +49,8 @@ pub enum Condition {
     Between(f64),
     /// Breath at the microphone by who has just talked there; a companion may talk on.
     Spoken,
+    /// Breath by one of a group whose others talk and laugh before the kiosk all the while.
+    Companions,
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
     OwnVoice(u32),
     /// The same, and somebody talks right before it; nobody blows.
@@ -179,7 +181,7 @@ impl World {
                 let mouth = (random.range(0.05, 0.3), random.range(0.0, 12.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
             }
-            Condition::Aside(_) | Condition::Between(_) => {
+            Condition::Aside(_) | Condition::Between(_) | Condition::Companions => {
                 let child = random.unit() < 0.4;
                 let mouth = (random.range(0.1, 0.45), random.range(20.0, 60.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
@@ -341,6 +343,7 @@ impl Condition {
             Self::Between(snr) => hash_words(&[9, snr.to_bits()]),
             Self::Alike => 6,
             Self::Spoken => 8,
+            Self::Companions => 10,
             Self::OwnVoice(room) => 100 + u64::from(room),
             Self::TalkedOver(room) => 300 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),

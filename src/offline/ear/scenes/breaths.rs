@@ -69,6 +69,7 @@ impl World {
         let noisy = snr.is_some();
         let dry = match condition {
             Condition::Spoken => self.talk_before(breaths[0].onset, seconds, random),
+            Condition::Companions => self.companions(seconds, random),
             _ if noisy && random.unit() < 0.5 => self.throng(seconds, random),
             _ if noisy => self.museum_sounds(seconds, random.range(0.5, 2.5), random),
             _ => Dry::silent(streams[0].len()),
@@ -77,7 +78,7 @@ impl World {
         channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
         let loudest = match condition {
             _ if noisy => -30.0,
-            Condition::Spoken => -45.0,
+            Condition::Spoken | Condition::Companions => -45.0,
             _ => -58.0,
         };
         let air_dbfs = random.range(if noisy { -70.0 } else { -72.0 }, loudest);
@@ -139,13 +140,14 @@ impl World {
     }
 }
 
-/// By how much a breath rises above the noise where it does so most, dB: below 200 Hz, above 500 Hz, or in the rumble that two
-/// capsules do not share.
+/// By how much a breath rises above the noise where it does so most, dB: below 200 Hz, above 500 Hz; of two capsules, also in
+/// the rumble that they do not share, and above the voices.
 fn above_noise(breath: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
     let ratio = |of: Loudness| of(breath) / of(noise).max(1e-12);
     let most = ratio(|heard| rumble(&heard[0])).max(ratio(|heard| hiss(&heard[0])));
     let apart = rumble_apart(breath) / (rumble_apart(noise) + QUIETEST_DIFFERENCE);
-    10.0 * log10(most.max(apart).max(1e-12))
+    let treble = if breath.len() == 2 { ratio(|heard| treble(&heard[0])) } else { 0.0 };
+    10.0 * log10(most.max(apart).max(treble).max(1e-12))
 }
 
 /// Power of what lies below 200 Hz.
@@ -163,6 +165,12 @@ fn rumble_apart(heard: &[Vec<f64>]) -> f64 {
 /// Power of what lies from 500 Hz to 3 kHz.
 fn hiss(x: &[f64]) -> f64 {
     power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2))
+}
+
+/// Power of what lies above the voices ([`crate::wind::blow::upper`]): so near the highest that is heard a pass is about a
+/// difference of neighbours, and six of them leave 3 kHz 31 dB below 8.
+fn treble(x: &[f64]) -> f64 {
+    power(&high_passed(x.to_vec(), R, 4400.0, 6))
 }
 
 #[cfg(test)]
@@ -184,6 +192,18 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_above_the_voices_is_told_from_what_voices_have() {
+        let tone =
+            |hz: f64| (0..RATE).map(|i| crate::math::sin(std::f64::consts::TAU * hz * f64::from(i) / R)).collect();
+        let [voice, breath]: [Vec<f64>; 2] = [3000.0, 6000.0].map(tone);
+        let apart_db = 10.0 * log10(treble(&breath) / treble(&voice));
+        assert!(apart_db > 20.0, "6 kHz {apart_db} dB above 3 kHz");
+        // One capsule does not listen there.
+        let [one, two] = [1, 2].map(|n| above_noise(&vec![breath.clone(); n], &vec![voice.clone(); n]));
+        assert!(two > 20.0 && one < two - 10.0, "{one} dB of one, {two} dB of two");
+    }
+
+    #[test]
     fn a_breath_that_only_two_capsules_tell_from_the_crowd_is_not_faint() {
         let (world, index) = (World::new(11), 3);
         let take = |snr, stereo| world.take(Condition::Between(snr), index, Hearing { gain_db: 0.0, stereo });
@@ -195,5 +215,21 @@ mod tests {
             power(&take(snr, true).left.iter().take(RATE as usize / 2).map(|x| f64::from(*x)).collect::<Vec<_>>())
         };
         assert!(crowd(0.0) > 10.0 * crowd(20.0), "{} and {}", crowd(0.0), crowd(20.0));
+    }
+
+    #[test]
+    fn companions_talk_before_and_while_somebody_blows() {
+        let (world, hearing) = (World::new(11), Hearing { gain_db: 0.0, stereo: true });
+        for index in 0..8 {
+            let take = world.take(Condition::Companions, index, hearing);
+            let talk = |at: f64| {
+                let talks = take.events.iter().filter(|event| event.what == "a companion's talk");
+                talks.filter(|event| event.at <= at && at <= event.until).count()
+            };
+            for breath in &take.breaths {
+                assert!((2..5).contains(&talk(breath.onset)) && (2..5).contains(&talk(breath.offset)), "{index}");
+            }
+            assert!(take.events.iter().any(|event| event.what == "a companion's laughter"), "{index}");
+        }
     }
 }

@@ -131,6 +131,21 @@ impl World {
         dry
     }
 
+    /// Companions of whoever blows talk and laugh before the kiosk all the while, in a museum that may be empty.
+    pub(super) fn companions(&self, seconds: f64, random: &mut Random) -> Dry {
+        let busy = if random.unit() < 0.5 { random.range(0.2, 2.0) } else { 0.0 };
+        let mut dry = self.museum_sounds(seconds, busy, random);
+        let loud = random.range(-62.0, -30.0);
+        for _ in 0..random.range(2.0, 5.0) as u32 {
+            let gain = from_decibels(loud + random.range(-9.0, 9.0));
+            dry.put("a companion's talk", PLACES - 1, 0.0, &self.speech(seconds, random), gain);
+        }
+        let laughter = normalised(voices::laughter(&self.voice(random), random));
+        let gain = from_decibels(loud + random.range(0.0, 15.0));
+        dry.put("a companion's laughter", PLACES - 1, random.range(0.0, seconds), &laughter, gain);
+        dry
+    }
+
     /// Somebody talks right before the kiosk, now and then into its microphone.
     pub(super) fn talk_on(&self, seconds: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
