@@ -231,6 +231,48 @@ fn attract_mode_moves_the_sculpture_and_a_breath_at_the_microphone_ends_it() {
 }
 
 #[test]
+fn who_comes_amid_the_steel_fishs_invitation_finds_it_calm() {
+    /// Idle time, s; then the script's own.
+    const IDLE_S: usize = 2;
+    /// A third is what hides an answer ([`soffio::rehearsal`]): the invitation keeps well below it.
+    const HIDES: f64 = 0.2;
+    /// Half a millimetre from picture to picture for a second.
+    const SEEN: f64 = 0.03;
+    let places = |stage: &Stage| stage.snapshot().poses.iter().map(|pose| pose.position).collect::<Vec<_>>();
+    // Motion in each second: squares of what the bodies go from one thirtieth of a second to the next.
+    let seconds = |stage: &mut Stage, controls: &Controls, count: usize| {
+        let mut last = places(stage);
+        let mut second = || {
+            let mut sum = 0.0;
+            for step in 1..=240 {
+                stage.step(controls, None);
+                if step % 8 == 0 {
+                    let now = places(stage);
+                    sum += now.iter().zip(&last).map(|(now, last)| now.distance_squared(*last)).sum::<f64>();
+                    last = now;
+                }
+            }
+            sum
+        };
+        (0..count).map(|_| second()).collect::<Vec<_>>()
+    };
+    let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
+    let mut visited = Stage::new(steel_fish(), Settings::default(), None, None);
+    seconds(&mut visited, &controls, 4);
+    let blown = Controls { aim: Some([0.76, 0.39]), strength: 0.25, ..controls.clone() };
+    let answer = seconds(&mut visited, &blown, 1)[0];
+
+    let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(IDLE_S as f64));
+    let round = seconds(&mut stage, &controls, IDLE_S + 60);
+    let told = &round[IDLE_S..];
+    let most = |seconds: std::ops::Range<usize>| told[seconds].iter().copied().fold(0.0, f64::max);
+    let (first, puff) = (most(4..13), most(38..43));
+    assert!(first > SEEN * answer && puff > SEEN * answer, "both are seen: {first} and {puff} of {answer} m²");
+    let later = most(13..60);
+    assert!(later < HIDES * answer, "{later} of {answer} m² in a second after the first breath");
+}
+
+#[test]
 fn a_held_button_blows_where_it_points_and_ends_attract_mode_at_once() {
     let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(0.1));
     let mut controls = Controls { aspect: 1.0, ..Controls::default() };
