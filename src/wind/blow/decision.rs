@@ -32,8 +32,8 @@ const RECOVERY: f64 = 2.0;
 const OVER_S: f64 = 2.0;
 const SILENCE_DB: f64 = -12.0;
 const SILENCE: f64 = 6.0;
-/// Soon after another breath: within this time of its end, s.
-const AGAIN_S: f64 = 5.0;
+/// Soon after another breath: within this time of its end, s. Works ring for several seconds, and who has blown talks and goes.
+const AGAIN_S: f64 = 10.0;
 /// What somebody blew is remembered over this time, s.
 const BLOWN_S: f64 = 0.5;
 
