@@ -1,5 +1,6 @@
 //! Paths: an exhibit reads only what lies in its folder; ids are looked for where exhibits are kept.
 
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use super::codes;
@@ -8,14 +9,45 @@ use super::diagnostic::{Diagnostic, Report, near, quoted};
 /// Reads a file of at most `limit` bytes.
 pub fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, Diagnostic> {
     let unreadable = |error: std::io::Error| {
-        Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display()))
+        let help = match error.kind() {
+            ErrorKind::NotFound => in_its_place(path),
+            ErrorKind::PermissionDenied => "let the kiosk's user read it: chmod a+r".to_owned(),
+            _ => "see that it is a file, and that its disk is well".to_owned(),
+        };
+        Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display())).help(help)
     };
     let size = std::fs::metadata(path).map_err(unreadable)?.len();
     if size > limit {
         let message = format!("{} has {size} bytes; the limit is {limit}", path.display());
-        return Err(Diagnostic::new(codes::TOO_LARGE, message));
+        return Err(
+            Diagnostic::new(codes::TOO_LARGE, message).help("see that it is the right file, and make it smaller")
+        );
     }
     std::fs::read(path).map_err(unreadable)
+}
+
+/// The files of its kind that lie where `path` does not: one of them may be meant.
+fn in_its_place(path: &Path) -> String {
+    let entries = path.parent().map(folder_or_here).and_then(|folder| std::fs::read_dir(folder).ok());
+    let mut names: Vec<String> = entries
+        .into_iter()
+        .flat_map(|entries| entries.flatten())
+        .map(|entry| entry.file_name())
+        .filter(|name| Path::new(name).extension() == path.extension())
+        .map(|name| name.to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let wanted = path.file_name().unwrap_or_default().to_string_lossy();
+    meant(&wanted, &names).unwrap_or_else(|| "copy it there, or write the name of a file that is there".to_owned())
+}
+
+/// Which of the names that there are may be meant by `wanted`; nothing where there are none.
+fn meant(wanted: &str, names: &[String]) -> Option<String> {
+    match near(wanted, names.iter().map(String::as_str)).as_slice() {
+        [] if names.is_empty() => None,
+        [] => Some(format!("there are: {}", names.join(", "))),
+        likely => Some(format!("did you mean {}?", quoted(likely))),
+    }
 }
 
 /// The file `relative` inside `folder`: no `..`, not absolute, no network address, no link that leads out.
@@ -123,15 +155,11 @@ pub fn resolve(id_or_folder: &str) -> Result<PathBuf, Report> {
     }
     if folder.is_dir() {
         let message = format!("the folder {id_or_folder} has no {}", super::SIDECAR);
-        return Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message)));
+        let help = "soffio new begins an exhibit, soffio import makes one of a model";
+        return Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)));
     }
-    let known = ids();
-    let likely = near(id_or_folder, known.iter().map(String::as_str));
-    let help = match (likely.as_slice(), known.as_slice()) {
-        ([], []) => "there is no folder exhibits/ here, above, or beside the program".to_owned(),
-        ([], known) => format!("there are: {}", known.join(", ")),
-        (likely, _) => format!("did you mean {}?", quoted(likely)),
-    };
+    let help = meant(id_or_folder, &ids())
+        .unwrap_or_else(|| "there is no folder exhibits/ here, above, or beside the program".to_owned());
     let message = format!("no exhibit \"{id_or_folder}\": it is neither an id under exhibits/ nor a folder");
     Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)))
 }

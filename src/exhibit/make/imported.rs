@@ -49,6 +49,7 @@ pub fn folder(path: &Path, id: &str) -> Result<Made, Report> {
 fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
     let broken = |error: &dyn std::fmt::Display| {
         Diagnostic::new(codes::BROKEN_MODEL, format!("the model's JSON cannot be read: {error}"))
+            .help("export the model again; a copy may have been cut short")
     };
     if bytes.starts_with(b"glTF") {
         let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| broken(&error))?;

@@ -26,6 +26,8 @@ pub const MAX_IMAGE_PIXELS: u64 = 8192 * 8192;
 pub const MAX_PIXELS: u64 = 4 * MAX_IMAGE_PIXELS;
 /// Most nodes of a model.
 pub const MAX_NODES: usize = 65_536;
+/// What to do about too many of them.
+const SIMPLIFY: &str = "simplify the model: gltf-transform simplify in.glb out.glb";
 
 /// Extensions a file may require: what they ask for is done here, or changes nothing in the picture.
 const HANDLED: &[&str] = &[
@@ -95,17 +97,16 @@ struct Reader {
 type Outcome<T> = Result<T, Diagnostic>;
 
 impl Reader {
-    fn problem(&self, code: Code, what: impl std::fmt::Display) -> Diagnostic {
-        Diagnostic::new(code, format!("{}: {what}", self.name))
+    fn problem(&self, code: Code, what: impl std::fmt::Display, help: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(code, format!("{}: {what}", self.name)).help(help)
     }
 
     fn broken(&self, what: impl std::fmt::Display) -> Diagnostic {
-        self.problem(codes::BROKEN_MODEL, what).help("export the model again; a copy may have been cut short")
+        self.problem(codes::BROKEN_MODEL, what, "export the model again; a copy may have been cut short")
     }
 
     fn warn(&mut self, what: impl std::fmt::Display) {
-        let warning = self.problem(codes::SKIPPED, what);
-        self.warnings.push(warning);
+        self.warnings.push(Diagnostic::new(codes::SKIPPED, format!("{}: {what}", self.name)));
     }
 
     fn read(&mut self, path: &Path) -> Outcome<Model> {
@@ -125,14 +126,12 @@ impl Reader {
         let mut root: json::Root = json::deserialize::from_slice(&json_bytes)
             .map_err(|error| self.broken(format_args!("its JSON cannot be read: {error}")))?;
         if root.asset.version != "2.0" {
-            return Err(
-                self.problem(codes::BROKEN_MODEL, format_args!("glTF version {}; 2.0 is needed", root.asset.version))
-            );
+            let what = format!("glTF version {}; 2.0 is needed", root.asset.version);
+            return Err(self.problem(codes::BROKEN_MODEL, what, "export it as glTF 2.0"));
         }
         if let Some(extension) = root.extensions_required.iter().find(|name| !HANDLED.contains(&name.as_str())) {
-            return Err(self
-                .problem(codes::EXTENSION, format_args!("requires {extension}, which is not supported"))
-                .help(remedy(extension)));
+            let what = format!("requires {extension}, which is not supported");
+            return Err(self.problem(codes::EXTENSION, what, remedy(extension)));
         }
         root.extensions_required.clear();
         // The crate's own check looks up the positions' accessor before it has checked the index.
@@ -149,7 +148,8 @@ impl Reader {
         let document =
             gltf::Document::from_json(root).map_err(|error| self.broken(format_args!("not valid glTF: {error}")))?;
         if document.nodes().len() > MAX_NODES {
-            return Err(self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_NODES} nodes")));
+            let help = "join what never moves apart, and export it again";
+            return Err(self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_NODES} nodes"), help));
         }
         let buffers = self.buffers(&document, blob)?;
         let (mut nodes, roots) = self.nodes(&document)?;
@@ -222,7 +222,8 @@ impl Reader {
             for child in nodes[parent].children.clone() {
                 if nodes[child].parent.replace(parent).is_some() || child == parent {
                     let name = &nodes[child].name;
-                    return Err(self.problem(codes::CYCLE, format_args!("node \"{name}\" hangs from two parents")));
+                    let help = "give it one parent, copy it for the other, and export the model again";
+                    return Err(self.problem(codes::CYCLE, format!("node \"{name}\" hangs from two parents"), help));
                 }
             }
         }
@@ -242,7 +243,8 @@ impl Reader {
             waiting.extend(&nodes[index].children);
         }
         if reached < nodes.len() {
-            return Err(self.problem(codes::CYCLE, "some nodes are their own ancestors"));
+            let help = "take one of them out of the ring, and export the model again";
+            return Err(self.problem(codes::CYCLE, "some nodes are their own ancestors", help));
         }
         Ok((nodes, roots))
     }
@@ -266,9 +268,7 @@ impl Reader {
                 primitives.push(primitive);
             }
             if triangles > MAX_TRIANGLES {
-                return Err(self
-                    .problem(codes::MODEL_LIMIT, format_args!("more than {MAX_TRIANGLES} triangles"))
-                    .help("simplify the model: gltf-transform simplify in.glb out.glb"));
+                return Err(self.problem(codes::MODEL_LIMIT, format!("more than {MAX_TRIANGLES} triangles"), SIMPLIFY));
             }
             meshes.push(Mesh { name, primitives });
         }
@@ -310,9 +310,8 @@ impl Reader {
                 .map_err(|what| self.broken(format_args!("node \"{name}\": {what}")))?;
             triangles += primitives.iter().map(|p| p.indices.len() / 3).sum::<usize>();
             if triangles > MAX_TRIANGLES {
-                return Err(
-                    self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_TRIANGLES} triangles in skins"))
-                );
+                let what = format!("more than {MAX_TRIANGLES} triangles in skins");
+                return Err(self.problem(codes::MODEL_LIMIT, what, SIMPLIFY));
             }
             let broken = |what| self.broken(format_args!("node \"{name}\": {what}"));
             let bound = mesh.primitives().filter(is_drawn).map(|primitive| {
@@ -348,8 +347,8 @@ impl Reader {
                 gltf::image::Source::Uri { uri, .. } => self.uri(uri)?,
             };
             let undecodable = |error: image::ImageError| {
-                self.problem(codes::IMAGE, format_args!("image {index} cannot be decoded: {error}"))
-                    .help("PNG and JPEG are read; convert others: gltf-transform png in.glb out.glb")
+                let help = "PNG and JPEG are read; convert others: gltf-transform png in.glb out.glb";
+                self.problem(codes::IMAGE, format_args!("image {index} cannot be decoded: {error}"), help)
             };
             let open = || image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
             let reader = open().map_err(|error| undecodable(error.into()))?;
@@ -358,14 +357,10 @@ impl Reader {
             let size = u64::from(width) * u64::from(height);
             pixels += size;
             if size > MAX_IMAGE_PIXELS || pixels > MAX_PIXELS {
-                return Err(self
-                    .problem(
-                        codes::MODEL_LIMIT,
-                        format_args!(
-                            "image {index} is {width} × {height}; the limit is 8192 × 8192, four of them in all"
-                        ),
-                    )
-                    .help("gltf-transform resize --width 4096 --height 4096 in.glb out.glb"));
+                let what =
+                    format!("image {index} is {width} × {height}; the limit is 8192 × 8192, four of them in all");
+                let help = "gltf-transform resize --width 4096 --height 4096 in.glb out.glb";
+                return Err(self.problem(codes::MODEL_LIMIT, what, help));
             }
             let decoded = open().map_err(|error| undecodable(error.into()))?.decode().map_err(undecodable)?;
             images.push(Image { width, height, rgba: decoded.into_rgba8().into_raw() });

@@ -111,7 +111,7 @@ fn a_model_is_imported_under_the_name_of_its_file() {
 
 /// What stands in a new sidecar, what a curator makes of it, and the words that say what is wrong and what to do. The line is
 /// that of the mistake.
-const MISTAKES: [(&str, &str, &[&str]); 15] = [
+const MISTAKES: [(&str, &str, &[&str]); 17] = [
     ("id = \"mine\"", "id = mine", &["E0101", "not TOML", "quotes"]),
     ("material = \"steel\"", "materail = \"steel\"", &["E0102", "materail", "material"]),
     ("node = \"Plate1\"", "node = \"Plate11\"", &["E0207", "Plate11", "\"Plate1\""]),
@@ -129,6 +129,8 @@ const MISTAKES: [(&str, &str, &[&str]); 15] = [
         "model = \"../mine.glb\"",
         &["E0003", "leaves the exhibit folder", "into the exhibit folder"],
     ),
+    ("model = \"mine.glb\"", "model = \"mien.glb\"", &["E0002", "cannot be read", "did you mean \"mine.glb\"?"]),
+    ("schema = \"exhibit/1\"", "schema = \"exhibit/9\"", &["E0106", "exhibit/9", "reads schema = \"exhibit/1\""]),
     ("duration = 42", "duration = 4", &["E0262", "last step"]),
     ("camera = \"CamFront\"", "camera = \"Cam\"", &["E0207", "\"Cam\"", "CamFront"]),
 ];
