@@ -43,8 +43,11 @@ fn in_its_place(path: &Path) -> String {
 
 /// Which of the names that there are may be meant by `wanted`; nothing where there are none.
 fn meant(wanted: &str, names: &[String]) -> Option<String> {
+    /// No folder is read out whole.
+    const SHOWN: usize = 20;
     match near(wanted, names.iter().map(String::as_str)).as_slice() {
         [] if names.is_empty() => None,
+        [] if names.len() > SHOWN => Some(format!("there are: {} and others", names[..SHOWN].join(", "))),
         [] => Some(format!("there are: {}", names.join(", "))),
         likely => Some(format!("did you mean {}?", quoted(likely))),
     }
