@@ -11,7 +11,7 @@ mod primitive;
 mod write;
 
 pub use animation::{Animation, Channel, Curve, Track};
-pub use import::{Imported, MAX_FILE_BYTES, import, load};
+pub use import::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, import, load};
 pub use write::{container, write};
 
 /// A glTF model.

@@ -32,6 +32,7 @@ fn in_its_place(path: &Path) -> String {
     let mut names: Vec<String> = entries
         .into_iter()
         .flat_map(|entries| entries.flatten())
+        .filter(|entry| entry.path().is_file())
         .map(|entry| entry.file_name())
         .filter(|name| Path::new(name).extension() == path.extension())
         .map(|name| name.to_string_lossy().into_owned())
@@ -44,7 +45,7 @@ fn in_its_place(path: &Path) -> String {
 /// Which of the names that there are may be meant by `wanted`; nothing where there are none.
 fn meant(wanted: &str, names: &[String]) -> Option<String> {
     /// No folder is read out whole.
-    const SHOWN: usize = 20;
+    const SHOWN: usize = 40;
     match near(wanted, names.iter().map(String::as_str)).as_slice() {
         [] if names.is_empty() => None,
         [] if names.len() > SHOWN => Some(format!("there are: {} and others", names[..SHOWN].join(", "))),

@@ -13,7 +13,7 @@ use super::khr::{self, called, written};
 use super::words::{attract, labels, quoted, three};
 use super::{File, Made};
 use crate::exhibit::diagnostic::{Diagnostic, Report};
-use crate::exhibit::model::{Imported, MAX_FILE_BYTES, Model, import};
+use crate::exhibit::model::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, Model, import};
 use crate::exhibit::{SIDECAR, codes, fit as shapes, materials, paths};
 use crate::geometry::TriangleMesh;
 use crate::math::{DMat3, DVec3};
@@ -48,8 +48,7 @@ pub fn folder(path: &Path, id: &str) -> Result<Made, Report> {
 /// The JSON of a glTF file.
 fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
     let broken = |error: &dyn std::fmt::Display| {
-        Diagnostic::new(codes::BROKEN_MODEL, format!("the model's JSON cannot be read: {error}"))
-            .help("export the model again; a copy may have been cut short")
+        Diagnostic::new(codes::BROKEN_MODEL, format!("the model's JSON cannot be read: {error}")).help(EXPORT_AGAIN)
     };
     if bytes.starts_with(b"glTF") {
         let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| broken(&error))?;

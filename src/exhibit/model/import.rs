@@ -26,7 +26,9 @@ pub const MAX_IMAGE_PIXELS: u64 = 8192 * 8192;
 pub const MAX_PIXELS: u64 = 4 * MAX_IMAGE_PIXELS;
 /// Most nodes of a model.
 pub const MAX_NODES: usize = 65_536;
-/// What to do about too many of them.
+/// What to do about a file that is no whole model.
+pub const EXPORT_AGAIN: &str = "export the model again; a copy may have been cut short";
+/// What to do about too many triangles.
 const SIMPLIFY: &str = "simplify the model: gltf-transform simplify in.glb out.glb";
 
 /// Extensions a file may require: what they ask for is done here, or changes nothing in the picture.
@@ -102,7 +104,7 @@ impl Reader {
     }
 
     fn broken(&self, what: impl std::fmt::Display) -> Diagnostic {
-        self.problem(codes::BROKEN_MODEL, what, "export the model again; a copy may have been cut short")
+        self.problem(codes::BROKEN_MODEL, what, EXPORT_AGAIN)
     }
 
     fn warn(&mut self, what: impl std::fmt::Display) {
