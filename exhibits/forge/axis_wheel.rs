@@ -1,11 +1,11 @@
 //! A wheel held by its middle alone: what it turns about is said by the constraints, and changes.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI};
+use soffio_math::{DQuat, DVec2, DVec3, PI};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{BRASS, MM, ROUND, WOOD, facing, finishes, part, ring, rod, vane, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{BRASS, MM, ROUND, WOOD, facing, finishes, part, ring, rod, vane, write};
 
 /// Height of the wheel's middle above the floor.
 const MIDDLE: f64 = 300.0 * MM;

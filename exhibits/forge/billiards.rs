@@ -1,12 +1,12 @@
 //! A small billiard table whose bed sinks towards its middle, and seven hollow balls that a breath can drive.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
-use soffio::exhibit::make::glb::{Finish, Scene};
-use soffio::exhibit::make::outline::Polygon;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::{Solid, sheet, turned};
-use soffio::exhibit::make::stock::{MM, WOOD, finishes, part, rod};
+use soffio_authoring::glb::{Finish, Scene};
+use soffio_authoring::outline::Polygon;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::{Solid, sheet, turned};
+use soffio_authoring::stock::{MM, WOOD, finishes, part, rod};
 
 /// Radius of a ball; the sidecar says the same, and what a shell of celluloid of that size weighs.
 const RADIUS: f64 = 20.0 * MM;

@@ -1,11 +1,11 @@
 //! Five beads on a tray under a hook: what a breath gathers into a chain.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{MM, ROUND, STEEL, WOOD, finishes, gallows, part, rod, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{MM, ROUND, STEEL, WOOD, finishes, gallows, part, rod, write};
 
 /// Height of the hook, and of the tray's floor.
 const HOOK: f64 = 400.0 * MM;
@@ -39,7 +39,7 @@ pub fn glb() -> Vec<u8> {
     stand.marks.push(("TrayTop", DVec3::ZERO));
     let mut pieces = vec![(stand, none)];
     let bead = (0..=16).map(|k| {
-        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 16.0);
+        let (s, c) = soffio_math::sincos(PI * f64::from(k) / 16.0);
         DVec2::new(if k % 16 == 0 { 0.0 } else { RADIUS * s }, -RADIUS * c)
     });
     let bead = turned(&bead.collect::<Vec<_>>(), false, ROUND);

@@ -1,13 +1,13 @@
 //! A chain of steel links with a disc at its end; one of its joints is weak.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::hung::disc;
-use soffio::exhibit::make::mobile::EYE_STEPS;
-use soffio::exhibit::make::outline::ring;
-use soffio::exhibit::make::piece::{Bend, Piece};
-use soffio::exhibit::make::stock::{ALUMINIUM, MM, STEEL, finishes, gallows, part, rod, slab, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::hung::disc;
+use soffio_authoring::mobile::EYE_STEPS;
+use soffio_authoring::outline::ring;
+use soffio_authoring::piece::{Bend, Piece};
+use soffio_authoring::stock::{ALUMINIUM, MM, STEEL, finishes, gallows, part, rod, slab, write};
 
 /// From eye to eye of a link.
 const PITCH: f64 = 44.0 * MM;

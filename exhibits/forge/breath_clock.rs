@@ -13,17 +13,17 @@
 //! A ratchet keeps the winding train from running back; while it stands the drum turns half as fast as the great wheel. With
 //! m = 2.494 kg, r = 20 mm and the great wheel's turn in eight hours the weight goes down by 7.9 mm an hour: 53 µW.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
 use super::terry_clock as clock;
 use super::terry_clock::{
     BACK, CANNON, CENTER, DRUM, ESCAPING, FRONT, GREAT, HOUR, MIDDLE, MINUTE, MODULE, MOTION, SWING, THIRD, TIP, TOOTH,
     WHEEL, along_z, flat, piece, toward, wheel,
 };
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::outline::{Polygon, ellipse};
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::stock::{
+use soffio_authoring::glb::Scene;
+use soffio_authoring::outline::{Polygon, ellipse};
+use soffio_authoring::piece::Piece;
+use soffio_authoring::stock::{
     BRASS, Finishes, LEAD, MM, STEEL, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane,
 };
 
@@ -62,7 +62,7 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
         spur(teeth, MODULE, 6.0 * MM, phase, &[])
     };
     let planet = |name, angle: f64| {
-        let out = 13.0 * MM * DVec3::new(soffio::math::cos(angle), soffio::math::sin(angle), 0.0);
+        let out = 13.0 * MM * DVec3::new(soffio_math::cos(angle), soffio_math::sin(angle), 0.0);
         let at = out + (BEHIND + 0.5 * MM) * DVec3::Z;
         part(name, spur(12, 0.9 * MM, 5.0 * MM, 0.0, &[]), at, DQuat::IDENTITY, BRASS, finishes.brass)
     };
@@ -160,7 +160,7 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     let pivot = arbor + DVec3::Z * SWING;
     pieces.push((clock::anchor(finishes), at(pivot)));
     pieces.push((clock::pendulum(finishes, LENGTH, false), at(pivot)));
-    let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio::math::sin(0.9), -soffio::math::cos(0.9), 0.0);
+    let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio_math::sin(0.9), -soffio_math::cos(0.9), 0.0);
     phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
     let motion_parts = vec![
         flat("MinuteWheel", spur(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),

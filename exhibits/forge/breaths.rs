@@ -4,7 +4,7 @@
 
 use std::io::Cursor;
 
-use soffio::wind::generate::{BreathShape, breath};
+use soffio_detector::generate::{BreathShape, breath};
 
 /// Hz.
 const SAMPLE_RATE: u32 = 16_000;

@@ -3,14 +3,14 @@
 //! What turns a link is its lever against its inertia: a rod of length l about its middle has I/m = l²/12, a plate of
 //! width w beside that I/m = (l² + w²)/12. The heavy links are broad, so that their I/m is greater too.
 
-use soffio::math::{DQuat, DVec3, PI};
+use soffio_math::{DQuat, DVec3, PI};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::hung::disc;
-use soffio::exhibit::make::mobile::EYE_STEPS;
-use soffio::exhibit::make::outline::ring;
-use soffio::exhibit::make::piece::{Bend, Piece};
-use soffio::exhibit::make::stock::{Finishes, MM, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::hung::disc;
+use soffio_authoring::mobile::EYE_STEPS;
+use soffio_authoring::outline::ring;
+use soffio_authoring::piece::{Bend, Piece};
+use soffio_authoring::stock::{Finishes, MM, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// From eye to eye of a link.
 const PITCH: f64 = 44.0 * MM;

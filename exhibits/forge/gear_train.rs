@@ -1,11 +1,11 @@
 //! Four wheels that mesh in a row, driven by a weight on the first wheel's drum and slowed by a fan on the last.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::outline::ellipse;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::stock::{
+use soffio_authoring::glb::Scene;
+use soffio_authoring::outline::ellipse;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::stock::{
     BRASS, LEAD, MM, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane, write,
 };
 

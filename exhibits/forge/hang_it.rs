@@ -10,14 +10,14 @@
 //! tan θ = (u − b)/(h − r)        θ = 0 at u = b; friction holds while |tan θ| < μ
 //! ```
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::hung::hung_plate;
-use soffio::exhibit::make::outline::{Polygon, ellipse, open_spline, ring as circle};
-use soffio::exhibit::make::piece::{Bend, Piece, load, yaw};
-use soffio::exhibit::make::solid::{sheet, turned};
-use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::hung::hung_plate;
+use soffio_authoring::outline::{Polygon, ellipse, open_spline, ring as circle};
+use soffio_authoring::piece::{Bend, Piece, load, yaw};
+use soffio_authoring::solid::{sheet, turned};
+use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
 
 /// Where the bar of the loop is, and how far the swivel is above it.
 const BAR: DVec3 = DVec3::new(0.0, 0.52, 0.0);
@@ -71,7 +71,7 @@ fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
     points.push(at(RIGHT + REACH, -DROOP));
     let eye = |x: f64| circle(at(x, -DROOP - 3.0 * MM), 3.0 * MM, DVec3::Y, DVec3::X, 12);
     let sphere = (0..=12).map(|k| {
-        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
+        let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { HAMMER * s }, -HAMMER * c)
     });
     let sphere = turned(&sphere.collect::<Vec<_>>(), false, ROUND / 2);

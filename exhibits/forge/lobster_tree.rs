@@ -8,15 +8,15 @@
 //!                                         twig  twig
 //! ```
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
-use soffio::exhibit::make::glb::{Finish, Scene};
-use soffio::exhibit::make::hung::cut_plate;
-use soffio::exhibit::make::mobile::Mobile;
-use soffio::exhibit::make::outline::{Knot, Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ring};
-use soffio::exhibit::make::piece::{Bend, Piece, named};
-use soffio::exhibit::make::stock::{ALUMINIUM, MM, STEEL, ceiling};
-use soffio::exhibit::make::tree::{Bough, Hanging, hang};
+use soffio_authoring::glb::{Finish, Scene};
+use soffio_authoring::hung::cut_plate;
+use soffio_authoring::mobile::Mobile;
+use soffio_authoring::outline::{Knot, Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ring};
+use soffio_authoring::piece::{Bend, Piece, named};
+use soffio_authoring::stock::{ALUMINIUM, MM, STEEL, ceiling};
+use soffio_authoring::tree::{Bough, Hanging, hang};
 
 /// Sheet of all plates.
 const SHEET: f64 = 0.6 * MM;
@@ -68,7 +68,7 @@ fn tail(finish: usize) -> Hanging {
         Smooth(22.0, -4.0), Smooth(11.0, 30.0), Corner(6.0, 62.0),
     ];
     let slit = |x: f64, y: f64, long: f64, turn: f64| {
-        soffio::exhibit::make::outline::ellipse(DVec2::new(x, y), DVec2::new(long, 2.6), turn, 24)
+        soffio_authoring::outline::ellipse(DVec2::new(x, y), DVec2::new(long, 2.6), turn, 24)
     };
     let holes = vec![slit(-19.0, -22.0, 19.0, 0.92), slit(17.0, -26.0, 19.0, 2.16)];
     plate("Tail".to_owned(), (closed_spline(&knots, 8), holes), 30.0, 0.10, finish)

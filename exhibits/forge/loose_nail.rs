@@ -1,11 +1,11 @@
 //! A pendulum on a bead that a rail runs through: a nail that is loose along the rail, and fast again.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// Height of the rail, and half its length.
 const RAIL: f64 = 400.0 * MM;
@@ -31,7 +31,7 @@ pub fn glb() -> Vec<u8> {
     parts.push(part("Mark", rod(4.5 * MM, -2.0 * MM, 2.0 * MM), RAIL * DVec3::Y, lay, BRASS, finishes.brass));
     let stand = Piece { name: "Stand", parts, bends: Vec::new(), marks: vec![("Middle", RAIL * DVec3::Y)] };
     let bead = (0..=12).map(|k| {
-        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
+        let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { 9.0 * s }, -9.0 * c) * MM
     });
     let plate = [(0.0, -2.0), (36.0, -2.0), (38.0, 0.0), (36.0, 2.0), (0.0, 2.0)];

@@ -1,15 +1,14 @@
-//! `cargo run --example forge`: makes every shipped model and breath again. With `-- --check` it writes nothing and
+//! `cargo run -p soffio-forge`: makes every shipped model and breath again. With `-- --check` it writes nothing and
 //! fails where a file on disk is not what the forge makes.
-
-#[path = "mod.rs"]
-mod forge;
 
 use std::path::Path;
 use std::process::ExitCode;
 
+use soffio_forge as forge;
+
 fn main() -> ExitCode {
     let check = std::env::args().skip(1).any(|argument| argument == "--check");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let artifacts = match forge::artifacts() {
         Ok(artifacts) => artifacts,
         Err(error) => {
@@ -24,7 +23,7 @@ fn main() -> ExitCode {
         if fresh {
             println!("same   {}", artifact.path);
         } else if check {
-            eprintln!("STALE  {}: run `cargo run --example forge`", artifact.path);
+            eprintln!("STALE  {}: run `cargo run -p soffio-forge`", artifact.path);
             stale += 1;
         } else if let Err(error) = write(&path, &artifact.bytes) {
             eprintln!("cannot write {}: {error}", path.display());
@@ -48,7 +47,7 @@ fn main() -> ExitCode {
 }
 
 /// What a curator or a reader wants to know of the balanced work.
-fn report(work: &soffio::exhibit::make::mobile::Mobile) {
+fn report(work: &soffio_authoring::mobile::Mobile) {
     for (piece, _) in &work.pieces {
         println!("{:<12} {:7.3} g", piece.name, 1e3 * piece.mass().mass);
     }

@@ -12,14 +12,12 @@
 //!            11,196   hip             knee 134, sole 66
 //! ```
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::{Bend, Part, Piece};
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{
-    Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, rod, slab, write,
-};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::{Bend, Part, Piece};
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, rod, slab, write};
 
 const HOOK: DVec3 = DVec3::new(0.0, 452.0 * MM, 0.0);
 /// The bar's line under its hook, and where the hand rods hang on it.
@@ -63,7 +61,7 @@ fn led(name: &'static str, wire: &'static str, mark: &'static str, to: DVec3) ->
 /// A ball of beech about `center`.
 fn ball(name: &'static str, radius: f64, center: DVec3, finish: usize) -> Part {
     let arc = (0..=12).map(|k| {
-        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
+        let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { radius * s }, -radius * c)
     });
     part(name, turned(&arc.collect::<Vec<_>>(), false, ROUND), center, DQuat::IDENTITY, WOOD, finish)

@@ -2,9 +2,9 @@
 //!
 //! `exhibits/` never holds geometry that nobody can remake: each `.glb` and each recorded breath there comes from
 //! this code, byte for byte. Invariant: no clock, no randomness without a stated seed, software transcendentals.
-//! What it shares with `soffio new` (sheet, wire, balance, glTF) is `soffio::exhibit::make`.
+//! What it shares with `soffio new` (sheet, wire, balance, glTF) is `soffio_authoring`.
 
-use soffio::exhibit::make::chimes;
+use soffio_authoring::chimes;
 
 pub mod axis_wheel;
 pub mod billiards;

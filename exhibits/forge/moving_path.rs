@@ -1,12 +1,12 @@
 //! A nail on a way of its own: a swallow with a tail of three links goes round a figure of eight.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, sin};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::outline::{Knot, closed_spline, reversed};
-use soffio::exhibit::make::piece::{Bend, Piece};
-use soffio::exhibit::make::solid::sheet;
-use soffio::exhibit::make::stock::{MM, STEEL, WOOD, finishes, gallows, part, rod, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::outline::{Knot, closed_spline, reversed};
+use soffio_authoring::piece::{Bend, Piece};
+use soffio_authoring::solid::sheet;
+use soffio_authoring::stock::{MM, STEEL, WOOD, finishes, gallows, part, rod, write};
 
 /// Half width and half depth of the eight, and its height. The sidecar says when the nail is where.
 const EIGHT: DVec2 = DVec2::new(150.0 * MM, 60.0 * MM);

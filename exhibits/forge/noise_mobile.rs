@@ -4,16 +4,16 @@
 //! The hammer's way lies inside the gongs' stems and meets the inner part of each gong, all of whose middles hang level.
 //! A disc's pitch goes as 1/d²: the diameters follow a scale of five notes and the octave.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
-use soffio::exhibit::make::glb::{Finish, Scene};
-use soffio::exhibit::make::hung::{cut_plate, disc};
-use soffio::exhibit::make::mobile::Mobile;
-use soffio::exhibit::make::outline::{Knot::Corner, Knot::Smooth, closed_spline, ring};
-use soffio::exhibit::make::piece::{Bend, Piece, named, yaw};
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
-use soffio::exhibit::make::tree::{Bough, Hanging, hang};
+use soffio_authoring::glb::{Finish, Scene};
+use soffio_authoring::hung::{cut_plate, disc};
+use soffio_authoring::mobile::Mobile;
+use soffio_authoring::outline::{Knot::Corner, Knot::Smooth, closed_spline, ring};
+use soffio_authoring::piece::{Bend, Piece, named, yaw};
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
+use soffio_authoring::tree::{Bough, Hanging, hang};
 
 const HOOK: DVec3 = DVec3::new(0.0, 0.66, 0.0);
 /// Of the hoop, and how far it is above the hook.
@@ -56,7 +56,7 @@ fn vane(finish: usize) -> Piece {
         Corner(4.0, 88.0), Smooth(-22.0, 52.0), Smooth(-46.0, 4.0), Smooth(-40.0, -42.0), Smooth(-6.0, -64.0),
         Smooth(32.0, -48.0), Smooth(47.0, -8.0), Smooth(36.0, 22.0), Smooth(22.0, 46.0),
     ];
-    let eye = soffio::exhibit::make::outline::ellipse(DVec2::new(2.0, -14.0), DVec2::new(15.0, 19.0), 0.3, 32);
+    let eye = soffio_authoring::outline::ellipse(DVec2::new(2.0, -14.0), DVec2::new(15.0, 19.0), 0.3, 32);
     let stuff = (1.0 * MM, ALUMINIUM, 27e-3, finish);
     cut_plate(["Vane", "VaneHook", "VaneStem"], (closed_spline(&knots, 8), vec![eye]), 4.0, 26.0 * MM, stuff)
 }
@@ -69,7 +69,7 @@ fn hoop() -> Vec<Bend> {
         let angle = 2.0 * PI * (k as f64 / 3.0 + 0.04);
         let out = |r: f64, y: f64| DVec3::new(r * cos(angle), y * MM, r * sin(angle));
         let knots = [out(0.0, 96.0), out(0.3 * HOOP, 78.0), out(0.7 * HOOP, 50.0), out(HOOP, RAISED / MM)];
-        bends.push(wire(name, soffio::exhibit::make::outline::open_spline(&knots, 6), 1.2 * MM));
+        bends.push(wire(name, soffio_authoring::outline::open_spline(&knots, 6), 1.2 * MM));
     }
     bends
 }

@@ -3,12 +3,12 @@
 //! A body that swings about a pivot beats like a simple pendulum of the length l = I/(m d), I about the pivot, d the
 //! depth of its centre: T = 2π √(l/g). The bob's place solves for l.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI};
+use soffio_math::{DQuat, DVec2, DVec3, PI};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{BRASS, Finishes, MM, ROUND, STEEL, facing, finishes, gallows, part, rod, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{BRASS, Finishes, MM, ROUND, STEEL, facing, finishes, gallows, part, rod, write};
 
 /// To and fro, s: 6720 beats an hour.
 const PERIOD: f64 = 2.0 * 3600.0 / 6720.0;

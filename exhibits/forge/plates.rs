@@ -1,11 +1,11 @@
 //! A small mobile of three steel discs that hang so near to each other that a breath makes them meet and ring.
 
-use soffio::math::{DVec2, DVec3, PI, Pose};
+use soffio_math::{DVec2, DVec3, PI, Pose};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::hung::disc;
-use soffio::exhibit::make::mobile::{Mobile, Wires, cascade};
-use soffio::exhibit::make::stock::{MM, STEEL, finishes, gallows};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::hung::disc;
+use soffio_authoring::mobile::{Mobile, Wires, cascade};
+use soffio_authoring::stock::{MM, STEEL, finishes, gallows};
 
 /// Where the mobile hangs.
 const HOOK: f64 = 330.0 * MM;

@@ -1,12 +1,12 @@
 //! A board of beech in a frame, and a quill that stands on it with its nib.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::outline::{Knot, closed_spline};
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::{sheet, turned};
-use soffio::exhibit::make::stock::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::outline::{Knot, closed_spline};
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::{sheet, turned};
+use soffio_authoring::stock::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// Board: length, width, thickness, and the height of its upper face.
 const SIZE: [f64; 3] = [360.0 * MM, 240.0 * MM, 12.0 * MM];

@@ -4,15 +4,15 @@
 //! The discs are fixed to their wires, so that a flake turns with its bough; each bough of a chain leads on by nearly the
 //! golden angle, as seeds lie in a flower, so that no disc hangs right below another.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, exp, ln, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, exp, ln, rotation};
 
-use soffio::exhibit::make::glb::{Finish, Scene};
-use soffio::exhibit::make::mobile::Mobile;
-use soffio::exhibit::make::outline::ellipse;
-use soffio::exhibit::make::piece::{Part, named};
-use soffio::exhibit::make::solid::sheet;
-use soffio::exhibit::make::stock::{ALUMINIUM, MM, ceiling};
-use soffio::exhibit::make::tree::{Bough, Hanging, hang};
+use soffio_authoring::glb::{Finish, Scene};
+use soffio_authoring::mobile::Mobile;
+use soffio_authoring::outline::ellipse;
+use soffio_authoring::piece::{Part, named};
+use soffio_authoring::solid::sheet;
+use soffio_authoring::stock::{ALUMINIUM, MM, ceiling};
+use soffio_authoring::tree::{Bough, Hanging, hang};
 
 /// Boughs of a chain; it has one disc more.
 const CHAIN: usize = 12;

@@ -15,16 +15,16 @@
 //! Balance: the branches by [`branch`]; for the boom the unknown is the length of the lead weight. It is stable
 //! because the centre of all that hangs is below the point, h = 30 mm: it tilts with the period 2π √(I/(M g h)).
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
 
-use soffio::exhibit::make::glb::{Finish, Scene};
-use soffio::exhibit::make::hung::{self, HOLE_RADIUS, hung_plate, to_mass};
-use soffio::exhibit::make::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
-use soffio::exhibit::make::outline::{
+use soffio_authoring::glb::{Finish, Scene};
+use soffio_authoring::hung::{self, HOLE_RADIUS, hung_plate, to_mass};
+use soffio_authoring::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
+use soffio_authoring::outline::{
     Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring,
 };
-use soffio::exhibit::make::piece::{Bend, Part, Piece, load, yaw};
-use soffio::exhibit::make::solid::{Solid, turned};
+use soffio_authoring::piece::{Bend, Part, Piece, load, yaw};
+use soffio_authoring::solid::{Solid, turned};
 
 /// m.
 const MM: f64 = 1e-3;

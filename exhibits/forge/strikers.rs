@@ -2,12 +2,12 @@
 //!
 //! Seen from the front (mm): the rail is 400 high, a mallet's head 150 below it, the instruments' faces 24 behind the heads.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::{Part, Piece};
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::{Part, Piece};
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, write};
 
 /// Height of the rail.
 const RAIL: f64 = 400.0 * MM;
@@ -22,9 +22,9 @@ const PITCH: f64 = 135.0 * MM;
 const FACE: f64 = -(RADIUS + GAP);
 
 /// A ball of beech about the origin.
-fn ball(radius: f64) -> soffio::exhibit::make::solid::Solid {
+fn ball(radius: f64) -> soffio_authoring::solid::Solid {
     let arc = (0..=12).map(|k| {
-        let (s, c) = soffio::math::sincos(PI * f64::from(k) / 12.0);
+        let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { radius * s }, -radius * c)
     });
     turned(&arc.collect::<Vec<_>>(), false, ROUND)

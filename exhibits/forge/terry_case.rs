@@ -1,14 +1,14 @@
 //! The case of Terry's clock: a shelf case after his pillar and scroll, with glass at its sides and the door left open, so
 //! that the works are seen and a breath comes in. Nothing of it moves and nothing touches it.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
 use super::terry_clock::{CENTER, piece};
-use soffio::exhibit::make::glb::{Finish, Glass, Scene};
-use soffio::exhibit::make::outline::{Polygon, ellipse, reversed};
-use soffio::exhibit::make::piece::{Part, Piece};
-use soffio::exhibit::make::solid::{Solid, sheet, turned};
-use soffio::exhibit::make::stock::{BRASS, Finishes, MM, ROUND, WOOD, facing, part, ring, rod, slab};
+use soffio_authoring::glb::{Finish, Glass, Scene};
+use soffio_authoring::outline::{Polygon, ellipse, reversed};
+use soffio_authoring::piece::{Part, Piece};
+use soffio_authoring::solid::{Solid, sheet, turned};
+use soffio_authoring::stock::{BRASS, Finishes, MM, ROUND, WOOD, facing, part, ring, rod, slab};
 
 /// The inside: left, right, bottom, top, back and front, m.
 const INSIDE: ([f64; 2], [f64; 2], [f64; 2]) = ([-0.200, 0.220], [0.034, 0.492], [-0.098, 0.050]);

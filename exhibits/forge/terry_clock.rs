@@ -25,14 +25,14 @@
 //!
 //! Beyond ±ψ the face goes on pushing: the wheel recoils.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
 use super::{terry_case, terry_strike};
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::outline::{Polygon, ellipse};
-use soffio::exhibit::make::piece::{Part, Piece};
-use soffio::exhibit::make::solid::{Solid, sheet, turned};
-use soffio::exhibit::make::stock::{
+use soffio_authoring::glb::Scene;
+use soffio_authoring::outline::{Polygon, ellipse};
+use soffio_authoring::piece::{Part, Piece};
+use soffio_authoring::solid::{Solid, sheet, turned};
+use soffio_authoring::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
 };
 
@@ -40,12 +40,12 @@ use soffio::exhibit::make::stock::{
 pub const MODULE: f64 = 1.0 * MM;
 /// Teeth of the wheels and of the pinions that they drive.
 pub const GREAT: (usize, usize) = (64, 8);
-pub const MINUTE: (usize, usize) = (64, 8);
-pub const THIRD: (usize, usize) = (60, 6);
-pub const ESCAPE: usize = 42;
+pub(crate) const MINUTE: (usize, usize) = (64, 8);
+pub(crate) const THIRD: (usize, usize) = (60, 6);
+pub(crate) const ESCAPE: usize = 42;
 /// Motion work: cannon and minute wheel, its pinion and the hour wheel.
 pub const CANNON: (usize, usize) = (12, 36);
-pub const HOUR: (usize, usize) = (10, 40);
+pub(crate) const HOUR: (usize, usize) = (10, 40);
 /// Of the drum, to the middle of the cord.
 pub const DRUM: f64 = 20.0 * MM;
 
@@ -77,13 +77,13 @@ const LEAF: f64 = 200.0 * MM;
 
 /// Layers: middles of wheels along z.
 pub const BACK: f64 = -36.0 * MM;
-pub const MIDDLE: f64 = -26.0 * MM;
-pub const FRONT: f64 = -16.0 * MM;
-pub const MOTION: f64 = 4.0 * MM;
-pub const ESCAPING: f64 = 8.0 * MM;
+pub(crate) const MIDDLE: f64 = -26.0 * MM;
+pub(crate) const FRONT: f64 = -16.0 * MM;
+pub(crate) const MOTION: f64 = 4.0 * MM;
+pub(crate) const ESCAPING: f64 = 8.0 * MM;
 /// The pendulum swings in front of the dial and the hands.
 pub const SWING: f64 = 30.0 * MM;
-pub const WHEEL: f64 = 4.0 * MM;
+pub(crate) const WHEEL: f64 = 4.0 * MM;
 
 /// The time that the hands show at the start.
 const HOURS: usize = 10;
@@ -193,7 +193,7 @@ fn bar(radius: f64, low: f64, high: f64) -> Solid {
     rod(radius, low, high)
 }
 
-pub fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
+pub(crate) fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
     part(name, bar(radius, low, high), DVec3::ZERO, facing(), density, finish)
 }
 
@@ -202,7 +202,7 @@ pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
     Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
 }
 
-pub fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
+pub(crate) fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
     part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
 }
 

@@ -14,21 +14,21 @@
 //! lifts the flirt, drops it on the hour, and the flirt kicks the lever: the lock pin is past when the arm comes back, and a
 //! turn later, with the first blow struck, the arm holds it again, unless the rim has lifted the feeler by then.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
 use super::terry_clock::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
-use soffio::exhibit::make::outline::{Polygon, ellipse};
-use soffio::exhibit::make::piece::{Part, Piece};
-use soffio::exhibit::make::solid::{Solid, sheet, turned};
-use soffio::exhibit::make::stock::{
+use soffio_authoring::outline::{Polygon, ellipse};
+use soffio_authoring::piece::{Part, Piece};
+use soffio_authoring::solid::{Solid, sheet, turned};
+use soffio_authoring::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, meshing_phase, part, rod, slab, spur,
 };
 
 /// Teeth of the wheels and of the pinions that they drive.
 pub const GREAT: (usize, usize) = (52, 8);
-pub const PIN: (usize, usize) = (64, 8);
-pub const LOCK: (usize, usize) = (72, 6);
-pub const COUNT: (usize, usize) = (20, 30);
+pub(crate) const PIN: (usize, usize) = (64, 8);
+pub(crate) const LOCK: (usize, usize) = (72, 6);
+pub(crate) const COUNT: (usize, usize) = (20, 30);
 /// Pins that lift the hammer.
 pub const PINS: usize = 8;
 /// Blows of a turn of the count wheel.
@@ -59,7 +59,7 @@ const BELL_LAYER: f64 = -60.0 * MM;
 /// Radii of the circles of pins: hammer's, lock's, and the minute arbor's.
 const HAMMER_PINS: f64 = 12.0 * MM;
 const LOCK_PIN: f64 = 18.0 * MM;
-pub const LIFTING_PIN: f64 = 10.0 * MM;
+pub(crate) const LIFTING_PIN: f64 = 10.0 * MM;
 /// Where the lock pin lies on the lever's arm, rad, and how far the arm draws it.
 const LOCKED: f64 = 12.0 * PI / 180.0;
 const DRAW: f64 = 0.05;
@@ -113,7 +113,7 @@ fn meeting(center: DVec3, circle: f64, pivot: DVec3, arm: f64) -> (f64, f64) {
     let apart = center.distance(pivot);
     let arm = arm + 2.0 * PEG;
     let cosine = (circle * circle + apart * apart - arm * arm) / (2.0 * circle * apart);
-    (toward(center, pivot), soffio::math::acos(cosine))
+    (toward(center, pivot), soffio_math::acos(cosine))
 }
 
 /// Where the lifting pin is when the flirt drops, rad.
@@ -321,7 +321,7 @@ pub fn weight_at() -> DVec3 {
 /// Direction of an arm that a pin at `angle` of its circle just touches, on the side that the sign says.
 fn met_arm(center: DVec3, angle: f64, circle: f64, pivot: DVec3, side: f64) -> f64 {
     let pin = center + polar(circle, angle);
-    toward(pivot, pin) + side * soffio::math::asin(2.0 * PEG / pivot.distance(pin))
+    toward(pivot, pin) + side * soffio_math::asin(2.0 * PEG / pivot.distance(pin))
 }
 
 /// The bell, which stands still.

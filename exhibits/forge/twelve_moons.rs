@@ -4,15 +4,15 @@
 //! out. Masses and wires are those of the design sheet; each bough's loads hang 12 mm below its loop. The sheet's boughs are
 //! straight: these are up to 3 % shorter from end to end, so that with curves and eyes their inertias are the sheet's.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
-use soffio::exhibit::make::glb::{Finish, Scene};
-use soffio::exhibit::make::hung::cut_plate;
-use soffio::exhibit::make::mobile::Mobile;
-use soffio::exhibit::make::outline::{Polygon, ellipse};
-use soffio::exhibit::make::piece::{Piece, named};
-use soffio::exhibit::make::stock::{ALUMINIUM, MM, ceiling};
-use soffio::exhibit::make::tree::{Bough, Hanging, hang};
+use soffio_authoring::glb::{Finish, Scene};
+use soffio_authoring::hung::cut_plate;
+use soffio_authoring::mobile::Mobile;
+use soffio_authoring::outline::{Polygon, ellipse};
+use soffio_authoring::piece::{Piece, named};
+use soffio_authoring::stock::{ALUMINIUM, MM, ceiling};
+use soffio_authoring::tree::{Bough, Hanging, hang};
 
 /// Sheet of all moons.
 const SHEET: f64 = 1.0 * MM;

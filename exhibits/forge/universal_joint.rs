@@ -1,15 +1,15 @@
 //! Two shafts with a bend between them: a rotor in the breath drives a dial round the corner through crossed axes.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, ring, rod, slab, vane};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, ring, rod, slab, vane};
 
 /// Height of both shafts, and the angle between them, rad.
 const SHAFT: f64 = 200.0 * MM;
-pub const BEND: f64 = 0.61;
+pub(crate) const BEND: f64 = 0.61;
 /// From the crossing to the rotor, and to the dial.
 const ROTOR: f64 = 90.0 * MM;
 const DIAL: f64 = 140.0 * MM;

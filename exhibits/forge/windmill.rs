@@ -1,11 +1,11 @@
 //! A windmill: a rotor with four vanes on the shaft of a head, which turns on its mast and carries a tail.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::turned;
-use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, vane, write};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::turned;
+use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, vane, write};
 
 /// Height of the shaft above the floor.
 const SHAFT: f64 = 330.0 * MM;

@@ -1,14 +1,14 @@
 //! A corner where the air is never still: a pinwheel before a vent, and a mobile of card strips before an open window.
 
-use soffio::math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
 
-use soffio::exhibit::make::glb::Scene;
-use soffio::exhibit::make::hung::{HOLE_RADIUS, hung_plate};
-use soffio::exhibit::make::mobile::{Mobile, Wires, cascade};
-use soffio::exhibit::make::outline::{Polygon, ellipse};
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::{sheet, turned};
-use soffio::exhibit::make::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
+use soffio_authoring::glb::Scene;
+use soffio_authoring::hung::{HOLE_RADIUS, hung_plate};
+use soffio_authoring::mobile::{Mobile, Wires, cascade};
+use soffio_authoring::outline::{Polygon, ellipse};
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::{sheet, turned};
+use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
 
 /// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
 const CARD: f64 = 750.0;

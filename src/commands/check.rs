@@ -5,8 +5,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::{Failure, Outcome};
-use crate::config::{Config, ConfigError};
-use crate::exhibit::{self, Diagnostic, Location, Report, codes, model};
+use soffio_config::{Config, ConfigError};
+use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
 
 /// Validates exhibits, configs and models: all problems at once, located, explained.
 ///

@@ -20,7 +20,7 @@ pub struct Args {
 pub fn run(args: Args) -> Outcome {
     use std::io::Write;
 
-    use crate::audio_io::devices::{Direction, list};
+    use soffio_devices::audio::devices::{Direction, list};
 
     let inputs = list(Direction::Input).map_err(Failure::device)?;
     let outputs = list(Direction::Output).map_err(Failure::device)?;

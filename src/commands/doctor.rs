@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{Failure, Outcome};
-use crate::config::{Config, OTHERS};
-use crate::exhibit;
+use soffio_config::{Config, OTHERS};
+use soffio_exhibit as exhibit;
 
 #[cfg(feature = "kiosk")]
 mod machine;

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::{Failure, Outcome};
-use crate::collision::{Collider, Reason};
-use crate::exhibit::diagnostic::{near, quoted};
-use crate::exhibit::{self, Exhibit, Origin};
+use soffio_exhibit::diagnostic::{near, quoted};
+use soffio_exhibit::{self as exhibit, Exhibit, Origin};
+use soffio_multibody::collision::{Collider, Reason};
 
 /// Prints each value of an exhibit with its origin.
 ///

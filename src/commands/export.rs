@@ -6,11 +6,11 @@ use std::sync::atomic::AtomicBool;
 
 use super::play::{parse_seconds, parse_size};
 use super::{Failure, Outcome};
-use crate::offline::export::{key_frames::Bake, mjcf};
-use crate::offline::feed::WavFeed;
-use crate::offline::play::{self, OnFrame, Play, PlayError};
-use crate::offline::wav;
-use crate::simulation::{STEPS_PER_SECOND, Snapshot};
+use soffio_offline::export::{key_frames::Bake, mjcf};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::play::{self, OnFrame, Play, PlayError};
+use soffio_offline::wav;
+use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// Length of a run without a recording, and after the end of one, s.
 const TAIL: f64 = 5.0;
@@ -97,7 +97,7 @@ pub fn run(args: Args) -> Outcome {
         if fps > 120 {
             return Err(Failure { code: 2, message: format!("--fps {fps}: scenes can have 120 a second at most") });
         }
-        let writer = crate::offline::export::rib::RibWriter::create(&exhibit, folder, args.size, fps);
+        let writer = soffio_offline::export::rib::RibWriter::create(&exhibit, folder, args.size, fps);
         let mut writer = writer.map_err(Failure::input)?;
         let play = Play { fps: writer.moments_per_second(), ..play };
         perform(&exhibit, play, &mut |number, now: &Snapshot| {
@@ -108,7 +108,7 @@ pub fn run(args: Args) -> Outcome {
 }
 
 /// Runs the exhibit for its frames.
-fn perform(exhibit: &Arc<crate::exhibit::Exhibit>, play: Play, on_frame: &mut OnFrame) -> Outcome {
+fn perform(exhibit: &Arc<soffio_exhibit::Exhibit>, play: Play, on_frame: &mut OnFrame) -> Outcome {
     let stop = Arc::new(AtomicBool::new(false));
     super::stop_on_ctrl_c(&stop);
     let progress = super::play::progress_bar((play.seconds * STEPS_PER_SECOND as f64).round() as u64);

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use super::new::{place, tell, write};
 use super::{Failure, Outcome};
-use crate::exhibit::make::imported;
-use crate::exhibit::{self, SIDECAR};
+use soffio_authoring::imported;
+use soffio_exhibit::{self as exhibit, SIDECAR};
 
 /// Makes an exhibit folder from a glTF model (.glb, .gltf with its files): a sidecar proposes bodies, masses, joints.
 #[derive(clap::Args, Debug)]

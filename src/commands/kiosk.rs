@@ -10,17 +10,17 @@ use tracing_subscriber::util::SubscriberInitExt;
 
 use super::play::SolverArg;
 use super::{Failure, Outcome};
-use crate::config::{Config, FILE};
-use crate::exhibit::Exhibit;
-use crate::kiosk::fleet::Fleet;
-use crate::kiosk::live::{Options, Report};
-use crate::kiosk::log::Log;
-use crate::kiosk::shelf::{self, Places};
-use crate::kiosk::site::{Overrides, Site};
-use crate::kiosk::window::{self, Ended, Ground, Missing};
-use crate::offline::feed::WavFeed;
-use crate::offline::{demo, wav};
-use crate::simulation::{STEPS_PER_SECOND, Settings};
+use soffio_config::{Config, FILE};
+use soffio_exhibit::Exhibit;
+use soffio_kiosk::fleet::Fleet;
+use soffio_kiosk::live::{Options, Report};
+use soffio_kiosk::log::Log;
+use soffio_kiosk::shelf::{self, Places};
+use soffio_kiosk::site::{Overrides, Site};
+use soffio_kiosk::window::{self, Ended, Ground, Missing};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::{demo, wav};
+use soffio_simulation::{STEPS_PER_SECOND, Settings};
 
 mod supervised;
 

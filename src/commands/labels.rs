@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::{Failure, Outcome};
-use crate::exhibit::{self, SIDECAR, labels};
-use crate::offline::whole_file::WholeFile;
+use soffio_exhibit::{self as exhibit, SIDECAR, labels};
+use soffio_offline::whole_file::WholeFile;
 
 /// Largest table, bytes.
 const MAX_TABLE: u64 = 16 << 20;

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use super::{Failure, Outcome};
-use crate::math::{PI, from_decibels, sin};
-use crate::offline::loudness::{Levelled, Measured, correction, level, measure, write};
-use crate::offline::wav;
-use crate::simulation::SAMPLE_RATE;
-use crate::{config, exhibit};
+use soffio_config as config;
+use soffio_exhibit as exhibit;
+use soffio_math::{PI, from_decibels, sin};
+use soffio_offline::loudness::{Levelled, Measured, correction, level, measure, write};
+use soffio_offline::wav;
+use soffio_simulation::SAMPLE_RATE;
 
 /// The calibration tone: Hz, dB of full scale, s.
 const TONE: (f64, f64, u32) = (1000.0, -20.0, 60);

@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Parser, Subcommand};
 
-use crate::config::Config;
-use crate::exhibit::{self, Exhibit};
-use crate::simulation::Settings;
-use crate::sound::RoomSpec;
+use soffio_config::Config;
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_simulation::Settings;
+use soffio_sound::RoomSpec;
 
 pub mod bench;
 pub mod breath;

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::{Failure, Outcome};
-use crate::exhibit::make::drawing::outlines;
-use crate::exhibit::make::given::{Metal, Outline, sized};
-use crate::exhibit::make::notes::{chime, note};
-use crate::exhibit::make::template::Template;
-use crate::exhibit::make::{Made, id_problem, starter};
-use crate::exhibit::{self, Diagnostic, Exhibit, Report};
-use crate::offline::whole_folder::WholeFolder;
+use soffio_authoring::drawing::outlines;
+use soffio_authoring::given::{Metal, Outline, sized};
+use soffio_authoring::notes::{chime, note};
+use soffio_authoring::template::Template;
+use soffio_authoring::{Made, id_problem, starter};
+use soffio_exhibit::{self as exhibit, Diagnostic, Exhibit, Report};
+use soffio_offline::whole_folder::WholeFolder;
 
 /// Plates that are proposed at a terminal.
 const PLATES: &str = "120x80,100,90x60,70";

@@ -3,7 +3,7 @@
 use std::io::{BufRead, IsTerminal};
 
 use super::{Failure, Outcome};
-use crate::config::{DIGITS, Pin};
+use soffio_config::{DIGITS, Pin};
 
 /// Asks for the staff's PIN and prints the line that the configuration takes: its hash, never its digits.
 #[derive(clap::Args, Debug, Default)]

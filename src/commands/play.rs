@@ -8,12 +8,12 @@ use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Failure, Outcome};
-use crate::exhibit::Exhibit;
-use crate::offline::compare;
-use crate::offline::feed::WavFeed;
-use crate::offline::play::{Play, PlayError};
-use crate::offline::wav;
-use crate::simulation::{MotionMode, Profile, STEPS_PER_SECOND, Script, Settings};
+use soffio_exhibit::Exhibit;
+use soffio_offline::compare;
+use soffio_offline::feed::WavFeed;
+use soffio_offline::play::{Play, PlayError};
+use soffio_offline::wav;
+use soffio_simulation::{MotionMode, Profile, STEPS_PER_SECOND, Script, Settings};
 
 #[cfg(feature = "kiosk")]
 mod filming;
@@ -54,7 +54,7 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     solver: SolverArg,
     /// Time of day at the start, to which a clock sets its hands, such as 14:35.
-    #[arg(long, value_name = "H:MM", value_parser = crate::exhibit::clock::time_of_day)]
+    #[arg(long, value_name = "H:MM", value_parser = soffio_exhibit::clock::time_of_day)]
     clock: Option<f64>,
     /// Seed of all that is random.
     #[arg(long, default_value_t = 1)]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{Failure, Outcome};
-use crate::config::Config;
+use soffio_config::Config;
 
 /// Says what the kiosk keeps of its visitors, where and for how long, and what it does not keep.
 #[derive(clap::Args, Debug, Default)]
@@ -101,7 +101,7 @@ pub fn report(config: &Config) -> Report {
     ));
     const COUNTS: &str = "counts over all visitors (visits and how long they were, breaths by their source, languages)";
     #[cfg(feature = "kiosk")]
-    if let Some(folder) = crate::kiosk::kept::folder(config) {
+    if let Some(folder) = soffio_kiosk::kept::folder(config) {
         let what = format!(
             "{COUNTS}; the day's sum of breath; how loud the kiosk's own chirp arrived in seven octaves; wrong PINs, mute, night, the work on show"
         );

@@ -6,14 +6,12 @@ use std::sync::atomic::AtomicBool;
 
 use super::play::progress_bar;
 use super::{Failure, Outcome};
-use crate::config::{Config, OTHERS};
-use crate::exhibit::{self, Exhibit};
-use crate::kiosk::site::Site;
-use crate::offline::wav;
-use crate::rehearsal::{Crowd, ROOMS, Rehearsal, RehearsalError, listen, recorded, run as rehearse};
+use soffio_config::Config;
+use soffio_detector::BlowSettings;
+use soffio_kiosk::site::Site;
+use soffio_offline::wav;
+use soffio_rehearsal::{Crowd, ROOMS, Rehearsal, RehearsalError, featured_exhibits, listen, recorded, run as rehearse};
 
-/// Works that visitors choose from: the first ones of the site.
-const FEATURED: usize = 3;
 /// Longest day, h.
 const LONGEST_H: f64 = 24.0;
 
@@ -47,9 +45,6 @@ pub struct Args {
     /// Only its ear: no work, no sound, no pictures. In a few minutes: who is heard, how soon, and wind without breath.
     #[arg(long)]
     ear: bool,
-    /// With --ear: a table that `soffio breath train` wrote, in place of the ear's own; of more than one of a kind, the mean.
-    #[arg(long, value_name = "FILE.rs", requires = "ear")]
-    table: Vec<PathBuf>,
     /// One JSON object instead of the table.
     #[arg(long)]
     json: bool,
@@ -65,7 +60,7 @@ pub fn run(args: Args) -> Outcome {
     let (config, _) = Config::load(None).map_err(Failure::input)?;
     let crowd = args.crowd.as_deref().map_or(Ok(Crowd::Made), recordings)?;
     let rehearsal = Rehearsal {
-        works: works(&config)?,
+        works: featured_exhibits(&config).map_err(Failure::input)?,
         site: Site::new(&config, args.seed),
         room: args.room,
         capsules: args.capsules.into(),
@@ -74,7 +69,7 @@ pub fn run(args: Args) -> Outcome {
         seed: args.seed,
     };
     if args.ear {
-        let heard = listen(rehearsal, &super::breath::ear(&args.table)?).map_err(failure)?;
+        let heard = listen(rehearsal, &BlowSettings::default()).map_err(failure)?;
         return say(&heard, args.json);
     }
     let stop = Arc::new(AtomicBool::new(false));
@@ -108,20 +103,6 @@ fn say(report: &(impl serde::Serialize + std::fmt::Display), json: bool) -> Outc
         print!("{report}");
     }
     Ok(())
-}
-
-/// The first works of the site.
-fn works(config: &Config) -> Result<Vec<Arc<Exhibit>>, Failure> {
-    let named = config.exhibits.show.iter().filter(|id| *id != OTHERS).cloned();
-    let ids: Vec<String> = named.chain(exhibit::ids()).take(FEATURED).collect();
-    if ids.is_empty() {
-        return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is"));
-    }
-    let folder = |id: &String| {
-        let folder = config.exhibits.folder.join(id);
-        if folder.is_dir() { folder.to_string_lossy().into_owned() } else { id.clone() }
-    };
-    ids.iter().map(|id| super::open(&folder(id))).collect()
 }
 
 /// All WAVs of a folder, in the order of their names.

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Failure, Outcome};
-use crate::exhibit::{self, Exhibit};
-use crate::offline::pictures::{FINER, write_png};
-use crate::render::scenario::Scenario;
-use crate::render::{Frame, ImageRenderer, Options, RenderError, Shaders};
-use crate::simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_offline::pictures::{FINER, write_png};
+use soffio_render::scenario::Scenario;
+use soffio_render::{Frame, ImageRenderer, Options, RenderError, Shaders};
+use soffio_simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// Picture size without `--size` or a scenario's.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);

@@ -7,9 +7,9 @@ use std::sync::atomic::AtomicBool;
 use super::play::outputs::Outputs;
 use super::play::progress_bar;
 use super::{Failure, Outcome};
-use crate::offline::play::{Play, Summary};
-use crate::simulation::STEPS_PER_SECOND;
-use crate::simulation::record::{self, Part};
+use soffio_offline::play::{Play, Summary};
+use soffio_simulation::STEPS_PER_SECOND;
+use soffio_simulation::record::{self, Part};
 
 /// Runs a recorded live run again, to the bit, and says whether it came to the same.
 #[derive(clap::Args, Debug)]

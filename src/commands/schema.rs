@@ -1,8 +1,9 @@
 //! `soffio schema`: the JSON Schema of a file format, for editors that complete and check while one types.
 
 use super::{Failure, Outcome};
-use crate::sound::timbre::Preset;
-use crate::{config, exhibit};
+use soffio_config as config;
+use soffio_exhibit as exhibit;
+use soffio_sound::timbre::Preset;
 
 /// Prints the JSON Schema of a file kind.
 ///

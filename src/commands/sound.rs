@@ -4,11 +4,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::{Failure, Outcome};
-use crate::offline::audition::Audition;
-use crate::offline::{sound_page, wav};
-use crate::simulation::SAMPLE_RATE;
-use crate::sound::timbre::{Specimen, SpecimenShape};
-use crate::sound::{Preset, SurfaceLine, TimbreError, timbre};
+use soffio_offline::audition::Audition;
+use soffio_offline::{sound_page, wav};
+use soffio_simulation::SAMPLE_RATE;
+use soffio_sound::timbre::{Specimen, SpecimenShape};
+use soffio_sound::{Preset, SurfaceLine, TimbreError, timbre};
 
 /// Longest sound, s.
 const LONGEST: f64 = 600.0;

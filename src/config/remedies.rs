@@ -1,6 +1,6 @@
 //! What staff can do about a microphone: `soffio doctor` and the staff panel say the same.
 
-use crate::math::log10;
+use soffio_math::log10;
 
 /// It changes its gain by itself: a breath turns the room down, and strength cannot be told.
 pub const GAIN_CONTROL: &str = "switch off automatic gain control: in the system's mixer (\"Auto Gain\", \"AGC\"), in the \

@@ -9,8 +9,8 @@
 //! turn of a wheel = n · (turn an hour)  or  Σ of the hours struck on the way · (turn a blow)
 //! ```
 
-use crate::bodies::RigidBody;
-use crate::math::{DVec3, rotation};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DVec3, rotation};
 
 /// s.
 pub const HOUR: f64 = 3600.0;

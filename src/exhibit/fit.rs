@@ -7,10 +7,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::collision::Shape;
-use crate::geometry::hull::Hull;
-use crate::geometry::{Extents, TriangleMesh};
-use crate::math::{DMat3, DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use soffio_geometry::hull::Hull;
+use soffio_geometry::{Extents, TriangleMesh};
+use soffio_math::{DMat3, DQuat, DVec2, DVec3, PI, Pose, cos, sin};
+use soffio_multibody::collision::Shape;
 
 /// Part of the smallest half extent that rounds the edges of boxes, cylinders and hulls, as real ones are: a hit on an
 /// edge has a direction of its own while the cores inside do not touch.

@@ -1,6 +1,6 @@
 //! A glTF model as plain data: nodes, meshes, materials, textures, cameras, lights.
 
-use crate::math::{DMat4, DVec3};
+use soffio_math::{DMat4, DVec3};
 
 mod accessor;
 mod animation;
@@ -8,11 +8,9 @@ mod deform;
 mod import;
 mod look;
 mod primitive;
-mod write;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use import::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, import, load};
-pub use write::{container, write};
 
 /// A glTF model.
 #[derive(Clone, Debug, Default)]

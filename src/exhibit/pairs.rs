@@ -1,10 +1,11 @@
 //! Which colliders of an exhibit can meet: its joints told to the bounds of `collision::reach`.
 
 use super::Exhibit;
-use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function};
-use crate::collision::reach::{FixedAxis, JointEnd, JointPoint};
-use crate::collision::{Pairs, Reach, pairs};
-use crate::math::{DVec3, Pose};
+use soffio_math::Function;
+use soffio_math::{DVec3, Pose};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
+use soffio_multibody::collision::reach::{FixedAxis, JointEnd, JointPoint};
+use soffio_multibody::collision::{Pairs, Reach, pairs};
 
 /// Directions that make a smaller sine are one.
 const SAME: f64 = 1e-9;

@@ -92,7 +92,7 @@ macro_rules! quantities {
     )*};
 }
 
-const DEGREE: f64 = crate::math::PI / 180.0;
+const DEGREE: f64 = soffio_math::PI / 180.0;
 
 quantities! {
     /// m.
@@ -108,7 +108,7 @@ quantities! {
     /// m/s.
     Speed, "speed", [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)];
     /// rad/s.
-    Rotation, "angular velocity", [("rad/s", 1.0), ("deg/s", DEGREE), ("rpm", crate::math::PI / 30.0)];
+    Rotation, "angular velocity", [("rad/s", 1.0), ("deg/s", DEGREE), ("rpm", soffio_math::PI / 30.0)];
     /// m/s².
     Acceleration, "acceleration", [("m/s2", 1.0)];
     /// s.

@@ -6,7 +6,7 @@
 
 use super::Exhibit;
 use super::model::{Channel, Model, Track};
-use crate::math::{DMat4, DQuat, DVec3};
+use soffio_math::{DMat4, DQuat, DVec3};
 
 /// Key frames of one shape, and how they go on.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,7 +11,7 @@
 //! picture, since the vertical angle is widened until the horizontal one is the same.
 
 use super::Exhibit;
-use crate::math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
+use soffio_math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
 
 /// A perspective camera in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl View {
     /// Unit right, up and forward axes of the camera.
     pub fn axes(&self) -> (DVec3, DVec3, DVec3) {
         let forward = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
-        let right = forward.cross(self.up).try_normalize().unwrap_or_else(|| crate::math::tangents(forward).0);
+        let right = forward.cross(self.up).try_normalize().unwrap_or_else(|| soffio_math::tangents(forward).0);
         (right, right.cross(forward), forward)
     }
 

@@ -8,7 +8,7 @@
 //! The walk needs nothing of a core but its support map, so round cores are as exact as angular ones.
 
 use super::support::Support;
-use crate::math::DVec3;
+use soffio_math::DVec3;
 
 /// Nearest points of two convex cores.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -249,8 +249,8 @@ fn nearest<const N: usize>(w: &[DVec3; 4], faces: [Face; N]) -> Face {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::support::Support;
-    use crate::noise::Random;
+    use crate::support::Support;
+    use soffio_math::noise::Random;
 
     /// GJK stops when a step gains under 1e-12 of the squared distance: the distance is good to about its root.
     const GJK_RELATIVE: f64 = 1e-5;

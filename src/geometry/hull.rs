@@ -4,7 +4,7 @@
 //! corner lies above it. That is O(n⁴) at worst, and has no order of insertion to go wrong on flat or round input.
 
 use super::support::farthest;
-use crate::math::{DMat3, DVec2, DVec3, tangents};
+use soffio_math::{DMat3, DVec2, DVec3, tangents};
 
 /// Corners within this share of the hull's size of a plane lie in it: ten roundings of models' 32-bit coordinates.
 const FLAT: f64 = 1e-6;

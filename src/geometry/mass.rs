@@ -16,7 +16,7 @@
 //!
 //! The inertia tensor follows from the second moment about the centre: `I = tr(C)·1 − C`.
 
-use crate::math::{DMat3, DVec3, outer};
+use soffio_math::{DMat3, DVec3, outer};
 
 /// Zeroth to second moments of a mass distribution about the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl Moments {
         for pair in points.windows(2) {
             let along = pair[1] - pair[0];
             let Some(unit) = along.try_normalize() else { continue };
-            let mass = along.length() * crate::math::PI * radius * radius * density;
+            let mass = along.length() * soffio_math::PI * radius * radius * density;
             self.add_simplex([pair[0], pair[1]], mass);
             // The round section: ∫ x² dA over the disc is r²/4 per mass, in both directions across.
             let across = DMat3::IDENTITY - outer(unit, unit);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::mass::{Moments, principal_axes};
-use crate::math::{DMat3, DVec3};
+use soffio_math::{DMat3, DVec3};
 
 /// Triangles in the node frame of a body, metres, counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default)]

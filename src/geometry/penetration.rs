@@ -11,7 +11,7 @@
 
 use super::convex::{Corner, walk};
 use super::support::Support;
-use crate::math::{DVec3, tangents};
+use soffio_math::{DVec3, tangents};
 
 /// How deep two cores overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]

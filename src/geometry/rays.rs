@@ -22,7 +22,7 @@ use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
 use super::TriangleMesh;
-use crate::math::{DMat3, DVec3, Pose};
+use soffio_math::{DMat3, DVec3, Pose};
 
 /// Boxes are widened by this part of their distance from the origin and size: more than single precision rounds.
 const OUTWARDS: f32 = 4.0 * f32::EPSILON;

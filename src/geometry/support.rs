@@ -5,7 +5,7 @@
 //! Contact of faces needs more than a point: [`Placed::feature`] gives the edge or face that lies across d.
 
 use super::hull::Hull;
-use crate::math::{DMat3, DVec3, PI, Pose, cos, sin, tangents};
+use soffio_math::{DMat3, DVec3, PI, Pose, cos, sin, tangents};
 
 /// An edge or face that leans by less than this against the touching plane (sine of the angle) lies on it.
 const LEAN: f64 = 0.03;
@@ -251,8 +251,8 @@ impl Support for Placed<'_> {
 }
 
 /// A rotation that turns Y onto a unit direction.
-pub fn along(direction: DVec3) -> crate::math::DQuat {
+pub fn along(direction: DVec3) -> soffio_math::DQuat {
     let (t, b) = tangents(direction);
     // Columns x, y, z: (b, t, n) is left-handed, (t, n, −b) right-handed.
-    crate::math::DQuat::from_mat3(&DMat3::from_cols(t, direction, -b)).normalize()
+    soffio_math::DQuat::from_mat3(&DMat3::from_cols(t, direction, -b)).normalize()
 }

@@ -9,7 +9,7 @@ use super::input::Request;
 use super::overlay::Scene;
 use super::speech::{Making, Speaker};
 use super::spoken;
-use crate::audio_io::Words;
+use soffio_devices::audio::Words;
 
 /// The state of reading aloud.
 #[derive(Default)]

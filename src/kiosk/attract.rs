@@ -9,11 +9,11 @@
 //! visitor's breath ends the show and moves the sculpture in the same moment. So that it is seen to, what the script has
 //! set swinging comes to rest soon after each of its breaths, and at once when somebody comes.
 
-use crate::exhibit::{self, AttractAction};
-use crate::math::exp;
-use crate::offline::feed::WavFeed;
-use crate::simulation::{Command, STEPS_PER_SECOND};
-use crate::wind::blow::BlowDetector;
+use soffio_detector::BlowDetector;
+use soffio_exhibit::{self as exhibit, AttractAction};
+use soffio_math::exp;
+use soffio_offline::feed::WavFeed;
+use soffio_simulation::{Command, STEPS_PER_SECOND};
 
 /// Before attract mode begins it is shown for so long that it will, s.
 pub const COUNTDOWN_S: f64 = 10.0;

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use crate::simulation::{BreathView, STEPS_PER_SECOND};
+use soffio_simulation::{BreathView, STEPS_PER_SECOND};
 
 /// Where a breath came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,7 +128,7 @@ impl fmt::Display for Turn {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wind::blow::BlowEstimate;
+    use soffio_detector::BlowEstimate;
 
     fn view(speed: f64, from_microphone: f64) -> BreathView {
         let estimate = BlowEstimate { speed: from_microphone, ..BlowEstimate::default() };

@@ -2,9 +2,9 @@
 //!
 //! A sound is captioned from when it is set off until two seconds after; what slides or blows, for as long as it does.
 
-use crate::exhibit::{Exhibit, SoundBinding, SoundTrigger};
-use crate::simulation::STEPS_PER_SECOND;
-use crate::sound::SoundCommand;
+use soffio_exhibit::{Exhibit, SoundBinding, SoundTrigger};
+use soffio_simulation::STEPS_PER_SECOND;
+use soffio_sound::SoundCommand;
 
 /// A caption stays so long, s: long enough to be read.
 const STAYS: f64 = 2.0;

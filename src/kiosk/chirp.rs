@@ -14,8 +14,8 @@
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 
-use crate::math::{PI, cos, decibels, exp, ln, sin};
-use crate::sound::BANDS;
+use soffio_math::{PI, cos, decibels, exp, ln, sin};
+use soffio_sound::BANDS;
 
 /// Length of the chirp, s.
 pub const CHIRP_S: f64 = 2.5;

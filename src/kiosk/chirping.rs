@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::chirp::{Arrived, HEARD_S, arrived, chirp};
-use crate::audio_io::{AudioStatus, DeviceState, Words};
+use soffio_devices::audio::{AudioStatus, DeviceState, Words};
 
 /// Devices that have not opened by then do not, s.
 const OPENING_S: f64 = 8.0;

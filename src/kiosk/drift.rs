@@ -5,8 +5,8 @@
 //! somebody comes it is gone within one, because a breath is aimed by the exhibit's own camera. Where less motion is wanted
 //! there is none.
 
-use crate::exhibit::View;
-use crate::math::{PI, sin};
+use soffio_exhibit::View;
+use soffio_math::{PI, sin};
 
 /// Largest angles, rad: aside (3.5°), and up or down.
 const ASIDE: f64 = 0.061;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
 
-use crate::offline::whole_file::WholeFile;
+use soffio_offline::whole_file::WholeFile;
 
 /// Tables of a sidecar whose numbers are no parameters of the work: words, and what plays when nobody is there.
 const NOT_OFFERED: [&str; 3] = ["label", "attract", "credit"];

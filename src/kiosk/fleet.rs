@@ -15,9 +15,9 @@ use super::loudness::Wishes;
 use super::metrics::{Metrics, Numbers, text};
 use super::mqtt::{Mqtt, Order};
 use super::visits::{DWELL_S, FRAME_S, Histogram, Visits};
-use crate::audio_io::DeviceState;
-use crate::config::{Config, Day, TimeOfDay};
-use crate::exhibit::{Exhibit, SIDECAR};
+use soffio_config::{Config, Day, TimeOfDay};
+use soffio_devices::audio::DeviceState;
+use soffio_exhibit::{Exhibit, SIDECAR};
 
 /// For so long the daily chirp waits for a silent moment, minutes.
 const CHIRP_WAITS_MIN: u16 = 60;

@@ -16,7 +16,7 @@
 //! towards where it lies.
 
 use super::orbit;
-use crate::simulation::{Hand, STEPS_PER_SECOND};
+use soffio_simulation::{Hand, STEPS_PER_SECOND};
 
 /// A pointer button or finger that is down.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
 
-use crate::exhibit::Label;
+use soffio_exhibit::Label;
 
 /// Key of the text that says it: `{visit}` stands for seconds, `{day}` for seconds or `minutes:seconds`. A label without it says nothing.
 pub const KEY: &str = "given";

@@ -7,8 +7,8 @@
 //!
 //! The governor only looks: what it answers goes into the step as an input, so that a run repeats with the same answers.
 
-use crate::exhibit::Motion;
-use crate::simulation::{MotionMode, STEPS_PER_SECOND};
+use soffio_exhibit::Motion;
+use soffio_simulation::{MotionMode, STEPS_PER_SECOND};
 
 /// Steps that are looked at: half a second.
 const WINDOW: usize = 120;
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn an_exhibit_that_chose_for_itself_is_left_alone() {
-        for motion in [Motion::Laws, Motion::Places(crate::procedural::Method::Compulsive)] {
+        for motion in [Motion::Laws, Motion::Places(soffio_multibody::procedural::Method::Compulsive)] {
             let mut governor = Governor::new(motion);
             run(&mut governor, 10.0, 1.0);
             assert_eq!((governor.switches(), governor.mode()), (0, None));

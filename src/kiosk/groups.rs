@@ -4,7 +4,7 @@
 //! work stands has no heading, and without groups the works stand in their order. A heading is never the last row of a
 //! leaf.
 
-use crate::config::{Group, OTHERS};
+use soffio_config::{Group, OTHERS};
 
 /// A row of the page.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! are heard. While the glass is cleaned nothing at all is heard, whoever presses.
 
 use super::input::{Keys, Phase, Request, Signal, Visitor};
-use crate::config::{Day, Opening, TimeOfDay};
+use soffio_config::{Day, Opening, TimeOfDay};
 
 /// How long all input is off for whoever cleans, s.
 pub const CLEANING_S: f64 = 60.0;

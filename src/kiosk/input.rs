@@ -7,7 +7,7 @@
 //! Invariant: whatever is held is let go at the latest when the window loses the focus.
 
 use super::gesture::{Lift, Press};
-use crate::config::Chord;
+use soffio_config::Chord;
 
 /// How far a pointer must move before it aims, in picture heights or widths.
 const FIRST_MOVE: f64 = 0.01;

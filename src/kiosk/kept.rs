@@ -17,7 +17,7 @@ use super::given::Given;
 use super::loudness::NightBy;
 use super::visits::Histogram;
 use super::writer::{Writer, write};
-use crate::config::Config;
+use soffio_config::Config;
 
 /// A run that has lived so long did not die of its start.
 pub const SETTLED: Duration = Duration::from_secs(60);

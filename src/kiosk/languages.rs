@@ -2,8 +2,8 @@
 
 use super::fonts;
 use super::words::{WORDS, language_name};
-use crate::config::Config;
-use crate::exhibit::{Label, Labels};
+use soffio_config::Config;
+use soffio_exhibit::{Label, Labels};
 
 /// The languages a visitor can choose from, in the order they are offered: those of the exhibit that the site wants
 /// and the fonts can write, but for those whose words of the kiosk's own they cannot, [`unwritten`].

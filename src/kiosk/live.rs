@@ -16,11 +16,11 @@ use std::thread::JoinHandle;
 use super::recording::Recording;
 use super::site::Site;
 use super::stage::{Controls, Stage};
-use crate::exhibit::Exhibit;
-use crate::offline::feed::WavFeed;
-use crate::offline::trace::{DEFAULT_FPS, TraceWriter};
-use crate::simulation::{MotionMode, Settings};
 pub use frame::{Frame, Load, Onset};
+use soffio_exhibit::Exhibit;
+use soffio_offline::feed::WavFeed;
+use soffio_offline::trace::{DEFAULT_FPS, TraceWriter};
+use soffio_simulation::{MotionMode, Settings};
 use thread::Thread;
 
 /// What a run is made of.

@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use jiff::Zoned;
 
-use crate::audio_io::Knobs;
-use crate::config::{Hours, TimeOfDay};
-use crate::math::from_decibels;
-use crate::sound::{Exposure, Volume, VolumeSettings};
+use soffio_config::{Hours, TimeOfDay};
+use soffio_devices::audio::Knobs;
+use soffio_math::from_decibels;
+use soffio_sound::{Exposure, Volume, VolumeSettings};
 
 /// Between two looks.
 const LOOK: Duration = Duration::from_secs(1);

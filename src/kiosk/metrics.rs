@@ -10,9 +10,9 @@ use super::kept::Kept;
 use super::live::Frame;
 use super::visits::{DWELL_S, FRAME_S, Histogram};
 use super::writer::Writer;
-use crate::audio_io::DeviceState;
-use crate::simulation::MotionMode;
-use crate::sound::BANDS;
+use soffio_devices::audio::DeviceState;
+use soffio_simulation::MotionMode;
+use soffio_sound::BANDS;
 
 /// Between two files.
 const EVERY: Duration = Duration::from_secs(15);

@@ -1,9 +1,9 @@
 //! How the microphone does over time, for staff: exact silence, samples at full scale, a gain that changes by itself.
 //! Of the sound itself nothing is kept.
 
-use crate::config::remedies;
-use crate::simulation::STEPS_PER_SECOND;
-use crate::wind::blow::{BlowEstimate, Reason};
+use soffio_config::remedies;
+use soffio_detector::{BlowEstimate, Reason};
+use soffio_simulation::STEPS_PER_SECOND;
 
 /// A microphone that sends exact zeros for this long is muted, or its cable is out: 3 s.
 const MUTED_STEPS: u64 = 3 * STEPS_PER_SECOND;

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use crate::simulation::Snapshot;
+use soffio_simulation::Snapshot;
 
 /// Moments that are kept.
 const KEPT: usize = 4;

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 use rumqttc::{Client, Connection, Event, Incoming, LastWill, MqttOptions, Outgoing, QoS};
 
-use crate::config::{MqttOrder, MqttSettings};
+use soffio_config::{MqttOrder, MqttSettings};
 
 /// Between two states, at least.
 const EVERY: Duration = Duration::from_secs(1);

@@ -6,7 +6,7 @@
 
 use super::page::Reading;
 use super::words::Words;
-use crate::config::Visit;
+use soffio_config::Visit;
 
 /// What a visitor has chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -18,9 +18,9 @@
 //!
 //! Where less motion is wanted, the camera is where the finger puts it and nothing moves on by itself.
 
-use crate::exhibit::Leeway;
-use crate::math::exp;
-use crate::simulation::STEPS_PER_SECOND;
+use soffio_exhibit::Leeway;
+use soffio_math::exp;
+use soffio_simulation::STEPS_PER_SECOND;
 
 /// What a pull of a picture height turns, rad.
 pub const TURN: f64 = 1.2;

@@ -6,10 +6,10 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
-use crate::config::Group;
-use crate::exhibit::{Exhibit, Label, View};
-use crate::math::{PI, tangents};
-use crate::simulation::{BreathView, Snapshot};
+use soffio_config::Group;
+use soffio_exhibit::{Exhibit, Label, View};
+use soffio_math::{PI, tangents};
+use soffio_simulation::{BreathView, Snapshot};
 
 use super::bidi::reads_from_right;
 use super::given;

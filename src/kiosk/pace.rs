@@ -6,7 +6,7 @@
 
 use std::time::Duration;
 
-use crate::simulation::STEPS_PER_SECOND;
+use soffio_simulation::STEPS_PER_SECOND;
 
 /// Longest delay that is made up for, steps (0.25 s).
 pub const MOST_BEHIND: u64 = STEPS_PER_SECOND / 4;

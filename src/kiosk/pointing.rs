@@ -2,7 +2,7 @@
 //! or the arrow keys push it on from wherever it is. Whoever moved last counts.
 
 use super::stage::Controls;
-use crate::simulation::{CENTRE, STEPS_PER_SECOND};
+use soffio_simulation::{CENTRE, STEPS_PER_SECOND};
 
 /// The aim over time.
 #[derive(Clone, Debug, Default)]

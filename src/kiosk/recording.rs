@@ -7,9 +7,9 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::exhibit::Exhibit;
-use crate::simulation::record::Recorder;
-use crate::simulation::{STEPS_PER_SECOND, Settings};
+use soffio_exhibit::Exhibit;
+use soffio_simulation::record::Recorder;
+use soffio_simulation::{STEPS_PER_SECOND, Settings};
 
 use super::stage::Stage;
 

@@ -11,9 +11,9 @@
 
 use std::sync::Arc;
 
-use crate::exhibit::{Exhibit, View};
-use crate::math::{DVec3, Pose};
-use crate::simulation::{AimRing, STEPS_PER_SECOND, Snapshot};
+use soffio_exhibit::{Exhibit, View};
+use soffio_math::{DVec3, Pose};
+use soffio_simulation::{AimRing, STEPS_PER_SECOND, Snapshot};
 
 /// From picture to picture at rest, s.
 pub const PICTURE_S: f64 = 0.1;

@@ -11,9 +11,9 @@ use egui_wgpu::{RendererOptions, ScreenDescriptor};
 use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
-use crate::exhibit::{Exhibit, View};
-use crate::render::{Finish, Frame, Gpu, Options, Renderer, Shaders, Work};
-use crate::simulation::Snapshot;
+use soffio_exhibit::{Exhibit, View};
+use soffio_render::{Finish, Frame, Gpu, Options, Renderer, Shaders, Work};
+use soffio_simulation::Snapshot;
 
 use super::fonts;
 

@@ -14,8 +14,8 @@ use std::time::Duration;
 use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
-use crate::config::OTHERS;
-use crate::exhibit::{self, Exhibit, Labels};
+use soffio_config::OTHERS;
+use soffio_exhibit::{self as exhibit, Exhibit, Labels};
 
 /// Silence after the last change before an exhibit is loaded.
 pub const QUIET: Duration = Duration::from_millis(300);

@@ -9,10 +9,10 @@ use notify_debouncer_full::notify::{Error, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
 use super::shelf::{QUIET, is_change};
-use crate::config::{AudioSettings, Config, ControllerSettings, Hours};
-use crate::exhibit;
-use crate::simulation::Settings;
-use crate::sound::{RoomSpec, VolumeSettings};
+use soffio_config::{AudioSettings, Config, ControllerSettings, Hours};
+use soffio_exhibit as exhibit;
+use soffio_simulation::Settings;
+use soffio_sound::{RoomSpec, VolumeSettings};
 
 /// What the simulation thread needs of the configuration.
 #[derive(Clone, Debug, PartialEq)]

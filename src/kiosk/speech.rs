@@ -13,8 +13,8 @@ use std::time::Duration;
 
 use realfft::RealFftPlanner;
 
-use crate::audio_io::{LOUDEST, Words};
-use crate::math::from_decibels;
+use soffio_devices::audio::{LOUDEST, Words};
+use soffio_math::from_decibels;
 
 /// Loudness of speech, LUFS: 3 dB over the works, which are 12 dB softer meanwhile.
 const SPEECH_LUFS: f64 = -20.0;

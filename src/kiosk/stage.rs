@@ -6,15 +6,15 @@
 
 use std::sync::Arc;
 
-use crate::audio_io::Words;
-use crate::bodies::RigidBody;
-use crate::exhibit::{Exhibit, Leeway, View};
-use crate::offline::feed::WavFeed;
-use crate::simulation::{
+use soffio_devices::audio::Words;
+use soffio_exhibit::{Exhibit, Leeway, View};
+use soffio_geometry::bodies::RigidBody;
+use soffio_offline::feed::WavFeed;
+use soffio_simulation::{
     Command, Inspection, Look, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation,
     Snapshot, StepInput,
 };
-use crate::sound::SoundCommand;
+use soffio_sound::SoundCommand;
 
 use super::attract::Attract;
 use super::gesture::{Gestures, Lift, Press, Touch};

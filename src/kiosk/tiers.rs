@@ -6,7 +6,7 @@
 //! a finer one would take cannot be seen while the display's rhythm makes every picture wait, so it is tried after a while;
 //! each time that fails the next try waits twice as long, since a machine that is too slow stays so.
 
-use crate::render::Finish;
+use soffio_render::Finish;
 
 /// Pictures that are looked at.
 const WINDOW: usize = 60;

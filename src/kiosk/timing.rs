@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::live::{Frame, Onset};
 use super::rhythm::Rhythm;
-use crate::simulation::Snapshot;
+use soffio_simulation::Snapshot;
 
 /// Share of the newest picture in the mean time of a picture.
 const FRAME_SMOOTHING: f64 = 0.1;

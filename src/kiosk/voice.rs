@@ -1,8 +1,8 @@
 //! The instruments that the loudspeaker plays: those of the exhibit on show, and beside them one that staff try.
 
-use crate::exhibit::Exhibit;
-use crate::sound::timbre::{Specimen, names};
-use crate::sound::{InstrumentSpec, Preset, RoomSpec, Slide, SoundCommand, Strike, Synth};
+use soffio_exhibit::Exhibit;
+use soffio_sound::timbre::{Specimen, names};
+use soffio_sound::{InstrumentSpec, Preset, RoomSpec, Slide, SoundCommand, Strike, Synth};
 
 /// What strikes an instrument that staff try, kg: a small wooden beater.
 const BEATER: f64 = 0.01;

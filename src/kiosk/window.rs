@@ -16,9 +16,9 @@ use winit::keyboard::ModifiersState;
 use winit::platform::wayland::WindowAttributesExtWayland;
 use winit::window::{Fullscreen, Window, WindowId};
 
-use crate::audio_io::DeviceState;
-use crate::config::Config;
-use crate::simulation::Snapshot;
+use soffio_config::Config;
+use soffio_devices::audio::DeviceState;
+use soffio_simulation::Snapshot;
 
 use super::aloud::Aloud;
 use super::drift::Drift;

@@ -4,8 +4,8 @@
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use crate::render::Shaders;
-use crate::render::shaders::ShaderError;
+use soffio_render::Shaders;
+use soffio_render::shaders::ShaderError;
 
 /// Between two looks at the folder, s.
 const LOOK_S: f64 = 0.5;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use crate::offline::whole_file::WholeFile;
+use soffio_offline::whole_file::WholeFile;
 
 /// Writes one file.
 #[derive(Debug)]

@@ -25,6 +25,7 @@ pub struct Four(pub [f64; WIDTH]);
 
 impl Four {
     /// The same for all.
+    #[inline]
     pub const fn splat(x: f64) -> Self {
         Self([x; WIDTH])
     }

@@ -1,8 +1,8 @@
 //! One timbre by itself, on its specimen: for listening and measuring.
 
-use crate::simulation::SAMPLE_RATE;
-use crate::sound::timbre::Specimen;
-use crate::sound::{Preset, Slide, SoundCommand, Strike, SurfaceLine, Synth, TimbreError, WindSound};
+use soffio_simulation::SAMPLE_RATE;
+use soffio_sound::timbre::Specimen;
+use soffio_sound::{Preset, Slide, SoundCommand, Strike, SurfaceLine, Synth, TimbreError, WindSound};
 
 /// What plays the timbre, beside the numbers of the specimen.
 #[derive(Clone, Debug, Default)]

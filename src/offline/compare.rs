@@ -21,10 +21,10 @@ use super::play::{Play, PlayError};
 use super::sound_page::canvas::{Align, Canvas, FIRST, INK, PALE, SECOND};
 use super::sound_page::chart::{Axis, Chart};
 use super::whole_file::WholeFile;
-use crate::bodies::RigidBody;
-use crate::exhibit::Exhibit;
-use crate::math::atan2;
-use crate::simulation::{Event, MotionMode, STEPS_PER_SECOND, Script, Simulation, StepInput};
+use soffio_exhibit::Exhibit;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::atan2;
+use soffio_simulation::{Event, MotionMode, STEPS_PER_SECOND, Script, Simulation, StepInput};
 
 /// Farther than this the runs count as apart, m.
 const APART: f64 = 1e-3;

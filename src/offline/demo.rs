@@ -8,16 +8,16 @@ use std::sync::atomic::AtomicBool;
 use super::feed::WavFeed;
 use super::play::{self, Play, Summary};
 use super::trace::DEFAULT_FPS;
-use crate::exhibit::{AttractAction, Exhibit};
-use crate::simulation::{Settings, Snapshot};
-use crate::sound::RoomSpec;
+use soffio_exhibit::{AttractAction, Exhibit};
+use soffio_simulation::{Settings, Snapshot};
+use soffio_sound::RoomSpec;
 
 /// The run goes on after the breath, s.
 const TAIL: f64 = 5.0;
 /// The picture is taken this long after the run began, s: when the sculpture has visibly turned.
 const PICTURE_AT: f64 = 4.0;
 /// Pixels of the picture.
-#[cfg(feature = "kiosk")]
+#[cfg(feature = "pictures")]
 const PICTURE_SIZE: (u32, u32) = (1280, 720);
 
 /// What a headless run left.
@@ -63,12 +63,12 @@ pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &Ato
     Ok(Demo { summary, files, no_picture })
 }
 
-#[cfg(not(feature = "kiosk"))]
+#[cfg(not(feature = "pictures"))]
 fn picture(_: &Arc<Exhibit>, _: &Snapshot, _: &Path) -> Result<(), String> {
     Err("this build has no renderer".into())
 }
 
-#[cfg(feature = "kiosk")]
+#[cfg(feature = "pictures")]
 fn picture(exhibit: &Arc<Exhibit>, now: &Snapshot, path: &Path) -> Result<(), String> {
     use super::pictures::{Pictures, write_png};
     let drawn = Pictures::new(exhibit, PICTURE_SIZE).and_then(|mut pictures| pictures.draw(now));

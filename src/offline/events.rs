@@ -7,8 +7,8 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::whole_file::WholeFile;
-use crate::exhibit::Exhibit;
-use crate::simulation::Event;
+use soffio_exhibit::Exhibit;
+use soffio_simulation::Event;
 
 #[derive(Serialize)]
 struct Line<'a> {

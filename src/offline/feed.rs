@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use super::wav::Recording;
-use crate::simulation::{Microphone, STEPS_PER_SECOND};
+use soffio_simulation::{Microphone, STEPS_PER_SECOND};
 
 /// A recording, read step by step.
 #[derive(Clone, Debug)]

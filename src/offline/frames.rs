@@ -2,8 +2,8 @@
 //!
 //! Between two steps a frame is their interpolation; nothing is ever extrapolated.
 
-use crate::math::Pose;
-use crate::simulation::{STEPS_PER_SECOND, Snapshot};
+use soffio_math::Pose;
+use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// What can be seen between two steps.
 pub trait Blend {

@@ -10,10 +10,10 @@ use std::sync::Arc;
 use ebur128::{EbuR128, Mode};
 
 use super::whole_file::WholeFile;
-use crate::exhibit::{Exhibit, SIDECAR};
-use crate::math::{decibels, from_decibels};
-use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
-use crate::sound::{PROGRAMME, RoomSpec, SoundCommand, Synth};
+use soffio_exhibit::{Exhibit, SIDECAR};
+use soffio_math::{decibels, from_decibels};
+use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
+use soffio_sound::{PROGRAMME, RoomSpec, SoundCommand, Synth};
 
 /// What visitors do in the standard scene: gently, as usual, hard, and gently again elsewhere.
 const VISITORS: &str = r#"{"t": 1, "aim": [0.5, 0.5], "blow": {"strength": 0.4, "hold": 1.5, "release": 0.3}}

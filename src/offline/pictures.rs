@@ -7,9 +7,9 @@ use std::sync::Arc;
 use image::RgbaImage;
 
 use super::whole_file::WholeFile;
-use crate::exhibit::Exhibit;
-use crate::render::{Frame, ImageRenderer, RenderError};
-use crate::simulation::Snapshot;
+use soffio_exhibit::Exhibit;
+use soffio_render::{Frame, ImageRenderer, RenderError};
+use soffio_simulation::Snapshot;
 
 /// Pixels drawn for each of a picture in a file, along each side.
 pub const FINER: u32 = 2;

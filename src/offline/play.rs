@@ -13,10 +13,10 @@ use super::feed::WavFeed;
 use super::frames::Frames;
 use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
-use crate::exhibit::Exhibit;
-use crate::simulation::record::Part;
-use crate::simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
-use crate::sound::RoomSpec;
+use soffio_exhibit::Exhibit;
+use soffio_simulation::record::Part;
+use soffio_simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
+use soffio_sound::RoomSpec;
 
 /// Steps between two looks at the joints' error, which costs a thirtieth of a clock's step.
 const LOOK: u64 = STEPS_PER_SECOND / 30;

@@ -14,8 +14,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x2, f64x4};
 
-use crate::math::decibels;
-use crate::simulation::SAMPLE_RATE;
+use soffio_math::decibels;
+use soffio_simulation::SAMPLE_RATE;
 
 /// The rate that the coefficients are for.
 const _: () = assert!(SAMPLE_RATE == 48_000);
@@ -207,7 +207,7 @@ impl Programme {
         if self.blocks.is_empty() {
             return f64::NEG_INFINITY;
         }
-        let pause = crate::math::pow(10.0, -PAUSE / 10.0);
+        let pause = soffio_math::pow(10.0, -PAUSE / 10.0);
         loudness(mean(pause * mean(0.0)))
     }
 }

@@ -8,10 +8,10 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use super::programme::Programme;
 use super::whole_file::WholeFile;
-use crate::exhibit::Exhibit;
-use crate::math::decibels;
-use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use crate::sound::{MAX_COMMANDS, RoomSpec, SoundCommand, Synth, peak};
+use soffio_exhibit::Exhibit;
+use soffio_math::decibels;
+use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
+use soffio_sound::{MAX_COMMANDS, RoomSpec, SoundCommand, Synth, peak};
 
 /// Stereo.
 const CHANNELS: u16 = 2;

@@ -9,9 +9,9 @@ use std::path::Path;
 
 use super::frames::Frames;
 use super::whole_file::WholeFile;
-use crate::exhibit::Exhibit;
-use crate::math::Pose;
-use crate::simulation::{Simulation, Snapshot};
+use soffio_exhibit::Exhibit;
+use soffio_math::Pose;
+use soffio_simulation::{Simulation, Snapshot};
 
 /// Frames per second of a trace nobody asked otherwise of.
 pub const DEFAULT_FPS: u32 = 60;

@@ -1,9 +1,9 @@
 //! The programme of a day: visits one after another, staff between them, works in turn.
 
 use super::visitor::{Press, Pressed, Visit, Way};
-use crate::kiosk::house::CLEANING_S;
-use crate::math::{PI, sin};
-use crate::noise::{Random, hash_words};
+use soffio_kiosk::house::CLEANING_S;
+use soffio_math::noise::{Random, hash_words};
+use soffio_math::{PI, sin};
 
 /// Nobody comes before the kiosk has heard the room, s.
 const BEGINS_S: f64 = 20.0;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use realfft::{RealFftPlanner, RealToComplex};
 
 use super::SAMPLE_RATE_HZ;
-use crate::math::{PI, cos, from_decibels};
+use soffio_math::{PI, cos, from_decibels};
 
 /// Samples of a frame, and how many are new.
 const FRAME: usize = 2048;
@@ -102,9 +102,9 @@ impl Ears {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{exp, sin};
-    use crate::noise::Random;
-    use crate::wind::generate::filter::{gaussian, low_passed, normalised};
+    use soffio_detector::generate::filter::{gaussian, low_passed, normalised};
+    use soffio_math::noise::Random;
+    use soffio_math::{exp, sin};
 
     const RATE: f64 = SAMPLE_RATE_HZ as f64;
 

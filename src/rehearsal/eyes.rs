@@ -12,10 +12,10 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 use super::judge::{Answer, BEFORE, FPS, Picture, answer};
-use crate::exhibit::Exhibit;
-use crate::math::Pose;
-use crate::render::{Frame, ImageRenderer, Look, RenderError};
-use crate::simulation::{STEPS_PER_SECOND, Snapshot};
+use soffio_exhibit::Exhibit;
+use soffio_math::Pose;
+use soffio_render::{Frame, ImageRenderer, Look, RenderError};
+use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// Pixels: 4 mm each on a 55-inch screen, whose edges four samples a pixel make a millimetre fine.
 pub const SIZE: (u32, u32) = (320, 180);

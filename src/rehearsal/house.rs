@@ -3,7 +3,7 @@
 //! Time goes in blocks of 10 ms, as a sound card's does. Everything is summed as sound; last comes the microphone: its
 //! corner, its own noise, its rails.
 //!
-//! How loud a house is beside a breath is a matter of physics. The breath of [`generate`](crate::wind::generate) at 8.9 m/s
+//! How loud a house is beside a breath is a matter of physics. The breath of [`generate`](soffio_detector::generate) at 8.9 m/s
 //! strikes a capsule 30 cm away at −23 dB of full scale. A round jet from lips a centimetre wide has 6 · 8.9 m/s · 1/30 =
 //! 1.8 m/s left there (Pope, Turbulent Flows, 2000, section 5.1), and a quarter of that wavers: ρ U u′ = 1 Pa, 94 dB. So
 //! full scale is 117 dB of sound, and a museum of 57 dB(A) (Carvalho et al. 2016, measured in Santo Tirso) lies 60 dB
@@ -17,13 +17,13 @@ use super::day::busyness;
 use super::rate::Finer;
 use super::room::Echo;
 use super::standing::{Above, Standing};
-use crate::math::{PI, exp, from_decibels};
-use crate::noise::{Random, hash_words};
-use crate::offline::ear::rooms::ALIKE_HZ;
-use crate::offline::ear::scenes::{UNLIKE, World, resampled};
-use crate::offline::ear::{RATE, noises};
-use crate::offline::wav::Recording;
-use crate::wind::generate::filter::{parted, power, white};
+use soffio_detector::generate::filter::{parted, power, white};
+use soffio_math::noise::{Random, hash_words};
+use soffio_math::{PI, exp, from_decibels};
+use soffio_offline::wav::Recording;
+use soffio_soundscape::rooms::ALIKE_HZ;
+use soffio_soundscape::scenes::{UNLIKE, World, resampled};
+use soffio_soundscape::{RATE, noises};
 
 const R: f64 = RATE as f64;
 /// The crowd comes in pieces of this length, which fade into each other, s.

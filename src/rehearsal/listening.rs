@@ -13,9 +13,9 @@ use super::day::{Day, Entry};
 use super::house::{House, PIECE_S};
 use super::run::{AFTERMATH_S, EARLY_S};
 use super::{FRAMES, Rehearsal, RehearsalError, SAMPLE_RATE_HZ, open_house};
-use crate::offline::ear::course::parallel;
-use crate::offline::ear::score::quantile;
-use crate::wind::blow::{BlowDetector, BlowSettings};
+use soffio_detector::{BlowDetector, BlowSettings};
+use soffio_soundscape::parallel::parallel;
+use soffio_soundscape::statistics::quantile;
 
 /// Length of a part, and of what an ear hears before it, pieces of the crowd.
 const PART: u64 = 10;

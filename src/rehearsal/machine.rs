@@ -9,14 +9,14 @@
 use std::sync::Arc;
 
 use super::{FRAMES, SAMPLE_RATE_HZ};
-use crate::audio_io::output::{self, Engine, Player, Workshop};
-use crate::audio_io::{Heard, Knobs, ReferenceTap, input};
-use crate::exhibit::Exhibit;
-use crate::kiosk::site::Site;
-use crate::kiosk::stage::{Controls, Stage};
-use crate::kiosk::voice::Voice;
-use crate::math::from_decibels;
-use crate::sound::{SoundCommand, Volume, WindSound};
+use soffio_devices::audio::output::{self, Engine, Player, Workshop};
+use soffio_devices::audio::{Heard, Knobs, ReferenceTap, input};
+use soffio_exhibit::Exhibit;
+use soffio_kiosk::site::Site;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::voice::Voice;
+use soffio_math::from_decibels;
+use soffio_sound::{SoundCommand, Volume, WindSound};
 
 /// A loudspeaker: its callback, and all that goes to it.
 struct Loudspeaker {

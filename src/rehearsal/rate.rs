@@ -2,7 +2,7 @@
 //!
 //! One windowed sinc serves both ways (Hann, 48 taps, corner 7.2 kHz): down it keeps what would fold, up it fills in.
 
-use crate::math::{PI, cos, sin};
+use soffio_math::{PI, cos, sin};
 
 /// 48 kHz over 16 kHz.
 pub const RATIO: usize = 3;

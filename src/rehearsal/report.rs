@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::judge::{FPS, SOON, median};
 use super::standing::Above;
-use crate::offline::ear::score::wilson;
+use soffio_soundscape::statistics::wilson;
 
 /// Share of all visits that must be answered.
 pub const HEADLINE: f64 = 0.95;

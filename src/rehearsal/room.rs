@@ -11,10 +11,10 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex
 
 use super::BLOCK;
 use super::rate::Coarser;
-use crate::math::{DVec3, PI, exp, from_decibels, tanh};
-use crate::noise::Random;
-use crate::offline::ear::RATE;
-use crate::offline::ear::rooms::Room;
+use soffio_math::noise::Random;
+use soffio_math::{DVec3, PI, exp, from_decibels, tanh};
+use soffio_soundscape::RATE;
+use soffio_soundscape::rooms::Room;
 
 /// Rooms by name: what they are, size (m), mean absorption of their walls.
 pub const ROOMS: [(&str, [f64; 3], f64); 3] =
@@ -128,7 +128,7 @@ fn spectrum(forward: &dyn RealToComplex<f64>, samples: &mut [f64]) -> Vec<Comple
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::offline::ear::rooms::convolved;
+    use soffio_soundscape::rooms::convolved;
 
     #[test]
     fn blocks_are_the_whole_convolution() {

@@ -14,12 +14,12 @@ use super::standing::Above;
 use super::twin::left_alone;
 use super::visitor::Press;
 use super::{FRAMES, Rehearsal, RehearsalError, open_house};
-use crate::exhibit::Exhibit;
-use crate::kiosk::gesture;
-use crate::kiosk::stage::Controls;
-use crate::math::Pose;
-use crate::simulation::{SAMPLES_PER_STEP, STEPS_PER_SECOND, Snapshot};
-use crate::wind::SurfaceShape;
+use soffio_exhibit::Exhibit;
+use soffio_kiosk::gesture;
+use soffio_kiosk::stage::Controls;
+use soffio_math::Pose;
+use soffio_simulation::{SAMPLES_PER_STEP, STEPS_PER_SECOND, Snapshot};
+use soffio_wind::SurfaceShape;
 
 /// Width over height of the picture.
 const ASPECT: f64 = 16.0 / 9.0;
@@ -449,13 +449,13 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::config::Config;
-    use crate::exhibit;
-    use crate::kiosk::site::Site;
-    use crate::noise::Random;
-    use crate::rehearsal::Crowd;
-    use crate::rehearsal::day::Entry;
-    use crate::rehearsal::visitor::{Visit, Way};
+    use crate::Crowd;
+    use crate::day::Entry;
+    use crate::visitor::{Visit, Way};
+    use soffio_config::Config;
+    use soffio_exhibit as exhibit;
+    use soffio_kiosk::site::Site;
+    use soffio_math::noise::Random;
 
     #[test]
     fn whoever_is_not_heard_blows_again_in_the_day_and_each_breath_is_looked_at() {

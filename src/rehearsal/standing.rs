@@ -13,8 +13,8 @@ use realfft::{RealFftPlanner, num_complex::Complex};
 use serde::Serialize;
 
 use super::judge::{FPS, SOON};
-use crate::math::{PI, cos, decibels};
-use crate::offline::ear::RATE;
+use soffio_math::{PI, cos, decibels};
+use soffio_soundscape::RATE;
 
 /// Bands, Hz.
 const RUMBLE_HZ: (f64, f64) = (31.0, 203.0);
@@ -105,8 +105,8 @@ fn spectrum(samples: &[f64]) -> Vec<Complex<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::noise::Random;
-    use crate::wind::generate::filter::white;
+    use soffio_detector::generate::filter::white;
+    use soffio_math::noise::Random;
 
     #[test]
     fn it_tells_how_far_a_breath_lies_above_the_house_and_what_differs_of_it_above_what_differs_of_the_house() {

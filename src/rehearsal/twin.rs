@@ -5,9 +5,9 @@
 //! has changed the work, however much it swings anyhow.
 
 use super::judge::{FPS, SOON};
-use crate::kiosk::stage::{Controls, Stage};
-use crate::math::Pose;
-use crate::simulation::STEPS_PER_SECOND;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_math::Pose;
+use soffio_simulation::STEPS_PER_SECOND;
 
 /// Poses of the bodies in the first [`SOON`] pictures after a moment, with nobody there from that moment on; the last picture
 /// before it has the number `middle`.
@@ -32,8 +32,8 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::exhibit;
-    use crate::simulation::Settings;
+    use soffio_exhibit as exhibit;
+    use soffio_simulation::Settings;
 
     #[test]
     fn alone_it_goes_on_to_the_bit_and_a_hold_is_left_out() {

@@ -4,12 +4,12 @@
 //! an adult 6 to 17 m/s, soft as often as hard; most blow at the microphone, some past it.
 
 use super::house::{loud, scaled};
-use crate::math::{from_decibels, pow};
-use crate::noise::{Random, hash_words};
-use crate::offline::ear::scenes::{Lips, World};
-use crate::offline::ear::{RATE, noises, voices};
-use crate::wind::generate::filter::peaked;
-use crate::wind::generate::{self, BreathShape};
+use soffio_detector::generate::filter::peaked;
+use soffio_detector::generate::{self, BreathShape};
+use soffio_math::noise::{Random, hash_words};
+use soffio_math::{from_decibels, pow};
+use soffio_soundscape::scenes::{Lips, World};
+use soffio_soundscape::{RATE, noises, voices};
 
 /// Lips to microphone, m.
 const DISTANCE_M: (f64, f64) = (0.10, 0.45);

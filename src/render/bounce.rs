@@ -22,8 +22,8 @@ use super::occlusion::{Solid, at_rest, cosine_directions, groups, in_parallel};
 use super::radiosity::polygon_factor;
 use super::scene::Scene;
 use super::textures::to_linear;
-use crate::exhibit::Exhibit;
-use crate::exhibit::model::{Appearance, Model};
+use soffio_exhibit::Exhibit;
+use soffio_exhibit::model::{Appearance, Model};
 
 /// Longest edge, in radii of the scene, and corners from which on no edge is halved.
 const LONGEST: f32 = 1.0 / 28.0;
@@ -171,7 +171,7 @@ fn mean_color(look: &Appearance, model: &Model) -> Vec3 {
 pub(super) mod tests {
     use super::super::scene::tests::of_primitive;
     use super::*;
-    use crate::exhibit::model::Primitive;
+    use soffio_exhibit::model::Primitive;
 
     /// A cube of two metres seen from inside: each face with corners and a normal of its own.
     pub fn hollow_cube() -> Primitive {

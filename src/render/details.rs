@@ -13,7 +13,7 @@
 
 use super::Gpu;
 use super::textures::texture;
-use crate::exhibit::model::{Details, Image, TextureUse};
+use soffio_exhibit::model::{Details, Image, TextureUse};
 
 /// What fills a channel: a texture, the first channel that is taken from it, and the channel that it fills.
 type Fill = (Option<TextureUse>, usize, usize, usize);

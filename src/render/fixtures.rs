@@ -14,7 +14,7 @@ use super::scene::MAX_FRAMES;
 use super::shadows::MapCamera;
 use super::textures;
 use super::{Gpu, Options, details};
-use crate::exhibit::model::Sampler;
+use soffio_exhibit::model::Sampler;
 
 /// Most motes drawn.
 pub(super) const MAX_MOTES: usize = 4096;

@@ -12,7 +12,7 @@ use super::scene::{Part, Surface, Vertex};
 use super::shadows::MapCamera;
 use super::work::Work;
 use super::{Finish, Frame, Gpu, Options, RenderError, Shaders};
-use crate::exhibit::Exhibit;
+use soffio_exhibit::Exhibit;
 
 /// Draws one exhibit at a time into targets of one format. Built once a device.
 pub struct Renderer {

@@ -15,7 +15,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use crate::exhibit::Exhibit;
+use soffio_exhibit::Exhibit;
 
 /// Faces of the room, in the order of the light map's layers and of `room.wgsl`.
 pub const FACES: [Face; 6] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right, Face::Back];

@@ -7,7 +7,7 @@ use super::gallery::{FLOOR_ALBEDO, Room, WALL_ALBEDO};
 use super::scene::{MAX_PUNCTUAL, Punctual};
 use super::shadows::{MapCamera, ReceivingPlane};
 use super::{Frame, Look, Quality, Tonemap};
-use crate::exhibit::View;
+use soffio_exhibit::View;
 
 /// Taps of the blocker search of the shadow map, by quality; its filter has three times as many.
 const SHADOW_TAPS: [f32; 2] = [24.0, 32.0];

@@ -17,7 +17,7 @@ use obvhs::triangle::Triangle;
 
 use super::scene::Scene;
 use super::shadows::ReceivingPlane;
-use crate::exhibit::Exhibit;
+use soffio_exhibit::Exhibit;
 
 /// Rays of each corner.
 const CORNER_RAYS: u32 = 20;

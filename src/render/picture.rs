@@ -5,7 +5,7 @@
 
 use super::textures::{to_linear, to_srgb};
 use super::{Frame, Gpu, Options, RenderError, Renderer};
-use crate::exhibit::Exhibit;
+use soffio_exhibit::Exhibit;
 
 /// Format of a headless picture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;

@@ -221,7 +221,7 @@ mod tests {
     fn the_wall_behind_the_work_has_its_level_and_darkens_towards_the_floor() {
         // Single precision over a few hundred terms.
         const TOLERANCE: f32 = 1e-3;
-        let room = Room::around(&crate::exhibit::Exhibit::of_model(Default::default()));
+        let room = Room::around(&soffio_exhibit::Exhibit::of_model(Default::default()));
         let w = room.work - room.center;
         let level = |y: f32| {
             let e = room.field_irradiance(Vec3::new(w.dot(room.x), y, -room.half.z), Vec3::Z);
@@ -240,7 +240,7 @@ mod tests {
     fn an_enclosure_of_one_grey_is_an_integrating_sphere() {
         // E = 1 on all faces, one albedo: B = ρ / (1 − ρ) exactly where form factors sum to one.
         const TOLERANCE: f32 = 1e-3;
-        let room = Room::around(&crate::exhibit::Exhibit::of_model(Default::default()));
+        let room = Room::around(&soffio_exhibit::Exhibit::of_model(Default::default()));
         for face in FACES {
             let [_, _, c] = room.face_axes(face);
             let sum = room.reflected_irradiance(&[Vec3::ONE; 6], c, -c.normalize());

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::environment::Environment;
 use super::{AreaLight, Look, Tonemap};
-use crate::exhibit::View;
+use soffio_exhibit::View;
 
 /// A scenario file. What is left out has the default of a picture without a scenario.
 #[derive(Clone, Debug, Default, Deserialize)]

@@ -12,9 +12,9 @@ use super::globals::PunctualUniform;
 use super::outlines::Plate;
 use super::sheets::Sheet;
 use super::skins::{Bound, Skinned};
-use crate::exhibit::Exhibit;
-use crate::exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
-use crate::math::Pose;
+use soffio_exhibit::Exhibit;
+use soffio_exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
+use soffio_math::Pose;
 
 /// Frames the uniform buffer holds: 48 KiB, below the 64 every adapter has. The first is the world.
 pub(super) const MAX_FRAMES: usize = 1024;
@@ -362,7 +362,7 @@ pub(super) fn rows(pose: &Pose) -> [Vec4; 3] {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::exhibit::model::{Mesh, Node};
+    use soffio_exhibit::model::{Mesh, Node};
 
     /// An exhibit of one mesh, and its scene.
     pub fn of_primitive(primitive: Primitive, materials: Vec<Appearance>) -> (Exhibit, Scene) {
@@ -400,7 +400,7 @@ pub(super) mod tests {
             indices: vec![0, 1, 2],
             ..Default::default()
         };
-        let mirror = DMat4::from_scale(crate::math::DVec3::new(-2.0, 1.0, 1.0));
+        let mirror = DMat4::from_scale(soffio_math::DVec3::new(-2.0, 1.0, 1.0));
         let (_, scene) = placed(triangle, Vec::new(), mirror);
         let corner = |i: usize| scene.vertices[scene.indices[i] as usize].position;
         let geometric = (corner(1) - corner(0)).cross(corner(2) - corner(0));

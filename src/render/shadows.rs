@@ -7,7 +7,7 @@ use glam::{Mat4, Vec2, Vec3, Vec4};
 
 use super::gallery::Room;
 use super::{Look, Quality};
-use crate::exhibit::Exhibit;
+use soffio_exhibit::Exhibit;
 
 /// Format of the plane shadows: blocked fraction of either lamp.
 pub(super) const PLANE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;

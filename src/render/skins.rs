@@ -16,10 +16,10 @@
 use glam::{Mat3, Mat4, Vec3, Vec4};
 
 use super::scene::Vertex;
-use crate::exhibit::Exhibit;
-use crate::exhibit::model::{Influences, MorphTarget, Primitive, Track};
-use crate::exhibit::shapes::{Growth, ShapeTrack};
-use crate::math::DMat4;
+use soffio_exhibit::Exhibit;
+use soffio_exhibit::model::{Influences, MorphTarget, Primitive, Track};
+use soffio_exhibit::shapes::{Growth, ShapeTrack};
+use soffio_math::DMat4;
 
 /// What a mesh follows.
 pub(super) struct Bound<'a> {
@@ -259,8 +259,8 @@ impl Skinned {
 mod tests {
     use super::super::scene::{Scene, rows};
     use super::*;
-    use crate::exhibit::model::{Animation, Channel, Curve, Mesh, Model, Morph as Morphing, Node};
-    use crate::math::{DQuat, DVec3, Pose};
+    use soffio_exhibit::model::{Animation, Channel, Curve, Mesh, Model, Morph as Morphing, Node};
+    use soffio_math::{DQuat, DVec3, Pose};
 
     /// Single precision of numbers about one.
     const ROUNDING: f32 = 1e-6;

@@ -9,7 +9,7 @@ use wgpu::util::DeviceExt;
 
 use super::fixtures::Fixtures;
 use super::{Gpu, details};
-use crate::exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
+use soffio_exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
 
 /// `Material` of `forward.wgsl`.
 #[repr(C)]

@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
-use crate::exhibit::Wire;
-use crate::math::Pose;
+use soffio_exhibit::Wire;
+use soffio_math::Pose;
 
 /// One straight piece of a wire, in the world, as `wires.wgsl` reads it.
 #[repr(C)]

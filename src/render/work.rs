@@ -19,8 +19,8 @@ use super::sheets::{RIM_ROW, Shade, Sheets};
 use super::skins::Skinned;
 use super::wires::{self, Segment};
 use super::{Frame, Gpu, Options, Quality, RenderError, occlusion, textures};
-use crate::exhibit::{Exhibit, Wire};
-use crate::math::Pose;
+use soffio_exhibit::{Exhibit, Wire};
+use soffio_math::Pose;
 
 /// Points of each lamp's disc that shadows of meshes are cast from.
 const LAMP_SAMPLES: [u32; 2] = [28, 56];

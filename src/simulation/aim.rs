@@ -22,10 +22,10 @@
 //!     an acceleration in proportion to w A
 //! ```
 
-use crate::dynamics::Dynamics;
-use crate::exhibit::View;
-use crate::geometry::TriangleMesh;
-use crate::math::{DMat3, DVec3, Pose, exp};
+use soffio_exhibit::View;
+use soffio_geometry::TriangleMesh;
+use soffio_math::{DMat3, DVec3, Pose, exp};
+use soffio_multibody::dynamics::Dynamics;
 
 /// A surface that breath leans to: the ball around it, how it faces, and how readily it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,9 +18,9 @@
 //! What attract mode has set swinging is not what a visitor who now comes has done, and would hide what they are about to do:
 //! then the calm does not wait, and is five times as strong ([`Idle::hush`]).
 
-use crate::articulation::block::{Vec6, add_scaled, vec6};
-use crate::bodies::RigidBody;
-use crate::exhibit::Calm;
+use soffio_exhibit::Calm;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::{Vec6, add_scaled, vec6};
 
 /// R: the calm comes over so long, s. At once it would look like a hand.
 const RISE: f64 = 1.0;

@@ -13,13 +13,13 @@
 //! impulse, joints held; L is what hand and works weigh. Whoever sets a striking clock waits at the hour until it has struck. What the works carry along
 //! (motion work, pins, levers) goes by its own laws. When the hand has come to the time it is let go for good.
 
-use crate::articulation::block::{Vec6, vec6};
-use crate::articulation::rows::coupling::Gauge;
-use crate::articulation::{Axis, Measure};
-use crate::bodies::RigidBody;
-use crate::dynamics::Dynamics;
-use crate::exhibit::clock::{Clock, HOUR};
-use crate::math::{DVec3, PI};
+use soffio_exhibit::clock::{Clock, HOUR};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::{Vec6, vec6};
+use soffio_math::{DVec3, PI};
+use soffio_multibody::articulation::rows::coupling::Gauge;
+use soffio_multibody::articulation::{Axis, Measure};
+use soffio_multibody::dynamics::Dynamics;
 
 /// Ω: an hour in twelve seconds, rad/s.
 const PACE: f64 = 2.0 * PI / 12.0;

@@ -22,12 +22,12 @@
 
 use super::merge::{Blow, Window};
 use super::sonify::{Listener, place_on};
-use crate::articulation::LimitKind;
-use crate::bodies::RigidBody;
-use crate::dynamics::{Impact, ImpactKind, Touching};
-use crate::exhibit::{Exhibit, SoundTrigger};
-use crate::math::DVec3;
-use crate::sound::{Slide, SoundCommand, Strike, Touch};
+use soffio_exhibit::{Exhibit, SoundTrigger};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_multibody::articulation::LimitKind;
+use soffio_multibody::dynamics::{Impact, ImpactKind, Touching};
+use soffio_sound::{Slide, SoundCommand, Strike, Touch};
 
 /// Impacts softer than this make no sound, N s: a milligram at walking pace.
 const SILENT: f64 = 1e-7;

@@ -1,11 +1,11 @@
 //! Events: what happened at a moment, for logs, sounds and triggers.
 
 use super::SAMPLE_RATE;
-use crate::articulation::{Anchor, ConstraintKind, Measure, SpringKind};
-use crate::bodies::RigidBody;
-use crate::dynamics::{Impact, ImpactKind};
-use crate::exhibit::Exhibit;
-use crate::math::DVec3;
+use soffio_exhibit::Exhibit;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_multibody::articulation::{Anchor, ConstraintKind, Measure, SpringKind};
+use soffio_multibody::dynamics::{Impact, ImpactKind};
 
 /// Kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

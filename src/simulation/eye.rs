@@ -3,7 +3,7 @@
 //! A breath is aimed and a hand takes along sight lines of this very eye, so that they hit what is seen there.
 
 use super::DEFAULT_ASPECT;
-use crate::exhibit::{Exhibit, View};
+use soffio_exhibit::{Exhibit, View};
 
 /// The eye of the step.
 #[derive(Clone, Copy, Debug)]

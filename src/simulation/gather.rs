@@ -16,14 +16,15 @@
 
 use super::Settings;
 use super::start::start_bodies;
-use crate::articulation::block::{Vec6, add_wrench};
-use crate::articulation::{Constraint, ConstraintKind, Interpolation, Schedule};
-use crate::bodies::RigidBody;
-use crate::dynamics::forces::Damping;
-use crate::dynamics::{self, Drive, Dynamics, Figure, Motion};
-use crate::exhibit::Exhibit;
-use crate::math::{DQuat, DVec3, Pose, rotation, rotation_vector};
-use crate::noise::Random;
+use soffio_exhibit::Exhibit;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::Interpolation;
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, add_wrench};
+use soffio_math::{DQuat, DVec3, Pose, rotation, rotation_vector};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, Schedule};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{self, Drive, Dynamics, Figure, Motion};
 
 /// Ω, 1/s.
 const HOME: f64 = 2.5;

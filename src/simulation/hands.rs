@@ -24,13 +24,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::articulation::block::{Vec6, add_wrench};
-use crate::bodies::RigidBody;
-use crate::dynamics::Dynamics;
-use crate::exhibit::{Exhibit, View};
-use crate::math::{DMat3, DVec3};
-use crate::procedural::{Grip, MOST_GRIPS};
-use crate::wind::force::WindField;
+use soffio_exhibit::{Exhibit, View};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::{Vec6, add_wrench};
+use soffio_math::{DMat3, DVec3};
+use soffio_multibody::dynamics::Dynamics;
+use soffio_multibody::procedural::{Grip, MOST_GRIPS};
+use soffio_wind::force::WindField;
 
 /// A pointer or finger that is down on the sculpture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,8 +4,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Hand;
-use crate::exhibit::{Exhibit, Motion};
-use crate::procedural::Method;
+use soffio_exhibit::{Exhibit, Motion};
+use soffio_multibody::procedural::Method;
 
 /// How a breath becomes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -2,8 +2,8 @@
 //! A step asks for none of it.
 
 use super::{Simulation, blown, breath};
-use crate::articulation::ConstraintKind;
-use crate::math::DVec3;
+use soffio_math::DVec3;
+use soffio_multibody::articulation::ConstraintKind;
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -89,7 +89,7 @@ impl Simulation {
     }
 
     fn body_states(&self) -> Vec<BodyState> {
-        let state = |body: &crate::bodies::RigidBody| BodyState {
+        let state = |body: &soffio_geometry::bodies::RigidBody| BodyState {
             speed: body.velocity.length(),
             spin: body.angular_velocity.length(),
             height: body.position.y,
@@ -101,7 +101,7 @@ impl Simulation {
         let aimed = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
         let samples = self.wind.samples(&self.dynamics.bodies, &aimed);
         let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
-        let sample = |sample: crate::wind::force::Sample| {
+        let sample = |sample: soffio_wind::force::Sample| {
             let reached = blown.as_ref().filter(|_| sample.seen);
             let air = self.wind.streams(reached, sample.point) + self.wind.stirs(sample.point);
             let hit = sample.seen && aimed.share(sample.point).is_some();

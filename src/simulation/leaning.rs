@@ -3,9 +3,9 @@
 use super::aim::AimTarget;
 use super::eye::Eye;
 use super::{CENTRE, DT, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
-use crate::dynamics::Dynamics;
-use crate::exhibit::Exhibit;
-use crate::wind::{Surface, SurfaceShape};
+use soffio_exhibit::Exhibit;
+use soffio_multibody::dynamics::Dynamics;
+use soffio_wind::{Surface, SurfaceShape};
 
 impl Simulation {
     /// Points the breath. What it leans to is chosen again sixty times a second, and at once by a breath that begins, or that has

@@ -9,7 +9,7 @@
 //! fast surfaces chatter, what rings is once a window and as loud as all of it.
 
 use super::{SAMPLE_RATE, STEPS_PER_SECOND};
-use crate::math::DVec3;
+use soffio_math::DVec3;
 
 /// Hits of one pair within this are one, samples: 15 ms, in which real impacts have their micro-collisions (van den Doel,
 /// Kry and Pai, "FoleyAutomatic", 2001).

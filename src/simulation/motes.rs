@@ -5,9 +5,9 @@
 //! or in the breath where there is one. It fades out before and in after, and so is never seen to jump.
 
 use super::snapshot::Mote;
-use crate::math::{DVec3, exp, tangents};
-use crate::noise::{Random, perlin3_vector};
-use crate::wind::breath::Breath;
+use soffio_math::noise::{Random, perlin3_vector};
+use soffio_math::{DVec3, exp, tangents};
+use soffio_wind::breath::Breath;
 
 /// Specks in the room.
 const COUNT: usize = 120;
@@ -148,7 +148,7 @@ fn in_stream(random: &mut Random, breath: &Breath) -> Speck {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wind::breath::Law;
+    use soffio_wind::breath::Law;
 
     const DT: f64 = 1.0 / 240.0;
     const SEED: u64 = 4;

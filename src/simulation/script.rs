@@ -19,7 +19,7 @@
 use serde::Deserialize;
 
 use super::{Command, Hand, MotionMode, Simulation};
-use crate::exhibit::Exhibit;
+use soffio_exhibit::Exhibit;
 
 /// Source speed of strength 1, m/s: a hard blow, 180 L/min through lips of 15 mm.
 const FULL_SPEED: f64 = 17.0;

@@ -1,9 +1,9 @@
 //! What a picture, a trace and a panel need to know of one moment.
 
 use super::{MotionMode, Simulation, breath};
-use crate::bodies::RigidBody;
-use crate::math::{DVec3, Pose};
-use crate::wind::blow::BlowEstimate;
+use soffio_detector::BlowEstimate;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DVec3, Pose};
 
 /// Width of the ring that shows a hand, picture heights.
 const HAND_RING: f64 = 0.04;

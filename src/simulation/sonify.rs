@@ -1,9 +1,9 @@
 //! From motion to sound: where things are heard, where on a body they are, and how the wind sounds.
 
-use crate::bodies::RigidBody;
-use crate::exhibit::{Exhibit, SoundBinding, SoundTrigger, View};
-use crate::math::{DVec3, atan2};
-use crate::sound::{Across, SoundCommand, WindSound};
+use soffio_exhibit::{Exhibit, SoundBinding, SoundTrigger, View};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DVec3, atan2};
+use soffio_sound::{Across, SoundCommand, WindSound};
 
 /// A wire that hears so much more or less of the wind is told, as a part of it.
 const TURNED: f32 = 0.01;

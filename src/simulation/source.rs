@@ -6,8 +6,8 @@
 //! has been left lying, or its cable was pulled.
 
 use super::{Microphone, StepInput};
-use crate::math::exp;
-use crate::wind::blow::{BlowDetector, BlowEstimate, BlowSettings};
+use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
+use soffio_math::exp;
 
 /// Speed at the lips of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
 const HELD_SPEED: f64 = 9.0;

@@ -4,12 +4,12 @@ use super::calm::Idle;
 use super::carrying::Carrying;
 use super::gather::{self, Gathering};
 use super::{DT, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation};
-use crate::bodies::RigidBody;
-use crate::dynamics::forces::Damping;
-use crate::dynamics::{self, Dynamics, Figure};
-use crate::exhibit::Exhibit;
-use crate::procedural::{self, Procedural};
-use crate::sound::SoundCommand;
+use soffio_exhibit::Exhibit;
+use soffio_geometry::bodies::RigidBody;
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{self, Dynamics, Figure};
+use soffio_multibody::procedural::{self, Procedural};
+use soffio_sound::SoundCommand;
 
 impl Simulation {
     /// Starts the exhibit anew, in silence.
@@ -60,7 +60,7 @@ impl Simulation {
 
 /// The exhibit's bodies as they start, a clock's at the hour.
 pub(super) fn start_bodies(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidBody> {
-    let body = |body: &crate::exhibit::Body| RigidBody {
+    let body = |body: &soffio_exhibit::Body| RigidBody {
         velocity: body.velocity,
         angular_velocity: body.angular_velocity,
         ..RigidBody::at_rest(body.properties, body.pose)

@@ -18,7 +18,7 @@
 //! f_c = c²/(2π) √(μ/D); 1 above. (Fahy and Gardonio, "Sound and Structural Vibration", chapter 3.)
 
 use super::{SoundBody, SoundMaterial};
-use crate::math::{PI, pow};
+use soffio_math::{PI, pow};
 
 /// Density of air times the speed of sound, Pa s/m (20 °C).
 pub(super) const IMPEDANCE: f64 = 413.0;

@@ -8,7 +8,7 @@
 //! gusts. Each octave's weight stands inside its bracket; outside, H would only change the gain. The mean is
 //! 1, the spectrum falls about as f^(−1−2H): H = 1/3 gives the −5/3 of turbulence.
 
-use crate::noise::{hash, perlin1};
+use soffio_math::noise::{hash, perlin1};
 
 /// Strongest gust, of the mean: a product has rare peaks far beyond, which would only feed the limiter.
 const STRONGEST: f64 = 3.0;

@@ -11,7 +11,7 @@
 //! 3 dB softer for each doubling, at most 12 dB. A tick a second ends at −3 dB, one in each half second at −6 dB; two minutes of rest,
 //! or hits of another strength, make it new. A mobile's hits differ and are not eased.
 
-use crate::math::{exp, ln};
+use soffio_math::{exp, ln};
 
 /// Two impulses are alike within this ratio, 3 dB.
 const ALIKE: f64 = 1.41;
@@ -61,11 +61,11 @@ mod tests {
 
     #[test]
     fn hits_that_differ_are_not_eased() {
-        let mut random = crate::noise::Random::new(4);
+        let mut random = soffio_math::noise::Random::new(4);
         let mut habit = Habit::default();
         for i in 0..2000 {
             // Two decades, as a mobile's: one in seven is like the one before.
-            let impulse = crate::math::pow(10.0, random.range(-6.0, -4.0));
+            let impulse = soffio_math::pow(10.0, random.range(-6.0, -4.0));
             assert_eq!(habit.hit(impulse, 0.2 * f64::from(i)), 1.0, "hit {i}");
         }
     }

@@ -8,8 +8,8 @@ use super::modal::{Bank, Partial};
 use super::modes::{Mode, Place, modes};
 use super::timbre::{Inputs, Number, Player, Preset, TimbreError};
 use super::{InstrumentSpec, Strike, timbre};
-use crate::math::{exp, ln};
-use crate::noise::Random;
+use soffio_math::noise::Random;
+use soffio_math::{exp, ln};
 
 /// Nothing that is struck is lighter, kg.
 const LIGHTEST: f64 = 1e-6;

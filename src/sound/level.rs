@@ -11,7 +11,7 @@
 //!
 //! It is an estimate: the speaker's own colour and the room are in S alone.
 
-use crate::math::{PI, decibels, sincos, sqrt};
+use soffio_math::{PI, decibels, sincos, sqrt};
 
 /// Poles of high-passes, Hz.
 const HIGH_PASSES: [f64; 4] = [20.598_997, 20.598_997, 107.652_65, 737.862_23];
@@ -111,7 +111,7 @@ impl Exposure {
         if day != self.day {
             *self = Self { minute: self.minute, day, ..Self::default() };
         }
-        self.minute += (power - self.minute) * (1.0 - crate::math::exp(-seconds / MINUTE));
+        self.minute += (power - self.minute) * (1.0 - soffio_math::exp(-seconds / MINUTE));
         self.energy += power * seconds;
         self.seconds += seconds;
     }

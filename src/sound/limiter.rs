@@ -26,7 +26,7 @@
 //! Real-time: all storage is made by [`Limiter::new`].
 
 use super::true_peak::{self, TruePeak};
-use crate::math::{exp, pow};
+use soffio_math::{exp, pow};
 
 /// Largest true peak that leaves, −1 dBTP.
 pub const CEILING: f64 = 0.891_250_938_133_745_5;
@@ -211,7 +211,7 @@ fn wanted(peak: f64, ceiling: f64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::noise::Random;
+    use soffio_math::noise::Random;
 
     #[test]
     fn no_sample_passes_the_ceiling_and_soft_ones_pass_untouched() {

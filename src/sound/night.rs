@@ -11,7 +11,7 @@
 //!
 //! Gains are found once in [`STRIDE`] frames of the signal itself and run straight between, so that blocks do not matter.
 
-use crate::math::{PI, decibels, exp, from_decibels, sincos};
+use soffio_math::{PI, decibels, exp, from_decibels, sincos};
 
 /// Level of soft sounds, dB.
 pub const LEVEL: f64 = -8.0;

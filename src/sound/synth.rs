@@ -21,8 +21,8 @@ use super::room::RoomSpec;
 use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
 use super::{Across, InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
-use crate::math::{PI, exp, sincos};
-use crate::noise::hash_words;
+use soffio_math::noise::hash_words;
+use soffio_math::{PI, exp, sincos};
 
 /// Partials that ring at once where nothing else is said: two and a half times the heaviest scene.
 pub const MOST_PARTIALS: usize = 16_384;

@@ -9,7 +9,7 @@
 //!
 //! Content near half the rate may still hide up to 0.7 dB; none of the sounds here has any to speak of.
 
-use crate::math::{PI, cos, sin};
+use soffio_math::{PI, cos, sin};
 
 /// Points between two samples, and one of the samples.
 const PHASES: usize = 4;

@@ -13,7 +13,7 @@
 //! *cone* lets the flow Q itself fill the cone, by continuity: the same all over a section, and far weaker at arm's
 //! length, since no air of the room joins it.
 
-use crate::math::{DVec3, PI, exp};
+use soffio_math::{DVec3, PI, exp};
 
 /// kg/m³, air at 20 °C.
 pub const AIR_DENSITY: f64 = 1.2;

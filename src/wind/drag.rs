@@ -20,8 +20,8 @@ use fearless_simd::{Simd, f64x4};
 
 use super::breath::AIR_DENSITY;
 use super::patches::{Face, Patch};
-use crate::math::lanes::{All, Four, Lanes, V3, WIDTH};
-use crate::math::{DVec3, PI};
+use soffio_math::lanes::{All, Four, Lanes, V3, WIDTH};
+use soffio_math::{DVec3, PI};
 
 /// How air drags at a surface.
 #[derive(Clone, Copy)]

@@ -42,13 +42,13 @@ use super::front::Front;
 use super::patches::{Face, Patch, split};
 use super::weather::{Upwind, Weather, Wind};
 use super::{Shelter, Surface};
-use crate::articulation::block::{Vec6, add_wrench, angular, linear, vec6};
-use crate::articulation::spatial::matrix;
-use crate::bodies::RigidBody;
-use crate::geometry::rays::{Hint, Occluders};
-use crate::math::DVec3;
-use crate::math::lanes::WIDTH;
-use crate::noise::perlin3_vector;
+use soffio_geometry::bodies::RigidBody;
+use soffio_geometry::rays::{Hint, Occluders};
+use soffio_math::DVec3;
+use soffio_math::lanes::WIDTH;
+use soffio_math::noise::perlin3_vector;
+use soffio_math::spatial::matrix;
+use soffio_math::spatial::{Vec6, add_wrench, angular, linear, vec6};
 
 /// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
 /// on a face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.

@@ -9,7 +9,7 @@
 use std::collections::VecDeque;
 
 use super::breath::DECAY;
-use crate::math::exp;
+use soffio_math::exp;
 
 /// How long air that has left the lips is followed, s.
 const MEMORY: f64 = 3.0;

@@ -7,9 +7,9 @@
 //! flat face has a point. A wire is split into short lengths, each feeling the flow across and along it.
 
 use super::{Surface, SurfaceShape};
-use crate::geometry::TriangleMesh;
-use crate::math::DVec3;
-use crate::noise::Random;
+use soffio_geometry::TriangleMesh;
+use soffio_math::DVec3;
+use soffio_math::noise::Random;
 
 /// One piece of surface in the node frame of its body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,9 +22,9 @@
 //! All is a function of place, time and seed: nothing is remembered from step to step.
 
 use super::breath::{Breath, Law};
-use crate::articulation::Function;
-use crate::math::{DVec3, PI, exp, sin};
-use crate::noise::{hash_words, perlin1, perlin3_vector};
+use soffio_math::Function;
+use soffio_math::noise::{hash_words, perlin1, perlin3_vector};
+use soffio_math::{DVec3, PI, exp, sin};
 
 /// A wind that blows by itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -261,7 +261,7 @@ impl Weather {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::noise::Random;
+    use soffio_math::noise::Random;
 
     fn weather(kind: WindKind, speed: f64, rhythm: Rhythm) -> Weather {
         Weather::new(&[Wind { name: "wind".into(), kind, speed: speed.into(), rhythm }])

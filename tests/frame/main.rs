@@ -6,11 +6,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
-use soffio::exhibit::Exhibit;
-use soffio::kiosk::moments::Moments;
-use soffio::math::{DQuat, Pose};
-use soffio::render::{Frame, Gpu, Options, RenderError, Renderer};
-use soffio::simulation::{Mote, Settings, Simulation, Snapshot, StepInput};
+use soffio_exhibit::Exhibit;
+use soffio_kiosk::moments::Moments;
+use soffio_math::{DQuat, Pose};
+use soffio_render::{Frame, Gpu, Options, RenderError, Renderer};
+use soffio_simulation::{Mote, Settings, Simulation, Snapshot, StepInput};
 
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
@@ -25,7 +25,7 @@ const SIZE: (u32, u32) = (480, 270);
 
 fn shipped(id: &str) -> Exhibit {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id);
-    soffio::exhibit::load(&folder).expect("shipped")
+    soffio_exhibit::load(&folder).expect("shipped")
 }
 
 /// A device and a target, or a word on stderr where there is no driver at all.

@@ -2,24 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-/// Modules from left to right; a module may import what stands in an earlier group, and itself.
-/// Members of one group do not import each other.
+/// Crates from left to right; a crate depends only on crates of an earlier group. Cargo refuses circles, this list says which
+/// way round.
 const LAYERS: &[&[&str]] = &[
     &["math"],
-    &["noise"],
     &["geometry"],
-    &["bodies"],
-    &["collision", "articulation"],
-    &["dynamics", "wind", "sound"],
-    &["procedural"],
+    &["multibody", "wind", "detector", "sound"],
     &["exhibit"],
-    &["simulation"],
+    &["authoring", "simulation"],
     &["config"],
-    &["audio_io", "controllers", "render"],
+    &["devices", "render", "soundscape"],
     &["offline"],
     &["kiosk"],
     &["rehearsal"],
-    &["commands"],
+    &["training", "commands"],
 ];
 
 /// Everything left of here is the core: pure and deterministic.
@@ -59,19 +55,19 @@ const FORBIDDEN: &[(&str, &str)] = &[
 /// Files are read by the exhibit's loader alone.
 const FILES: &[&str] = &["std::fs", "File::open", "std::net"];
 
-/// Crates that only one place may name.
+/// Packages that only these crates may depend on. `kiosk` and `commands` report which graphics driver there is.
 const KEPT_APART: &[(&str, &[&str])] = &[
-    ("cpal::", &["audio_io", "commands"]),
-    ("alsa::", &["audio_io"]),
-    ("wgpu::", &["render", "kiosk", "commands"]),
-    ("winit::", &["kiosk", "commands"]),
-    ("egui::", &["kiosk"]),
-    ("gltf::", &["exhibit"]),
-    ("gilrs::", &["controllers"]),
-    ("midir::", &["controllers"]),
-    ("rosc::", &["controllers"]),
-    ("serialport::", &["controllers"]),
-    ("rumqttc::", &["kiosk"]),
+    ("cpal", &["devices"]),
+    ("alsa", &["devices"]),
+    ("gilrs", &["devices"]),
+    ("midir", &["devices"]),
+    ("rosc", &["devices"]),
+    ("serialport", &["devices"]),
+    ("wgpu", &["render", "kiosk", "commands"]),
+    ("winit", &["kiosk"]),
+    ("egui", &["kiosk"]),
+    ("rumqttc", &["kiosk"]),
+    ("gltf", &["exhibit", "authoring"]),
 ];
 
 fn source_files() -> Vec<PathBuf> {
@@ -96,11 +92,28 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Top-level module of a file, if it is in one.
+/// The crate of a file, by its folder; the program's own is `commands`.
 fn module(path: &Path) -> Option<String> {
     let inside = path.strip_prefix(root().join("src")).expect("a file under src");
-    let first = inside.components().next()?.as_os_str().to_str()?.trim_end_matches(".rs").to_string();
-    (first != "lib" && first != "main").then_some(first)
+    let mut parts = inside.components().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    let own = parts.next()?;
+    // What a crate's tests and examples call is their own affair.
+    let aside = parts.next().is_some_and(|part| part == "tests" || part == "examples");
+    (!aside && !own.ends_with(".rs")).then_some(own)
+}
+
+/// The packages that a crate depends on, but for its tests.
+fn dependencies(own: &str) -> Vec<String> {
+    let file = if own == "commands" { root().join("Cargo.toml") } else { root().join("src").join(own).join("Cargo.toml") };
+    let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    let manifest: toml::Table = text.parse().expect("a manifest");
+    let of = |table: &toml::Table| -> Vec<String> {
+        let names = table.get("dependencies").and_then(toml::Value::as_table);
+        names.into_iter().flat_map(|names| names.keys().cloned()).collect()
+    };
+    let targets = manifest.get("target").and_then(toml::Value::as_table);
+    let by_target = targets.into_iter().flat_map(|t| t.values()).filter_map(toml::Value::as_table).flat_map(of);
+    of(&manifest).into_iter().chain(by_target).collect()
 }
 
 /// Numbered lines of code without comments and without the tests at the end.
@@ -117,28 +130,30 @@ fn layer(module: &str) -> usize {
     LAYERS
         .iter()
         .position(|group| group.contains(&module))
-        .unwrap_or_else(|| panic!("module {module} has no place in the architecture; give it one in this test"))
+        .unwrap_or_else(|| panic!("crate {module} has no place in the architecture; give it one in this test"))
 }
 
 #[test]
-fn modules_import_only_what_stands_to_their_left() {
+fn crates_depend_only_on_what_stands_to_their_left() {
     let mut wrong = Vec::new();
-    for path in source_files() {
-        let Some(own) = module(&path) else { continue };
-        for (number, line) in code(&path) {
-            for (at, _) in line.match_indices("crate::") {
-                let rest = &line[at + "crate::".len()..];
-                let other: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-                if other.is_empty() || other == own || !LAYERS.iter().any(|g| g.contains(&other.as_str())) {
-                    continue;
-                }
-                if layer(&other) >= layer(&own) {
-                    wrong.push(format!("{}:{number}: {own} imports {other}", path.display()));
-                }
+    for own in LAYERS.iter().copied().flatten() {
+        for dependency in dependencies(own) {
+            if let Some(other) = dependency.strip_prefix("soffio-")
+                && layer(other) >= layer(own)
+            {
+                wrong.push(format!("{own} depends on {other}"));
             }
         }
     }
-    assert!(wrong.is_empty(), "imports against the architecture:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "dependencies against the architecture:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn developer_tools_are_no_part_of_the_program() {
+    for own in LAYERS.iter().copied().flatten().filter(|own| **own != "training") {
+        let tools = dependencies(own).into_iter().filter(|d| d == "soffio-training" || d == "soffio-forge");
+        assert_eq!(tools.collect::<Vec<_>>(), Vec::<String>::new(), "{own}");
+    }
 }
 
 #[test]
@@ -164,23 +179,13 @@ fn the_core_calls_no_clock_device_or_platform_function() {
 }
 
 #[test]
-fn device_crates_are_named_in_their_own_place() {
-    let mut wrong = Vec::new();
-    for path in source_files() {
-        let Some(own) = module(&path) else { continue };
-        for (number, line) in code(&path) {
-            for (name, places) in KEPT_APART {
-                let named = line.match_indices(name).any(|(at, _)| {
-                    // `egui_wgpu::` is not `wgpu::`.
-                    !line[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_')
-                });
-                if named && !places.contains(&own.as_str()) {
-                    wrong.push(format!("{}:{number}: {name} outside {places:?}", path.display()));
-                }
-            }
+fn device_packages_are_named_in_their_own_place() {
+    for own in LAYERS.iter().copied().flatten() {
+        for dependency in dependencies(own) {
+            let places = KEPT_APART.iter().find(|(package, _)| *package == dependency).map(|(_, places)| places);
+            assert!(places.is_none_or(|places| places.contains(own)), "{own} depends on {dependency}");
         }
     }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
@@ -188,7 +193,7 @@ fn microphone_samples_have_no_way_to_a_file_or_socket() {
     // Only offline tools that a developer starts write sound, and they write the synth's.
     for path in source_files() {
         let Some(own) = module(&path) else { continue };
-        if own != "audio_io" && own != "kiosk" {
+        if own != "devices" && own != "kiosk" {
             continue;
         }
         for (number, line) in code(&path) {

@@ -3,18 +3,18 @@
 
 use std::sync::Arc;
 
-use soffio::articulation::block::{Vec6, angular, linear};
-use soffio::bodies::RigidBody;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DVec3, PI, acos, atan2, cos, exp, sin};
-use soffio::noise::Random;
-use soffio::simulation::{
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, angular, linear};
+use soffio_math::{DVec3, PI, acos, atan2, cos, exp, sin};
+use soffio_simulation::{
     Command, Event, EventKind, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics,
 };
-use soffio::sound::SoundCommand;
-use soffio::wind::SurfaceShape;
-use soffio::wind::breath::{Breath, Law};
-use soffio::wind::force::{Blown, WindField};
+use soffio_sound::SoundCommand;
+use soffio_wind::SurfaceShape;
+use soffio_wind::breath::{Breath, Law};
+use soffio_wind::force::{Blown, WindField};
 
 const ASPECT: f64 = 16.0 / 9.0;
 const G: f64 = 9.81;
@@ -407,7 +407,7 @@ fn level_it_rings_the_cymbal_and_askew_it_does_not() {
 /// The clock that breath winds, under a breath whose forces are known: work in, work out.
 struct Wound {
     exhibit: Arc<Exhibit>,
-    dynamics: soffio::dynamics::Dynamics,
+    dynamics: soffio_multibody::dynamics::Dynamics,
     air: WindField,
     wrenches: Vec<Vec6>,
     step: usize,
@@ -548,7 +548,7 @@ fn the_clock_stops_when_its_weight_is_down() {
     let way = 29.7e-3;
     let exhibit = Arc::make_mut(&mut clock.exhibit);
     for limit in &mut exhibit.limits {
-        if let soffio::articulation::LimitKind::Range { min, .. } = &mut limit.kind
+        if let soffio_multibody::articulation::LimitKind::Range { min, .. } = &mut limit.kind
             && limit.name == "time-guide"
         {
             *min += way;

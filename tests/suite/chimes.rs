@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{PI, cos, sin};
-use soffio::simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
-use soffio::sound::{SoundCommand, Strike, Synth};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::{PI, cos, sin};
+use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_sound::{SoundCommand, Strike, Synth};
 
 const RATE: u32 = 48_000;
 
@@ -202,7 +202,7 @@ fn a_childs_breath_rings_a_chime() {
     for (id, tries) in [("wind-chimes", 100), ("wind-chimes-bamboo", 20), ("wind-chimes-glass", 20)] {
         let exhibit = shipped(id);
         let rings = |seed: u64| {
-            let mut random = soffio::noise::Random::new(seed);
+            let mut random = soffio_math::noise::Random::new(seed);
             let mut simulation = Simulation::new(exhibit.clone(), Settings { seed, ..Settings::default() });
             // Somewhere in the middle of the picture, after some while, for a second.
             let pointer = Some([random.range(0.4, 0.6), random.range(0.2, 0.9)]);

@@ -8,9 +8,6 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// A table has four places: what it says is off by half of the last one at most, and by what a sum rounds.
-const FOUR_PLACES: f64 = 0.500_1e-4;
-
 /// A folder of its own for one test.
 pub(super) struct Desk(tempfile::TempDir);
 
@@ -204,70 +201,6 @@ fn a_recording_that_cannot_be_heard_is_refused_with_a_remedy() {
     assert_eq!(desk.files(), before, "nothing is written");
 }
 
-/// The shipped table of two capsules, and one whose weights are all zero.
-fn tables_of_two_capsules() -> (String, String) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/wind/blow/pair_table.rs");
-    let shipped = std::fs::read_to_string(path).expect("a table");
-    let (scales, weights) = shipped.split_once("weights:").expect("weights");
-    let nothing: String = weights.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
-    let blank = format!("{scales}weights:{nothing}");
-    (shipped, blank)
-}
-
-#[test]
-fn a_table_of_the_ear_is_marked_before_it_takes_its_place() {
-    let desk = Desk::new();
-    let score = |tables: &[&str]| {
-        let asked =
-            ["breath", "score", "--generated", "--stereo", "--only", "between two capsules", "--hours", "0.002"];
-        let tables = tables.iter().flat_map(|table| ["--table", table]);
-        desk.soffio(&asked.into_iter().chain(tables).collect::<Vec<_>>())
-    };
-    let (shipped, blank) = tables_of_two_capsules();
-    desk.write("shipped.rs", &shipped);
-    let (own, given) = (score(&[]), score(&["shipped.rs"]));
-    own.done();
-    given.done();
-    assert_eq!(own.out, given.out, "the same table, the same marks");
-    // Weights of nothing at all: it holds nothing to be likely, and hears nothing.
-    desk.write("deaf.rs", blank);
-    let deaf = score(&["deaf.rs"]);
-    deaf.done();
-    assert!(deaf.out != own.out && deaf.out.contains("  0.0 % ["), "{}", deaf.out);
-    desk.write("cut.rs", &shipped[..shipped.len() / 2]);
-    score(&["cut.rs"]).refused(1, &["cut.rs", "finite numbers, this one"]);
-    desk.write("words.rs", "not a table");
-    score(&["words.rs"]).refused(1, &["words.rs", "no table of two capsules", "soffio breath train --out"]);
-    score(&["missing.rs"]).refused(1, &["missing.rs"]);
-}
-
-#[test]
-fn a_course_goes_on_with_the_mean_of_the_tables_it_is_given() {
-    let desk = Desk::new();
-    let (shipped, blank) = tables_of_two_capsules();
-    desk.write("shipped.rs", &shipped);
-    desk.write("blank.rs", blank);
-    let go_on = |tables: &[&str]| {
-        let asked = ["breath", "train", "--capsules", "2", "--keep", "1", "--lessons", "1", "--worlds", "1"];
-        let asked = asked.into_iter().chain(["--size", "0.001", "--rounds", "1", "--out", "learnt.rs"]);
-        desk.soffio(&asked.chain(tables.iter().copied()).collect::<Vec<_>>())
-    };
-    // All of what came before is kept, so what is written is what the course began with.
-    go_on(&["--go-on", "--table", "shipped.rs", "--table", "blank.rs"]).done();
-    let learnt = std::fs::read_to_string(desk.path("learnt.rs")).expect("a table was written");
-    let weights = |table: &str| -> Vec<f64> {
-        let (_, weights) = table.split_once("weights:").expect("weights");
-        weights.split([' ', ',', '\n', '[', ']']).filter_map(|word| word.parse().ok()).collect()
-    };
-    let (whole, half) = (weights(&shipped), weights(&learnt));
-    assert_eq!(whole.len(), half.len());
-    for (whole, half) in whole.iter().zip(&half) {
-        assert!((half - 0.5 * whole).abs() < FOUR_PLACES, "the mean of {whole} and nothing is not {half}");
-    }
-    go_on(&["--table", "shipped.rs"]).refused(2, &["--go-on"]);
-    go_on(&["--go-on", "--table", "missing.rs"]).refused(1, &["missing.rs"]);
-}
-
 #[test]
 fn a_silent_recording_plays_and_moves_no_air() {
     let desk = Desk::new();
@@ -393,7 +326,7 @@ fn schemas_are_json_schemas() {
         assert!(schema["properties"].as_object().is_some_and(|keys| !keys.is_empty()), "{kind}: {schema}");
     }
     let kiosk = desk.soffio(&["schema", "kiosk"]).json();
-    for limit in soffio::config::LIMITS {
+    for limit in soffio_config::LIMITS {
         let pointer = format!("/properties/{}", limit.key.replace('.', "/properties/"));
         let number = kiosk.pointer(&pointer).unwrap_or_else(|| panic!("no {} in {kiosk}", limit.key));
         assert_eq!((number["minimum"].as_f64(), number["maximum"].as_f64()), (Some(limit.low), Some(limit.high)));
@@ -404,12 +337,12 @@ fn schemas_are_json_schemas() {
 #[test]
 fn the_shipped_files_are_good() {
     let desk = Desk::new();
-    let config = Path::new(env!("CARGO_MANIFEST_DIR")).join(soffio::config::FILE);
+    let config = Path::new(env!("CARGO_MANIFEST_DIR")).join(soffio_config::FILE);
     // A folder of exhibits is all that are in it.
     let all = fish().parent().expect("exhibits stand in a folder").to_path_buf();
     let run = desk.soffio(&["check", text(&all), text(&fish().join("steel-fish.glb")), text(&config)]);
     run.done();
-    let shipped = soffio::exhibit::ids().len();
+    let shipped = soffio_exhibit::ids().len();
     assert_eq!(run.err.lines().filter(|line| line.ends_with(": good")).count(), shipped + 2, "{}", run.err);
 }
 
@@ -645,7 +578,7 @@ fn a_pin_becomes_the_line_that_the_configuration_takes() {
     assert!(output.status.success() && line.starts_with("pin = \"$argon2id$") && !line.contains("271828"), "{line}");
     desk.write("site.toml", format!("[staff]\n{line}"));
     desk.soffio(&["check", "site.toml"]).done();
-    let config = soffio::config::Config::load(Some(&desk.path("site.toml"))).expect("good").0;
+    let config = soffio_config::Config::load(Some(&desk.path("site.toml"))).expect("good").0;
     assert!(config.staff.pin.matches("271828"));
 }
 

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use soffio::articulation::{Function, LimitKind};
-use soffio::dynamics::Dynamics;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DVec3, PI, atan2, rotation};
-use soffio::simulation::{Command, EventKind, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::Function;
+use soffio_math::{DVec3, PI, atan2, rotation};
+use soffio_multibody::articulation::LimitKind;
+use soffio_multibody::dynamics::Dynamics;
+use soffio_simulation::{Command, EventKind, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
 
 const DT: f64 = 1.0 / 240.0;
 /// Beats an hour that its train is cut for.
@@ -185,7 +186,7 @@ fn a_stopped_pendulum_stops_the_train_and_a_push_starts_it() {
     for part in parts {
         let body = &mut clock.dynamics.bodies[part];
         let pivot = body.pose();
-        body.rotation = soffio::math::DQuat::IDENTITY;
+        body.rotation = soffio_math::DQuat::IDENTITY;
         body.position = pivot.position + body.properties.center;
         (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
     }
@@ -552,7 +553,7 @@ fn its_hands_are_carried_to_the_time_and_it_strikes_the_hour_that_is_passed() {
     const CLOSED: f64 = 1e-9;
     // From, to, and the blows on the way: the hands start at ten minutes to the hour.
     for (time, blows) in [("14:35", 2), ("14:52", 0), ("0:20", 12)] {
-        let clock = soffio::exhibit::clock::time_of_day(time).expect("a time");
+        let clock = soffio_exhibit::clock::time_of_day(time).expect("a time");
         let settings = Settings { clock: Some(clock), ..Settings::default() };
         let mut simulation = Simulation::new(shipped(), settings);
         let hammer = simulation.exhibit().bodies.iter().position(|body| body.name == "Hammer").expect("a hammer");

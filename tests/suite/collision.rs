@@ -3,10 +3,10 @@
 //! References know the shapes by other means than the code: signed distance formulas of each shape, and fine polytopes
 //! whose corners are the shape's.
 
-use soffio::collision::{Collider, Proximity, Shape, proximity};
-use soffio::geometry::support::Core;
-use soffio::math::{DQuat, DVec3, PI, Pose, rotation};
-use soffio::noise::Random;
+use soffio_geometry::support::Core;
+use soffio_math::noise::Random;
+use soffio_math::{DQuat, DVec3, PI, Pose, rotation};
+use soffio_multibody::collision::{Collider, Proximity, Shape, proximity};
 
 mod manifolds;
 mod motion;
@@ -94,7 +94,7 @@ fn from_surface(shape: &Shape, pose: &Pose, p: DVec3) -> f64 {
         Core::Box { half } => boxed(l.abs() - *half),
         Core::Cylinder { half, radius } => boxed(DVec3::new(l.x.hypot(l.z) - radius, l.y.abs() - half, -1.0)),
         Core::HalfSpace => l.y,
-        Core::Hull(_) => soffio::geometry::convex::closest(&outline(shape, pose)[..], &[p][..]).distance,
+        Core::Hull(_) => soffio_geometry::convex::closest(&outline(shape, pose)[..], &[p][..]).distance,
     };
     core - shape.radius
 }

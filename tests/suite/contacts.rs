@@ -4,12 +4,14 @@ mod asleep;
 mod loaded;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure};
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::collision::{Collider, Reach, Shape, pairs};
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Impact, ImpactKind, Integrator, Resistance, Settings, Solver, SurfacePair};
-use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure};
+use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{
+    Dynamics, Figure, Impact, ImpactKind, Integrator, Resistance, Settings, Solver, SurfacePair,
+};
 
 const G: f64 = 9.81;
 const DT: f64 = 1.0 / 240.0;

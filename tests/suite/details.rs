@@ -1,11 +1,11 @@
 //! Textures of what glTF's extensions add: a texel that halves a factor looks as half the factor does.
 
 use glam::{DMat4, DVec3};
-use soffio::exhibit::model::{
+use soffio_exhibit::model::{
     self, Appearance, Details, Image, Levels, Mesh, Model, Node, Primitive, Sampler, TextureUse, Wrap,
 };
-use soffio::exhibit::{Exhibit, View};
-use soffio::render::Frame;
+use soffio_exhibit::{Exhibit, View};
+use soffio_render::Frame;
 
 use crate::pictures::renderer;
 
@@ -62,14 +62,14 @@ fn picture(look: Appearance, images: Vec<Image>) -> Option<image::RgbaImage> {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("panel.glb");
-    std::fs::write(&path, model::write(&made, "")).expect("writable");
+    std::fs::write(&path, soffio_authoring::model_writer::write(&made, "")).expect("writable");
     let imported = model::import(&path).unwrap_or_else(|report| panic!("{report}"));
     assert!(imported.warnings.is_empty(), "{:?}", imported.warnings);
     let exhibit = Exhibit::of_model(imported.model);
     let view = View { eye: DVec3::new(0.15, 0.1, 1.1), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.45 };
     let frame = Frame { poses: &[], motes: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
     // Before one even colour: no shadow of glass on a wall behind it, which is as dark as the factor alone says.
-    let grey = |options: &mut soffio::render::Options| options.look.background = Some(glam::Vec3::splat(0.4));
+    let grey = |options: &mut soffio_render::Options| options.look.background = Some(glam::Vec3::splat(0.4));
     Some(renderer(&exhibit, grey)?.draw(&frame).expect("a picture"))
 }
 

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use soffio::bodies::RigidBody;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DVec3, PI, asin, exp};
-use soffio::offline::feed::WavFeed;
-use soffio::offline::wav;
-use soffio::simulation::{
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DVec3, PI, asin, exp};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::wav;
+use soffio_simulation::{
     Command, Event, EventKind, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
 };
-use soffio::sound::SoundCommand;
+use soffio_sound::SoundCommand;
 
 /// What the product promises of joints, m.
 const JOINT_ERROR: f64 = 1e-9;
@@ -91,7 +91,7 @@ impl Visit {
 /// Angle of a body about the z axis, rad, −π … π.
 fn turn(body: &RigidBody) -> f64 {
     let x = body.rotation * DVec3::X;
-    soffio::math::atan2(x.y, x.x)
+    soffio_math::atan2(x.y, x.x)
 }
 
 /// An angle followed over turns.
@@ -240,9 +240,9 @@ fn windmill(mut visit: Visit, seconds: f64, mut breath: Option<WavFeed>) -> (f64
         assert!((mast * DVec3::Y).distance(DVec3::Y) < 1e-9, "the head leans at {} s", visit.time());
         assert!((mast * DVec3::Z).distance(shaft * DVec3::Z) < 1e-9, "the rotor leaves its shaft");
         let x = mast.conjugate() * (shaft * DVec3::X);
-        turns.follow(soffio::math::atan2(x.y, x.x));
+        turns.follow(soffio_math::atan2(x.y, x.x));
         let z = mast * DVec3::Z;
-        head = soffio::math::atan2(z.x, z.z);
+        head = soffio_math::atan2(z.x, z.z);
     }
     (turns.total / (2.0 * PI), head)
 }

@@ -5,9 +5,9 @@ use std::process::Command;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::DVec3;
-use soffio::simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::DVec3;
+use soffio_simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// Seconds of the run that is hashed: 10,000 steps.
 const SECONDS: &str = "41.6667";

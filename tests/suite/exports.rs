@@ -4,15 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use soffio::exhibit::model::{self, Model};
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DQuat, DVec3, PI, Pose};
-use soffio::offline::export::key_frames::Bake;
-use soffio::offline::export::mjcf;
-use soffio::offline::feed::WavFeed;
-use soffio::offline::play::{self, Play};
-use soffio::offline::wav;
-use soffio::simulation::Snapshot;
+use soffio_exhibit::model::{self, Model};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::{DQuat, DVec3, PI, Pose};
+use soffio_offline::export::key_frames::Bake;
+use soffio_offline::export::mjcf;
+use soffio_offline::feed::WavFeed;
+use soffio_offline::play::{self, Play};
+use soffio_offline::wav;
+use soffio_simulation::Snapshot;
 
 #[cfg(feature = "kiosk")]
 mod films;
@@ -86,7 +86,7 @@ fn key_frames_read_back_are_where_the_run_was_in_every_step() {
 fn every_model_that_is_written_reads_back_as_it_was() {
     for id in exhibit::ids() {
         let before = &shipped(&id).model;
-        let after = read(&model::write(before, "nobody"));
+        let after = read(&soffio_authoring::model_writer::write(before, "nobody"));
         assert_eq!(format!("{:?}", before.materials), format!("{:?}", after.materials), "{id}");
         assert_eq!(before.cameras.len(), after.cameras.len(), "{id}");
         let drawn = |model: &Model| -> Vec<(DVec3, Vec<u32>)> {
@@ -164,7 +164,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
         material: Some(0),
         ..Primitive::default()
     };
-    let local = soffio::math::DMat4::from_scale_rotation_translation(
+    let local = soffio_math::DMat4::from_scale_rotation_translation(
         DVec3::new(2.0, 0.5, 1.0),
         DQuat::from_rotation_y(0.3),
         DVec3::new(0.1, 0.2, 0.3),
@@ -189,7 +189,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
         lights: vec![light],
         ..Model::default()
     };
-    let after = read(&model::write(&before, ""));
+    let after = read(&soffio_authoring::model_writer::write(&before, ""));
     let (mut was, mut is) = (before.materials[0].clone(), after.materials[0].clone());
     let turned = is.base_color_texture.take().expect("a texture");
     was.base_color_texture = None;
@@ -253,7 +253,7 @@ fn what_holds_an_exhibit_stands_in_its_mujoco_model_or_is_named_as_left_out() {
 #[cfg(feature = "kiosk")]
 #[test]
 fn a_scene_a_frame_holds_the_poses_of_both_ends_of_its_shutter() {
-    use soffio::offline::export::rib::RibWriter;
+    use soffio_offline::export::rib::RibWriter;
     let exhibit = shipped("steel-fish");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut writer = RibWriter::create(&exhibit, folder.path(), (320, 180), 24).expect("writable");

@@ -1,17 +1,15 @@
 //! The forge: what is committed is what it makes, what it makes is closed, balanced and weighs what was stated.
 
-#[path = "../../exhibits/forge/mod.rs"]
-mod workshop;
-
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use soffio::exhibit::make::mobile::Mobile;
-use soffio::exhibit::make::outline::{Knot, area_and_centroid, closed_spline, ellipse};
-use soffio::exhibit::make::piece::Piece;
-use soffio::exhibit::make::solid::{Solid, sheet, turned, wire_mass};
-use soffio::math::{DVec2, DVec3, PI, Pose, sin};
-use workshop::steel_fish;
+use soffio_authoring::mobile::Mobile;
+use soffio_authoring::outline::{Knot, area_and_centroid, closed_spline, ellipse};
+use soffio_authoring::piece::Piece;
+use soffio_authoring::solid::{Solid, sheet, turned, wire_mass};
+use soffio_forge as workshop;
+use soffio_forge::steel_fish;
+use soffio_math::{DVec2, DVec3, PI, Pose, sin};
 
 /// Sums of a few thousand products in f64, relative.
 const ROUNDING: f64 = 1e-9;
@@ -40,7 +38,7 @@ fn the_committed_files_are_what_the_forge_makes() {
     for artifact in workshop::artifacts().expect("everything can be made") {
         let path = exhibits().join(artifact.path);
         let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        assert!(bytes == artifact.bytes, "{} is stale: run `cargo run --example forge`", artifact.path);
+        assert!(bytes == artifact.bytes, "{} is stale: run `cargo run -p soffio-forge`", artifact.path);
     }
 }
 
@@ -122,7 +120,7 @@ fn a_hole_and_a_bevel_take_away_what_they_should() {
     // radius less by b/cos(π/n); between two similar sections the volume is that of a frustum.
     let n = CORNERS as f64;
     let area = |r: f64| 0.5 * n * sin(2.0 * PI / n) * r * r;
-    let mitre = bevel / soffio::math::cos(PI / n);
+    let mitre = bevel / soffio_math::cos(PI / n);
     let frustum = |r: f64, s: f64| bevel / 3.0 * (area(r) + area(s) + (area(r) * area(s)).sqrt());
     let expected = (thickness - 2.0 * bevel) * (area(radius) - area(hole))
         + 2.0 * (frustum(radius, radius - mitre) - frustum(hole, hole + mitre));
@@ -282,7 +280,7 @@ fn the_file_is_valid_gltf_whose_joints_meet() {
     while let Some((node, parent)) = walk.pop() {
         let (t, r, _) = node.transform().decomposed();
         let local = Pose {
-            rotation: soffio::math::DQuat::from_array(r.map(f64::from)),
+            rotation: soffio_math::DQuat::from_array(r.map(f64::from)),
             position: DVec3::from_array(t.map(f64::from)),
         };
         let world = Pose { rotation: parent.rotation * local.rotation, position: parent.point(local.position) };
@@ -322,7 +320,7 @@ fn the_file_is_valid_gltf_whose_joints_meet() {
 fn the_loader_weighs_the_work_as_the_forge_balanced_it() {
     /// The file stores corners as 32-bit floats and points to 0.1 µm: sub-micrometre against millimetres.
     const FILE_ROUNDING: f64 = 2e-4;
-    let exhibit = soffio::exhibit::load(&exhibits().join("steel-fish")).unwrap_or_else(|report| panic!("{report}"));
+    let exhibit = soffio_exhibit::load(&exhibits().join("steel-fish")).unwrap_or_else(|report| panic!("{report}"));
     let work = work();
     assert_eq!(exhibit.bodies.len(), work.pieces.len());
     for (piece, pose) in &work.pieces {

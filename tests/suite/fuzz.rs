@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use soffio::exhibit;
-use soffio::offline::wav;
+use soffio_exhibit as exhibit;
+use soffio_offline::wav;
 
 use super::exhibit::glb::{Folder, boom_and_plate};
 

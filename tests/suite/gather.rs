@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{self, Exhibit};
-use soffio::simulation::{
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_simulation::{
     Command, EventKind, GATHERING_LASTS, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
 };
 
@@ -39,7 +39,7 @@ fn every_exhibit_gathers_itself_in_a_few_seconds() {
                     "{id}, seed {seed}: step {step}"
                 );
                 assert!(
-                    simulation.sounds().iter().all(|s| !matches!(s, soffio::sound::SoundCommand::Strike(_))),
+                    simulation.sounds().iter().all(|s| !matches!(s, soffio_sound::SoundCommand::Strike(_))),
                     "{id}"
                 );
                 last = simulation.gathers_from().unwrap_or_else(|| panic!("{id} does not gather"));

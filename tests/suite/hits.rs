@@ -1,11 +1,11 @@
 //! Hits on articulated figures: joints, energy, friction's cone and momentum, at random.
 
-use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, System};
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::dynamics::impulse::from_rest;
-use soffio::dynamics::{Solver, Strike, strike};
-use soffio::math::{DMat3, DQuat, DVec3, Pose, rotation};
-use soffio::noise::Random;
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::noise::Random;
+use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, System};
+use soffio_multibody::dynamics::impulse::from_rest;
+use soffio_multibody::dynamics::{Solver, Strike, strike};
 
 fn body(mass: f64, inertia: DVec3, position: DVec3) -> RigidBody {
     let properties = MassProperties { mass, center: DVec3::ZERO, inertia: DMat3::from_diagonal(inertia) };
@@ -41,7 +41,7 @@ fn random_figure(random: &mut Random) -> (System, Vec<RigidBody>, bool) {
         if random.unit() < 0.4 {
             // A hinge about a direction that both hold: across it, two of the other's.
             let axis = vector(random).normalize();
-            let (t, u) = soffio::math::tangents(axis);
+            let (t, u) = soffio_math::tangents(axis);
             for (name, n) in [("t", t), ("u", u)] {
                 let place = |body: Option<usize>, d: DVec3| Axis {
                     body,
@@ -114,7 +114,7 @@ fn assert_hits_keep_the_laws(count: u64) {
             let given = if second.is_some() {
                 DVec3::ZERO
             } else {
-                let (t, u) = soffio::math::tangents(normal);
+                let (t, u) = soffio_math::tangents(normal);
                 p.x * t + p.y * u + p.z * normal
             };
             let momentum = |bodies: &[RigidBody]| {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use soffio::config::{Chord, Config, FILE, LIMITS};
-use soffio::offline::feed::WavFeed;
+use soffio_config::{Chord, Config, FILE, LIMITS};
+use soffio_offline::feed::WavFeed;
 
 /// The file that is shipped.
 fn shipped() -> String {
@@ -125,7 +125,7 @@ fn wrong_types_words_and_grammar_are_located() {
 fn a_file_stands_over_the_defaults_key_by_key() {
     let config = Config::parse("[breath]\nprofile = \"true\"\ngain = 2\n", Path::new(FILE)).expect("it is valid");
     let settings = config.simulation_settings(7);
-    assert_eq!(settings.profile, soffio::simulation::Profile::True);
+    assert_eq!(settings.profile, soffio_simulation::Profile::True);
     assert_eq!((settings.breath_gain, settings.seed), (2.0, 7));
     assert_eq!(settings.distance, Config::default().breath.distance_m, "what is not said stays");
 }
@@ -170,20 +170,20 @@ mod live {
     use std::sync::{Arc, LazyLock};
     use std::time::Duration;
 
-    use soffio::config::Chord;
-    use soffio::exhibit::{Attract as Script, AttractAction, AttractStep};
-    use soffio::kiosk::attract::Attract;
-    use soffio::kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-    use soffio::kiosk::pace::{MOST_BEHIND, Pacer};
-    use soffio::kiosk::shelf::{News, Offer, Places, Shelf, folders, id};
-    use soffio::kiosk::words::{WORDS, language_name, words};
-    use soffio::simulation::Command;
-    use soffio::wind::generate;
+    use soffio_config::Chord;
+    use soffio_detector::generate;
+    use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
+    use soffio_kiosk::attract::Attract;
+    use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
+    use soffio_kiosk::pace::{MOST_BEHIND, Pacer};
+    use soffio_kiosk::shelf::{News, Offer, Places, Shelf, folders, id};
+    use soffio_kiosk::words::{WORDS, language_name, words};
+    use soffio_simulation::Command;
 
     #[test]
     fn an_hour_of_uneven_waking_is_exactly_240_steps_a_second() {
         let mut pacer = Pacer::default();
-        let mut random = soffio::noise::Random::new(11);
+        let mut random = soffio_math::noise::Random::new(11);
         let (mut now, mut steps) = (Duration::ZERO, 0);
         while now < Duration::from_secs(3600) {
             now = (now + Duration::from_nanos(random.range(1e3, 2e7) as u64)).min(Duration::from_secs(3600));
@@ -604,14 +604,14 @@ mod voice;
 
 mod room {
     use soffio::commands::doctor::{Health, judge_blow, judge_room};
-    use soffio::wind::blow::{BlowDetector, BlowEstimate, BlowSettings};
-    use soffio::wind::generate::{self, BreathShape};
+    use soffio_detector::generate::{self, BreathShape};
+    use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
 
     const RATE: u32 = 48_000;
 
     /// A second of white noise, full scale 1, through a gain over time (0…1 s).
     fn noise(gain: impl Fn(f64) -> f64) -> Vec<f32> {
-        let mut random = soffio::noise::Random::new(5);
+        let mut random = soffio_math::noise::Random::new(5);
         (0..RATE).map(|i| (random.signed() * gain(f64::from(i) / f64::from(RATE))).clamp(-1.0, 1.0) as f32).collect()
     }
 
@@ -634,7 +634,7 @@ mod room {
 
     /// What the detector says every 20 ms of a normal breath whose samples were so many dB louder.
     fn blown(gain_db: f64, sensitivity_db: f64) -> Vec<BlowEstimate> {
-        let gain = soffio::math::from_decibels(gain_db) as f32;
+        let gain = soffio_math::from_decibels(gain_db) as f32;
         let breath = generate::breath(RATE, 7, &BreathShape::default());
         let settings = BlowSettings { sensitivity_db, ..BlowSettings::default() };
         let mut detector = BlowDetector::with_settings(RATE, settings);

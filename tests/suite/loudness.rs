@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use ebur128::{EbuR128, Mode};
-use soffio::config::{Config, Hours, TimeOfDay};
-use soffio::math::{PI, StateHash, decibels, from_decibels, sin};
-use soffio::noise::Random;
-use soffio::offline::programme::Programme;
-use soffio::sound::{
+use soffio_config::{Config, Hours, TimeOfDay};
+use soffio_math::noise::Random;
+use soffio_math::{PI, StateHash, decibels, from_decibels, sin};
+use soffio_offline::programme::Programme;
+use soffio_sound::{
     AWeighting, CEILING, Exposure, InstrumentSpec, PROGRAMME, Preset, RoomSpec, SUDDEN, SoundBody, SoundCommand,
     SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
 };
@@ -402,7 +402,7 @@ fn a_night_goes_over_midnight() {
 
 #[test]
 fn a_meter_of_ebu_r128_shows_what_the_standard_says_and_the_level_is_written_in_its_place() {
-    use soffio::offline::loudness::{correction, measure, write};
+    use soffio_offline::loudness::{correction, measure, write};
     // EBU Tech 3341, case 1: a sine of 1 kHz at −23 dBFS on both sides is −23.0 ± 0.1 LUFS.
     let sine: Vec<f32> = (0..20 * RATE)
         .flat_map(|n| [(from_decibels(-23.0) * sin(2.0 * PI * 1000.0 * f64::from(n) / f64::from(RATE))) as f32; 2])

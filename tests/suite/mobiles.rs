@@ -3,17 +3,17 @@
 
 use std::sync::Arc;
 
-use soffio::articulation::block::{Vec6, add_wrench};
-use soffio::articulation::{Anchor, ConstraintKind};
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::dynamics::{Dynamics, Figure, Settings as Laws};
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DMat3, DVec3, PI, atan2, rotation};
-use soffio::noise::Random;
-use soffio::simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
-use soffio::wind::SurfaceShape;
-use soffio::wind::breath::{Breath, Law};
-use soffio::wind::force::{Blown, WindField};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, add_wrench};
+use soffio_math::{DMat3, DVec3, PI, atan2, rotation};
+use soffio_multibody::articulation::{Anchor, ConstraintKind};
+use soffio_multibody::dynamics::{Dynamics, Figure, Settings as Laws};
+use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_wind::SurfaceShape;
+use soffio_wind::breath::{Breath, Law};
+use soffio_wind::force::{Blown, WindField};
 
 const G: f64 = 9.81;
 /// Of turns and periods against the design sheets.

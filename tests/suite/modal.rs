@@ -1,9 +1,9 @@
 //! The bank of partials against closed forms: at every level of instructions, in any blocks, struck, driven, touched.
 
 use fearless_simd::{Level, Simd};
-use soffio::math::{PI, atan2, cos, decibels, exp, ln, sincos};
-use soffio::noise::Random;
-use soffio::sound::modal::{BLOCK, Bank, GROUP, Partial};
+use soffio_math::noise::Random;
+use soffio_math::{PI, atan2, cos, decibels, exp, ln, sincos};
+use soffio_sound::modal::{BLOCK, Bank, GROUP, Partial};
 
 const RATE: f64 = 48_000.0;
 /// The kernel's own error against f64, relative to the sound's root mean square.

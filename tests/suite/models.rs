@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use soffio::exhibit::model::{self, Imported, Levels, Wrap};
+use soffio_exhibit::model::{self, Imported, Levels, Wrap};
 
 /// Rounding of single-precision numbers near 1, and of quantised ones.
 const ROUNDING: f32 = 2e-4;

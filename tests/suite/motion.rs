@@ -12,11 +12,13 @@ mod swaps;
 mod timing;
 mod trajectories;
 
-use soffio::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function, Interpolation, Spring};
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Drive, Dynamics, Figure, Integrator, Motion, Settings, Solver};
-use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Spring};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{Drive, Dynamics, Figure, Integrator, Motion, Settings, Solver};
 
 pub const G: f64 = 9.81;
 pub const DT: f64 = 1.0 / 240.0;
@@ -100,7 +102,7 @@ impl World {
     /// A pin and two orientations: `a` turns about `axis` at `place`.
     pub fn hinge(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, axis: DVec3) {
         self.pin(&format!("{name}/nail"), a, b, place);
-        let (u, v) = soffio::math::tangents(axis);
+        let (u, v) = soffio_math::tangents(axis);
         self.across(&format!("{name}/across-1"), a, axis, b, u);
         self.across(&format!("{name}/across-2"), a, axis, b, v);
     }
@@ -121,7 +123,7 @@ impl World {
 
     /// Two planes: the point stays on a straight wire.
     pub fn wire(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, along: DVec3) {
-        let (u, v) = soffio::math::tangents(along);
+        let (u, v) = soffio_math::tangents(along);
         self.plane(&format!("{name}/plane-1"), a, b, place, u);
         self.plane(&format!("{name}/plane-2"), a, b, place, v);
     }

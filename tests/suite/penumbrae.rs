@@ -2,13 +2,13 @@
 //! held against a count over the disc.
 
 use glam::{DVec2, DVec3};
-use soffio::exhibit::make::outline::{Polygon, ellipse, reversed};
-use soffio::exhibit::make::solid::sheet;
-use soffio::exhibit::model::{Mesh, Model, Node, Primitive};
-use soffio::exhibit::{Body, Exhibit, View, Wire};
-use soffio::math::{DQuat, Pose};
-use soffio::render::gallery::{Lamp, Room, WALL_ALBEDO};
-use soffio::render::{Frame, ImageRenderer, Look, Tonemap};
+use soffio_authoring::outline::{Polygon, ellipse, reversed};
+use soffio_authoring::solid::sheet;
+use soffio_exhibit::model::{Mesh, Model, Node, Primitive};
+use soffio_exhibit::{Body, Exhibit, View, Wire};
+use soffio_math::{DQuat, Pose};
+use soffio_render::gallery::{Lamp, Room, WALL_ALBEDO};
+use soffio_render::{Frame, ImageRenderer, Look, Tonemap};
 
 use super::pictures::{linear, paint, renderer, still};
 
@@ -69,10 +69,10 @@ fn hung(case: &Case, closed: bool) -> Exhibit {
     exhibit.bodies.push(Body {
         name: "plate".into(),
         node: 0,
-        properties: soffio::bodies::MassProperties {
+        properties: soffio_geometry::bodies::MassProperties {
             mass: 0.1,
             center: DVec3::ZERO,
-            inertia: soffio::math::DMat3::IDENTITY,
+            inertia: soffio_math::DMat3::IDENTITY,
         },
         pose: Pose::IDENTITY,
         velocity: DVec3::ZERO,

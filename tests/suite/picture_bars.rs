@@ -4,12 +4,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::{DMat4, DVec3, Vec3};
-use soffio::exhibit::model::{Appearance, Mesh, Model, Primitive};
-use soffio::exhibit::{Exhibit, View, Wire};
-use soffio::math::{DQuat, Pose};
-use soffio::render::environment::Environment;
-use soffio::render::gallery::{Room, WALL_ALBEDO};
-use soffio::render::{Frame, Gpu, ImageRenderer, Look, Quality, Tonemap};
+use soffio_exhibit::model::{Appearance, Mesh, Model, Primitive};
+use soffio_exhibit::{Exhibit, View, Wire};
+use soffio_math::{DQuat, Pose};
+use soffio_render::environment::Environment;
+use soffio_render::gallery::{Room, WALL_ALBEDO};
+use soffio_render::{Frame, Gpu, ImageRenderer, Look, Quality, Tonemap};
 
 use super::pictures::{ball, frame, linear, mobile, paint, renderer, still};
 
@@ -261,7 +261,7 @@ fn a_frame_moves_few_bytes_and_asks_for_few_draws() {
 #[test]
 fn the_picture_comes_back_the_same_when_the_device_is_destroyed() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/terry-clock");
-    let exhibit = soffio::exhibit::load(&folder).expect("shipped");
+    let exhibit = soffio_exhibit::load(&folder).expect("shipped");
     let mut pictures = Vec::new();
     for round in 0..2 {
         let begin = Instant::now();

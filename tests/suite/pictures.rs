@@ -1,11 +1,11 @@
 //! Pictures on whatever Vulkan driver there is, software included; without one these tests say so and pass.
 
 use glam::{DMat4, DVec3, Vec3};
-use soffio::exhibit::model::{Appearance, Camera, Mesh, Model, Node, Primitive};
-use soffio::exhibit::{Body, Exhibit, Wire};
-use soffio::math::Pose;
-use soffio::render::{Frame, ImageRenderer, Look, Options, RenderError, Tonemap};
-use soffio::simulation::Mote;
+use soffio_exhibit::model::{Appearance, Camera, Mesh, Model, Node, Primitive};
+use soffio_exhibit::{Body, Exhibit, Wire};
+use soffio_math::Pose;
+use soffio_render::{Frame, ImageRenderer, Look, Options, RenderError, Tonemap};
+use soffio_simulation::Mote;
 
 /// A plate: an outline in the plane z = 0, extruded by its thickness, fan from the centroid.
 pub(crate) fn plate(outline: &[[f32; 2]], thickness: f32, material: usize) -> Primitive {
@@ -104,8 +104,11 @@ pub fn mobile() -> Exhibit {
     model.cameras.push(Camera { fovy: 0.42, aspect: Some(1.5) });
     let mut exhibit = Exhibit::of_model(model);
     exhibit.camera_node = Some(camera);
-    let properties =
-        soffio::bodies::MassProperties { mass: 0.1, center: DVec3::ZERO, inertia: soffio::math::DMat3::IDENTITY };
+    let properties = soffio_geometry::bodies::MassProperties {
+        mass: 0.1,
+        center: DVec3::ZERO,
+        inertia: soffio_math::DMat3::IDENTITY,
+    };
     exhibit.bodies = bodies
         .iter()
         .map(|&(node, at)| Body {
@@ -204,7 +207,7 @@ fn each_lamp_throws_the_fish_on_the_wall_where_geometry_says() {
     without[0].position.z = -100.0;
     let size = (600, 400);
     let [with, without] = [&poses, &without].map(|p| renderer.draw(&frame(&exhibit, p, size)).expect("a picture"));
-    let room = soffio::render::gallery::Room::around(&exhibit);
+    let room = soffio_render::gallery::Room::around(&exhibit);
     let wall = room.center - room.z * room.half.z;
     for (lamp, share) in room.lamps.iter().zip([0.37 / 0.79, 0.12 / 0.79]) {
         let center = exhibit.bodies[0].pose.position.as_vec3();
@@ -235,7 +238,7 @@ fn a_furnace_shows_no_white_thing() {
                 materials: vec![paint("white", [1.0; 4], metallic, roughness)],
                 ..Default::default()
             });
-            let white = std::sync::Arc::new(soffio::render::environment::Environment::new(|_| radiance));
+            let white = std::sync::Arc::new(soffio_render::environment::Environment::new(|_| radiance));
             let look = Look {
                 tonemap: Tonemap::Clamp,
                 environment: Some(white),
@@ -275,7 +278,7 @@ fn a_wire_thinner_than_a_pixel_is_an_unbroken_line_of_the_right_darkness() {
         let look =
             Look { tonemap: Tonemap::Clamp, background: Some(Vec3::ONE), env_intensity: 0.0, ..Default::default() };
         let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
-        let view = soffio::exhibit::View { eye: DVec3::Z * 2.0, target: DVec3::ZERO, up: DVec3::Y, fovy: 0.2 };
+        let view = soffio_exhibit::View { eye: DVec3::Z * 2.0, target: DVec3::ZERO, up: DVec3::Y, fovy: 0.2 };
         let frame = Frame { poses: &[], motes: &[], view, size, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         let ink: Vec<f32> =

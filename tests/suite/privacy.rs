@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use soffio::commands::privacy::report;
-use soffio::config::Config;
+use soffio_config::Config;
 
 use crate::cli::Desk;
 

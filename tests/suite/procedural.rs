@@ -9,13 +9,15 @@ mod modes;
 mod rule;
 mod touches;
 
-use soffio::articulation::{Constraint, Limit};
-use soffio::bodies::RigidBody;
-use soffio::collision::{Collider, Reach, pairs};
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Drive, Dynamics, Figure, Integrator, Resistance, Settings as Laws, Solver, SurfacePair};
-use soffio::math::DVec3;
-use soffio::procedural::{Grip, Method, Procedural, Settings};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_multibody::articulation::{Constraint, Limit};
+use soffio_multibody::collision::{Collider, Reach, pairs};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{
+    Drive, Dynamics, Figure, Integrator, Resistance, Settings as Laws, Solver, SurfacePair,
+};
+use soffio_multibody::procedural::{Grip, Method, Procedural, Settings};
 
 use crate::motion::World;
 
@@ -25,7 +27,7 @@ pub const METHODS: [Method; 2] = [Method::Compulsive, Method::TreeSolve];
 pub struct Hand {
     pub dynamics: Dynamics,
     pub procedural: Procedural,
-    pub impacts: Vec<soffio::dynamics::Impact>,
+    pub impacts: Vec<soffio_multibody::dynamics::Impact>,
 }
 
 /// What a figure is made of beside a world's bodies, joints and drives.

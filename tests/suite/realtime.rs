@@ -3,7 +3,7 @@
 //! The allocator below only acts inside `assert_no_alloc(|| …)`, and only in debug builds.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc};
-use soffio::sound::{InstrumentSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound};
+use soffio_sound::{InstrumentSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -69,8 +69,8 @@ fn the_synth_never_allocates() {
 #[cfg(feature = "kiosk")]
 mod callback {
     use super::*;
-    use soffio::audio_io::output::{Engine, open};
-    use soffio::audio_io::{ClockMap, Heard, Knobs, LOUDEST, Words, input};
+    use soffio_devices::audio::output::{Engine, open};
+    use soffio_devices::audio::{ClockMap, Heard, Knobs, LOUDEST, Words, input};
     use std::sync::Arc;
 
     fn engine(rate: u32, generation: u64) -> Engine {
@@ -248,8 +248,8 @@ mod callback {
         // A block waits for its end; nothing else may wait.
         const LONGEST_S: f64 = BLOCK as f64 / RATE + 1e-6;
         let (mut recorder, mut ears) = input::open(48_000, 1, [1, 0]);
-        let mut pacer = soffio::kiosk::pace::Pacer::default();
-        let mut random = soffio::noise::Random::new(5);
+        let mut pacer = soffio_kiosk::pace::Pacer::default();
+        let mut random = soffio_math::noise::Random::new(5);
         let (mut now, mut sent, mut heard_in_all) = (0.0, 0_u64, 0_u64);
         let mut heard = Heard::default();
         while now < 3600.0 {
@@ -310,7 +310,7 @@ mod server {
     use std::time::{Duration, Instant};
 
     use super::*;
-    use soffio::audio_io::{AudioIo, AudioSettings, DeviceState, Heard};
+    use soffio_devices::audio::{AudioIo, AudioSettings, DeviceState, Heard};
 
     fn settings() -> AudioSettings {
         AudioSettings {

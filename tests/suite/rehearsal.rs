@@ -4,18 +4,18 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use soffio::config::Config;
-use soffio::exhibit;
-use soffio::kiosk::site::Site;
-use soffio::noise::Random;
-use soffio::offline::wav::Recording;
-use soffio::rehearsal::day::{Day, Task};
-use soffio::rehearsal::judge::{Answer, BEFORE, CONTINGENT, FPS, Picture, SOON, answer, median};
-use soffio::rehearsal::report::{ENOUGH, Report};
-use soffio::rehearsal::visitor::{Visit, Way};
-use soffio::rehearsal::{Crowd, Rehearsal, listen, recorded, run};
-use soffio::wind::blow::{BlowSettings, Rules};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_config::Config;
+use soffio_detector::generate::{self, BreathShape};
+use soffio_detector::{BlowSettings, Rules};
+use soffio_exhibit as exhibit;
+use soffio_kiosk::site::Site;
+use soffio_math::noise::Random;
+use soffio_offline::wav::Recording;
+use soffio_rehearsal::day::{Day, Task};
+use soffio_rehearsal::judge::{Answer, BEFORE, CONTINGENT, FPS, Picture, SOON, answer, median};
+use soffio_rehearsal::report::{ENOUGH, Report};
+use soffio_rehearsal::visitor::{Visit, Way};
+use soffio_rehearsal::{Crowd, Rehearsal, listen, recorded, run};
 
 use crate::cli::Desk;
 

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::exhibit::{self, Exhibit};
-use soffio::offline::feed::WavFeed;
-use soffio::offline::wav;
-use soffio::simulation::{self, Script, Settings, Simulation, StepInput};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::wav;
+use soffio_simulation::{self as simulation, Script, Settings, Simulation, StepInput};
 
 fn case(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(name)

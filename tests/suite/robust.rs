@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use soffio::articulation::{Anchor, Breaking, Constraint, ConstraintKind, Interpolation, Schedule, Trigger, Window};
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{self, Drive, Dynamics, Figure, Integrator, Motion, Solver};
-use soffio::exhibit::{self, Exhibit, codes};
-use soffio::math::{DMat3, DQuat, DVec3, Pose};
-use soffio::offline::scene::make;
-use soffio::offline::scene::run::{self, Limits, watch};
-use soffio::simulation::{Command, Event, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_exhibit::{self as exhibit, Exhibit, codes};
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::Interpolation;
+use soffio_math::{DMat3, DQuat, DVec3, Pose};
+use soffio_multibody::articulation::{Anchor, Breaking, Constraint, ConstraintKind, Schedule, Trigger, Window};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{self, Drive, Dynamics, Figure, Integrator, Motion, Solver};
+use soffio_offline::scene::make;
+use soffio_offline::scene::run::{self, Limits, watch};
+use soffio_simulation::{Command, Event, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 use super::exhibit::glb::{Folder, Scene, cuboid};
 

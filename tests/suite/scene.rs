@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use soffio::articulation::System;
-use soffio::dynamics::{Integrator, Solver};
-use soffio::math::{DQuat, DVec3, PI, cos, rotation, sin};
-use soffio::noise::Random;
-use soffio::offline::scene::linear;
-use soffio::offline::scene::make;
-use soffio::offline::scene::measure::{self, Coordinate};
-use soffio::offline::scene::run::{self, Best};
-use soffio::offline::scene::{Engine, Joint, JointKind, Limits, Observer, Scene, Soffio, State};
+use soffio_math::noise::Random;
+use soffio_math::{DQuat, DVec3, PI, cos, rotation, sin};
+use soffio_multibody::articulation::System;
+use soffio_multibody::dynamics::{Integrator, Solver};
+use soffio_offline::scene::linear;
+use soffio_offline::scene::make;
+use soffio_offline::scene::measure::{self, Coordinate};
+use soffio_offline::scene::run::{self, Best};
+use soffio_offline::scene::{Engine, Joint, JointKind, Limits, Observer, Scene, Soffio, State};
 
 const DT: f64 = 1.0 / 240.0;
 /// A few operations of f64 on numbers of about one.
@@ -161,8 +161,12 @@ fn a_hinge_counts_right_handed_turns_of_the_child_and_all_of_them() {
 fn rows_of_a_hinge_are_closed_at_the_start_and_leave_one_turn() {
     let (scene, _) = two(JointKind::Hinge);
     let bodies = scene.rigid_bodies();
-    let mut system =
-        System::new(&bodies, &vec![false; bodies.len()], &scene.constraints(), soffio::articulation::Method::Sparse);
+    let mut system = System::new(
+        &bodies,
+        &vec![false; bodies.len()],
+        &scene.constraints(),
+        soffio_multibody::articulation::Method::Sparse,
+    );
     system.evaluate(&bodies);
     assert!(system.largest_error() < ROUNDING, "{}", system.largest_error());
     for joint in system.joints() {

@@ -1,7 +1,7 @@
 //! Every shader is valid before any driver sees it.
 
-use soffio::render::Shaders;
-use soffio::render::shaders::{ShaderError, validate};
+use soffio_render::Shaders;
+use soffio_render::shaders::{ShaderError, validate};
 
 #[test]
 fn every_shader_parses_and_validates() {
@@ -38,7 +38,7 @@ fn every_shader_file_is_part_of_a_shader() {
 #[cfg(feature = "kiosk")]
 #[test]
 fn a_kiosk_reads_changed_shaders_and_says_what_is_wrong_with_them() {
-    use soffio::kiosk::workbench::Workbench;
+    use soffio_kiosk::workbench::Workbench;
     let folder = tempfile::tempdir().expect("a folder");
     for file in std::fs::read_dir("shaders").expect("the shaders").flatten() {
         std::fs::copy(file.path(), folder.path().join(file.file_name())).expect("copied");

@@ -1,9 +1,9 @@
 //! Key frames of morph weights and of scales: read, played at the time of the run, drawn, and refused where they are broken.
 
 use serde_json::json;
-use soffio::exhibit::shapes::{Growth, ShapeTrack};
-use soffio::exhibit::{self, Exhibit, model};
-use soffio::math::DVec3;
+use soffio_exhibit::shapes::{Growth, ShapeTrack};
+use soffio_exhibit::{self as exhibit, Exhibit, model};
+use soffio_math::DVec3;
 
 use crate::exhibit::glb::{Folder, Scene, cuboid, sheet};
 
@@ -160,10 +160,10 @@ fn an_export_names_the_shapes_that_it_leaves_at_rest() {
 
 #[cfg(feature = "kiosk")]
 mod drawn {
-    use soffio::exhibit::View;
-    use soffio::kiosk::rest::Stillness;
-    use soffio::render::Frame;
-    use soffio::simulation::{Settings, Simulation, StepInput};
+    use soffio_exhibit::View;
+    use soffio_kiosk::rest::Stillness;
+    use soffio_render::Frame;
+    use soffio_simulation::{Settings, Simulation, StepInput};
 
     use super::*;
     use crate::pictures::renderer;

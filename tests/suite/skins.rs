@@ -2,10 +2,10 @@
 
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::json;
-use soffio::bodies::MassProperties;
-use soffio::exhibit::{Body, Exhibit, View, model};
-use soffio::math::{DMat3, Pose};
-use soffio::render::Frame;
+use soffio_exhibit::{Body, Exhibit, View, model};
+use soffio_geometry::bodies::MassProperties;
+use soffio_math::{DMat3, Pose};
+use soffio_render::Frame;
 
 use crate::pictures::renderer;
 

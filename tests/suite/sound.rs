@@ -9,9 +9,9 @@ mod timbres;
 mod winds;
 
 use proptest::prelude::*;
-use soffio::math::{PI, StateHash, decibels};
-use soffio::noise::Random;
-use soffio::sound::{
+use soffio_math::noise::Random;
+use soffio_math::{PI, StateHash, decibels};
+use soffio_sound::{
     CEILING, FADING_VOICES, InstrumentSpec, MAX_VOICES, Preset, SoundBody, SoundCommand, SoundMaterial, Strike, Synth,
     Touch, WindSound, free_plate_modes, timbre,
 };
@@ -65,8 +65,8 @@ fn amplitude(samples: &[f64], frequency: f64) -> f64 {
     let (mut re, mut im) = (0.0, 0.0);
     for (t, x) in samples.iter().enumerate() {
         // Hann window: what stands a few bins off does not leak in.
-        let window = 1.0 - soffio::math::cos(2.0 * PI * t as f64 / samples.len() as f64);
-        let (s, c) = soffio::math::sincos(2.0 * PI * frequency * t as f64 / f64::from(RATE));
+        let window = 1.0 - soffio_math::cos(2.0 * PI * t as f64 / samples.len() as f64);
+        let (s, c) = soffio_math::sincos(2.0 * PI * frequency * t as f64 / f64::from(RATE));
         re += window * x * c;
         im += window * x * s;
     }
@@ -138,12 +138,12 @@ fn pitch_is_exact_to_a_thousandth_of_a_cent() {
         let phase = |part: &[f64], start: usize| {
             let (mut re, mut im) = (0.0, 0.0);
             for (t, x) in part.iter().enumerate() {
-                let window = 1.0 - soffio::math::cos(2.0 * PI * t as f64 / part.len() as f64);
-                let (s, c) = soffio::math::sincos(2.0 * PI * frequency * (t + start) as f64 / f64::from(RATE));
+                let window = 1.0 - soffio_math::cos(2.0 * PI * t as f64 / part.len() as f64);
+                let (s, c) = soffio_math::sincos(2.0 * PI * frequency * (t + start) as f64 / f64::from(RATE));
                 re += window * x * c;
                 im -= window * x * s;
             }
-            soffio::math::atan2(im, re)
+            soffio_math::atan2(im, re)
         };
         let drift = phase(&out[half..], half) - phase(&out[..half], 0);
         let error = drift / (2.0 * PI) / (half as f64 / f64::from(RATE));
@@ -425,7 +425,7 @@ fn a_hand_on_a_bell_stills_it() {
     // R = 2 N s/m adds c = R/2m to each decay; root mean square between 0.125 s and 0.25 s after the touch.
     let c = 2.0 / (2.0 * spec("bell").body.mass);
     let (from, to) = (0.125, 0.25);
-    let left = (soffio::math::exp(-2.0 * c * from) - soffio::math::exp(-2.0 * c * to)) / (2.0 * c * (to - from));
+    let left = (soffio_math::exp(-2.0 * c * from) - soffio_math::exp(-2.0 * c * to)) / (2.0 * c * (to - from));
     let expected = decibels(left.sqrt());
     let found = decibels(level(2.0) / level(0.0));
     // The bell's own decays differ, so it is not the same mixture of partials in both.
@@ -543,7 +543,7 @@ fn wind_leaves_the_band_of_breath_alone() {
             }
         }
     }
-    let db = 10.0 * soffio::math::log10(low / all);
+    let db = 10.0 * soffio_math::log10(low / all);
     println!("power below 100 Hz: {db:.1} dB");
     assert!(db < -20.0, "{db} dB");
 }

@@ -2,9 +2,9 @@
 
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
-use soffio::math::{decibels, from_decibels, ln};
-use soffio::noise::Random;
-use soffio::sound::{BANDS, Room, RoomSpec};
+use soffio_math::noise::Random;
+use soffio_math::{decibels, from_decibels, ln};
+use soffio_sound::{BANDS, Room, RoomSpec};
 
 const RATE: u32 = 48_000;
 
@@ -173,7 +173,7 @@ fn flatness(samples: &[f64]) -> f64 {
         count += n;
         edge = next;
     }
-    soffio::math::exp(sum / count)
+    soffio_math::exp(sum / count)
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn the_tail_does_not_ring_at_single_frequencies() {
         }
     }
     let comb: Vec<f64> =
-        (0..24_000).map(|n| if n % 97 == 0 { soffio::math::exp(-f64::from(n) / 9000.0) } else { 0.0 }).collect();
+        (0..24_000).map(|n| if n % 97 == 0 { soffio_math::exp(-f64::from(n) / 9000.0) } else { 0.0 }).collect();
     assert!(flatness(&comb) < 0.3, "a comb: {}", flatness(&comb));
 }
 

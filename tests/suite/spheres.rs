@@ -5,11 +5,11 @@
 //! contact point. Under Coulomb's law û stands still, so that v̇ = −μ g û, u̇ = −(1 + 1/k) μ g û until u = 0.
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::bodies::RigidBody;
-use soffio::collision::{Collider, Shape};
-use soffio::dynamics::{Dynamics, Impact, Resistance};
-use soffio::math::DVec3;
-use soffio::procedural::{Method, Procedural, Settings};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_multibody::collision::{Collider, Shape};
+use soffio_multibody::dynamics::{Dynamics, Impact, Resistance};
+use soffio_multibody::procedural::{Method, Procedural, Settings};
 
 use crate::motion::{DT, G, World, body};
 use crate::procedural::{Extras, laws};

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DVec3, PI, rotation};
-use soffio::offline::feed::WavFeed;
-use soffio::offline::play::{self, Play, Summary};
-use soffio::offline::wav;
-use soffio::simulation::{Command, EventKind, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::{DVec3, PI, rotation};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::play::{self, Play, Summary};
+use soffio_offline::wav;
+use soffio_simulation::{Command, EventKind, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 const BOOM: usize = 0;
 /// Where a strong breath makes the hanging plates meet, between the red one and the discs, with this seed.

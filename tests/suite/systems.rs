@@ -1,10 +1,10 @@
 //! Which exhibit proves which system of the method: asked of the loaded exhibits, row by row, not of their names.
 
-use soffio::articulation::{Constraint, ConstraintKind, LimitKind, Measure, SpringKind, Trigger};
-use soffio::exhibit::{self, Exhibit, Motion, SoundTrigger};
-use soffio::geometry::support::Core;
-use soffio::wind::breath::Law;
-use soffio::wind::weather::WindKind;
+use soffio_exhibit::{self as exhibit, Exhibit, Motion, SoundTrigger};
+use soffio_geometry::support::Core;
+use soffio_multibody::articulation::{Constraint, ConstraintKind, LimitKind, Measure, SpringKind, Trigger};
+use soffio_wind::breath::Law;
+use soffio_wind::weather::WindKind;
 
 /// A system, and how an exhibit that shows it is known.
 type System = (&'static str, fn(&Exhibit) -> bool);

@@ -7,9 +7,9 @@ use cpu_time::ThreadTime;
 use serde::Serialize;
 
 use crate::commands::{Failure, Outcome, open};
-use crate::exhibit::Exhibit;
-use crate::simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
-use crate::sound::{SoundCommand, Synth};
+use soffio_exhibit::Exhibit;
+use soffio_simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_sound::{SoundCommand, Synth};
 
 /// Rounds of each measurement; the best is reported, as the machine's other work can only add.
 const ROUNDS: usize = 3;
@@ -38,7 +38,7 @@ struct Row {
 
 /// Measures the named exhibits, or all that are shipped.
 pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
-    let names = if names.is_empty() { crate::exhibit::ids() } else { names.to_vec() };
+    let names = if names.is_empty() { soffio_exhibit::ids() } else { names.to_vec() };
     if names.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
     }

@@ -16,8 +16,8 @@ use super::Outcome;
 use super::play::parse_seconds;
 #[cfg(feature = "kiosk")]
 use super::play::parse_size;
-use crate::dynamics::{Integrator, Solver};
-use crate::offline::scene::Limits;
+use soffio_multibody::dynamics::{Integrator, Solver};
+use soffio_offline::scene::Limits;
 
 /// Simulated seconds of an exhibit where nothing else is said.
 const EXHIBIT_SECONDS: f64 = 10.0;

@@ -8,9 +8,9 @@ use cpu_time::ProcessTime;
 use serde::Serialize;
 
 use crate::commands::{Failure, Outcome, open, render};
-use crate::exhibit::Exhibit;
-use crate::render::{Frame, Gpu, Options, Quality, Renderer};
-use crate::simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
+use soffio_exhibit::Exhibit;
+use soffio_render::{Frame, Gpu, Options, Quality, Renderer};
+use soffio_simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// A hard breath, m/s at the lips.
 const HARD: f64 = 17.0;
@@ -41,14 +41,14 @@ struct Row {
 
 /// Measures the named exhibits, or all that are shipped.
 pub fn run(names: &[String], size: (u32, u32), seconds: f64, json: bool) -> Outcome {
-    let names = if names.is_empty() { crate::exhibit::ids() } else { names.to_vec() };
+    let names = if names.is_empty() { soffio_exhibit::ids() } else { names.to_vec() };
     if names.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
     }
     let gpu = Gpu::headless().map_err(render::failure)?;
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if size.0.max(size.1) > limit {
-        return Err(render::failure(crate::render::RenderError::Size { width: size.0, height: size.1, limit }));
+        return Err(render::failure(soffio_render::RenderError::Size { width: size.0, height: size.1, limit }));
     }
     if !json {
         println!("{}, {}x{}, 4 samples a pixel", gpu.name(), size.0, size.1);
@@ -106,7 +106,7 @@ fn draw(
     size: (u32, u32),
     quality: Quality,
     moments: &[Snapshot],
-) -> Result<(f64, f64), crate::render::RenderError> {
+) -> Result<(f64, f64), soffio_render::RenderError> {
     let mut renderer = Renderer::new(gpu, exhibit, Options { quality, ..Options::for_gpu(gpu, FORMAT) })?;
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("measured picture"),
@@ -128,7 +128,7 @@ fn draw(
         let frame = Frame { poses: &moment.poses, motes: &moment.motes, view, size, exposure: 1.0, time: moment.time };
         renderer.draw(gpu, &target, &frame);
         let finished = gpu.device.poll(wgpu::PollType::wait_indefinitely());
-        finished.map_err(|error| crate::render::RenderError::NoDevice(error.to_string()))?;
+        finished.map_err(|error| soffio_render::RenderError::NoDevice(error.to_string()))?;
     }
     let each = |seconds: f64| 1e3 * seconds / (moments.len() - WARM) as f64;
     Ok((each(began.0.elapsed().as_secs_f64()), each(began.1.elapsed().as_secs_f64())))

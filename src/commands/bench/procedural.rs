@@ -8,12 +8,12 @@ use cpu_time::ThreadTime;
 use serde::Serialize;
 
 use crate::commands::{Failure, Outcome, open};
-use crate::dynamics::{Dynamics, Integrator, Solver};
-use crate::exhibit::Exhibit;
-use crate::math::{DVec3, sincos};
-use crate::offline::scene::make;
-use crate::procedural::{Grip, Method, Procedural};
-use crate::simulation::{MotionMode, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_exhibit::Exhibit;
+use soffio_math::{DVec3, sincos};
+use soffio_multibody::dynamics::{Dynamics, Integrator, Solver};
+use soffio_multibody::procedural::{Grip, Method, Procedural};
+use soffio_offline::scene::make;
+use soffio_simulation::{MotionMode, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// The mobile: its joints, and the seed of its sizes.
 const JOINTS: usize = 127;
@@ -169,7 +169,7 @@ fn drag(seconds: f64, method: Method) -> Drag {
 }
 
 fn mover(dynamics: &Dynamics, method: Method) -> Procedural {
-    Procedural::new(dynamics, crate::procedural::Settings { method, ..Default::default() })
+    Procedural::new(dynamics, soffio_multibody::procedural::Settings { method, ..Default::default() })
 }
 
 fn median(times: &mut [f64]) -> f64 {

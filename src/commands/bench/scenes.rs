@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use crate::commands::{Failure, Outcome};
-use crate::dynamics::{Integrator, Solver};
-use crate::offline::scene::linear::{self, SIZES};
-use crate::offline::scene::{Limits, Row, Scene, run};
+use soffio_multibody::dynamics::{Integrator, Solver};
+use soffio_offline::scene::linear::{self, SIZES};
+use soffio_offline::scene::{Limits, Row, Scene, run};
 
 /// Measures each scene at `dt`, or at the steps that it names. All files are read before the first is run.
 pub fn run(

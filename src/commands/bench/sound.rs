@@ -9,11 +9,11 @@ use fearless_simd::{Level, Simd, dispatch, f32x16};
 use serde::Serialize;
 
 use crate::commands::{Failure, Outcome};
-use crate::math::{PI, exp, ln, sin};
-use crate::noise::Random;
-use crate::simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use crate::sound::modal::{BLOCK, Bank, Partial};
-use crate::sound::{
+use soffio_math::noise::Random;
+use soffio_math::{PI, exp, ln, sin};
+use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
+use soffio_sound::modal::{BLOCK, Bank, Partial};
+use soffio_sound::{
     InstrumentSpec, Preset, Room, RoomSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
 };
 

@@ -6,14 +6,14 @@ use std::hint::black_box;
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
-use crate::bodies::{MassProperties, RigidBody};
 use crate::commands::{Failure, Outcome};
-use crate::geometry::TriangleMesh;
-use crate::math::{DMat3, DVec3, PI, Pose, rotation, sincos};
-use crate::noise::Random;
-use crate::wind::breath::{Breath, Law};
-use crate::wind::force::{Blown, WindField};
-use crate::wind::{Shelter, Surface, SurfaceShape};
+use soffio_geometry::TriangleMesh;
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::noise::Random;
+use soffio_math::{DMat3, DVec3, PI, Pose, rotation, sincos};
+use soffio_wind::breath::{Breath, Law};
+use soffio_wind::force::{Blown, WindField};
+use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 /// Parts of the crowd, patches on each, and rings of a ball: 10,000 patches and 5,000 triangles.
 const PARTS: usize = 50;

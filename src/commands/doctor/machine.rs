@@ -3,20 +3,20 @@
 use std::time::{Duration, Instant};
 
 use super::{Finding, Health, judge_blow, judge_room};
-use crate::audio_io::{AudioIo, DeviceState, Heard};
-use crate::config::{Config, remedies};
-use crate::kiosk::care::CLEAN_NIGHTS;
-use crate::kiosk::chirping::{Act, Course};
-use crate::kiosk::fonts::{self, Script};
-use crate::kiosk::kept;
-use crate::kiosk::languages::unwritten;
-use crate::kiosk::speech::Speaker;
-use crate::kiosk::window;
-use crate::kiosk::words::WORDS;
-use crate::render::Gpu;
-use crate::sound::{BANDS, Synth};
-use crate::wind::blow::{BlowDetector, BlowEstimate, BlowSettings, Reason};
 use indicatif::{ProgressBar, ProgressStyle};
+use soffio_config::{Config, remedies};
+use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Reason};
+use soffio_devices::audio::{AudioIo, DeviceState, Heard};
+use soffio_kiosk::care::CLEAN_NIGHTS;
+use soffio_kiosk::chirping::{Act, Course};
+use soffio_kiosk::fonts::{self, Script};
+use soffio_kiosk::kept;
+use soffio_kiosk::languages::unwritten;
+use soffio_kiosk::speech::Speaker;
+use soffio_kiosk::window;
+use soffio_kiosk::words::WORDS;
+use soffio_render::Gpu;
+use soffio_sound::{BANDS, Synth};
 
 /// How long the room is listened to.
 const LISTEN: Duration = Duration::from_millis(1100);

@@ -1,9 +1,9 @@
 //! What is heard at a microphone, as findings: the room in silence, and a breath.
 
 use super::{Finding, Health};
-use crate::config::remedies::{self, NORMAL_M_S};
-use crate::math::decibels;
-use crate::wind::blow::{BlowDetector, BlowEstimate, Reason};
+use soffio_config::remedies::{self, NORMAL_M_S};
+use soffio_detector::{BlowDetector, BlowEstimate, Reason};
+use soffio_math::decibels;
 
 /// What a second of sound of the room says about a microphone.
 pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {

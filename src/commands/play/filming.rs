@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::outputs::Outputs;
 use crate::commands::{Failure, render};
-use crate::exhibit::Exhibit;
-use crate::offline::pictures::{Pictures, write_png};
-use crate::offline::video::{Plan, Video};
-use crate::simulation::Snapshot;
+use soffio_exhibit::Exhibit;
+use soffio_offline::pictures::{Pictures, write_png};
+use soffio_offline::video::{Plan, Video};
+use soffio_simulation::Snapshot;
 
 /// Pictures on their way.
 pub(super) struct Filming {

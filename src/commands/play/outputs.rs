@@ -8,9 +8,9 @@ use indicatif::ProgressBar;
 
 use super::{failed, parse_size};
 use crate::commands::Failure;
-use crate::exhibit::Exhibit;
-use crate::offline::play::{self, Play, Summary};
-use crate::offline::trace::DEFAULT_FPS;
+use soffio_exhibit::Exhibit;
+use soffio_offline::play::{self, Play, Summary};
+use soffio_offline::trace::DEFAULT_FPS;
 
 /// Files and pictures of a run.
 #[derive(clap::Args, Debug)]

@@ -11,7 +11,7 @@ use gltf::accessor::Dimensions;
 use gltf::animation::Property;
 
 use super::{Model, accessor};
-use crate::math::{DMat4, DQuat, DVec3};
+use soffio_math::{DMat4, DQuat, DVec3};
 
 /// Key frames that belong together.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,8 +195,8 @@ impl Channel {
         }
         let (p, q) = (values[from].normalize(), values[to].normalize());
         let turn = q * p.conjugate();
-        let turn = crate::math::rotation_vector(if turn.w < 0.0 { -turn } else { turn });
-        crate::math::rotation(s * turn) * p
+        let turn = soffio_math::rotation_vector(if turn.w < 0.0 { -turn } else { turn });
+        soffio_math::rotation(s * turn) * p
     }
 }
 

@@ -11,7 +11,7 @@ use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
 
 use super::accessor::{self, Broken};
 use super::{Influences, MorphTarget, Node, Primitive};
-use crate::math::{DMat3, DMat4, DVec3};
+use soffio_math::{DMat3, DMat4, DVec3};
 
 /// Most targets that one primitive morphs to.
 const MAX_TARGETS: usize = 256;

@@ -14,7 +14,7 @@ use super::primitive::{decode, is_drawn};
 use super::{
     Animation, Camera, Image, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, deform, look,
 };
-use crate::math::{DMat4, DQuat, DVec3};
+use soffio_math::{DMat4, DQuat, DVec3};
 
 /// Most bytes of a model file or of a buffer beside it.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;

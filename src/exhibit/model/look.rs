@@ -7,7 +7,7 @@ use gltf::material::AlphaMode as GltfAlpha;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
 use super::{AlphaMode, Appearance, Details, Levels, Primitive, Sampler, TextureUse, Wrap};
-use crate::math::{self, DVec3};
+use soffio_math::{self as math, DVec3};
 
 /// Layers of a surface that are not drawn at all.
 const IGNORED: [&str; 4] = [

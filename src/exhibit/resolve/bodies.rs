@@ -5,10 +5,10 @@ use super::super::sidecar::{self, Motion};
 use super::super::{Body, Wire, codes};
 use super::nodes::rigid;
 use super::{Context, path_node};
-use crate::bodies::MassProperties;
-use crate::geometry::Moments;
-use crate::geometry::mass::principal_axes;
-use crate::math::{DMat3, DQuat, DVec3, Pose};
+use soffio_geometry::Moments;
+use soffio_geometry::bodies::MassProperties;
+use soffio_geometry::mass::principal_axes;
+use soffio_math::{DMat3, DQuat, DVec3, Pose};
 
 /// Most moving bodies of an exhibit.
 const MAX_BODIES: usize = 1024;

@@ -5,7 +5,7 @@ use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar;
 use super::Context;
-use crate::articulation::{Axis, Constraint};
+use soffio_multibody::articulation::{Axis, Constraint};
 
 impl Context<'_> {
     /// What tells the time, among these constraints; `None` where nothing does, or a problem was reported.

@@ -6,9 +6,9 @@ use super::super::sidecar::{self, ConstrainedPairs, Fit};
 use super::super::source::join;
 use super::super::{Wire, codes};
 use super::{Context, joints};
-use crate::articulation::{Constraint, Limit, LimitKind};
-use crate::collision::{Collider, Excluded, Exclusion, Shape};
-use crate::math::{DMat3, DVec3, PI, Pose, rotation};
+use soffio_math::{DMat3, DVec3, PI, Pose, rotation};
+use soffio_multibody::articulation::{Constraint, Limit, LimitKind};
+use soffio_multibody::collision::{Collider, Excluded, Exclusion, Shape};
 
 /// Two bodies; `None` is the world.
 pub(super) type Pair = (Option<usize>, Option<usize>);

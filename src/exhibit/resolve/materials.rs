@@ -5,7 +5,7 @@ use super::super::quantity::Length;
 use super::super::source::join;
 use super::super::{Material, MaterialPair, codes, materials};
 use super::Context;
-use crate::dynamics::Resistance;
+use soffio_multibody::dynamics::Resistance;
 
 impl Context<'_> {
     pub(super) fn materials(&mut self) {

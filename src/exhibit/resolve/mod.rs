@@ -25,9 +25,9 @@ use super::shapes::shapes;
 use super::sidecar::{self, Sidecar, Target};
 use super::source::Source;
 use super::{Body, Exhibit, Material, Motion, Origin, SIDECAR, Touch, codes, paths, shape};
-use crate::dynamics::{Drive, Integrator, Solver};
-use crate::math::{DMat4, DVec3, Pose};
-use crate::procedural::Method;
+use soffio_math::{DMat4, DVec3, Pose};
+use soffio_multibody::dynamics::{Drive, Integrator, Solver};
+use soffio_multibody::procedural::Method;
 
 /// Most bytes of a sidecar.
 const MAX_SIDECAR_BYTES: u64 = 4 << 20;

@@ -7,9 +7,9 @@ use super::super::sidecar;
 use super::Context;
 use super::joints::interpolation;
 use super::nodes::rigid;
-use crate::articulation::Interpolation;
-use crate::dynamics::{Drive, Motion};
-use crate::math::{DQuat, DVec3, Pose};
+use soffio_math::Interpolation;
+use soffio_math::{DQuat, DVec3, Pose};
+use soffio_multibody::dynamics::{Drive, Motion};
 
 /// Curves of the model are followed through this many poses a second.
 const SAMPLES_PER_SECOND: f64 = 60.0;

@@ -5,9 +5,9 @@ use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::sidecar::Point;
 use super::super::source::natural_key;
 use super::Context;
-use crate::articulation::{Anchor, Axis};
-use crate::geometry::TriangleMesh;
-use crate::math::{DMat3, DMat4, DQuat, DVec3, Pose};
+use soffio_geometry::TriangleMesh;
+use soffio_math::{DMat3, DMat4, DQuat, DVec3, Pose};
+use soffio_multibody::articulation::{Anchor, Axis};
 
 impl Context<'_> {
     /// The node named `name`: a unique name, a path `Frame/Arm`, or `#12`.

@@ -12,9 +12,9 @@
 //! sign. How wide the picture is on the body its triangles say.
 
 use super::Context;
-use crate::exhibit::model::{Image, Primitive};
-use crate::math::{DMat4, DVec3};
-use crate::sound::SurfaceLine;
+use crate::model::{Image, Primitive};
+use soffio_math::{DMat4, DVec3};
+use soffio_sound::SurfaceLine;
 
 /// Most points of a line: half of what the synth takes, there and back.
 const MOST: usize = 1 << 17;

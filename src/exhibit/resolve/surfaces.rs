@@ -4,11 +4,11 @@ use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::sidecar::{self, Faces, Trigger};
 use super::super::{Body, SoundBinding, SoundTrigger, Wire, codes, fit};
 use super::Context;
-use crate::collision::Collider;
-use crate::geometry::{Extents, TriangleMesh};
-use crate::math::from_decibels;
-use crate::sound::{InstrumentSpec, SoundBody, SoundMaterial, timbre};
-use crate::wind::{Surface, SurfaceShape};
+use soffio_geometry::{Extents, TriangleMesh};
+use soffio_math::from_decibels;
+use soffio_multibody::collision::Collider;
+use soffio_sound::{InstrumentSpec, SoundBody, SoundMaterial, timbre};
+use soffio_wind::{Surface, SurfaceShape};
 
 /// Drag coefficient of a round wire in cross-flow, Reynolds 10² … 10⁵ (Hoerner, Fluid-Dynamic Drag, 3-9).
 const WIRE_DRAG: f64 = 1.2;

@@ -5,12 +5,12 @@ use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Gusts, Point};
 use super::super::{BreathTuning, Calm};
 use super::Context;
-use crate::articulation::Function;
-use crate::geometry::TriangleMesh;
-use crate::math::DVec3;
-use crate::wind::breath::Law;
-use crate::wind::weather::{Rhythm, Wind, WindKind};
-use crate::wind::{Shelter, Surface};
+use soffio_geometry::TriangleMesh;
+use soffio_math::DVec3;
+use soffio_math::Function;
+use soffio_wind::breath::Law;
+use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::{Shelter, Surface};
 
 /// Size of the room's largest eddies (m) and time in which they change (s), where the sidecar does not say.
 const ROOM_SCALE: f64 = 0.6;

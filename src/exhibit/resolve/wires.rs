@@ -4,7 +4,7 @@ use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Color, Point, Points};
 use super::super::{Wire, codes};
 use super::Context;
-use crate::math::{DVec3, pow};
+use soffio_math::{DVec3, pow};
 
 /// Segments that a smooth wire gets between two of its points.
 const SUBDIVISIONS: usize = 8;

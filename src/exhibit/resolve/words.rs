@@ -9,7 +9,7 @@ use super::super::source::join;
 use super::super::view::{ASIDE, DOWN, UP};
 use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
 use super::Context;
-use crate::wind::generate::{self, BreathShape, HARDEST_M_S};
+use soffio_detector::generate::{self, BreathShape, HARDEST_M_S};
 
 /// Most bytes of a recorded breath.
 const MAX_WAV_BYTES: u64 = 64 << 20;

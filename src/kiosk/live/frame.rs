@@ -3,16 +3,16 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::audio_io::{AudioStatus, DeviceState};
-use crate::controllers::State;
-use crate::exhibit::Exhibit;
-use crate::kiosk::breaths::Blows;
-use crate::kiosk::chirping::Outcome;
-use crate::kiosk::loudness::View;
-use crate::kiosk::microphone::MicrophoneHealth;
-use crate::kiosk::moments::{BEHIND, Moments};
-use crate::kiosk::stage::Stage;
-use crate::simulation::{Inspection, MotionMode, STEPS_PER_SECOND, Snapshot};
+use crate::breaths::Blows;
+use crate::chirping::Outcome;
+use crate::loudness::View;
+use crate::microphone::MicrophoneHealth;
+use crate::moments::{BEHIND, Moments};
+use crate::stage::Stage;
+use soffio_devices::audio::{AudioStatus, DeviceState};
+use soffio_devices::controllers::State;
+use soffio_exhibit::Exhibit;
+use soffio_simulation::{Inspection, MotionMode, STEPS_PER_SECOND, Snapshot};
 
 /// What the window sees of the simulation.
 #[derive(Clone)]

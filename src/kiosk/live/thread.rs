@@ -9,25 +9,25 @@ use std::time::Instant;
 use cpu_time::ThreadTime;
 
 use super::{Frame, Load, Onset, Options, Report, Shared, lock, trace_error};
-use crate::audio_io::{AudioIo, Heard};
-use crate::controllers::{Controllers, Reading};
-use crate::kiosk::breaths::{Breaths, Turn};
-use crate::kiosk::captions::Captions;
-use crate::kiosk::chirping::{Act, Course};
-use crate::kiosk::governor::Governor;
-use crate::kiosk::loudness::{Loudness, Wishes};
-use crate::kiosk::moments::Moments;
-use crate::kiosk::pace::Pacer;
-use crate::kiosk::recording::Recording;
-use crate::kiosk::rest::Stillness;
-use crate::kiosk::site::Site;
-use crate::kiosk::stage::{Controls, Stage};
-use crate::kiosk::voice::{Guest, Trial, Voice};
-use crate::math::from_decibels;
-use crate::offline::trace::TraceWriter;
-use crate::simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND};
-use crate::sound::SoundCommand;
+use crate::breaths::{Breaths, Turn};
+use crate::captions::Captions;
+use crate::chirping::{Act, Course};
+use crate::governor::Governor;
+use crate::loudness::{Loudness, Wishes};
+use crate::moments::Moments;
+use crate::pace::Pacer;
+use crate::recording::Recording;
+use crate::rest::Stillness;
+use crate::site::Site;
+use crate::stage::{Controls, Stage};
+use crate::voice::{Guest, Trial, Voice};
 use changes::voice;
+use soffio_devices::audio::{AudioIo, Heard};
+use soffio_devices::controllers::{Controllers, Reading};
+use soffio_math::from_decibels;
+use soffio_offline::trace::TraceWriter;
+use soffio_simulation::{Inspection, Look, MotionMode, STEPS_PER_SECOND};
+use soffio_sound::SoundCommand;
 
 /// What lives on the simulation thread.
 pub(super) struct Thread {

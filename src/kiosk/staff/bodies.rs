@@ -4,7 +4,7 @@ use egui::{Grid, Ui};
 
 use super::plot::Course;
 use super::{BAD, ROW, Sight};
-use crate::simulation::STEPS_PER_SECOND;
+use soffio_simulation::STEPS_PER_SECOND;
 
 /// A joint that is farther open than this is told, m or rad.
 const OPEN: f64 = 1e-3;

@@ -5,9 +5,9 @@ use std::path::Path;
 use egui::{RichText, Ui};
 
 use super::{Sight, Wish};
-use crate::config::OTHERS;
-use crate::kiosk::edit::{Changes, with_list};
-use crate::kiosk::shelf::{Places, folders, id};
+use crate::edit::{Changes, with_list};
+use crate::shelf::{Places, folders, id};
+use soffio_config::OTHERS;
 
 /// What the page remembers.
 #[derive(Debug, Default)]

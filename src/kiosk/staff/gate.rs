@@ -6,7 +6,7 @@
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use crate::config::{DIGITS, Pin};
+use soffio_config::{DIGITS, Pin};
 
 /// Longest pause after a wrong PIN, s.
 pub const LONGEST_S: f64 = 1024.0;

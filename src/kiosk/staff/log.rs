@@ -4,7 +4,7 @@ use egui::{Label, RichText, ScrollArea, Ui};
 use tracing::Level;
 
 use super::BAD;
-use crate::kiosk::log::Log;
+use crate::log::Log;
 
 /// What the page remembers.
 #[derive(Debug, Default)]

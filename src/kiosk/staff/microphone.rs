@@ -3,9 +3,9 @@
 use egui::{Color32, DragValue, Grid, Sense, Ui, pos2, vec2};
 
 use super::{BAD, GOOD, ROW, Sight, row};
-use crate::config::remedies;
-use crate::kiosk::edit::{Changes, with_key};
-use crate::wind::blow::{BlowEstimate, Reason};
+use crate::edit::{Changes, with_key};
+use soffio_config::remedies;
+use soffio_detector::{BlowEstimate, Reason};
 
 /// Lower end of the meter, dB of full scale.
 const QUIETEST_DBFS: f64 = -80.0;

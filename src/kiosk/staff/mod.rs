@@ -10,8 +10,8 @@ use super::edit::Changes;
 use super::input::{Phase, Signal};
 use super::page::INK;
 use super::voice::Trial;
-use crate::config::Config;
-use crate::simulation::Look;
+use soffio_config::Config;
+use soffio_simulation::Look;
 
 mod bodies;
 mod display;

@@ -8,8 +8,8 @@ use std::time::SystemTime;
 use egui::{CollapsingHeader, DragValue, Label, RichText, TextEdit, Ui};
 
 use super::{BAD, Sight};
-use crate::exhibit::SIDECAR;
-use crate::kiosk::edit::{Changes, Number, Step, four_digits, numbers, with_number};
+use crate::edit::{Changes, Number, Step, four_digits, numbers, with_number};
+use soffio_exhibit::SIDECAR;
 
 /// Share of its value by which a number changes for a point of dragging.
 const SPEED: f64 = 0.005;

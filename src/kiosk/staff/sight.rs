@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::config::Config;
-use crate::exhibit::View;
-use crate::kiosk::house::House;
-use crate::kiosk::kept::Kept;
-use crate::kiosk::live::Frame;
-use crate::kiosk::log::Log;
+use crate::house::House;
+use crate::kept::Kept;
+use crate::live::Frame;
+use crate::log::Log;
+use soffio_config::Config;
+use soffio_exhibit::View;
 
 /// What the window knows besides the simulation.
 #[derive(Clone, Copy, Debug)]

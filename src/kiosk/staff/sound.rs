@@ -3,7 +3,7 @@
 use egui::{Slider, Ui};
 
 use super::{BAD, Sight, Wish};
-use crate::kiosk::voice::{Trial, Tried, timbres};
+use crate::voice::{Trial, Tried, timbres};
 
 /// What the page remembers.
 #[derive(Debug)]

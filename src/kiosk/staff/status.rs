@@ -3,10 +3,10 @@
 use egui::{Grid, Ui};
 
 use super::{BAD, ROW, Sight, Wish, row};
-use crate::audio_io::DeviceState;
-use crate::controllers::State;
-use crate::kiosk::loudness::NightBy;
-use crate::simulation::MotionMode;
+use crate::loudness::NightBy;
+use soffio_devices::audio::DeviceState;
+use soffio_devices::controllers::State;
+use soffio_simulation::MotionMode;
 
 /// The buttons of every day, then all numbers.
 pub fn show(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {

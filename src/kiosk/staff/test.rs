@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, LayerId, Order, Ui, vec2};
 
 use super::display::Pattern;
 use super::{ROW, Sight, Wish, row};
-use crate::kiosk::voice::{Trial, Tried};
+use crate::voice::{Trial, Tried};
 
 /// The timbre that loudspeakers are told apart by, and the speed of its hit, m/s.
 const CALL: (&str, f64) = ("wood", 1.0);

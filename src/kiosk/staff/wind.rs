@@ -3,7 +3,7 @@
 use egui::{Color32, Grid, LayerId, Order, Ui, pos2, vec2};
 
 use super::{ROW, Sight, width};
-use crate::simulation::WindSample;
+use soffio_simulation::WindSample;
 
 /// Air as fast as this is drawn at its reddest, m/s.
 const FULL: f64 = 5.0;

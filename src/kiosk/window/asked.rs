@@ -5,9 +5,9 @@ use std::time::Instant;
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
-use crate::kiosk::input::Request;
-use crate::kiosk::loudness::Wishes;
-use crate::simulation::Command;
+use crate::input::Request;
+use crate::loudness::Wishes;
+use soffio_simulation::Command;
 
 impl App<'_> {
     /// What a press at a point of the picture asks for, where it is not a breath.

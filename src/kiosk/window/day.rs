@@ -6,14 +6,14 @@ use jiff::{ToSpan, Zoned};
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
-use crate::config::{Day, TimeOfDay};
-use crate::kiosk::fleet::SAFE_MODE;
-use crate::kiosk::input::Request;
-use crate::kiosk::live::Frame;
-use crate::kiosk::shelf::{Places, folders, id};
-use crate::kiosk::site::{News, Site, waits_for_restart};
-use crate::kiosk::staff::Wish;
-use crate::simulation::Command;
+use crate::fleet::SAFE_MODE;
+use crate::input::Request;
+use crate::live::Frame;
+use crate::shelf::{Places, folders, id};
+use crate::site::{News, Site, waits_for_restart};
+use crate::staff::Wish;
+use soffio_config::{Day, TimeOfDay};
+use soffio_simulation::Command;
 
 impl App<'_> {
     /// Opens and closes by the hours.

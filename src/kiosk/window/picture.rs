@@ -5,17 +5,17 @@ use std::time::Instant;
 use winit::event_loop::ActiveEventLoop;
 
 use super::{App, Show, visit};
-use crate::kiosk::languages::{first, offered};
-use crate::kiosk::live::Frame;
-use crate::kiosk::menu::tiles;
-use crate::kiosk::overlay::Scene;
-use crate::kiosk::rest::{PICTURE_S, Signs};
-use crate::kiosk::screen::{Drawn, Screen};
-use crate::kiosk::staff::{Sight, Vitals};
-use crate::kiosk::tiers::Tiers;
+use crate::languages::{first, offered};
+use crate::live::Frame;
+use crate::menu::tiles;
+use crate::overlay::Scene;
+use crate::rest::{PICTURE_S, Signs};
+use crate::screen::{Drawn, Screen};
+use crate::staff::{Sight, Vitals};
+use crate::tiers::Tiers;
 #[cfg(target_os = "linux")]
-use crate::kiosk::watchdog::Progress;
-use crate::kiosk::workbench::Workbench;
+use crate::watchdog::Progress;
+use crate::workbench::Workbench;
 
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;

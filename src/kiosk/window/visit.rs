@@ -3,12 +3,12 @@
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
-use crate::audio_io::{DeviceState, Words};
-use crate::kiosk::aloud::goes_on;
-use crate::kiosk::dwell::Target;
-use crate::kiosk::input::{Request, Signal};
-use crate::kiosk::live::Frame;
-use crate::kiosk::needs::Needs;
+use crate::aloud::goes_on;
+use crate::dwell::Target;
+use crate::input::{Request, Signal};
+use crate::live::Frame;
+use crate::needs::Needs;
+use soffio_devices::audio::{DeviceState, Words};
 
 impl App<'_> {
     /// Looks on, once a picture.

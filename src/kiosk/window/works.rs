@@ -1,9 +1,9 @@
 //! The window's part in the works on show: what the shelf says of them, which comes next, attract mode that lets them take turns.
 
 use super::App;
-use crate::kiosk::live::Frame;
-use crate::kiosk::menu::Menu;
-use crate::kiosk::shelf::{self, News};
+use crate::live::Frame;
+use crate::menu::Menu;
+use crate::shelf::{self, News};
 
 impl App<'_> {
     /// What the shelf has to say.

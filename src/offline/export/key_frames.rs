@@ -10,9 +10,10 @@ use std::path::Path;
 use super::super::whole_file::WholeFile;
 use super::scenery::Scenery;
 use super::thin;
-use crate::exhibit::Exhibit;
-use crate::exhibit::model::{self, Animation, Channel, Curve, Track};
-use crate::math::Pose;
+use soffio_authoring::model_writer;
+use soffio_exhibit::Exhibit;
+use soffio_exhibit::model::{Animation, Channel, Curve, Track};
+use soffio_math::Pose;
 
 /// Poses of a run's frames.
 pub struct Bake {
@@ -60,7 +61,7 @@ impl Bake {
         let credit = &exhibit.credit;
         let copyright = [&credit.model_author, &credit.model_license, &credit.notice];
         let said: Vec<&str> = copyright.into_iter().map(|part| part.trim()).filter(|part| !part.is_empty()).collect();
-        model::write(&scenery.model, &said.join("; "))
+        model_writer::write(&scenery.model, &said.join("; "))
     }
 
     fn channels(&self, node: usize, poses: &[Pose], reach: f64) -> [Channel; 2] {

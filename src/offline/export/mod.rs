@@ -2,7 +2,7 @@
 
 pub mod key_frames;
 pub mod mjcf;
-#[cfg(feature = "kiosk")]
+#[cfg(feature = "pictures")]
 pub mod rib;
 pub mod scenery;
 mod thin;

@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 
 use super::super::whole_file::WholeFile;
 use super::scenery::Scenery;
-use crate::exhibit::model::{Appearance, LightKind, Primitive};
-use crate::exhibit::{Exhibit, View};
-use crate::math::{DMat4, DVec3, PI, Pose, acos};
-use crate::render::gallery::{FLOOR_ALBEDO, Face, Room, WALL_ALBEDO, WALL_AMBIENT};
+use soffio_exhibit::model::{Appearance, LightKind, Primitive};
+use soffio_exhibit::{Exhibit, View};
+use soffio_math::{DMat4, DVec3, PI, Pose, acos};
+use soffio_render::gallery::{FLOOR_ALBEDO, Face, Room, WALL_ALBEDO, WALL_AMBIENT};
 
 /// The shutter is open for this share of a frame.
 const SHUTTER: f64 = 0.5;

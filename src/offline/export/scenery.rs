@@ -1,9 +1,9 @@
 //! What other programs are to draw: the exhibit's model with each moving body a root of its own, wires as meshes, and the
 //! visitor's camera.
 
-use crate::exhibit::model::{Appearance, Camera, Mesh, Model, Node};
-use crate::exhibit::{Exhibit, Wire};
-use crate::math::{DMat3, DMat4, DQuat, DVec3};
+use soffio_exhibit::model::{Appearance, Camera, Mesh, Model, Node};
+use soffio_exhibit::{Exhibit, Wire};
+use soffio_math::{DMat3, DMat4, DQuat, DVec3};
 
 use super::tube::tube;
 

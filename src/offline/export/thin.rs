@@ -1,6 +1,6 @@
 //! Key frames that are not missed: straight lines between those that stay lead past all others.
 
-use crate::math::{DQuat, DVec3, rotation, rotation_vector};
+use soffio_math::{DQuat, DVec3, rotation, rotation_vector};
 
 /// Farthest that any point of a body may be from where the run had it, by what was left out, m.
 const ERROR: f64 = 1e-5;
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn what_is_left_out_is_found_again_within_the_error() {
-        let way = |i: usize| DVec3::new(0.1 * crate::math::sin(0.005 * i as f64), 0.0, 0.0);
+        let way = |i: usize| DVec3::new(0.1 * soffio_math::sin(0.005 * i as f64), 0.0, 0.0);
         let all: Vec<DVec3> = (0..500).map(way).collect();
         let kept = places(&all);
         // The bend is at most a = 2.5 µm a frame², so that n frames may lie between two keys with a n²/8 = 5 µm: four.

@@ -1,7 +1,7 @@
 //! A bent wire as a mesh: a ring of corners at each of its points, turned along without twist.
 
-use crate::exhibit::model::Primitive;
-use crate::math::{DVec3, PI, sincos, tangents};
+use soffio_exhibit::model::Primitive;
+use soffio_math::{DVec3, PI, sincos, tangents};
 
 /// Corners of a ring: the outline is off by r (1 − cos π/12), a thirtieth of the radius.
 const SIDES: u32 = 12;

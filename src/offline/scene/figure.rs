@@ -10,11 +10,12 @@
 //! last rotation of a slider.
 
 use super::format::{Joint, JointKind, Scene};
-use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function, Measure, Term};
-use crate::bodies::{MassProperties, RigidBody};
-use crate::dynamics::forces::Damping;
-use crate::dynamics::{Dynamics, Figure, Integrator, Settings, Solver};
-use crate::math::{DMat3, DQuat, DVec3, tangents};
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::Function;
+use soffio_math::{DMat3, DQuat, DVec3, tangents};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Measure, Term};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Settings, Solver};
 
 /// Time in which the field draws a drifted joint together, as exhibits have it, s.
 const STABILIZATION_TIME: f64 = 0.04;

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::measure;
-use crate::math::{DQuat, DVec3};
+use soffio_math::{DQuat, DVec3};
 
 /// What `format` says.
 pub const FORMAT: &str = "isaac-bench-scene/1";

@@ -10,8 +10,8 @@ use serde::Serialize;
 use super::format::Scene;
 use super::make;
 use super::run::{Engine, ROUNDS, Soffio};
-use crate::articulation::System;
-use crate::dynamics::{Integrator, Solver};
+use soffio_multibody::articulation::System;
+use soffio_multibody::dynamics::{Integrator, Solver};
 
 /// Sizes of the figures.
 pub const SIZES: [usize; 4] = [10, 100, 1_000, 10_000];
@@ -72,8 +72,12 @@ fn step_time(scene: &Scene, steps: usize) -> f64 {
 /// s per factor and solve at the start.
 fn solve_time(scene: &Scene, times: usize) -> f64 {
     let bodies = scene.rigid_bodies();
-    let mut system =
-        System::new(&bodies, &vec![false; bodies.len()], &scene.constraints(), crate::articulation::Method::Sparse);
+    let mut system = System::new(
+        &bodies,
+        &vec![false; bodies.len()],
+        &scene.constraints(),
+        soffio_multibody::articulation::Method::Sparse,
+    );
     system.evaluate(&bodies);
     let start = ThreadTime::now();
     for _ in 0..times {

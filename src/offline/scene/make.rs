@@ -5,8 +5,8 @@
 
 use super::format::{Body, FORMAT, Joint, JointKind, Meta, Scene};
 use super::measure::{State, energy};
-use crate::math::{DQuat, DVec3, PI, rotation};
-use crate::noise::Random;
+use soffio_math::noise::Random;
+use soffio_math::{DQuat, DVec3, PI, rotation};
 
 const G: f64 = 9.81;
 const TIMES: [f64; 2] = [1.0 / 240.0, 1e-3];

@@ -12,8 +12,8 @@
 //! on the straight line through them, and on the cubic through both angles and rates (Hermite).
 
 use super::format::{Coupling, Joint, JointKind, Scene};
-use crate::bodies::RigidBody;
-use crate::math::{DQuat, DVec3, PI, StateHash, atan2, tangents};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DQuat, DVec3, PI, StateHash, atan2, tangents};
 
 /// Relative energy error beyond which a run has diverged.
 const DIVERGED: f64 = 10.0;

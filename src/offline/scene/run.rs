@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::format::Scene;
 use super::measure::{Observer, Report, State, hash};
-use crate::dynamics::{Dynamics, Impact, Integrator, Solver};
+use soffio_multibody::dynamics::{Dynamics, Impact, Integrator, Solver};
 
 /// Rounds of a measurement of time.
 pub const ROUNDS: usize = 3;

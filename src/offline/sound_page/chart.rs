@@ -1,7 +1,7 @@
 //! Axes: a frame with a grid, its numbers, and where a value lies in it.
 
 use super::canvas::{Align, Canvas, GRID, INK, PALE};
-use crate::math::log10;
+use soffio_math::log10;
 
 /// One direction of a chart.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ impl Axis {
     /// Value at a place 0…1.
     pub fn value(&self, at: f64) -> f64 {
         if self.logarithmic {
-            self.low * crate::math::pow(self.high / self.low, at)
+            self.low * soffio_math::pow(self.high / self.low, at)
         } else {
             self.low + at * (self.high - self.low)
         }
@@ -47,7 +47,7 @@ impl Axis {
     fn ticks(&self) -> Vec<(f64, bool)> {
         let mut out = Vec::new();
         if self.logarithmic {
-            let mut decade = crate::math::pow(10.0, log10(self.low).floor());
+            let mut decade = soffio_math::pow(10.0, log10(self.low).floor());
             // 1, 2, 5 where there is room for them.
             let wide = self.high / self.low > 1e4;
             while decade <= self.high {
@@ -63,7 +63,7 @@ impl Axis {
             return out;
         }
         let rough = (self.high - self.low) / 6.0;
-        let decade = crate::math::pow(10.0, log10(rough).floor());
+        let decade = soffio_math::pow(10.0, log10(rough).floor());
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|s| s * decade).find(|s| *s >= rough).unwrap_or(rough);
         let mut i = (self.low / step).ceil();
         while i * step <= self.high * (1.0 + 1e-9) + 1e-12 {

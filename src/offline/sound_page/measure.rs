@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use realfft::{RealFftPlanner, RealToComplex};
 
-use crate::math::{PI, cos, decibels, log10};
+use soffio_math::{PI, cos, decibels, log10};
 
 /// Power of frames of a sound, a row of bins each.
 pub struct Frames {
@@ -65,7 +65,7 @@ pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
     let mut out = Vec::new();
     let bands: Vec<(f64, Vec<f64>)> = (0..19)
         .map(|i| {
-            let centre = 40.0 * crate::math::pow(2.0, 0.5 * f64::from(i));
+            let centre = 40.0 * soffio_math::pow(2.0, 0.5 * f64::from(i));
             (centre, frames.band(centre / 1.19, centre * 1.19))
         })
         .filter(|(centre, _)| *centre > 3.0 * frames.bin && *centre < 19_000.0)

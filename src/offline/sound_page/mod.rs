@@ -13,13 +13,13 @@ use image::RgbImage;
 use super::audition::{Audition, AuditionError};
 use super::wav;
 use super::whole_file::WholeFile;
-use crate::simulation::SAMPLE_RATE;
-use crate::sound::modes::T60_DECAYS;
-use crate::sound::timbre::Specimen;
-use crate::sound::{Mode, Preset, partials};
 use canvas::{Align, Canvas, Colour, FIRST, INK, PALE, SECOND, THIRD};
 use chart::{Axis, Chart, short};
 use measure::Frames;
+use soffio_simulation::SAMPLE_RATE;
+use soffio_sound::modes::T60_DECAYS;
+use soffio_sound::timbre::Specimen;
+use soffio_sound::{Mode, Preset, partials};
 
 /// Pixels of a sheet.
 const WIDTH: u32 = 1600;
@@ -197,7 +197,7 @@ impl<'a> Sheet<'a> {
                 let frame = (chart.x.value(column as f64 / width) / frames.hop) as usize;
                 let bins = &frames.rows[frame.min(frames.rows.len() - 1)];
                 let power = bins[first.min(bins.len() - 1)..last.min(bins.len())].iter().copied().fold(0.0, f64::max);
-                let level = 1.0 + 10.0 * crate::math::log10((power / top).max(1e-20)) / RANGE;
+                let level = 1.0 + 10.0 * soffio_math::log10((power / top).max(1e-20)) / RANGE;
                 canvas.dot((left + column as f64) as i64, (upper + row as f64) as i64, heat(level), 1.0);
             }
         }
@@ -216,7 +216,7 @@ impl<'a> Sheet<'a> {
         let own = part(&self.sound);
         let others: Vec<Frames> = self.others.iter().map(|sound| part(sound)).collect();
         let top = own.mean().into_iter().chain(others.iter().flat_map(Frames::mean)).fold(1e-20, f64::max);
-        let top = (10.0 * crate::math::log10(top) / 10.0).ceil() * 10.0;
+        let top = (10.0 * soffio_math::log10(top) / 10.0).ceil() * 10.0;
         let chart = Chart { place, x: Axis::logarithmic(40.0, 20_000.0), y: Axis::linear(top - RANGE, top) };
         let title = if self.preset.continuous() { "Spectrum" } else { "Spectrum of the first half second" };
         chart.frame(canvas, title, "Hz", "dBFS");
@@ -247,7 +247,7 @@ impl<'a> Sheet<'a> {
         let loudest = self.modes.iter().map(|m| m.amplitude.abs()).fold(1e-20, f64::max);
         for mode in &self.modes {
             let size =
-                (1.0 + 0.25 * (crate::math::decibels(mode.amplitude.abs() / loudest) + 40.0) / 10.0).clamp(0.3, 2.0);
+                (1.0 + 0.25 * (soffio_math::decibels(mode.amplitude.abs() / loudest) + 40.0) / 10.0).clamp(0.3, 2.0);
             canvas.disc(chart.point(mode.frequency, t60(mode)), 2.2 * size, FIRST, 0.75);
         }
         for &(hz, seconds) in &heard {
@@ -275,7 +275,7 @@ fn curve(canvas: &mut Canvas, chart: &Chart, frames: &Frames, colour: Colour) {
             let first = (low / frames.bin).round() as usize;
             let last = ((high / frames.bin).round() as usize).clamp(first + 1, mean.len().max(first + 1));
             let power = mean[first.min(mean.len() - 1)..last.min(mean.len())].iter().copied().fold(0.0, f64::max);
-            chart.point(low, 10.0 * crate::math::log10(power.max(1e-30)))
+            chart.point(low, 10.0 * soffio_math::log10(power.max(1e-30)))
         })
         .collect();
     canvas.path(&points, 1.5, colour);

@@ -14,8 +14,8 @@ mod surface;
 
 use super::timbre::{Inputs, MAX_NODES, Number, Preset, TimbreError};
 use super::{InstrumentSpec, SurfaceLine};
-use crate::noise::hash_words;
 use operator::Kind;
+use soffio_math::noise::hash_words;
 pub(super) use state::State;
 
 /// Samples between two readings of bound numbers.

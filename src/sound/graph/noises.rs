@@ -9,10 +9,10 @@
 
 use super::CONTROL;
 use super::state::{PINK, State};
-use crate::math::{PI, exp, ln};
-use crate::noise::{hash, perlin1};
-use crate::sound::gusts::multifractal;
-use crate::sound::timbre::{Noise, NoiseKind};
+use crate::gusts::multifractal;
+use crate::timbre::{Noise, NoiseKind};
+use soffio_math::noise::{hash, perlin1};
+use soffio_math::{PI, exp, ln};
 
 /// Distance from one pole to the next: two octaves. The lowest is at 20 Hz at 48 kHz.
 const APART: f64 = 4.0;

@@ -6,8 +6,8 @@ use super::noises::{Pink, Slow};
 use super::state::State;
 use super::surface::Pyramid;
 use super::{Block, CONTROL, SurfaceLine};
-use crate::math::{PI, exp};
-use crate::sound::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
+use crate::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
+use soffio_math::{PI, exp};
 
 /// An envelope below this is over: −120 dB.
 const OVER: f64 = 1e-6;

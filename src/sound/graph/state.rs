@@ -1,14 +1,14 @@
 //! What one operator of one voice remembers.
 
-use crate::noise::Random;
-use crate::sound::timbre::{FilterKind, LONGEST_DELAY};
+use crate::timbre::{FilterKind, LONGEST_DELAY};
+use soffio_math::noise::Random;
 
 /// Sections of the pink filter.
 pub(super) const PINK: usize = 6;
 
 /// What one operator of one voice remembers.
 #[derive(Clone)]
-pub(in crate::sound) struct State {
+pub(crate) struct State {
     /// Level now, and its change per sample.
     pub gain: f64,
     pub gain_step: f64,

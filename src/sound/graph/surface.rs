@@ -16,10 +16,10 @@
 //! octaves of noise, amplitude 2^(−iH), hence a spectrum of slope −1 − 2H.
 
 use super::state::State;
-use crate::math::{DVec3, PI, ln, sin, sincos};
-use crate::noise::{Random, hash_words, perlin3};
-use crate::sound::SurfaceLine;
-use crate::sound::timbre::{Texture, TextureKind};
+use crate::SurfaceLine;
+use crate::timbre::{Texture, TextureKind};
+use soffio_math::noise::{Random, hash_words, perlin3};
+use soffio_math::{DVec3, PI, ln, sin, sincos};
 
 /// Points of a procedural line.
 const POINTS: usize = 1 << 15;

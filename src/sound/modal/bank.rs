@@ -13,7 +13,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::kernel::{BLOCK, FRAME, GROUP, Group, Phasors, Sums, respond, ring, ring_beside, ring_driven, times};
 use super::pulse::{MOST_DECAYS, Pulse};
-use crate::math::{PI, exp, sincos};
+use soffio_math::{PI, exp, sincos};
 
 /// Largest amplitude that a single hit may give all partials together; beyond is nonsense, not loud.
 const LOUDEST: f64 = 1000.0;

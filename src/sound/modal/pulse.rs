@@ -13,7 +13,7 @@
 //! |cos(π f τ) / (1 − (2 f τ)²)| for a small c, and its phase the delay τ/2: harder, faster hits are brighter.
 
 use super::kernel::times;
-use crate::math::{PI, exp, sincos};
+use soffio_math::{PI, exp, sincos};
 
 /// A partial this near to the pulse's own frequency (relative) is taken to be this far off: K would be infinite there,
 /// G is smooth.

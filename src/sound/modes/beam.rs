@@ -27,9 +27,9 @@
 //! than sound, neighbouring half waves cancel: × f/(f + f_c), f_c = c²/(2πK√(E/ρ)).
 
 use super::{HIGHEST, Matter, Mode, ModeError, Shape};
-use crate::math::{PI, cos, exp, ln, sin, tanh};
-use crate::sound::excitation::{FULL_SCALE_PRESSURE, IMPEDANCE, SOUND_SPEED};
-use crate::sound::timbre::{Bar, BeamModel, MaterialOverride, Modal, Tube};
+use crate::excitation::{FULL_SCALE_PRESSURE, IMPEDANCE, SOUND_SPEED};
+use crate::timbre::{Bar, BeamModel, MaterialOverride, Modal, Tube};
+use soffio_math::{PI, cos, exp, ln, sin, tanh};
 
 /// Steps of √b in which roots are looked for: the lowest two of one parity are 6 apart, later ones never below 0.1.
 const STEP: f64 = 0.02;

@@ -6,9 +6,9 @@
 //! direction and phase of chance, with as many half waves along the body as its frequency over the lowest allows.
 
 use super::{Mode, Shape, T60_DECAYS};
-use crate::math::{PI, exp, ln, pow, sincos};
-use crate::noise::{Random, hash_words};
-use crate::sound::timbre::{Drawn, Modal, Spacing};
+use crate::timbre::{Drawn, Modal, Spacing};
+use soffio_math::noise::{Random, hash_words};
+use soffio_math::{PI, exp, ln, pow, sincos};
 
 /// Partials of a draw, ascending.
 pub(super) fn partials(drawn: &Drawn, modal: &Modal) -> Vec<Mode> {

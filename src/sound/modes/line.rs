@@ -7,9 +7,9 @@
 //! **Spring**: f = √(k/m) / 2π.
 
 use super::{HIGHEST, Matter, Mode, ModeError, Shape, T60_DECAYS};
-use crate::math::PI;
-use crate::sound::SoundBody;
-use crate::sound::timbre::{MassSpring, Modal, Strung};
+use crate::SoundBody;
+use crate::timbre::{MassSpring, Modal, Strung};
+use soffio_math::PI;
 
 /// Partials of a string.
 pub(super) fn string(string: &Strung, matter: &Matter, modal: &Modal) -> Result<Vec<Mode>, ModeError> {

@@ -22,8 +22,8 @@ pub use shape::Shape;
 use super::excitation::Radiator;
 use super::timbre::{MaterialOverride, Modal, Source, Table};
 use super::{InstrumentSpec, SoundBody, SoundMaterial};
-use crate::math::PI;
 use plate::outline_exponent;
+use soffio_math::PI;
 
 /// T60 · c: a fall by 60 dB is e^(−6.908).
 pub const T60_DECAYS: f64 = 6.907_755_278_982_137;

@@ -16,8 +16,8 @@
 //! tables), the upper half is thrown away.
 
 use super::eigen::{Matrix, generalised};
-use crate::math::{PI, cos, pow};
-use crate::sound::{SoundBody, SoundMaterial};
+use crate::{SoundBody, SoundMaterial};
+use soffio_math::{PI, cos, pow};
 
 /// Largest total degree of the Ritz polynomials.
 pub const DEGREE: usize = 18;

@@ -2,7 +2,7 @@
 
 use super::beam::BeamMode;
 use super::plate::{Legendre, PlateMode, legendre, onto_plate};
-use crate::math::{PI, cos, sin, sincos};
+use soffio_math::{PI, cos, sin, sincos};
 
 /// A place on a body, made ready for all shapes of it.
 pub struct Place {
@@ -44,7 +44,7 @@ pub enum Shape {
 
 impl Shape {
     /// φ at a place of a body of this mass (kg), mass-normalised whatever the shape, 1/√kg: what a touch there damps by.
-    pub(in crate::sound) fn per_root_mass(&self, place: &Place, mass: f64) -> f64 {
+    pub(crate) fn per_root_mass(&self, place: &Place, mass: f64) -> f64 {
         match self {
             Self::Plate(_) | Self::Beam(..) => self.at(place),
             Self::Even | Self::String(_) | Self::Wave(..) => self.at(place) / mass.sqrt(),
@@ -52,7 +52,7 @@ impl Shape {
     }
 
     /// φ at a place.
-    pub(in crate::sound) fn at(&self, place: &Place) -> f64 {
+    pub(crate) fn at(&self, place: &Place) -> f64 {
         let [x, y] = place.position;
         match self {
             Self::Even => 1.0,

@@ -25,7 +25,7 @@
 //! | h | `rise`, in dB | 1 |
 
 use super::{BANDS, LINES};
-use crate::math::{PI, decibels, from_decibels, sincos, sqrt};
+use soffio_math::{PI, decibels, from_decibels, sincos, sqrt};
 
 /// Shelves of a line: one between two octaves.
 pub(super) const SHELVES: usize = BANDS.len() - 1;

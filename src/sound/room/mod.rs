@@ -33,7 +33,7 @@ use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 use absorption::{Absorption, Absorptions};
 use network::{CHUNK, Delay, Network};
 
-use crate::math::{decibels, from_decibels, pow, sqrt};
+use soffio_math::{decibels, from_decibels, pow, sqrt};
 
 /// Delay lines.
 pub(super) const LINES: usize = 16;

@@ -68,7 +68,7 @@ pub enum NoiseKind {
     Pink,
     /// Octaves of gradient noise, about ±1, slow: it steers.
     Perlin,
-    /// Gusts: a product of octaves of gradient noise, mean 1 ([`multifractal`](crate::sound::multifractal)).
+    /// Gusts: a product of octaves of gradient noise, mean 1 ([`multifractal`](crate::multifractal)).
     Multifractal,
 }
 
@@ -247,7 +247,7 @@ fn ten_micrometres() -> f64 {
 
 impl Node {
     /// Names of the nodes it takes.
-    pub(in crate::sound) fn inputs(&self) -> &[String] {
+    pub(crate) fn inputs(&self) -> &[String] {
         match self {
             Self::Modal(modal) => modal.r#in.as_slice(),
             Self::Noise(_) | Self::Texture(_) | Self::Value(_) => &[],
@@ -260,7 +260,7 @@ impl Node {
     }
 
     /// Its level.
-    pub(in crate::sound) fn gain(&self) -> Number {
+    pub(crate) fn gain(&self) -> Number {
         match self {
             Self::Modal(modal) => modal.gain,
             Self::Noise(Noise { gain, .. })

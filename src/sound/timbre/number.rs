@@ -13,7 +13,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::math::pow;
+use soffio_math::pow;
 
 /// Most factors, and most terms, of one number.
 pub const MAX_FACTORS: usize = 3;
@@ -198,7 +198,7 @@ pub enum Input {
 
 /// Values of all inputs at one moment, by the names of [`Input`].
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::sound) struct Inputs {
+pub(crate) struct Inputs {
     pub impulse: f64,
     pub speed: f64,
     pub mass: f64,
@@ -250,7 +250,7 @@ impl Number {
     }
 
     /// Its value now: finite for finite inputs.
-    pub(in crate::sound) fn at(&self, inputs: &Inputs) -> f64 {
+    pub(crate) fn at(&self, inputs: &Inputs) -> f64 {
         let binding = match self {
             Self::Fixed(value) => return *value,
             Self::Bound(binding) => binding,
@@ -303,7 +303,7 @@ impl Number {
 
 /// How an input plays a timbre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::sound) enum Player {
+pub(crate) enum Player {
     Hit,
     Wind,
     Slide,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::{InstrumentSpec, SoundBody, SoundMaterial};
-use crate::math::PI;
+use soffio_math::PI;
 
 /// A body and a way to play it. The defaults: a steel disc of 12 cm, half a millimetre thick.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]

@@ -10,9 +10,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use soffio::dynamics::{Integrator, Solver};
-use soffio::offline::scene::run::{self, Best, ROUNDS};
-use soffio::offline::scene::{Engine, Limits, Row, Scene, Soffio};
+use soffio_multibody::dynamics::{Integrator, Solver};
+use soffio_offline::scene::run::{self, Best, ROUNDS};
+use soffio_offline::scene::{Engine, Limits, Row, Scene, Soffio};
 
 /// Version of the peer, as the manifest pins it.
 const RAPIER: &str = "0.36.1";

@@ -11,8 +11,8 @@ macro_rules! engine {
         /// Rapier in one precision.
         pub mod $module {
             use $rapier::prelude::*;
-            use soffio::math::{DQuat, DVec3};
-            use soffio::offline::scene::{Engine, JointKind, Scene, State};
+            use soffio_math::{DQuat, DVec3};
+            use soffio_offline::scene::{Engine, JointKind, Scene, State};
 
             struct World {
                 world: PhysicsWorld,

@@ -6,15 +6,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use soffio::config::Config;
-use soffio::dynamics::{Integrator, Solver};
-use soffio::exhibit::{self, Exhibit};
-use soffio::offline::audition::Audition;
-use soffio::offline::scene::Scene;
-use soffio::offline::scene::run::{Engine, Soffio};
-use soffio::offline::wav;
-use soffio::simulation::{Script, Settings, Simulation, StepInput, record};
-use soffio::sound::Preset;
+use soffio_config::Config;
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_multibody::dynamics::{Integrator, Solver};
+use soffio_offline::audition::Audition;
+use soffio_offline::scene::Scene;
+use soffio_offline::scene::run::{Engine, Soffio};
+use soffio_offline::wav;
+use soffio_simulation::{Script, Settings, Simulation, StepInput, record};
+use soffio_sound::Preset;
 
 /// Steps that a good exhibit or scene is run for.
 const STEPS: usize = 8;

@@ -1,12 +1,13 @@
 //! Random figures: bodies in any motion, joined by every kind of row.
 
-use soffio::articulation::block::{Vec6, vec6};
-use soffio::articulation::{
-    Anchor, Axis, Constraint, ConstraintKind, Function, Measure, PivotFriction, Schedule, Term, Window,
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::Function;
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, vec6};
+use soffio_math::{DMat3, DVec3, Pose, rotation};
+use soffio_multibody::articulation::{
+    Anchor, Axis, Constraint, ConstraintKind, Measure, PivotFriction, Schedule, Term, Window,
 };
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::math::{DMat3, DVec3, Pose, rotation};
-use soffio::noise::Random;
 
 pub fn vector(random: &mut Random) -> DVec3 {
     DVec3::new(random.signed(), random.signed(), random.signed())

@@ -1,10 +1,10 @@
 //! What only trains feel: their answer in their own coordinates beside the dense solver's, which knows no trains.
 
-use soffio::articulation::block::{Vec6, dot};
-use soffio::articulation::{Method, System};
-use soffio::exhibit;
-use soffio::noise::Random;
-use soffio::simulation::{Settings, start_dynamics};
+use soffio_exhibit as exhibit;
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, dot};
+use soffio_multibody::articulation::{Method, System};
+use soffio_simulation::{Settings, start_dynamics};
 
 use super::figures::wrench;
 

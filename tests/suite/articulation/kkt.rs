@@ -1,8 +1,8 @@
 //! The reference: the whole system [M −Jᵀ; J Γ] as one matrix, by Gaussian elimination with full row pivoting.
 
-use soffio::articulation::System;
-use soffio::articulation::block::Vec6;
-use soffio::bodies::RigidBody;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::Vec6;
+use soffio_multibody::articulation::System;
 
 /// Gaussian elimination with row pivoting, then one step of refinement with the residual of the matrix as given.
 fn solve(matrix: &[Vec<f64>], rhs: &[f64]) -> Vec<f64> {

@@ -1,13 +1,13 @@
 //! Four bodies at a time and one at a time: the same to the bit, on any processor.
 
 use fearless_simd::{Level, dispatch};
-use soffio::articulation::block::Vec6;
-use soffio::articulation::quads::gather;
-use soffio::articulation::{Breaking, Constraint, Method, System};
-use soffio::bodies::RigidBody;
-use soffio::math::lanes::{All, Lanes, One, Quat};
-use soffio::math::{DQuat, DVec3, product, renormalized, rotation};
-use soffio::noise::Random;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::lanes::{All, Lanes, One, Quat};
+use soffio_math::noise::Random;
+use soffio_math::spatial::Vec6;
+use soffio_math::{DQuat, DVec3, product, renormalized, rotation};
+use soffio_multibody::articulation::quads::gather;
+use soffio_multibody::articulation::{Breaking, Constraint, Method, System};
 
 use super::figures::{Kinds, below, body, figure, point, vector, wrench};
 

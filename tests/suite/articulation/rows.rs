@@ -4,15 +4,17 @@
 //! The motion through a state is x(t) = x + v t + a t²/2, q(t) = exp(ω t + α t²/2) q: at t = 0 it has the velocities
 //! (v, ω) and the accelerations (a, α), the latter because φ̇×φ̇ = 0.
 
-use soffio::articulation::block::{Vec6, dot, vec6};
-use soffio::articulation::rows::coupling::{self, Gauge};
-use soffio::articulation::rows::{Row, Scene, orientation, plane, point};
-use soffio::articulation::spatial::matrix;
-use soffio::articulation::{Constraint, ConstraintKind, Function, Interpolation, Measure, Method, System};
-use soffio::bodies::RigidBody;
-use soffio::dynamics::Motion;
-use soffio::math::{DMat3, Pose, rotation};
-use soffio::noise::Random;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::noise::Random;
+use soffio_math::spatial::matrix;
+use soffio_math::spatial::{Vec6, dot, vec6};
+use soffio_math::{DMat3, Pose, rotation};
+use soffio_multibody::articulation::rows::coupling::{self, Gauge};
+use soffio_multibody::articulation::rows::{Row, Scene, orientation, plane, point};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, Measure, Method, System};
+use soffio_multibody::dynamics::Motion;
 
 use super::figures::{self, axis, below, body, unit, vector};
 
@@ -37,7 +39,7 @@ fn moved(bodies: &[RigidBody], accelerations: &[Vec6], t: f64) -> Vec<RigidBody>
     let mut out = bodies.to_vec();
     for (body, a) in out.iter_mut().zip(accelerations) {
         let half = 0.5 * t * t;
-        let (way, turn) = (soffio::articulation::block::linear(a), soffio::articulation::block::angular(a));
+        let (way, turn) = (soffio_math::spatial::linear(a), soffio_math::spatial::angular(a));
         body.position += t * body.velocity + half * way;
         body.rotation = rotation(t * body.angular_velocity + half * turn) * body.rotation;
     }
@@ -137,7 +139,7 @@ fn points_planes_and_orientations_have_the_derivatives_they_say() {
 #[test]
 fn turns_and_ways_have_the_derivatives_they_say_on_moving_frames_too() {
     let one = |measure: Measure| {
-        let terms = vec![soffio::articulation::Term { measure, coefficient: 1.5 }];
+        let terms = vec![soffio_multibody::articulation::Term { measure, coefficient: 1.5 }];
         ConstraintKind::Coupling { terms }
     };
     check("turn", |random| {

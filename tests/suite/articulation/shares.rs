@@ -1,10 +1,10 @@
 //! The share of a row: it carries that part of the force that would hold it, whatever hangs on it, in either solver.
 
-use soffio::articulation::block::{Vec6, angular, linear};
-use soffio::articulation::{Constraint, ConstraintKind, Method, Schedule, System, Window};
-use soffio::bodies::RigidBody;
-use soffio::math::DVec3;
-use soffio::noise::Random;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, angular, linear};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, Method, Schedule, System, Window};
 
 use super::figures::{body, orientation, point, world_anchor, wrench};
 

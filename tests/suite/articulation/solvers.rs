@@ -1,10 +1,11 @@
 //! Both solvers against the reference: 1,000 random figures, and figures whose rows repeat each other.
 
-use soffio::articulation::block::Vec6;
-use soffio::articulation::{Constraint, ConstraintKind, Function, Method, System};
-use soffio::bodies::RigidBody;
-use soffio::math::{DVec3, rotation};
-use soffio::noise::Random;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::Function;
+use soffio_math::noise::Random;
+use soffio_math::spatial::Vec6;
+use soffio_math::{DVec3, rotation};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, Method, System};
 
 use super::figures::{Kinds, RandomFigure, below, body, figure, plane, point, vector, wrench};
 use super::kkt::{Answer, independent, reference, well_posed};

@@ -1,9 +1,9 @@
 //! What goes on for long: ventilation, trains, fans. It may fool the ear for a moment, never for good.
 
-use soffio::noise::Random;
-use soffio::offline::ear::{RATE, noises};
-use soffio::wind::blow::{BlowDetector, Reason};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_detector::{BlowDetector, Reason};
+use soffio_math::noise::Random;
+use soffio_soundscape::{RATE, noises};
 
 /// Of lasting sounds that begin suddenly, wind for at most this long, s.
 const FOOLED_S: f64 = 0.5;
@@ -20,7 +20,7 @@ fn speeds(samples: &[f32]) -> Vec<f64> {
 
 /// Two seconds of a quiet room, then the sound at this level (RMS), then a breath in it.
 fn then_a_breath(sound: &[f64], dbfs: f64, seed: u64) -> Vec<f32> {
-    let gain = soffio::math::from_decibels(dbfs);
+    let gain = soffio_math::from_decibels(dbfs);
     let mut all = generate::pink_noise(RATE, seed, 2.0, -60.0);
     all.extend(sound.iter().map(|x| (gain * x) as f32));
     let shape = BreathShape { strength: 15.0, distance: 0.08, ..BreathShape::default() };

@@ -3,14 +3,13 @@
 mod latch;
 mod own_voice;
 mod recordings;
-mod scores;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::noise::Random;
-use soffio::offline::ear::course::EXAM;
-use soffio::offline::ear::scenes::{Condition, Hearing, World};
-use soffio::wind::blow::{BlowDetector, BlowEstimate, Reason};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_detector::{BlowDetector, BlowEstimate, Reason};
+use soffio_math::noise::Random;
+use soffio_soundscape::EXAM;
+use soffio_soundscape::scenes::{Condition, Hearing, World};
 
 /// The estimate after every block of 5 ms, with its time, s.
 fn hear(samples: &[f32], sample_rate: u32) -> Vec<(f64, BlowEstimate)> {
@@ -72,7 +71,7 @@ fn a_breath_is_heard_at_once_however_frames_and_noise_fall() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish/breaths");
     let mut delays = Vec::new();
     for (name, draw) in ["strong", "normal"].into_iter().flat_map(|name| (0..16).map(move |draw| (name, draw))) {
-        let breath = soffio::offline::wav::read(folder.join(format!("{name}.wav"))).expect("a shipped breath");
+        let breath = soffio_offline::wav::read(folder.join(format!("{name}.wav"))).expect("a shipped breath");
         let rate = breath.sample_rate;
         // Frames come every 8 ms.
         let early = rate as usize * (1500 + draw) / 1000;

@@ -2,9 +2,9 @@
 
 use std::collections::VecDeque;
 
-use soffio::noise::Random;
-use soffio::wind::blow::{BlowDetector, BlowEstimate, Reason};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_detector::{BlowDetector, BlowEstimate, Reason};
+use soffio_math::noise::Random;
 
 const RATE: u32 = 48000;
 /// Samples of one simulation step.

@@ -1,8 +1,8 @@
 //! WAV in and out, and the summary of `soffio breath`.
 
 use soffio::commands::breath;
-use soffio::offline::wav::{self, WavError};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_offline::wav::{self, WavError};
 
 #[test]
 fn every_kind_of_wav_reads_as_the_same_sound() {

@@ -1,8 +1,8 @@
 //! Points of contact: where they are, how many, how far apart.
 
-use soffio::collision::{Corners, Manifold, Shape, proximity};
-use soffio::math::{DQuat, DVec3, PI, Pose, rotation};
-use soffio::noise::Random;
+use soffio_math::noise::Random;
+use soffio_math::{DQuat, DVec3, PI, Pose, rotation};
+use soffio_multibody::collision::{Corners, Manifold, Shape, proximity};
 
 use super::{EXACT, KINDS, collider, from_surface, plate, pose, shape, signed};
 

@@ -1,9 +1,9 @@
 //! Time of impact: nothing passes through anything.
 
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::collision::{Collider, Corners, Shape, Sweep, TOUCH, proximity, time_of_impact};
-use soffio::math::{DMat3, DVec3, PI, Pose, rotation};
-use soffio::noise::Random;
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::noise::Random;
+use soffio_math::{DMat3, DVec3, PI, Pose, rotation};
+use soffio_multibody::collision::{Collider, Corners, Shape, Sweep, TOUCH, proximity, time_of_impact};
 
 use super::{EXACT, KINDS, collider, pose, shape, signed};
 

@@ -1,13 +1,13 @@
 //! Which pairs can meet: exclusion with its reasons, bounds of reach, broad phase.
 
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::collision::reach::{FixedAxis, JointEnd, JointPoint};
-use soffio::collision::{
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::noise::Random;
+use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
+use soffio_multibody::collision::reach::{FixedAxis, JointEnd, JointPoint};
+use soffio_multibody::collision::{
     BroadPhase, Collider, Corners, Excluded, Exclusion, Pair, Reach, Reason, Shape, Sweep, pairs, proximity,
     time_of_impact,
 };
-use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
-use soffio::noise::Random;
 
 use super::{KINDS, collider, pose, shape, signed};
 
@@ -175,7 +175,7 @@ fn of_many_pairs_the_same_are_found_as_at_first_sight() {
     let mut random = Random::new(23);
     let ball = |body: usize, at: DVec3| collider(Some(body), Shape::sphere(at, 0.004));
     let ring = (0..42).map(|k| {
-        let (s, c) = soffio::math::sincos(f64::from(k) * 0.149_6);
+        let (s, c) = soffio_math::sincos(f64::from(k) * 0.149_6);
         ball(0, 0.1 * DVec3::new(c, s, 0.0))
     });
     let colliders: Vec<Collider> = ring.chain((0..3).map(|k| ball(1, 0.01 * f64::from(k) * DVec3::X))).collect();

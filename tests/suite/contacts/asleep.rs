@@ -1,6 +1,6 @@
 //! What rests is left out until something comes: exactly still, and awake as if it had never slept.
 
-use soffio::articulation::{Anchor, Schedule, Window};
+use soffio_multibody::articulation::{Anchor, Schedule, Window};
 
 use super::*;
 

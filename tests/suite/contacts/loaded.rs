@@ -1,6 +1,6 @@
 //! What is hard on contacts: heavy bodies on light ones, many bodies, joints that gather past obstacles, teeth with play.
 
-use soffio::articulation::Term;
+use soffio_multibody::articulation::Term;
 
 use super::*;
 
@@ -63,7 +63,7 @@ fn of_many_chimes_only_neighbours_are_measured() {
 /// A chain of rods with colliders, hung at the origin, each rod put elsewhere.
 fn scattered(seed: u64) -> Scene {
     let (count, half, radius) = (6, 0.05, 0.006);
-    let mut random = soffio::noise::Random::new(seed);
+    let mut random = soffio_math::noise::Random::new(seed);
     let mut scene = Scene::new(Vec::new(), Vec::new());
     scene.damping = 1.0;
     for i in 0..count {

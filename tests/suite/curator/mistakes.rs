@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use serde_json::json;
-use soffio::config::Config;
-use soffio::exhibit;
-use soffio::noise::Random;
+use soffio_config::Config;
+use soffio_exhibit as exhibit;
+use soffio_math::noise::Random;
 
 use super::super::cli::{Desk, text};
 use super::super::exhibit::glb::{Scene, cuboid};
@@ -245,7 +245,7 @@ fn two_hundred_spoiled_sidecars_are_told_where_and_none_ends_the_program() {
 
 #[test]
 fn two_hundred_spoiled_configurations_are_told_where_and_none_ends_the_program() {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join(soffio::config::FILE);
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join(soffio_config::FILE);
     let text = std::fs::read_to_string(shipped).expect("shipped");
     let mut random = Random::new(8);
     let (mut good, mut bad) = (0, 0);

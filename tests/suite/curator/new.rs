@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::make::drawing::outlines;
-use soffio::exhibit::make::given::{self, Metal, Outline, sized};
-use soffio::exhibit::make::notes::{self, chime, note};
-use soffio::exhibit::make::template::Template;
-use soffio::exhibit::make::{Made, starter};
-use soffio::exhibit::{self, Exhibit, Report};
-use soffio::math::DVec3;
-use soffio::noise::Random;
-use soffio::simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_authoring::drawing::outlines;
+use soffio_authoring::given::{self, Metal, Outline, sized};
+use soffio_authoring::notes::{self, chime, note};
+use soffio_authoring::template::Template;
+use soffio_authoring::{Made, starter};
+use soffio_exhibit::{self as exhibit, Exhibit, Report};
+use soffio_math::DVec3;
+use soffio_math::noise::Random;
+use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// A rest pose may lean so far, degrees: the eye sees no less.
 const LEVEL_DEG: f64 = 1.0;

@@ -1,9 +1,9 @@
 //! The small exhibits: what their labels and sidecars say of them follows from what the loader weighs and measures.
 
-use soffio::articulation::{ConstraintKind, Measure};
-use soffio::collision::Pair;
-use soffio::exhibit::{self, Exhibit, SoundTrigger};
-use soffio::math::{DVec3, PI};
+use soffio_exhibit::{self as exhibit, Exhibit, SoundTrigger};
+use soffio_math::{DVec3, PI};
+use soffio_multibody::articulation::{ConstraintKind, Measure};
+use soffio_multibody::collision::Pair;
 
 fn shipped(id: &str) -> Exhibit {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
@@ -27,7 +27,7 @@ fn the_pendulum_beats_6720_times_an_hour() {
     // Quality ω/c, c the rate at which the energy fades.
     let quality = 2.0 * PI / period / exhibit.bodies[0].linear_damping;
     assert!((quality - 150.0).abs() < 1.0, "Q = {quality}");
-    let tilt = 2.0 * soffio::math::asin(exhibit.bodies[0].pose.rotation.z);
+    let tilt = 2.0 * soffio_math::asin(exhibit.bodies[0].pose.rotation.z);
     assert!((tilt - 4.0 * PI / 180.0).abs() < FILE, "drawn aside by {tilt} rad");
 }
 

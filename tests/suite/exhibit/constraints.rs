@@ -1,9 +1,9 @@
 //! What each kind of constraint holds and what it leaves free: bodies are moved by hand, and the rows that the loader
 //! made are evaluated here by their definitions, apart from the solver.
 
-use soffio::articulation::{Anchor, Axis, ConstraintKind, LimitKind, Measure, SpringKind};
-use soffio::exhibit::{self, Exhibit, Report, codes};
-use soffio::math::{DVec3, PI, Pose, asin, rotation};
+use soffio_exhibit::{self as exhibit, Exhibit, Report, codes};
+use soffio_math::{DVec3, PI, Pose, asin, rotation};
+use soffio_multibody::articulation::{Anchor, Axis, ConstraintKind, LimitKind, Measure, SpringKind};
 
 use super::glb::{Folder, Scene, cuboid};
 

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use soffio::articulation::ConstraintKind;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::DVec3;
-use soffio::simulation::{Simulation, StepInput};
-use soffio::wind::breath::Law;
-use soffio::wind::weather::{Rhythm, WindKind};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::DVec3;
+use soffio_multibody::articulation::ConstraintKind;
+use soffio_simulation::{Simulation, StepInput};
+use soffio_wind::breath::Law;
+use soffio_wind::weather::{Rhythm, WindKind};
 
 use super::glb::{Folder, Scene, cuboid};
 
@@ -88,7 +88,7 @@ fn the_full_examples_winds_are_what_it_says() {
 #[test]
 fn the_full_example_runs() {
     let exhibit = Arc::new(load());
-    let mut simulation = Simulation::new(exhibit, soffio::simulation::Settings::default());
+    let mut simulation = Simulation::new(exhibit, soffio_simulation::Settings::default());
     for step in 0..240 {
         simulation.step(&StepInput { hold: step < 120, ..StepInput::default() });
         let bodies = simulation.bodies();
@@ -103,7 +103,7 @@ fn an_exhibit_of_some_length_starts_again_at_its_end() {
     let text = "[scene]\nduration = \"500 ms\"\n[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n";
     let folder = Folder::exhibit(&scene.glb(), text);
     let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    let mut simulation = Simulation::new(Arc::new(exhibit), soffio::simulation::Settings::default());
+    let mut simulation = Simulation::new(Arc::new(exhibit), soffio_simulation::Settings::default());
     let height = |simulation: &Simulation| simulation.bodies()[0].position.y;
     for _ in 0..120 {
         simulation.step(&StepInput::default());

@@ -1,8 +1,8 @@
 //! Moments against the formulas of the textbook.
 
-use soffio::geometry::mass::principal_axes;
-use soffio::geometry::{Moments, TriangleMesh};
-use soffio::math::{DMat3, DVec3, PI, cos, rotation, sin};
+use soffio_geometry::mass::principal_axes;
+use soffio_geometry::{Moments, TriangleMesh};
+use soffio_math::{DMat3, DVec3, PI, cos, rotation, sin};
 
 /// Sums of some hundred products near 1 in double precision.
 const ROUNDING: f64 = 1e-12;

@@ -1,7 +1,7 @@
 //! glTF files, good and broken: what is read is right, and what cannot be read is refused without a panic.
 
 use serde_json::json;
-use soffio::exhibit::{codes, model};
+use soffio_exhibit::{codes, model};
 
 use super::glb::{Folder, Scene, cuboid, sheet};
 
@@ -25,7 +25,7 @@ fn good() -> Vec<u8> {
     scene.glb()
 }
 
-fn import(bytes: &[u8]) -> Result<model::Imported, soffio::exhibit::Report> {
+fn import(bytes: &[u8]) -> Result<model::Imported, soffio_exhibit::Report> {
     let folder = Folder::exhibit(bytes, "");
     model::import(&folder.file("model.glb"))
 }

@@ -1,9 +1,10 @@
 //! Kinematic bodies follow paths and glTF animations; nails move with them.
 
-use soffio::articulation::{ConstraintKind, Interpolation};
-use soffio::dynamics::Motion;
-use soffio::exhibit::{self, Exhibit, codes};
-use soffio::math::{DVec3, PI, Pose, cos, rotation, rotation_vector, sin};
+use soffio_exhibit::{self as exhibit, Exhibit, codes};
+use soffio_math::Interpolation;
+use soffio_math::{DVec3, PI, Pose, cos, rotation, rotation_vector, sin};
+use soffio_multibody::articulation::ConstraintKind;
+use soffio_multibody::dynamics::Motion;
 
 use super::glb::{Folder, Scene, cuboid};
 
@@ -121,12 +122,12 @@ fn a_figure_may_start_scattered_only_where_it_assembles_itself() {
     assert!(exhibit.bodies[0].pose.position.distance(DVec3::new(2.0, 0.0, 0.3)) < SINGLE);
     assert!(a.point.length() < SINGLE && exhibit.stabilization_time == 0.08);
     let turned = rotation_vector(exhibit.bodies[0].pose.rotation);
-    assert!(turned.distance(2.0 * soffio::math::asin(0.6) * DVec3::Z) < SINGLE);
+    assert!(turned.distance(2.0 * soffio_math::asin(0.6) * DVec3::Z) < SINGLE);
 }
 
 #[test]
 fn the_solver_is_chosen_in_the_sidecar() {
-    use soffio::dynamics::{Integrator, Solver};
+    use soffio_multibody::dynamics::{Integrator, Solver};
     let text =
         format!("{BOX}[solver]\nintegrator = \"runge-kutta\"\nmethod = \"dense\"\n[scene]\nduration = \"5 min\"\n");
     let exhibit = load(&scene().0, &text);

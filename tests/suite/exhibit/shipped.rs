@@ -1,6 +1,6 @@
 //! The exhibits in the tree load without a warning.
 
-use soffio::exhibit;
+use soffio_exhibit as exhibit;
 
 #[test]
 fn every_shipped_exhibit_is_good() {

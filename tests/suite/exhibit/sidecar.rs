@@ -5,14 +5,14 @@
 
 use std::path::PathBuf;
 
-use soffio::articulation::{ConstraintKind, LimitKind};
-use soffio::collision::{Collider, Excluded, Pair};
-use soffio::dynamics::Resistance;
-use soffio::exhibit::{self, AttractAction, Diagnostic, Exhibit, Report, codes};
-use soffio::geometry::support::Core;
-use soffio::math::{DVec3, PI};
-use soffio::wind::SurfaceShape;
-use soffio::wind::blow::BlowDetector;
+use soffio_detector::BlowDetector;
+use soffio_exhibit::{self as exhibit, AttractAction, Diagnostic, Exhibit, Report, codes};
+use soffio_geometry::support::Core;
+use soffio_math::{DVec3, PI};
+use soffio_multibody::articulation::{ConstraintKind, LimitKind};
+use soffio_multibody::collision::{Collider, Excluded, Pair};
+use soffio_multibody::dynamics::Resistance;
+use soffio_wind::SurfaceShape;
 
 use super::glb::{Folder, Scene, boom_and_plate as model, cuboid};
 

@@ -1,8 +1,10 @@
 //! Windows, triggers, breaking and functions arrive from the sidecar as they are written.
 
-use soffio::articulation::{Breaking, Function, Interpolation, Schedule, Trigger, Window};
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::PI;
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::PI;
+use soffio_multibody::articulation::{Breaking, Schedule, Trigger, Window};
 
 use super::glb::{Folder, Scene, cuboid};
 

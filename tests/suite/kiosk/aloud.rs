@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use soffio::audio_io::{LOUDEST, Words};
-use soffio::kiosk::aloud::{Aloud, goes_on};
-use soffio::kiosk::input::Request;
-use soffio::kiosk::speech::Speaker;
-use soffio::kiosk::words::{WORDS, words};
-use soffio::offline::wav;
-use soffio::wind::blow::BlowDetector;
+use soffio_detector::BlowDetector;
+use soffio_devices::audio::{LOUDEST, Words};
+use soffio_kiosk::aloud::{Aloud, goes_on};
+use soffio_kiosk::input::Request;
+use soffio_kiosk::speech::Speaker;
+use soffio_kiosk::words::{WORDS, words};
+use soffio_offline::wav;
 
 use super::pages::{Before, GLASSES, load};
 
@@ -157,7 +157,7 @@ fn every_button_of_the_page_has_a_name_in_every_language() {
         let buttons = visitor.look();
         visitor.look_with(|scene| {
             for (_, request) in buttons.iter().filter(|(_, request)| *request != Request::Nothing) {
-                let said = soffio::kiosk::spoken::button(*request, scene);
+                let said = soffio_kiosk::spoken::button(*request, scene);
                 assert!(said.iter().all(|(text, _)| !text.is_empty()) && said.len() == 1, "{}: {request:?}", own.code);
             }
         });
@@ -239,7 +239,7 @@ fn the_ear_does_not_take_the_kiosks_speech_for_a_breath() {
     for gain in [0.2_f32, 0.7] {
         let mut detector = BlowDetector::new(RATE);
         let mut room =
-            soffio::wind::generate::pink_noise(RATE, 90, words.samples.len() as f64 / f64::from(RATE), -60.0);
+            soffio_detector::generate::pink_noise(RATE, 90, words.samples.len() as f64 / f64::from(RATE), -60.0);
         room.resize(words.samples.len(), 0.0);
         let mut windy = 0;
         for (i, played) in words.samples.chunks(200).enumerate() {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::Label;
-use soffio::kiosk::bidi::{is_mixed, lines, reads_from_right};
-use soffio::kiosk::fonts::{self, Script};
-use soffio::kiosk::page::{INK, Page, Reading};
+use soffio_exhibit::Label;
+use soffio_kiosk::bidi::{is_mixed, lines, reads_from_right};
+use soffio_kiosk::fonts::{self, Script};
+use soffio_kiosk::page::{INK, Page, Reading};
 
 use super::glass::Glass;
 use super::pages::{Before, load};

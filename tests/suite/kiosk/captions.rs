@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use soffio::exhibit::{self, AttractAction, Exhibit, SoundTrigger};
+use soffio_exhibit::{self as exhibit, AttractAction, Exhibit, SoundTrigger};
 
 /// The folders of all shipped exhibits.
 pub fn folders() -> Vec<PathBuf> {

@@ -1,14 +1,14 @@
 //! The nightly chirp in simulated rooms: a delay, reflections, a filter for what is wrong, the room's noise.
 
-use soffio::audio_io::output;
-use soffio::audio_io::{AudioStatus, DeviceState, Knobs};
-use soffio::config::{Config, Day, TimeOfDay};
-use soffio::kiosk::care::{CLEAN_NIGHTS, Care, Verdict};
-use soffio::kiosk::chirp::{HEARD_S, arrived, chirp};
-use soffio::kiosk::chirping::{Act, Course};
-use soffio::kiosk::fleet::Fleet;
-use soffio::kiosk::kept::{Keeper, Kept};
-use soffio::noise::Random;
+use soffio_config::{Config, Day, TimeOfDay};
+use soffio_devices::audio::output;
+use soffio_devices::audio::{AudioStatus, DeviceState, Knobs};
+use soffio_kiosk::care::{CLEAN_NIGHTS, Care, Verdict};
+use soffio_kiosk::chirp::{HEARD_S, arrived, chirp};
+use soffio_kiosk::chirping::{Act, Course};
+use soffio_kiosk::fleet::Fleet;
+use soffio_kiosk::kept::{Keeper, Kept};
+use soffio_math::noise::Random;
 use std::sync::Arc;
 
 const RATE: u32 = 48_000;

@@ -8,13 +8,13 @@ use std::path::Path;
 
 use egui::Rect;
 use image::RgbaImage;
-use soffio::config::Config;
-use soffio::kiosk::house::House;
-use soffio::kiosk::languages::{offered, unwritten};
-use soffio::kiosk::page::Reading;
-use soffio::kiosk::staff::Page;
-use soffio::kiosk::words::words;
-use soffio::offline::pictures::Pictures;
+use soffio_config::Config;
+use soffio_kiosk::house::House;
+use soffio_kiosk::languages::{offered, unwritten};
+use soffio_kiosk::page::Reading;
+use soffio_kiosk::staff::Page;
+use soffio_kiosk::words::words;
+use soffio_offline::pictures::Pictures;
 
 use super::glass::{Glass, luminance};
 use super::pages::{Before, load};

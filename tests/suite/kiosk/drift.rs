@@ -1,8 +1,8 @@
 //! The camera's sway in attract mode: small, slow, without a jerk, gone when somebody comes, never where less motion is wanted.
 
 use glam::DVec3;
-use soffio::exhibit::View;
-use soffio::kiosk::drift::Drift;
+use soffio_exhibit::View;
+use soffio_kiosk::drift::Drift;
 
 const REST: View = View { eye: DVec3::new(0.3, 0.4, 1.9), target: DVec3::new(0.1, 0.2, 0.0), up: DVec3::Y, fovy: 0.5 };
 /// Pictures a second.

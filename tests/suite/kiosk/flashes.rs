@@ -10,10 +10,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use image::RgbaImage;
-use soffio::exhibit;
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::offline::pictures::Pictures;
-use soffio::simulation::Settings;
+use soffio_exhibit as exhibit;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_offline::pictures::Pictures;
+use soffio_simulation::Settings;
 
 use super::glass::{Glass, luminance};
 

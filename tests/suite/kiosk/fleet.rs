@@ -3,19 +3,19 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use soffio::config::Config;
-use soffio::exhibit;
-use soffio::kiosk::breaths::{Blows, Source, Turn};
-use soffio::kiosk::house::House;
-use soffio::kiosk::kept::Kept;
-use soffio::kiosk::live::{Frame, Load};
-use soffio::kiosk::loudness::{NightBy, Wishes};
-use soffio::kiosk::metrics::{Numbers, text};
-use soffio::kiosk::site::Overrides;
-use soffio::kiosk::staff::gate::{Gate, LONGEST_S};
-use soffio::kiosk::stage::Stage;
-use soffio::kiosk::visits::{DWELL_S, FRAME_S, Histogram};
-use soffio::simulation::Settings;
+use soffio_config::Config;
+use soffio_exhibit as exhibit;
+use soffio_kiosk::breaths::{Blows, Source, Turn};
+use soffio_kiosk::house::House;
+use soffio_kiosk::kept::Kept;
+use soffio_kiosk::live::{Frame, Load};
+use soffio_kiosk::loudness::{NightBy, Wishes};
+use soffio_kiosk::metrics::{Numbers, text};
+use soffio_kiosk::site::Overrides;
+use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
+use soffio_kiosk::stage::Stage;
+use soffio_kiosk::visits::{DWELL_S, FRAME_S, Histogram};
+use soffio_simulation::Settings;
 
 fn frame(load: Load) -> Frame {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/pendulum");

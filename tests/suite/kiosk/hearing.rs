@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::audio_io::hearing::{self, Hearing};
-use soffio::audio_io::output::{self, Player, Workshop};
-use soffio::audio_io::{Knobs, Words};
-use soffio::math::{PI, cos, sin};
+use soffio_devices::audio::hearing::{self, Hearing};
+use soffio_devices::audio::output::{self, Player, Workshop};
+use soffio_devices::audio::{Knobs, Words};
+use soffio_math::{PI, cos, sin};
 
 const RATE: u32 = 48_000;
 const BLOCK: usize = 480;

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use soffio::config::{Chord, Day, Opening};
-use soffio::exhibit::{self, Exhibit};
-use soffio::kiosk::gesture::Press;
-use soffio::kiosk::house::{Above, CLEANING_S, House};
-use soffio::kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::simulation::{Microphone, Settings};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_config::{Chord, Day, Opening};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_kiosk::gesture::Press;
+use soffio_kiosk::house::{Above, CLEANING_S, House};
+use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_simulation::{Microphone, Settings};
 
 const RATE: u32 = 48_000;
 

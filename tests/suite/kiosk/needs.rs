@@ -4,13 +4,13 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
-use soffio::config::{Chord, Config};
-use soffio::exhibit::{self, Exhibit};
-use soffio::kiosk::gesture::{Lift, Press};
-use soffio::kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-use soffio::kiosk::needs::Needs;
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::simulation::{Settings, Simulation};
+use soffio_config::{Chord, Config};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_kiosk::gesture::{Lift, Press};
+use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
+use soffio_kiosk::needs::Needs;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_simulation::{Settings, Simulation};
 
 const ASPECT: f64 = 16.0 / 9.0;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use soffio::config::{Config, Day, Opening, TimeOfDay};
+use soffio_config::{Config, Day, Opening, TimeOfDay};
 
 /// A day of January 2026, which begins on a Thursday.
 fn january(day: u8) -> Day {

@@ -3,13 +3,13 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{Attract, AttractAction, AttractStep, Exhibit, Leeway, View};
-use soffio::kiosk::gesture::{Lift, Press};
-use soffio::kiosk::orbit::{PRESS, TURN, soft};
-use soffio::kiosk::recording::Recording;
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::math::Pose;
-use soffio::simulation::{Settings, Simulation, record};
+use soffio_exhibit::{Attract, AttractAction, AttractStep, Exhibit, Leeway, View};
+use soffio_kiosk::gesture::{Lift, Press};
+use soffio_kiosk::orbit::{PRESS, TURN, soft};
+use soffio_kiosk::recording::Recording;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_math::Pose;
+use soffio_simulation::{Settings, Simulation, record};
 
 use super::pages::load;
 use crate::pictures::{mobile, renderer};
@@ -231,7 +231,7 @@ fn breath_and_hand_go_where_they_are_seen_to_go() {
     /// Half a pixel of a picture of full HD.
     const HALF_PIXEL: f64 = 0.5 / 1080.0;
     let exhibit = load("steel-fish");
-    let settings = Settings { profile: soffio::simulation::Profile::True, ..Settings::default() };
+    let settings = Settings { profile: soffio_simulation::Profile::True, ..Settings::default() };
     let mut stage = Stage::new(exhibit.clone(), settings, None, None);
     drag(&mut stage, &round(), [-0.4, 0.2]);
     wait(&mut stage, &round(), FOLLOWED);
@@ -340,7 +340,7 @@ fn after_a_drag_the_silhouette_is_where_the_formula_says() {
         drag(&mut stage, &controls, way);
         wait(&mut stage, &controls, FOLLOWED);
         let view = exhibit.view(aspect).turned(stage.snapshot().turn);
-        let frame = soffio::render::Frame { poses: &poses, motes: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
+        let frame = soffio_render::Frame { poses: &poses, motes: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
             picture.save(std::path::Path::new(&folder).join(format!("orbit-{i}.png"))).expect("a writable folder");

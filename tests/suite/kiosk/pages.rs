@@ -5,21 +5,21 @@ use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Rect, pos2};
-use soffio::config::{Config, Group};
-use soffio::exhibit::{self, Exhibit, Label};
-use soffio::kiosk::captions::Captions;
-use soffio::kiosk::fonts;
-use soffio::kiosk::house::House;
-use soffio::kiosk::input::Request;
-use soffio::kiosk::languages::{offered, unwritten};
-use soffio::kiosk::menu::{Menu, Tile, tiles};
-use soffio::kiosk::needs::Needs;
-use soffio::kiosk::overlay::{Overlay, Scene};
-use soffio::kiosk::page::{BUTTON_MM, Reading};
-use soffio::kiosk::shelf::Work;
-use soffio::kiosk::words::{WORDS, words};
-use soffio::simulation::{Command, Settings, Simulation, Snapshot, StepInput};
-use soffio::sound::SoundCommand;
+use soffio_config::{Config, Group};
+use soffio_exhibit::{self as exhibit, Exhibit, Label};
+use soffio_kiosk::captions::Captions;
+use soffio_kiosk::fonts;
+use soffio_kiosk::house::House;
+use soffio_kiosk::input::Request;
+use soffio_kiosk::languages::{offered, unwritten};
+use soffio_kiosk::menu::{Menu, Tile, tiles};
+use soffio_kiosk::needs::Needs;
+use soffio_kiosk::overlay::{Overlay, Scene};
+use soffio_kiosk::page::{BUTTON_MM, Reading};
+use soffio_kiosk::shelf::Work;
+use soffio_kiosk::words::{WORDS, words};
+use soffio_simulation::{Command, Settings, Simulation, Snapshot, StepInput};
+use soffio_sound::SoundCommand;
 
 /// Points a millimetre of a 43-inch glass with a picture of full HD.
 const POINTS_PER_MM: f32 = 2.0;

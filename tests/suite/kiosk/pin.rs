@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use soffio::config::{Config, Pin};
+use soffio_config::{Config, Pin};
 
 /// Some salt: what matters here is that it is fixed.
 const SALT: [u8; 16] = *b"salt of sixteen.";

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::Value;
-use soffio::exhibit::{self, Exhibit};
-use soffio::kiosk::gesture::Press;
-use soffio::kiosk::recording::Recording;
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::offline::feed::WavFeed;
-use soffio::simulation::{MotionMode, Settings};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_kiosk::gesture::Press;
+use soffio_kiosk::recording::Recording;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_offline::feed::WavFeed;
+use soffio_simulation::{MotionMode, Settings};
 
 use crate::cli::Desk;
 
@@ -22,7 +22,7 @@ fn shipped(id: &str) -> Arc<Exhibit> {
 /// the hashes with which both parts ended.
 fn day(path: &Path) -> [String; 2] {
     let (fish, chimes) = (shipped("steel-fish"), shipped("wind-chimes"));
-    let breath = WavFeed::from(&soffio::offline::wav::read(fish.folder.join("breaths/normal.wav")).expect("a breath"));
+    let breath = WavFeed::from(&soffio_offline::wav::read(fish.folder.join("breaths/normal.wav")).expect("a breath"));
     let settings = Settings { seed: 77, breath_gain: 1.1, ..Settings::default() };
     let mut stage = Stage::new(fish.clone(), settings, Some(breath), Some(4.0));
     let mut recording = Recording::create(path).expect("writable");
@@ -81,7 +81,7 @@ fn a_recorded_day_is_run_again_to_the_bit() {
     assert_eq!(states, hashes);
     // Hits of the chimes are in the sound of their part.
     desk.soffio(&["replay", "day.jsonl", "--part", "2", "--audio", "a.wav", "--trace", "t.csv"]).done();
-    let sound = soffio::offline::wav::read(desk.path("a.wav")).expect("a sound");
+    let sound = soffio_offline::wav::read(desk.path("a.wav")).expect("a sound");
     assert!(sound.samples.iter().any(|x| x.abs() > 1e-3), "the chimes are silent");
     assert!(std::fs::read_to_string(desk.path("t.csv")).expect("a trace").lines().count() > 600);
     desk.soffio(&["replay", "day.jsonl", "--audio", "b.wav"]).refused(2, &["2 parts", "--part"]);

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use soffio::exhibit::{Exhibit, View};
-use soffio::kiosk::rest::{BRIGHT, PICTURE_S, QUIET_S, Rest, Signs, Stillness, UNSEEN};
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::simulation::{Mote, STEPS_PER_SECOND, Settings, Simulation, Snapshot};
+use soffio_exhibit::{Exhibit, View};
+use soffio_kiosk::rest::{BRIGHT, PICTURE_S, QUIET_S, Rest, Signs, Stillness, UNSEEN};
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_simulation::{Mote, STEPS_PER_SECOND, Settings, Simulation, Snapshot};
 
 use super::pages::load;
 

@@ -1,10 +1,10 @@
 //! Even motion is seen evenly: the times that pictures show, from the uneven times at which they are begun. No clock runs.
 
 use glam::DVec3;
-use soffio::kiosk::moments::{BEHIND, Moments};
-use soffio::kiosk::rhythm::Rhythm;
-use soffio::math::Pose;
-use soffio::simulation::{STEPS_PER_SECOND, Snapshot};
+use soffio_kiosk::moments::{BEHIND, Moments};
+use soffio_kiosk::rhythm::Rhythm;
+use soffio_math::Pose;
+use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// How late pictures are begun after their refresh, ms, over and over: mostly a little, every few pictures up to two.
 const DELAYS: [f64; 40] = [

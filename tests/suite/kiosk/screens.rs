@@ -4,13 +4,13 @@
 use std::path::PathBuf;
 
 use image::{RgbaImage, imageops};
-use soffio::config::Config;
-use soffio::kiosk::languages::{offered, unwritten};
-use soffio::kiosk::needs::Needs;
-use soffio::kiosk::page::Reading;
-use soffio::kiosk::shelf::{THUMBNAIL, Work, id};
-use soffio::offline::pictures::{Pictures, write_png};
-use soffio::simulation::{Command, StepInput};
+use soffio_config::Config;
+use soffio_kiosk::languages::{offered, unwritten};
+use soffio_kiosk::needs::Needs;
+use soffio_kiosk::page::Reading;
+use soffio_kiosk::shelf::{THUMBNAIL, Work, id};
+use soffio_offline::pictures::{Pictures, write_png};
+use soffio_simulation::{Command, StepInput};
 
 use super::captions::folders;
 use super::glass::Glass;
@@ -60,7 +60,7 @@ fn the_manuals_pictures_are_made() {
     let mut visitor = Before::new(&exhibit, [SIZE.0 as f32, SIZE.1 as f32]);
     visitor.shelf = shelf();
     // A breath, two seconds after it began.
-    let mut simulation = soffio::simulation::Simulation::new(exhibit.clone(), soffio::simulation::Settings::default());
+    let mut simulation = soffio_simulation::Simulation::new(exhibit.clone(), soffio_simulation::Settings::default());
     for step in 0..480 {
         let blow = (step == 0).then_some(Command::Blow(Some(6.0)));
         simulation.step(&StepInput { commands: blow.as_slice(), ..StepInput::default() });

@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use soffio::config::Config;
-use soffio::exhibit;
-use soffio::kiosk::shelf::{Offer, Places, Work};
-use soffio::kiosk::site::{News, Overrides, Site, SiteFile, waits_for_restart};
-use soffio::kiosk::stage::Stage;
-use soffio::simulation::{Profile, Settings};
+use soffio_config::Config;
+use soffio_exhibit as exhibit;
+use soffio_kiosk::shelf::{Offer, Places, Work};
+use soffio_kiosk::site::{News, Overrides, Site, SiteFile, waits_for_restart};
+use soffio_kiosk::stage::Stage;
+use soffio_simulation::{Profile, Settings};
 
 /// Far longer than the debounce time: only a watcher that misses the change takes so long.
 const LONG: Duration = Duration::from_secs(20);

@@ -4,18 +4,18 @@ use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Event, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
-use soffio::config::{Config, Pin};
-use soffio::exhibit;
-use soffio::kiosk::fonts;
-use soffio::kiosk::house::House;
-use soffio::kiosk::input::{Phase, Signal};
-use soffio::kiosk::kept::Kept;
-use soffio::kiosk::live::Frame;
-use soffio::kiosk::log::{KEPT, LONGEST, Line, Log};
-use soffio::kiosk::staff::gate::{Gate, LONGEST_S};
-use soffio::kiosk::staff::{Page, Sight, Staff, Vitals, Wish};
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::simulation::{Look, Settings};
+use soffio_config::{Config, Pin};
+use soffio_exhibit as exhibit;
+use soffio_kiosk::fonts;
+use soffio_kiosk::house::House;
+use soffio_kiosk::input::{Phase, Signal};
+use soffio_kiosk::kept::Kept;
+use soffio_kiosk::live::Frame;
+use soffio_kiosk::log::{KEPT, LONGEST, Line, Log};
+use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
+use soffio_kiosk::staff::{Page, Sight, Staff, Vitals, Wish};
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_simulation::{Look, Settings};
 
 const GLASS: [f32; 2] = [1280.0, 720.0];
 /// Points a millimetre of a 32-inch glass with that picture.

@@ -3,18 +3,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use soffio::audio_io::{Heard, input};
-use soffio::exhibit::{self, AttractAction, Exhibit};
-use soffio::kiosk::gesture::Press;
-use soffio::kiosk::governor::Governor;
-use soffio::kiosk::microphone::MicrophoneHealth;
-use soffio::kiosk::stage::{Controls, Stage};
-use soffio::offline::feed::WavFeed;
-use soffio::offline::play::{self, Play};
-use soffio::offline::wav;
-use soffio::simulation::{Command, Microphone, MotionMode, Script, Settings, Simulation, StepInput};
-use soffio::wind::blow::{BlowEstimate, Reason};
-use soffio::wind::generate::{self, BreathShape};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_detector::{BlowEstimate, Reason};
+use soffio_devices::audio::{Heard, input};
+use soffio_exhibit::{self as exhibit, AttractAction, Exhibit};
+use soffio_kiosk::gesture::Press;
+use soffio_kiosk::governor::Governor;
+use soffio_kiosk::microphone::MicrophoneHealth;
+use soffio_kiosk::stage::{Controls, Stage};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::play::{self, Play};
+use soffio_offline::wav;
+use soffio_simulation::{Command, Microphone, MotionMode, Script, Settings, Simulation, StepInput};
 
 const RATE: u32 = 48_000;
 
@@ -30,7 +30,7 @@ fn breath() -> WavFeed {
 }
 
 /// One step of a quiet room.
-fn quiet(random: &mut soffio::noise::Random) -> Vec<f32> {
+fn quiet(random: &mut soffio_math::noise::Random) -> Vec<f32> {
     (0..RATE / 240).map(|_| (1e-3 * random.signed()) as f32).collect()
 }
 
@@ -39,7 +39,7 @@ fn a_recording_on_the_stage_is_the_run_that_the_simulation_makes_of_it() {
     let exhibit = steel_fish();
     let mut stage = Stage::new(exhibit.clone(), Settings::default(), Some(breath()), None);
     let mut simulation = Simulation::new(exhibit, Settings::default());
-    let (mut feed, mut random) = (breath(), soffio::noise::Random::new(3));
+    let (mut feed, mut random) = (breath(), soffio_math::noise::Random::new(3));
     let controls = Controls { aspect: 1280.0 / 720.0, ..Controls::default() };
     for step in 0..3 * 240 {
         // What a microphone hears meanwhile must not matter.
@@ -196,13 +196,13 @@ fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
 fn attract_mode_moves_the_sculpture_and_a_breath_at_the_microphone_ends_it() {
     let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(2.0));
     let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
-    let mut random = soffio::noise::Random::new(4);
+    let mut random = soffio_math::noise::Random::new(4);
     // The shipped script blows from its fourth second on, softly, and yet what it blows at is seen to move, by more than the room's
     // draught would: 13 pixels of a picture of 1080 lines that shows a metre.
     const SEEN_M: f64 = 0.012;
     let mut alone = Stage::new(steel_fish(), Settings::default(), None, None);
     let places = |stage: &Stage| stage.snapshot().poses.iter().map(|pose| pose.position).collect::<Vec<_>>();
-    let farther = |most: f64, now: &[soffio::math::DVec3], then: &[soffio::math::DVec3]| {
+    let farther = |most: f64, now: &[soffio_math::DVec3], then: &[soffio_math::DVec3]| {
         now.iter().zip(then).map(|(now, then)| now.distance(*then)).fold(most, f64::max)
     };
     let (mut before, mut fastest, mut farthest) = ([Vec::new(), Vec::new()], 0.0_f64, [0.0_f64; 2]);
@@ -234,7 +234,7 @@ fn attract_mode_moves_the_sculpture_and_a_breath_at_the_microphone_ends_it() {
 fn who_comes_amid_the_steel_fishs_invitation_finds_it_calm() {
     /// Idle time, s; then the script's own.
     const IDLE_S: usize = 2;
-    /// A third is what hides an answer ([`soffio::rehearsal`]): the invitation keeps well below it.
+    /// A third is what hides an answer ([`soffio_rehearsal`]): the invitation keeps well below it.
     const HIDES: f64 = 0.2;
     /// Half a millimetre from picture to picture for a second.
     const SEEN: f64 = 0.03;

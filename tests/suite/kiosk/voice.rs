@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use soffio::exhibit;
-use soffio::kiosk::voice::{Guest, Trial, Tried, Voice, hit, timbres};
-use soffio::sound::{SoundCommand, Synth};
+use soffio_exhibit as exhibit;
+use soffio_kiosk::voice::{Guest, Trial, Tried, Voice, hit, timbres};
+use soffio_sound::{SoundCommand, Synth};
 
 const RATE: u32 = 48_000;
 /// Energy of a second, full scale 1, below which nothing is heard: a tenth of a per mille of full scale throughout.

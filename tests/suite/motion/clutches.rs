@@ -1,9 +1,9 @@
 //! Slip clutches: what they carry, what they carry while they slip, and where they hold again.
 
-use soffio::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Integrator};
-use soffio::math::{DVec3, atan2, exp};
+use soffio_math::{DVec3, atan2, exp};
+use soffio_multibody::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{Dynamics, Figure, Integrator};
 
 use super::{DT, ROUNDING, World, step, wheel};
 

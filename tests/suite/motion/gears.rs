@@ -1,12 +1,12 @@
 //! Gears, drums, racks and pulleys against their formulas; phases over many turns.
 
-use soffio::articulation::rows::Scene;
-use soffio::articulation::rows::coupling::{self, Gauge};
-use soffio::articulation::spatial::matrix;
-use soffio::articulation::{ConstraintKind, Measure, Term};
-use soffio::bodies::RigidBody;
-use soffio::dynamics::{Dynamics, Integrator};
-use soffio::math::{DVec3, PI, rotation};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::matrix;
+use soffio_math::{DVec3, PI, rotation};
+use soffio_multibody::articulation::rows::Scene;
+use soffio_multibody::articulation::rows::coupling::{self, Gauge};
+use soffio_multibody::articulation::{ConstraintKind, Measure, Term};
+use soffio_multibody::dynamics::{Dynamics, Integrator};
 
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, body, elliptic_period, period, run, step, wheel};
 
@@ -221,7 +221,7 @@ fn phases_are_counted_exactly_over_a_hundred_thousand_turns() {
     let (z1, z2) = (12.0, 60.0);
     let mut bodies = [wheel(0.2, 1e-3, DVec3::ZERO), wheel(0.2, 1e-3, DVec3::X)];
     let measure = |body| Measure::Angle {
-        axis: soffio::articulation::Axis { body: Some(body), direction: DVec3::Z },
+        axis: soffio_multibody::articulation::Axis { body: Some(body), direction: DVec3::Z },
         frame: None,
     };
     let mut gauges = [(Gauge::new(measure(0), &bodies), z1), (Gauge::new(measure(1), &bodies), z2)];

@@ -1,9 +1,11 @@
 //! Planes, wires, sliders, welds, universal and windmill joints, and joints that follow a function of time.
 
-use soffio::articulation::{ConstraintKind, Function, Interpolation};
-use soffio::bodies::MassProperties;
-use soffio::dynamics::{Drive, Integrator, Motion};
-use soffio::math::{DMat3, DQuat, DVec3, Pose, rotation};
+use soffio_geometry::bodies::MassProperties;
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
+use soffio_multibody::articulation::ConstraintKind;
+use soffio_multibody::dynamics::{Drive, Integrator, Motion};
 
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, accelerated, body, run, step, turning, wheel};
 
@@ -114,7 +116,7 @@ fn a_weld_makes_one_body_of_two() {
     let b = part(0.8, DVec3::new(-0.15, 0.1, 0.0), DVec3::new(5e-3, 1e-3, 5e-3));
     let spin = DVec3::new(1.0, 4.0, -2.0);
     let make = |properties: MassProperties| {
-        let mut body = soffio::bodies::RigidBody::at_rest(properties, Pose::IDENTITY);
+        let mut body = soffio_geometry::bodies::RigidBody::at_rest(properties, Pose::IDENTITY);
         (body.angular_velocity, body.velocity) = (spin, DVec3::Y * 3.0 + spin.cross(body.position));
         body
     };
@@ -237,7 +239,7 @@ fn what_follows_a_function_follows_it_and_bears_its_acceleration() {
         stone.velocity = DVec3::new(0.2, start.rate, 0.0);
         let mut world = World::new(vec![wheel, stone]);
         world.hinge("axle", 0, None, DVec3::ZERO, DVec3::Z);
-        let mark = soffio::articulation::Axis { body: Some(0), direction: DVec3::X };
+        let mark = soffio_multibody::articulation::Axis { body: Some(0), direction: DVec3::X };
         let kind = ConstraintKind::Orientation { a: mark, b: world.axis(None, DVec3::Y), angle: function.clone() };
         world.add("hand", kind);
         let kind = ConstraintKind::PointOnPlane {

@@ -1,9 +1,9 @@
 //! Closed loops: a four-bar linkage, a chain between two walls; and figures that put themselves together.
 
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Integrator, Solver};
-use soffio::math::{DVec3, rotation};
-use soffio::noise::Random;
+use soffio_math::noise::Random;
+use soffio_math::{DVec3, rotation};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{Integrator, Solver};
 
 use super::{CLOSED, DT, G, INTEGRATORS, World, rod, run, step};
 

@@ -1,9 +1,11 @@
 //! Pendulums on nails and hinges that stand still, are accelerated, shaken, or go along a path.
 
-use soffio::articulation::{Axis, ConstraintKind, Function, Interpolation};
-use soffio::bodies::RigidBody;
-use soffio::dynamics::{Drive, Dynamics, Integrator, Motion};
-use soffio::math::{DQuat, DVec3, PI, Pose, rotation};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::{DQuat, DVec3, PI, Pose, rotation};
+use soffio_multibody::articulation::{Axis, ConstraintKind};
+use soffio_multibody::dynamics::{Drive, Dynamics, Integrator, Motion};
 
 use super::reference::flow;
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, accelerated, body, elliptic_period, period, rod, run, step};

@@ -1,9 +1,11 @@
 //! Springs and dampers, along lines and about axles.
 
-use soffio::articulation::{Function, Interpolation, Measure, Schedule, Spring, SpringKind};
-use soffio::dynamics::Integrator;
-use soffio::dynamics::forces::Damping;
-use soffio::math::{DVec3, PI};
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::{DVec3, PI};
+use soffio_multibody::articulation::{Measure, Schedule, Spring, SpringKind};
+use soffio_multibody::dynamics::Integrator;
+use soffio_multibody::dynamics::forces::Damping;
 
 use super::reference::flow;
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, body, period, run, wheel};
@@ -79,7 +81,7 @@ fn a_wheel_on_a_torsion_spring_keeps_its_period_through_whole_turns() {
         world.springs.push(spring(SpringKind::Angular { measure }, k, 0.0));
         world.bodies[0].angular_velocity = DVec3::Z;
         let mut dynamics = world.start(integrator);
-        let read = |d: &soffio::dynamics::Dynamics| {
+        let read = |d: &soffio_multibody::dynamics::Dynamics| {
             let turn = d.bodies[1].rotation.conjugate() * d.bodies[0].rotation;
             (2.0 * turn.z.atan2(turn.w), d.bodies[0].angular_velocity.z - d.bodies[1].angular_velocity.z)
         };
@@ -89,7 +91,7 @@ fn a_wheel_on_a_torsion_spring_keeps_its_period_through_whole_turns() {
     }
 }
 
-fn wheel_at(j: f64, z: f64) -> soffio::bodies::RigidBody {
+fn wheel_at(j: f64, z: f64) -> soffio_geometry::bodies::RigidBody {
     wheel(0.2, j, DVec3::Z * z)
 }
 

@@ -1,7 +1,8 @@
 //! Orientations that take turns: a wheel's axle is led from one axis to another, critically damped.
 
-use soffio::articulation::{Constraint, ConstraintKind, Function, Schedule, Window};
-use soffio::math::{DVec3, PI, rotation};
+use soffio_math::Function;
+use soffio_math::{DVec3, PI, rotation};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, Schedule, Window};
 
 use super::{DT, INTEGRATORS, OMEGA, World, step, wheel};
 
@@ -18,7 +19,7 @@ fn swapping(from: DVec3, to: DVec3, turn: DVec3, spin: f64) -> World {
     let (from, to) = (frame * from, frame * to);
     let third = from.cross(to);
     let mut wheel = wheel(0.5, 2e-3, DVec3::ZERO);
-    wheel.rotation = soffio::math::DQuat::from_rotation_arc(DVec3::Z, from);
+    wheel.rotation = soffio_math::DQuat::from_rotation_arc(DVec3::Z, from);
     wheel.angular_velocity = spin * from;
     let mut world = World::new(vec![wheel]);
     world.pin("nail", 0, None, DVec3::ZERO);

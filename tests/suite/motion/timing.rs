@@ -1,13 +1,14 @@
 //! Windows, ramps, breaking, healing and triggers, each at its moment inside the step.
 
-use soffio::articulation::{
-    Breaking, Constraint, ConstraintKind, Function, Interpolation, Measure, Schedule, Spring, SpringKind, Term,
-    Trigger, Window,
+use soffio_math::Function;
+use soffio_math::Interpolation;
+use soffio_math::{DVec3, rotation};
+use soffio_multibody::articulation::{
+    Breaking, Constraint, ConstraintKind, Measure, Schedule, Spring, SpringKind, Term, Trigger, Window,
 };
-use soffio::collision::{Collider, Reach, Shape, pairs};
-use soffio::dynamics::forces::Damping;
-use soffio::dynamics::{Dynamics, Figure, Integrator, Resistance, SurfacePair};
-use soffio::math::{DVec3, rotation};
+use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
+use soffio_multibody::dynamics::forces::Damping;
+use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Resistance, SurfacePair};
 
 use super::reference::flow;
 use super::springs::spring;

@@ -7,8 +7,8 @@
 //! Σ_k (B_jk cos(θ_j − θ_k) + δ_jk m l²/12) θ̈_k + Σ_k B_jk sin(θ_j − θ_k) θ̇_k² + g Σ_i m_i a_ij sin θ_j = 0
 //! ```
 
-use soffio::dynamics::Integrator;
-use soffio::math::{DVec3, cos, sin, sincos};
+use soffio_math::{DVec3, cos, sin, sincos};
+use soffio_multibody::dynamics::Integrator;
 
 use super::reference::advance;
 use super::{CLOSED, G, INTEGRATORS, World, rod, step};

@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use soffio::bodies::RigidBody;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::DVec3;
-use soffio::procedural::{Method, REACHED, Settings};
-use soffio::simulation::{self, MotionMode, Simulation, StepInput};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_multibody::procedural::{Method, REACHED, Settings};
+use soffio_simulation::{self as simulation, MotionMode, Simulation, StepInput};
 
 use super::{Extras, Hand, chain, end_of};
 

@@ -1,9 +1,11 @@
 //! Hands that pull: within reach, out of reach, wildly.
 
-use soffio::articulation::{Limit, LimitKind, Measure};
-use soffio::math::DVec3;
-use soffio::noise::Random;
-use soffio::procedural::{Grip, MOST_LED, MOST_PASSES, MOST_ROUNDS, Method, REACHED, SPEED_KEPT, SPIN_KEPT, Settings};
+use soffio_math::DVec3;
+use soffio_math::noise::Random;
+use soffio_multibody::articulation::{Limit, LimitKind, Measure};
+use soffio_multibody::procedural::{
+    Grip, MOST_LED, MOST_PASSES, MOST_ROUNDS, Method, REACHED, SPEED_KEPT, SPIN_KEPT, Settings,
+};
 
 use super::{Extras, Hand, METHODS, chain, end_of};
 use crate::motion::{World, body, wheel};
@@ -120,7 +122,7 @@ fn wild_drags_neither_break_nor_grow() {
 fn what_was_dragged_comes_to_rest() {
     for method in METHODS {
         let mut world = chain(&[0.1, 0.001, 0.1, 0.001], LENGTH, true);
-        world.damping = soffio::dynamics::forces::Damping { linear: 1.0, angular: 1.0 };
+        world.damping = soffio_multibody::dynamics::forces::Damping { linear: 1.0, angular: 1.0 };
         let mut hand = Hand::new(&world, method);
         for step in 0..60 {
             hand.step(SLOW, &[end_of(&world, 3, LENGTH, DVec3::new(0.3, -0.1 + 1e-3 * f64::from(step), 0.0))]);
@@ -176,7 +178,7 @@ fn limits_of_angles_are_kept() {
 /// Wheels in mesh, one of them turned by hand: the phases keep.
 #[test]
 fn gears_keep_their_phase_under_a_hand() {
-    use soffio::articulation::{ConstraintKind, Term};
+    use soffio_multibody::articulation::{ConstraintKind, Term};
     for method in METHODS {
         let mut world = World::new(vec![
             wheel(0.2, 1e-4, DVec3::ZERO),

@@ -1,9 +1,9 @@
 //! Whole figures: grouping where it is exact, the tree's solve against a dense one, and both beside the laws.
 
-use soffio::bodies::RigidBody;
-use soffio::math::{DMat3, DVec3, rotation};
-use soffio::noise::Random;
-use soffio::procedural::{Method, Settings};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::noise::Random;
+use soffio_math::{DMat3, DVec3, rotation};
+use soffio_multibody::procedural::{Method, Settings};
 
 use super::{Extras, Hand, METHODS, chain, laws};
 use crate::motion::{World, body};
@@ -35,7 +35,7 @@ fn tree(seed: u64, count: usize) -> World {
 
 /// Newton's method on min ½ δ·M δ, J δ = −C for point joints, each pass by Gaussian elimination on all of M, J.
 fn dense(world: &World, mut bodies: Vec<RigidBody>) -> Vec<RigidBody> {
-    use soffio::articulation::{Anchor, ConstraintKind};
+    use soffio_multibody::articulation::{Anchor, ConstraintKind};
     for _ in 0..8 {
         let (n, rows) = (6 * bodies.len(), 3 * world.constraints.len());
         let size = n + rows;

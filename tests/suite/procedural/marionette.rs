@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::DVec3;
-use soffio::simulation::{Command, EventKind, Hand, MotionMode, Settings, Simulation, StepInput};
-use soffio::sound::SoundCommand;
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::DVec3;
+use soffio_simulation::{Command, EventKind, Hand, MotionMode, Settings, Simulation, StepInput};
+use soffio_sound::SoundCommand;
 
 fn load() -> Arc<Exhibit> {
     let folder = exhibit::resolve("marionette").unwrap_or_else(|report| panic!("{report}"));

@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{DVec3, decibels};
-use soffio::simulation::{
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::{DVec3, decibels};
+use soffio_simulation::{
     Command, EventKind, MotionMode, SAMPLE_RATE, SAMPLES_PER_STEP, Settings, Simulation, StepInput,
 };
-use soffio::sound::{SoundCommand, Synth};
+use soffio_sound::{SoundCommand, Synth};
 
 const DT: f64 = 1.0 / 240.0;
 const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
@@ -176,7 +176,7 @@ fn hits_are_told_and_heard_in_every_mode() {
                 step_at(&mut simulation, mode, true, Some([x, 0.5]));
                 hits += simulation.events().iter().filter(|event| event.kind == EventKind::Impact).count();
                 strikes += simulation.sounds().iter().filter(|sound| matches!(sound, SoundCommand::Strike(_))).count();
-                assert!(simulation.bodies().iter().all(soffio::bodies::RigidBody::is_finite));
+                assert!(simulation.bodies().iter().all(soffio_geometry::bodies::RigidBody::is_finite));
             }
             println!("{mode:?} at {x}: {hits} hits, {strikes} strikes so far");
         }

@@ -1,10 +1,10 @@
 //! The two-object rule by hand.
 
-use soffio::articulation::Interpolation;
-use soffio::dynamics::{Drive, Motion};
-use soffio::math::{DMat3, DQuat, DVec3, PI, Pose};
-use soffio::procedural::rule::{Turning, common_point, compulsive_rotation, compulsive_translation, turn};
-use soffio::procedural::{Method, Settings};
+use soffio_math::Interpolation;
+use soffio_math::{DMat3, DQuat, DVec3, PI, Pose};
+use soffio_multibody::dynamics::{Drive, Motion};
+use soffio_multibody::procedural::rule::{Turning, common_point, compulsive_rotation, compulsive_translation, turn};
+use soffio_multibody::procedural::{Method, Settings};
 
 use super::{Extras, Hand};
 use crate::motion::{World, body};

@@ -1,9 +1,9 @@
 //! What is moved by places meets things: it is thrown back, moved out, and tells it.
 
-use soffio::collision::{Collider, Shape};
-use soffio::dynamics::ImpactKind;
-use soffio::math::{DVec3, Pose};
-use soffio::procedural::Settings;
+use soffio_math::{DVec3, Pose};
+use soffio_multibody::collision::{Collider, Shape};
+use soffio_multibody::dynamics::ImpactKind;
+use soffio_multibody::procedural::Settings;
 
 use super::{Extras, Hand, METHODS};
 use crate::motion::{DT, G, World, body};

@@ -1,7 +1,7 @@
 //! Bending beams against closed forms, published tables and an independent discretisation.
 
-use soffio::math::{PI, exp, ln};
-use soffio::sound::modes::{BeamMode, Section, beam_modes};
+use soffio_math::{PI, exp, ln};
+use soffio_sound::modes::{BeamMode, Section, beam_modes};
 
 use super::steel;
 
@@ -34,7 +34,7 @@ fn the_thesis_model_has_the_exact_roots() {
     let factor = section.gyration / (section.length * section.length) * (68.9e9f64 / 2710.0).sqrt();
     for (i, mode) in modes.iter().enumerate() {
         let n = i as f64 + 1.0;
-        let f = |x: f64| soffio::math::cos(x) - 2.0 / (exp(x) + exp(-x));
+        let f = |x: f64| soffio_math::cos(x) - 2.0 / (exp(x) + exp(-x));
         let (mut low, mut high) = ((n + 0.5) * PI - 0.5, (n + 0.5) * PI + 0.5);
         let sign = f(low) < 0.0;
         for _ in 0..60 {
@@ -121,7 +121,7 @@ fn ritz(section: &Section, modes: usize) -> Vec<f64> {
     };
     let points: Vec<(f64, f64)> = (0..N)
         .map(|i| {
-            let mut x = soffio::math::cos(PI * (i as f64 + 0.75) / (N as f64 + 0.5));
+            let mut x = soffio_math::cos(PI * (i as f64 + 0.75) / (N as f64 + 0.5));
             for _ in 0..10 {
                 let p = legendre(x);
                 x -= p[N] / slopes(&p)[N];

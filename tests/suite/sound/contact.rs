@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::{PI, StateHash, asin, decibels, sin, sqrt};
-use soffio::simulation::{
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::{PI, StateHash, asin, decibels, sin, sqrt};
+use soffio_simulation::{
     Command, Event, EventKind, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput,
 };
-use soffio::sound::{Across, Preset, Slide, SoundCommand, Strike, Synth, Touch, WindSound};
+use soffio_sound::{Across, Preset, Slide, SoundCommand, Strike, Synth, Touch, WindSound};
 
 use super::{RATE, render, rms};
 use crate::exhibit::glb::{Folder, Scene, cuboid, sheet};
@@ -132,7 +132,7 @@ fn a_dropped_ball_strikes_as_often_as_it_bounces() {
     let (first, e) = (2.0, 0.4);
     let heard = play(&dropped(first, e), 2.0);
     let bounces: Vec<f64> = (0..20)
-        .map(|k| first * soffio::math::pow(e, f64::from(k)))
+        .map(|k| first * soffio_math::pow(e, f64::from(k)))
         .take_while(|v| 2.0 * v / G > WINDOW || *v > 0.1)
         .collect();
     for instrument in [0, 1] {
@@ -353,10 +353,10 @@ fn the_place_of_a_contact_moves_on() {
                 gain = { input = \"normal_force\", scale = 0.1 }\n[node.out]\ntype = \"modal\"\nin = \"needle\"\nfrom = \"bar\"\n\
                 partials = 1\ncontact_radius = 0.002\n";
     let preset = Preset::parse("x", text).unwrap_or_else(|e| panic!("{e}"));
-    let spec = soffio::sound::InstrumentSpec {
-        body: soffio::sound::SoundBody { half_extents: [0.2, 0.01], thickness: 0.01, area: 0.008, mass: 0.6 },
+    let spec = soffio_sound::InstrumentSpec {
+        body: soffio_sound::SoundBody { half_extents: [0.2, 0.01], thickness: 0.01, area: 0.008, mass: 0.6 },
         // 80 1/s at its 320 Hz: what rang elsewhere is over soon.
-        material: soffio::sound::SoundMaterial { loss_factor: 0.08, ..super::steel() },
+        material: soffio_sound::SoundMaterial { loss_factor: 0.08, ..super::steel() },
         ..super::spec("x")
     };
     let play = |block: usize| {

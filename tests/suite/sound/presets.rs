@@ -1,8 +1,8 @@
 //! The shipped presets: each sounds like what it is, in figures.
 
-use soffio::math::decibels;
-use soffio::sound::modes::T60_DECAYS;
-use soffio::sound::{Mode, Preset, Slide, SoundCommand, Strike, Synth, WindSound, partials, timbre};
+use soffio_math::decibels;
+use soffio_sound::modes::T60_DECAYS;
+use soffio_sound::{Mode, Preset, Slide, SoundCommand, Strike, Synth, WindSound, partials, timbre};
 
 use super::{RATE, amplitude, peak, render, rms};
 

@@ -1,12 +1,12 @@
 //! The preset format: what it refuses and how it says so, and that nothing makes it panic.
 
 use proptest::prelude::*;
-use soffio::sound::{Preset, SoundBody, Synth, timbre};
+use soffio_sound::{Preset, SoundBody, Synth, timbre};
 
 use super::{RATE, disc, render, spec};
 
 /// The error of a shipped preset with one thing replaced.
-fn wrong(name: &str, from: &str, to: &str) -> soffio::sound::TimbreError {
+fn wrong(name: &str, from: &str, to: &str) -> soffio_sound::TimbreError {
     let text = timbre::source(name).expect("shipped");
     assert!(text.contains(from), "{name} has no {from}");
     Preset::parse(name, &text.replace(from, to)).expect_err(to)
@@ -65,7 +65,7 @@ fn errors_know_file_line_key_and_what_would_be_right() {
 
 #[test]
 fn a_body_that_cannot_ring_is_said() {
-    let flat = soffio::sound::InstrumentSpec { body: SoundBody { thickness: 0.0, ..disc(0.1, 1e-3) }, ..spec("plate") };
+    let flat = soffio_sound::InstrumentSpec { body: SoundBody { thickness: 0.0, ..disc(0.1, 1e-3) }, ..spec("plate") };
     assert!(Synth::new(RATE, &[flat], 1).is_err());
     let plate = timbre::source("scrape-metal").expect("shipped");
     let picture = Preset::parse("scrape-metal", &plate.replace("kind = \"rough\"", "kind = \"image\"")).expect("valid");

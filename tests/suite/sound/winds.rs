@@ -1,8 +1,8 @@
 //! The sound of wind: its slope, its pitch and its level, from long-term spectra.
 
 use realfft::RealFftPlanner;
-use soffio::math::{decibels, ln};
-use soffio::sound::{Preset, SoundCommand, Synth, WindSound, multifractal};
+use soffio_math::{decibels, ln};
+use soffio_sound::{Preset, SoundCommand, Synth, WindSound, multifractal};
 
 use super::{RATE, render, rms, spec};
 
@@ -10,7 +10,7 @@ use super::{RATE, render, rms, spec};
 pub fn spectrum(signal: &[f64], n: usize) -> Vec<f64> {
     let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
     let window: Vec<f64> =
-        (0..n).map(|i| 0.5 - 0.5 * soffio::math::cos(2.0 * soffio::math::PI * i as f64 / n as f64)).collect();
+        (0..n).map(|i| 0.5 - 0.5 * soffio_math::cos(2.0 * soffio_math::PI * i as f64 / n as f64)).collect();
     let mut power = vec![0.0; n / 2 + 1];
     let mut bins = transform.make_output_vec();
     let mut windows = 0.0;
@@ -114,7 +114,7 @@ fn noises_have_their_colours() {
     };
     let density = |power: &[f64], low: f64| {
         let bin = |f: f64| (f / f64::from(RATE) * 4096.0) as usize;
-        10.0 * soffio::math::log10(
+        10.0 * soffio_math::log10(
             power[bin(low)..bin(2.0 * low)].iter().sum::<f64>() / (bin(2.0 * low) - bin(low)) as f64,
         )
     };

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::DVec3;
-use soffio::simulation::{Command, Profile, Settings, Simulation, StepInput};
-use soffio::wind::breath::{SPREAD, TAN_HALF_ANGLE};
-use soffio::wind::weather::{Rhythm, Wind, WindKind};
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::DVec3;
+use soffio_simulation::{Command, Profile, Settings, Simulation, StepInput};
+use soffio_wind::breath::{SPREAD, TAN_HALF_ANGLE};
+use soffio_wind::weather::{Rhythm, Wind, WindKind};
 
 const ROUNDING: f64 = 1e-12;
 
@@ -19,7 +19,7 @@ fn pendulum() -> Exhibit {
 fn the_ring_is_as_wide_as_the_breath_and_the_meter_as_full_as_it_is_strong() {
     for law in ["jet", "cone"] {
         let mut exhibit = pendulum();
-        exhibit.breath.law = if law == "jet" { Default::default() } else { soffio::wind::breath::Law::Cone };
+        exhibit.breath.law = if law == "jet" { Default::default() } else { soffio_wind::breath::Law::Cone };
         let settings = Settings { profile: Profile::True, ..Settings::default() };
         let mut simulation = Simulation::new(Arc::new(exhibit), settings);
         let shown = |simulation: &mut Simulation, speed: f64| {

@@ -1,12 +1,12 @@
 //! Plates, balls and breaths for the tests of wind.
 
-use soffio::bodies::{MassProperties, RigidBody};
-use soffio::geometry::TriangleMesh;
-use soffio::math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sincos};
-use soffio::noise::Random;
-use soffio::wind::breath::{Breath, Law};
-use soffio::wind::force::{Blown, WindField};
-use soffio::wind::{Shelter, Surface, SurfaceShape};
+use soffio_geometry::TriangleMesh;
+use soffio_geometry::bodies::{MassProperties, RigidBody};
+use soffio_math::noise::Random;
+use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sincos};
+use soffio_wind::breath::{Breath, Law};
+use soffio_wind::force::{Blown, WindField};
+use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 pub const C_D: f64 = 1.17;
 pub const C_F: f64 = 0.02;

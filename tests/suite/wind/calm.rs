@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{self, Calm, Exhibit};
-use soffio::math::exp;
-use soffio::simulation::{Command, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_exhibit::{self as exhibit, Calm, Exhibit};
+use soffio_math::exp;
+use soffio_simulation::{Command, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 const CALM: Calm = Calm { after: 1.0, time: 4.0 };
 /// It grows so much firmer within so long, s.

@@ -4,9 +4,9 @@
 //! With z the depth along the axis and (u, v) = (x, y)/z on the picture plane, 1/z is linear in u and v over a triangle.
 //! Nothing here knows the hierarchies or the rays of the library.
 
-use soffio::geometry::TriangleMesh;
-use soffio::math::{DVec3, Pose, tangents};
-use soffio::wind::breath::Breath;
+use soffio_geometry::TriangleMesh;
+use soffio_math::{DVec3, Pose, tangents};
+use soffio_wind::breath::Breath;
 
 /// What each pixel shows.
 pub struct IdBuffer {

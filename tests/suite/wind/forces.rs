@@ -1,14 +1,14 @@
 //! The wind's force against formulas: drag, damping, momentum, turbulence, fronts.
 
-use soffio::articulation::block::{Vec6, linear};
-use soffio::bodies::RigidBody;
-use soffio::math::{DVec3, PI};
-use soffio::noise::Random;
-use soffio::wind::breath::{AIR_DENSITY, Law};
-use soffio::wind::force::{Blown, TURBULENCE, WindField};
-use soffio::wind::front::Front;
-use soffio::wind::weather::{Rhythm, Wind, WindKind};
-use soffio::wind::{Surface, SurfaceShape};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::noise::Random;
+use soffio_math::spatial::{Vec6, linear};
+use soffio_math::{DVec3, PI};
+use soffio_wind::breath::{AIR_DENSITY, Law};
+use soffio_wind::force::{Blown, TURBULENCE, WindField};
+use soffio_wind::front::Front;
+use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::{Surface, SurfaceShape};
 
 use super::bodies::*;
 
@@ -241,7 +241,7 @@ fn the_same_seed_is_the_same_wind_to_the_bit() {
         rhythm: Rhythm::Even,
     };
     let run = |seed: u64| -> Vec<Vec6> {
-        let shelters = soffio::wind::Shelter::of(&surfaces);
+        let shelters = soffio_wind::Shelter::of(&surfaces);
         let mut field = WindField::new(&surfaces, &shelters, std::slice::from_ref(&wind), 2, seed);
         let bodies = [body(DVec3::ZERO), body(DVec3::new(0.02, 0.0, 0.1))];
         let mut all = Vec::new();

@@ -3,14 +3,14 @@
 use std::cell::Cell;
 
 use assert_no_alloc::assert_no_alloc;
-use soffio::articulation::block::linear;
-use soffio::bodies::RigidBody;
-use soffio::geometry::TriangleMesh;
-use soffio::math::DVec3;
-use soffio::noise::Random;
-use soffio::wind::force::WindField;
-use soffio::wind::weather::{Rhythm, Wind, WindKind};
-use soffio::wind::{Shelter, Surface};
+use soffio_geometry::TriangleMesh;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_math::noise::Random;
+use soffio_math::spatial::linear;
+use soffio_wind::force::WindField;
+use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::{Shelter, Surface};
 
 use super::bodies::*;
 use super::depth_buffer::IdBuffer;

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use soffio::exhibit::{self, Exhibit};
-use soffio::math::PI;
-use soffio::noise::Random;
-use soffio::simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, StepInput};
-use soffio::wind::SurfaceShape;
-use soffio::wind::weather::WindKind;
+use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_math::PI;
+use soffio_math::noise::Random;
+use soffio_simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_wind::SurfaceShape;
+use soffio_wind::weather::WindKind;
 
 /// Size of a 55-inch picture, mm.
 const PICTURE: [f64; 2] = [1210.0, 680.0];

@@ -5,8 +5,8 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::{Body, Drive};
 use super::super::Context;
 use super::super::bodies::meters;
-use crate::articulation::{Constraint, ConstraintKind};
-use crate::math::PI;
+use soffio_math::PI;
+use soffio_multibody::articulation::{Constraint, ConstraintKind};
 
 /// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
 pub(super) const APART: f64 = 1e-4;
@@ -43,7 +43,7 @@ impl Context<'_> {
             }
             ConstraintKind::Orientation { a, b, angle } => {
                 let (t, n) = (self.start_of(a.body).vector(a.direction), self.start_of(b.body).vector(b.direction));
-                let off = crate::math::asin(t.dot(n).clamp(-1.0, 1.0)) - angle.at(0.0).value;
+                let off = soffio_math::asin(t.dot(n).clamp(-1.0, 1.0)) - angle.at(0.0).value;
                 if off.abs() > OBLIQUE {
                     let degrees = off.abs() * 180.0 / PI;
                     let message = format!("the two axes of \"{name}\" are {degrees:.2}° from their angle at rest");

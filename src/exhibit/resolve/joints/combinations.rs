@@ -15,8 +15,9 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Point, Target};
 use super::super::Context;
 use super::{Header, Joints};
-use crate::articulation::{Anchor, Axis, ConstraintKind, Function, Limit, LimitKind, Measure};
-use crate::math::{DVec3, tangents};
+use soffio_math::Function;
+use soffio_math::{DVec3, tangents};
+use soffio_multibody::articulation::{Anchor, Axis, ConstraintKind, Limit, LimitKind, Measure};
 
 impl Context<'_> {
     pub(super) fn hinge(&mut self, given: &sidecar::Hinge, point: &str, at: &str, out: &mut Joints) {

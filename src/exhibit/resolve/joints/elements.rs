@@ -10,8 +10,9 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Dof, Frame, FrameWord, Op};
 use super::super::Context;
 use super::{Header, Joints};
-use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function};
-use crate::math::{DMat3, DVec3, tangents};
+use soffio_math::Function;
+use soffio_math::{DMat3, DVec3, tangents};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
 
 /// A row holds a turn where its axis is this near to the turn's (cosine).
 const ALONG: f64 = 0.999;

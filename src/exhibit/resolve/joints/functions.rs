@@ -5,7 +5,8 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::quantity::Quantity;
 use super::super::super::sidecar;
 use super::super::Context;
-use crate::articulation::{Function, Interpolation};
+use soffio_math::Function;
+use soffio_math::Interpolation;
 
 /// The sidecar's word for what happens between two keys.
 pub(in super::super) fn interpolation(given: sidecar::Interpolation) -> Interpolation {

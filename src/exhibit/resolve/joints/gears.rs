@@ -9,8 +9,8 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Wheel};
 use super::super::Context;
 use super::{Header, Joints};
-use crate::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
-use crate::math::DVec3;
+use soffio_math::DVec3;
+use soffio_multibody::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
 
 /// Axles that are further than this from parallel (cosine) are bevel gears: their turns are taken as they are given.
 const PARALLEL: f64 = 0.99;

@@ -5,8 +5,8 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Travel};
 use super::super::Context;
 use super::Joints;
-use crate::articulation::{Anchor, Axis, Limit, LimitKind, Measure};
-use crate::math::{DVec3, PI, cos};
+use soffio_math::{DVec3, PI, cos};
+use soffio_multibody::articulation::{Anchor, Axis, Limit, LimitKind, Measure};
 
 const DEGREES: f64 = 180.0 / PI;
 

@@ -23,7 +23,7 @@ use super::bodies::meters;
 use super::colliders::Pair;
 pub(super) use functions::interpolation;
 
-use crate::articulation::{
+use soffio_multibody::articulation::{
     Axis, Breaking, Constraint, ConstraintKind, Limit, Measure, PivotFriction, Schedule, Spring,
 };
 
@@ -228,8 +228,9 @@ impl Context<'_> {
                 format!("{}, {} from perpendicular to {}", axis(a), functions::shown(angle, "rad"), axis(b))
             }
             ConstraintKind::Coupling { terms } => {
-                let term =
-                    |t: &crate::articulation::Term| format!("{} · {}", t.coefficient, self.shown_measure(&t.measure));
+                let term = |t: &soffio_multibody::articulation::Term| {
+                    format!("{} · {}", t.coefficient, self.shown_measure(&t.measure))
+                };
                 format!("{} = const", terms.iter().map(term).collect::<Vec<_>>().join(" + "))
             }
         }

@@ -5,8 +5,9 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Attachment, BodyAxis, Point, Target};
 use super::super::{Context, path_node};
 use super::{Header, Joints};
-use crate::articulation::{Anchor, Axis, ConstraintKind, Function};
-use crate::math::DVec3;
+use soffio_math::DVec3;
+use soffio_math::Function;
+use soffio_multibody::articulation::{Anchor, Axis, ConstraintKind};
 
 impl Context<'_> {
     pub(super) fn point_to_point(&mut self, given: &sidecar::PointToPoint, at: &str, out: &mut Joints) {

@@ -14,8 +14,8 @@ use super::super::super::Drive;
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::Context;
-use crate::articulation::{Anchor, Constraint, ConstraintKind, Measure};
-use crate::math::{DVec3, cos};
+use soffio_math::{DVec3, cos};
+use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind, Measure};
 
 /// Sine of the angle below which a row lies in the span of the others: single-precision files give 10⁻⁷.
 const DEPENDENT: f64 = 1e-6;

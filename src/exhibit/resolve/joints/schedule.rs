@@ -5,8 +5,8 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Restore, Start, Timing, Windows};
 use super::super::Context;
 use super::{Header, Joints};
-use crate::articulation::{Breaking, Constraint, Schedule, Spring, Trigger, Window};
-use crate::collision::Collider;
+use soffio_multibody::articulation::{Breaking, Constraint, Schedule, Spring, Trigger, Window};
+use soffio_multibody::collision::Collider;
 
 impl Context<'_> {
     /// What all rows of a table share; the name is taken.

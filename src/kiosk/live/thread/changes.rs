@@ -3,17 +3,17 @@
 use std::sync::Arc;
 
 use super::Thread;
-use crate::audio_io::AudioIo;
-use crate::config::AudioSettings;
-use crate::controllers::Controllers;
-use crate::exhibit::Exhibit;
-use crate::kiosk::captions::Captions;
-use crate::kiosk::governor::Governor;
-use crate::kiosk::live::local_time;
-use crate::kiosk::moments::Moments;
-use crate::kiosk::site::Site;
-use crate::kiosk::voice::{Guest, Trial, Tried, Voice, hit};
-use crate::simulation::Settings;
+use crate::captions::Captions;
+use crate::governor::Governor;
+use crate::live::local_time;
+use crate::moments::Moments;
+use crate::site::Site;
+use crate::voice::{Guest, Trial, Tried, Voice, hit};
+use soffio_config::AudioSettings;
+use soffio_devices::audio::AudioIo;
+use soffio_devices::controllers::Controllers;
+use soffio_exhibit::Exhibit;
+use soffio_simulation::Settings;
 
 impl Thread {
     /// Takes over a changed configuration: of the devices and threads only what differs begins anew.

@@ -18,9 +18,10 @@ use std::io::{self, Write as _};
 use std::path::Path;
 
 use super::super::whole_file::WholeFile;
-use crate::articulation::{Anchor, ConstraintKind, Function, LimitKind, Measure, SpringKind};
-use crate::exhibit::Exhibit;
-use crate::math::{DQuat, DVec3, Pose};
+use soffio_exhibit::Exhibit;
+use soffio_math::Function;
+use soffio_math::{DQuat, DVec3, Pose};
+use soffio_multibody::articulation::{Anchor, ConstraintKind, LimitKind, Measure, SpringKind};
 
 mod shapes;
 mod tree;
@@ -363,7 +364,7 @@ impl Writer<'_> {
         let body = &self.exhibit.bodies[index];
         let about = self.tree.members[index].joint.point;
         // Spin, and velocity of the material point at `about`.
-        let motion = |body: &crate::exhibit::Body| {
+        let motion = |body: &soffio_exhibit::Body| {
             let center = body.pose.point(body.properties.center);
             (body.angular_velocity, body.velocity + body.angular_velocity.cross(about - center))
         };

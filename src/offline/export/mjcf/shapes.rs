@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::{named, numbers, quaternion};
-use crate::collision::Shape;
-use crate::exhibit::{Exhibit, Wire};
-use crate::geometry::support::Core;
-use crate::math::{DQuat, DVec3, Pose, tangents};
+use soffio_exhibit::{Exhibit, Wire};
+use soffio_geometry::support::Core;
+use soffio_math::{DQuat, DVec3, Pose, tangents};
+use soffio_multibody::collision::Shape;
 
 /// Two ends of a wire's segment nearer than this are one, m.
 const APART: f64 = 1e-6;

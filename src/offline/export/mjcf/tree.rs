@@ -5,9 +5,10 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, Function, Measure};
-use crate::exhibit::Exhibit;
-use crate::math::DVec3;
+use soffio_exhibit::Exhibit;
+use soffio_math::DVec3;
+use soffio_math::Function;
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Measure};
 
 /// Points farther apart at the start are not yet joined, m.
 const CLOSED: f64 = 1e-5;

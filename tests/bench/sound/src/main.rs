@@ -8,9 +8,9 @@ use fundsp::F32x;
 use fundsp::Frame;
 use fundsp::biquad_bank::BiquadBank;
 use fundsp::prelude::{AudioNode, BiquadCoefs};
-use soffio::math::{PI, decibels, exp, ln, sincos};
-use soffio::noise::Random;
-use soffio::sound::modal::{BLOCK, Bank, Partial};
+use soffio_math::{PI, decibels, exp, ln, sincos};
+use soffio_math::noise::Random;
+use soffio_sound::modal::{BLOCK, Bank, Partial};
 
 const RATE: f64 = 48_000.0;
 /// Partials side by side in the peer.

@@ -1,0 +1,270 @@
+//! Wind chimes: tubes in a circle about a wooden disc that a sail drives, of aluminium, bamboo or glass.
+//!
+//! A tube hangs by a pin at 22.42 % of its length, the node of its first bending mode, which the cord therefore spares.
+//! All are struck at the same height, 40 % of the length from the lower end, where the first five modes sound: hung so,
+//! their tops and feet are a stair. The cords hang from a round crown.
+
+use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
+
+use super::glb::{Finish, Glass, Scene};
+use super::hung::{BEVEL, to_mass};
+use super::outline::{Polygon, area_and_centroid, ring};
+use super::piece::{Bend, Piece, load, named};
+use super::solid::{Solid, sheet, turned};
+use super::stock::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
+
+/// Where the crown hangs.
+const HOOK: f64 = 1.26;
+/// Of the crown's underside below its ring, m.
+const BRIDLE: f64 = 105.0 * MM;
+/// Where tubes are hung and struck, as shares of their length from the upper end.
+const PIN: f64 = 0.2242;
+const STRUCK: f64 = 0.6;
+/// The least gap between the crown and a tube.
+const HEADROOM: f64 = 34.0 * MM;
+/// The striker: its radius and mass, and how far its rim is from the tubes.
+const STRIKER: f64 = 40.0 * MM;
+const STRIKER_MASS: f64 = 60e-3;
+const GAP: f64 = 13.5 * MM;
+/// From the striker to the middle of the sail; the sail's mass.
+const SAIL_LINE: f64 = 0.5;
+const SAIL_MASS: f64 = 10e-3;
+/// Of the sail's wood, kg/m³.
+const LIME_WOOD: f64 = 530.0;
+
+/// What a chime is made of.
+pub struct Make<'a> {
+    /// Title of the scene.
+    pub title: &'a str,
+    /// Lengths of the tubes, mm, the longest first.
+    pub lengths: &'a [f64],
+    /// Outer diameter and wall, mm.
+    pub tube: [f64; 2],
+    /// kg/m³.
+    pub density: f64,
+    /// How the tubes look.
+    pub tubes: Finish,
+    /// What the tubes are if they are clear.
+    pub glass: Option<Glass>,
+    /// How the sail looks.
+    pub sail: Finish,
+}
+
+/// Aluminium 6061-T6, C5 to C6.
+pub const ALUMINIUM: Make<'static> = Make {
+    title: "Wind chimes of aluminium",
+    lengths: &[533.8, 503.4, 474.7, 434.6, 409.7, 374.9],
+    tube: [25.4, 1.65],
+    density: 2710.0,
+    tubes: Finish { name: "Brushed aluminium", color: [0.78, 0.79, 0.80], metallic: 1.0, roughness: 0.26 },
+    glass: None,
+    sail: Finish { name: "Signal red", color: [0.55, 0.03, 0.018], metallic: 0.0, roughness: 0.45 },
+};
+
+/// Bamboo, C5 to A5.
+pub const BAMBOO: Make<'static> = Make {
+    title: "Wind chimes of bamboo",
+    lengths: &[497.0, 468.0, 440.0, 401.0, 377.0],
+    tube: [30.0, 4.0],
+    density: 660.0,
+    tubes: Finish { name: "Bamboo", color: [0.58, 0.42, 0.17], metallic: 0.0, roughness: 0.50 },
+    glass: None,
+    sail: Finish { name: "Leaf green", color: [0.05, 0.17, 0.06], metallic: 0.0, roughness: 0.50 },
+};
+
+/// Soda-lime glass, C5 to A5.
+pub const GLASS: Make<'static> = Make {
+    title: "Wind chimes of glass",
+    lengths: &[480.3, 453.0, 427.3, 391.4, 369.1],
+    tube: [20.0, 1.8],
+    density: 2500.0,
+    tubes: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
+    glass: Some(Glass { wall: 1.8 * MM, ior: 1.52, through: 0.96, color: [0.36, 0.74, 0.70], way: 0.012 }),
+    sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
+};
+
+struct Looks {
+    tubes: usize,
+    sail: usize,
+    wood: usize,
+    iron: usize,
+}
+
+/// From the crown's underside down to the height at which all tubes are struck.
+fn drop(make: &Make) -> f64 {
+    STRUCK * make.lengths[0] * MM + HEADROOM
+}
+
+/// A tube of `length` along y about the origin.
+fn tube([outer, wall]: [f64; 2], length: f64) -> Solid {
+    let (radius, inner, half) = (0.5 * outer * MM, (0.5 * outer - wall) * MM, 0.5 * length);
+    turned(
+        &[(inner, -half), (radius, -half), (radius, half), (inner, half)].map(|(r, y)| DVec2::new(r, y)),
+        true,
+        2 * ROUND,
+    )
+}
+
+/// A cord of `length` from the origin down, threaded through a bead at its foot.
+fn cord(k: usize, length: f64, looks: &Looks) -> Piece {
+    let name = named(format!("Cord{k}"));
+    let radius = 6.0 * MM;
+    let ball = (0..=12).map(|i| {
+        let angle = PI * (f64::from(i) / 12.0 - 0.5);
+        DVec2::new(if i % 12 == 0 { 0.0 } else { radius * cos(angle) }, radius * sin(angle))
+    });
+    let bead = turned(&ball.collect::<Vec<_>>(), false, ROUND / 2);
+    let at = -0.35 * length * DVec3::Y;
+    Piece {
+        name,
+        parts: vec![part(named(format!("Bead{k}")), bead, at, DQuat::IDENTITY, WOOD, looks.wood)],
+        bends: vec![line(named(format!("CordLine{k}")), length)],
+        marks: vec![(named(format!("CordEnd{k}")), -length * DVec3::Y)],
+    }
+}
+
+/// Braided cord, drawn straight down from the origin: 0.7 mm in radius, as heavy as nylon.
+fn line(name: &'static str, length: f64) -> Bend {
+    Bend { name, points: vec![DVec3::ZERO, -length * DVec3::Y], radius: 0.7 * MM, density: 1150.0 }
+}
+
+/// The crown: a turned board on a bridle of three cords; its origin is the ring they meet in. Long tubes are heavier: the
+/// board hangs `aside` of the ring, so that it is level.
+fn crown(make: &Make, circle: f64, aside: DVec3, looks: &Looks) -> Piece {
+    let rim = (circle + 0.5 * make.tube[0] * MM + 10.0 * MM) / MM;
+    let top = 16.0;
+    #[rustfmt::skip] // rows of a drawing
+    let board = [
+        (0.0, 0.0), (rim - 3.0, 0.0), (rim, 3.0), (rim, 7.5), (rim - 2.0, 9.5), (rim - 7.0, 10.5),
+        (rim - 12.0, 13.5), (rim - 18.0, top), (0.0, top),
+    ];
+    let board = turned(&board.map(|(r, y)| DVec2::new(r, y) * MM), false, 3 * ROUND);
+    let loops = ring(DVec3::new(0.0, -4.0 * MM, 0.0), 5.0 * MM, DVec3::Y, DVec3::Z, 16);
+    let mut bends = vec![Bend { name: "CrownRing", points: loops, radius: 1.0 * MM, density: STEEL }];
+    for (k, name) in ["BridleA", "BridleB", "BridleC"].into_iter().enumerate() {
+        let angle = 2.0 * PI * (k as f64 / 3.0 + 0.06);
+        let out = (rim - 20.0) * MM;
+        let foot = aside + DVec3::new(out * cos(angle), top * MM - BRIDLE, out * sin(angle));
+        bends.push(Bend { name, points: vec![-8.0 * MM * DVec3::Y, foot], radius: 0.7 * MM, density: 1150.0 });
+    }
+    let under = aside - BRIDLE * DVec3::Y;
+    let mut marks = vec![("CrownHook", DVec3::ZERO), ("CrownMiddle", under)];
+    for (k, at) in places(make.lengths.len(), circle).into_iter().enumerate() {
+        marks.push((named(format!("CrownHole{}", k + 1)), under + at));
+    }
+    Piece { name: "Crown", parts: vec![part("Board", board, under, DQuat::IDENTITY, WOOD, looks.wood)], bends, marks }
+}
+
+/// Where the tubes hang, from the middle: evenly about a circle, none right before another.
+fn places(count: usize, circle: f64) -> Vec<DVec3> {
+    let place = |k: usize| {
+        let angle = 2.0 * PI * (k as f64 / count as f64) + 1.05 * PI;
+        DVec3::new(circle * cos(angle), 0.0, -circle * sin(angle))
+    };
+    (0..count).map(place).collect()
+}
+
+/// The striker on its line; the line goes on to the sail.
+fn striker(drop: f64, looks: &Looks) -> Piece {
+    let height = STRIKER_MASS / (WOOD * PI * STRIKER * STRIKER);
+    let (h, edge) = (0.5 * height, 1.5 * MM);
+    let profile =
+        [(0.0, -h), (STRIKER - edge, -h), (STRIKER, edge - h), (STRIKER, h - edge), (STRIKER - edge, h), (0.0, h)];
+    let disc = turned(&profile.map(|(r, y)| DVec2::new(r, y)), false, 2 * ROUND);
+    Piece {
+        name: "Striker",
+        parts: vec![part("StrikerDisc", disc, -drop * DVec3::Y, DQuat::IDENTITY, WOOD, looks.wood)],
+        bends: vec![line("StrikerLine", drop)],
+        marks: vec![("StrikerHook", DVec3::ZERO), ("StrikerFoot", -drop * DVec3::Y)],
+    }
+}
+
+/// The sail on its line: two crossed leaves of 60 mm by 100 mm, their corners rounded. However the line twists, one of them
+/// faces the wind.
+fn sail(looks: &Looks) -> Piece {
+    let (x, y) = (30.0, 50.0);
+    // |x/a|⁴ + |y/b|⁴ = 1: a card with soft corners.
+    let soft = |share: f64| share.abs().sqrt().copysign(share);
+    let corner = |k: usize| {
+        let angle = 2.0 * PI * (k as f64 / ROUND as f64 - 0.25);
+        DVec2::new(x * soft(cos(angle)), y * soft(sin(angle)))
+    };
+    let outline: Polygon = (0..ROUND).map(corner).collect();
+    let area = area_and_centroid(&outline).0 * MM * MM;
+    let mass = 0.5 * SAIL_MASS;
+    let thickness = mass / (LIME_WOOD * area);
+    let solid = to_mass(outline, Vec::new(), thickness, (LIME_WOOD, mass));
+    // The other leaf is let in: half of it on either side.
+    let half: Polygon = (0..=ROUND / 2).map(|k| corner(k) * MM).map(|p| p.with_x(p.x.max(0.5 * thickness))).collect();
+    let half = sheet(&half, &[], thickness, BEVEL);
+    let middle = -SAIL_LINE * DVec3::Y;
+    let about = |quarters: f64| rotation(0.5 * PI * quarters * DVec3::Y);
+    let leaf = |name, solid, place, turn| part(name, solid, place, turn, LIME_WOOD, looks.sail);
+    let leaves = vec![
+        leaf("Sail", solid.moved(middle), DVec3::ZERO, DQuat::IDENTITY),
+        leaf("SailFront", half.clone(), middle, about(-1.0)),
+        leaf("SailBack", half, middle, about(1.0)),
+    ];
+    Piece {
+        name: "Sail",
+        parts: leaves,
+        bends: vec![line("SailLine", SAIL_LINE - y * MM)],
+        marks: vec![("SailHook", DVec3::ZERO)],
+    }
+}
+
+/// Draws and writes a chime.
+pub fn glb(make: &Make) -> Vec<u8> {
+    let mut scene = Scene::default();
+    let looks = Looks {
+        tubes: scene.finish(&make.tubes),
+        sail: scene.finish(&make.sail),
+        wood: scene.finish(&Finish {
+            name: "Oiled cherry",
+            color: [0.30, 0.115, 0.045],
+            metallic: 0.0,
+            roughness: 0.42,
+        }),
+        iron: scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 }),
+    };
+    if let Some(glass) = &make.glass {
+        scene.clear(looks.tubes, glass);
+    }
+    let circle = STRIKER + GAP + 0.5 * make.tube[0] * MM;
+    let (top, drop) = (HOOK * DVec3::Y, drop(make));
+    let lengths = make.lengths.iter().map(|length| length * MM);
+    let hung: Vec<(Piece, Piece, f64)> = (1..)
+        .zip(lengths)
+        .map(|(k, length)| {
+            let down = drop - (STRUCK - PIN) * length;
+            let middle = (PIN - 0.5) * length * DVec3::Y;
+            let pipe = tube(make.tube, length);
+            let own = part(named(format!("Pipe{k}")), pipe, middle, DQuat::IDENTITY, make.density, looks.tubes);
+            let marks = vec![(named(format!("Pin{k}")), DVec3::ZERO)];
+            let tube = Piece { name: named(format!("Tube{k}")), parts: vec![own], bends: Vec::new(), marks };
+            (cord(k, down, &looks), tube, down)
+        })
+        .collect();
+    let (striker, sail) = (striker(drop, &looks), sail(&looks));
+    // The bridle's cords stay where they meet, so the board's way aside is not quite that of the whole: three rounds.
+    let places = places(make.lengths.len(), circle);
+    let aside = (0..3).fold(DVec3::ZERO, |aside, _| {
+        let mut whole = crown(make, circle, aside, &looks).mass();
+        for ((cord, tube, _), at) in hung.iter().zip(&places) {
+            whole = whole.combine(&load(cord.mass().mass + tube.mass().mass, aside + *at));
+        }
+        whole = whole.combine(&load(striker.mass().mass + sail.mass().mass, aside));
+        aside - DVec3::new(whole.center.x, 0.0, whole.center.z)
+    });
+    let under = top + aside - BRIDLE * DVec3::Y;
+    let mut pieces = vec![(ceiling(looks.iron), top), (crown(make, circle, aside, &looks), top)];
+    for ((cord, tube, down), at) in hung.into_iter().zip(places) {
+        pieces.push((cord, under + at));
+        pieces.push((tube, under + at - down * DVec3::Y));
+    }
+    pieces.push((striker, under));
+    pieces.push((sail, under - drop * DVec3::Y));
+    let target = DVec3::new(0.0, 0.75, 0.0);
+    let away = DVec3::new(0.28, 0.04, 1.0).normalize();
+    write(scene, make.title, &pieces, target + 2.35 * away, target)
+}

@@ -1,0 +1,271 @@
+//! Outlines of plates from an SVG drawing: each filled shape is one plate.
+//!
+//! A drawing with a physical size (`width="200mm"` and a `viewBox`) has its millimetres; with a size in pixels there are
+//! 96 to the inch, as the standard says; without a size a unit is a millimetre. Curves become polygons within 0.05 mm.
+//! What is no plate (holes, open lines, text, pictures) is refused where it stands, all of it at once.
+
+use std::sync::Arc;
+
+use kurbo::{Affine, BezPath, PathEl, Shape};
+use roxmltree::{Document, Node};
+use svgtypes::{Length, LengthUnit, PointsParser, ViewBox};
+
+use super::given::Outline;
+use super::outline::area_and_centroid;
+use soffio_exhibit::codes;
+use soffio_exhibit::diagnostic::{Diagnostic, Location, Report};
+use soffio_math::DVec2;
+
+/// How far a polygon may be from its curve, mm; corners nearer to each other are one.
+const FLATNESS: f64 = 0.05;
+/// Most corners of a plate.
+const CORNERS: usize = 2000;
+/// mm of an inch, and of a CSS pixel.
+const INCH: f64 = 25.4;
+const PIXEL: f64 = INCH / 96.0;
+
+/// Elements that hold others, and those that say nothing about plates.
+const GROUPS: [&str; 4] = ["svg", "g", "a", "switch"];
+const SILENT: [&str; 11] = [
+    "defs",
+    "title",
+    "desc",
+    "metadata",
+    "style",
+    "clipPath",
+    "mask",
+    "marker",
+    "symbol",
+    "linearGradient",
+    "radialGradient",
+];
+
+/// The plates of a drawing, in its order; or all that is wrong with it. `file` is its name in messages.
+pub fn outlines(file: &str, text: &str) -> Result<Vec<Outline>, Report> {
+    let mut reader = Reader { file, text, plates: Vec::new(), problems: Vec::new() };
+    match Document::parse(text) {
+        Ok(document) => reader.root(&document),
+        Err(error) => {
+            let at = error.pos();
+            let start = offset(text, at.row as usize, at.col as usize);
+            reader.report(start..start + 1, format!("this is not SVG: {error}"), "save the drawing as plain SVG");
+        }
+    }
+    if reader.problems.is_empty() && reader.plates.is_empty() {
+        reader.report(0..1, "the drawing has no closed shape".into(), "draw each plate as one closed path");
+    }
+    match reader.problems.is_empty() {
+        true => Ok(reader.plates),
+        false => Err(Report::in_file(file, Arc::from(text), reader.problems)),
+    }
+}
+
+/// Byte of a line and column (in characters), both from 1.
+fn offset(text: &str, row: usize, column: usize) -> usize {
+    let start: usize = text.split_inclusive('\n').take(row.saturating_sub(1)).map(str::len).sum();
+    let line = text.get(start..).unwrap_or_default();
+    let into: usize = line.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
+    (start + into).min(text.len().saturating_sub(1))
+}
+
+struct Reader<'a> {
+    file: &'a str,
+    text: &'a str,
+    plates: Vec<Outline>,
+    problems: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    fn report(&mut self, span: std::ops::Range<usize>, message: String, help: &str) {
+        let before = &self.text[..span.start.min(self.text.len())];
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        let line = before.matches('\n').count() + 1;
+        let mut problem = Diagnostic::new(codes::NEW, message).help(help);
+        problem.location = Some(Location { file: self.file.to_owned(), line, column, span });
+        self.problems.push(problem);
+    }
+
+    /// Reports what is wrong with an element, at its opening tag.
+    fn refuse(&mut self, node: Node, what: &str, help: &str) {
+        let all = node.range();
+        let head = self.text[all.clone()].find(['>', '\n']).map_or(all.end, |i| all.start + i + 1);
+        self.report(all.start..head, format!("{} {what}", called(node)), help);
+    }
+
+    fn root(&mut self, document: &Document) {
+        let root = document.root_element();
+        if root.tag_name().name() != "svg" {
+            return self.refuse(root, "is not a drawing", "the outermost element of an SVG file is <svg>");
+        }
+        let view = root.attribute("viewBox").and_then(|text| text.parse::<ViewBox>().ok());
+        let width = root.attribute("width").and_then(|text| text.parse::<Length>().ok());
+        let size = width.and_then(|width| Some(width.number * millimetres(width.unit)?));
+        let scale = match (size, view) {
+            (Some(size), Some(view)) if size > 0.0 && view.w > 0.0 => size / view.w,
+            (Some(_), None) => PIXEL,
+            _ => 1.0,
+        };
+        // y upwards, as everywhere here.
+        self.walk(root, Affine::scale_non_uniform(scale, -scale));
+    }
+
+    fn walk(&mut self, group: Node, outer: Affine) {
+        for node in group.children().filter(Node::is_element) {
+            let name = node.tag_name().name();
+            let foreign = node.tag_name().namespace().is_some_and(|space| !space.ends_with("/svg"));
+            if foreign || SILENT.contains(&name) || node.attribute("display") == Some("none") {
+                continue;
+            }
+            let own = match node.attribute("transform").map(str::parse::<svgtypes::Transform>) {
+                None => Affine::IDENTITY,
+                Some(Ok(t)) => Affine::new([t.a, t.b, t.c, t.d, t.e, t.f]),
+                Some(Err(error)) => {
+                    self.refuse(node, &format!("has a transform that cannot be read: {error}"), "save it as plain SVG");
+                    continue;
+                }
+            };
+            let here = outer * own;
+            if GROUPS.contains(&name) {
+                self.walk(node, here);
+                continue;
+            }
+            match shape(node) {
+                Ok(path) => self.plate(node, here * path),
+                Err((what, help)) => self.refuse(node, &what, help),
+            }
+        }
+    }
+
+    /// One element as one plate.
+    fn plate(&mut self, node: Node, path: BezPath) {
+        let loops = path.elements().iter().filter(|e| matches!(e, PathEl::MoveTo(_))).count();
+        if loops > 1 {
+            let what =
+                format!("has {loops} outlines: holes, or several plates; a plate is one closed outline without holes");
+            let help = "take the holes out, or break the path apart into plates (Inkscape: Path, Break Apart)";
+            return self.refuse(node, &what, help);
+        }
+        let mut points: Vec<DVec2> = Vec::new();
+        let mut closed = false;
+        kurbo::flatten(&path, FLATNESS, |element| match element {
+            PathEl::MoveTo(p) | PathEl::LineTo(p) => points.push(DVec2::new(p.x, p.y)),
+            PathEl::ClosePath => closed = true,
+            PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
+        });
+        if points.iter().any(|p| !p.is_finite()) {
+            return self.refuse(node, "has points that are no numbers", "draw it again");
+        }
+        let near = |a: DVec2, b: DVec2| a.distance(b) < FLATNESS;
+        let meets = points.len() > 2 && near(points[0], points[points.len() - 1]);
+        if !closed && !meets {
+            return self.refuse(node, "is an open line", "close it: a plate is cut all the way round");
+        }
+        points.dedup_by(|b, a| near(*a, *b));
+        while points.len() > 1 && near(points[0], points[points.len() - 1]) {
+            points.pop();
+        }
+        if points.len() > CORNERS {
+            let what = format!("has {} corners; the limit is {CORNERS}", points.len());
+            return self.refuse(node, &what, "simplify the path (Inkscape: Path, Simplify)");
+        }
+        if let Some([a, b]) = crossing(&points) {
+            let what = format!("crosses itself near ({:.1}, {:.1}) mm", 0.5 * (a.x + b.x), -0.5 * (a.y + b.y));
+            return self.refuse(node, &what, "untie the loop, or draw two plates");
+        }
+        let area = if points.len() < 3 { 0.0 } else { area_and_centroid(&points).0 };
+        if area.abs() < 1.0 {
+            return self.refuse(node, "has no area", "draw a plate of at least 15 × 15 mm");
+        }
+        if area < 0.0 {
+            points.reverse();
+        }
+        self.plates.push(Outline { name: called(node), polygon: points });
+    }
+}
+
+/// How an element is called in messages: `<path id="fin">`.
+fn called(node: Node) -> String {
+    let name = node.tag_name().name();
+    node.attribute("id").map_or_else(|| format!("<{name}>"), |id| format!("<{name} id=\"{id}\">"))
+}
+
+/// mm of a unit; `None` for shares of what nobody knows.
+fn millimetres(unit: LengthUnit) -> Option<f64> {
+    Some(match unit {
+        LengthUnit::Mm => 1.0,
+        LengthUnit::Cm => 10.0,
+        LengthUnit::In => INCH,
+        LengthUnit::Pt => INCH / 72.0,
+        LengthUnit::Pc => INCH / 6.0,
+        LengthUnit::None | LengthUnit::Px => PIXEL,
+        LengthUnit::Percent | LengthUnit::Em | LengthUnit::Ex => return None,
+    })
+}
+
+/// The outline of an element in its own units; or why it has none, and what to do.
+fn shape(node: Node) -> Result<BezPath, (String, &'static str)> {
+    let number = |key: &str| -> Result<f64, (String, &'static str)> {
+        let Some(text) = node.attribute(key) else { return Ok(0.0) };
+        let length = text.parse::<Length>().ok();
+        let value = length.and_then(|l| match l.unit {
+            LengthUnit::None => Some(l.number),
+            // Absolute units are pixels' multiples inside a drawing.
+            unit => millimetres(unit).map(|mm| l.number * mm / PIXEL),
+        });
+        value.ok_or_else(|| (format!("has {key} = \"{text}\", which is no length"), "save it as plain SVG"))
+    };
+    const TOLERANCE: f64 = 0.01;
+    match node.tag_name().name() {
+        "path" => {
+            let data = node.attribute("d").unwrap_or_default();
+            BezPath::from_svg(data)
+                .map_err(|error| (format!("has a path that cannot be read: {error}"), "save it again as plain SVG"))
+        }
+        "rect" => {
+            let (x, y, w, h) = (number("x")?, number("y")?, number("width")?, number("height")?);
+            let (rx, ry) = (number("rx")?, number("ry")?);
+            let radius = if rx > 0.0 { rx } else { ry };
+            Ok(kurbo::RoundedRect::new(x, y, x + w, y + h, radius.min(0.5 * w).min(0.5 * h)).to_path(TOLERANCE))
+        }
+        "circle" => Ok(kurbo::Circle::new((number("cx")?, number("cy")?), number("r")?).to_path(TOLERANCE)),
+        "ellipse" => {
+            let center = (number("cx")?, number("cy")?);
+            Ok(kurbo::Ellipse::new(center, (number("rx")?, number("ry")?), 0.0).to_path(TOLERANCE))
+        }
+        name @ ("polygon" | "polyline") => {
+            let mut path = BezPath::new();
+            for (i, (x, y)) in PointsParser::from(node.attribute("points").unwrap_or_default()).enumerate() {
+                if i == 0 { path.move_to((x, y)) } else { path.line_to((x, y)) }
+            }
+            if name == "polygon" && !path.elements().is_empty() {
+                path.close_path();
+            }
+            Ok(path)
+        }
+        "line" => Err(("is a line, and no plate".into(), "draw a closed outline")),
+        "text" => Err(("is text".into(), "make it a path (Inkscape: Path, Object to Path), or take it out")),
+        "image" => Err(("is a picture".into(), "trace it (Inkscape: Path, Trace Bitmap), or take it out")),
+        "use" => {
+            Err(("is a copy of another element".into(), "unlink it (Inkscape: Edit, Clone, Unlink), or take it out"))
+        }
+        _ => Err(("is no outline".into(), "draw plates as paths, rectangles, circles, ellipses or polygons")),
+    }
+}
+
+/// Two sides of a polygon that cross: the start of each.
+fn crossing(points: &[DVec2]) -> Option<[DVec2; 2]> {
+    let n = points.len();
+    let side = |i: usize| (points[i], points[(i + 1) % n]);
+    let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
+    for i in 0..n {
+        let (a, b) = side(i);
+        // The next side shares a corner with this one, and so does the last with the first.
+        for k in i + 2..if i == 0 { n - 1 } else { n } {
+            let (c, d) = side(k);
+            if turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0 {
+                return Some([a, c]);
+            }
+        }
+    }
+    None
+}

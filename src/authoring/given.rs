@@ -1,0 +1,377 @@
+//! A mobile of the plates that somebody gives: paired, hung, balanced.
+//!
+//! Plates are sorted by weight. Neighbours hang in pairs from a short bough that points towards the visitor, the lighter
+//! one in front and a little lower: a breath drives it against the other, and both ring. (Of an odd number the heaviest
+//! hangs alone.) The pairs hang in a chain, the lightest lowest, each bough turned against the one above.
+//!
+//! Whatever hangs from a point reaches at most R from the plumb line through it, however it turns: for a plate the
+//! farthest corner, for a bough the longer of arm + R of what it carries. A chain's bough is longer than the two R at its
+//! ends together, so nothing but the two of a pair ever meets.
+
+use super::glb::{Finish, Scene};
+use super::hung::{HOLE_RADIUS, as_hung, drawn_plate};
+use super::mobile::Mobile;
+use super::outline::{Polygon, area_and_centroid, ellipse};
+use super::piece::{Piece, named};
+use super::stock::{self, MM, ceiling};
+use super::tree::{Bough, Hanging, hang};
+use soffio_exhibit::codes;
+use soffio_exhibit::diagnostic::Diagnostic;
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, asin, cos, sin};
+
+/// Fewest and most plates.
+pub const COUNT: [usize; 2] = [2, 24];
+/// Least and greatest extent of a plate, mm.
+pub const EXTENT: [f64; 2] = [15.0, 600.0];
+/// Thinnest and thickest sheet, mm.
+pub const THICKNESS: [f64; 2] = [0.3, 4.0];
+/// A pair's weights differ by no more: the heavy one's arm of a short bough would vanish.
+pub const PAIR_RATIO: f64 = 5.0;
+/// From a plate's upper edge to the middle of its hole, mm, and what is left about the hole.
+const INSET: f64 = 3.0;
+const RIM: f64 = 0.5;
+/// Where a pair's bough points, rad about the vertical: nearly at the visitor, so that both plates are seen.
+const TOWARDS: f64 = 1.25;
+/// Between things that must never meet, m.
+const CLEAR: f64 = 12.0 * MM;
+/// The shorter arm of a bough, m: room for two eyes and a loop.
+const SHORTEST_ARM: f64 = 5.0 * MM;
+/// Of the lowest point above the floor, m.
+const ABOVE_FLOOR: f64 = 0.2;
+/// Of the camera, rad, and the picture's width over its height.
+const FOVY: f64 = 27.0 * PI / 180.0;
+const ASPECT: f64 = 16.0 / 9.0;
+
+/// A plate as it is given.
+#[derive(Clone, Debug)]
+pub struct Outline {
+    /// What it is called in messages: its size, or the element of a drawing.
+    pub name: String,
+    /// Closed, counter-clockwise, mm, y upwards.
+    pub polygon: Polygon,
+}
+
+/// What plates are cut from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Metal {
+    /// Painted.
+    Aluminium,
+    /// Painted.
+    Steel,
+    /// Bare.
+    Brass,
+    /// Bare.
+    Copper,
+}
+
+impl Metal {
+    /// Name in a sidecar.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Aluminium => "aluminium",
+            Self::Steel => "steel",
+            Self::Brass => "brass",
+            Self::Copper => "copper",
+        }
+    }
+
+    /// What a breath must be multiplied by for a sheet of `thickness` m to answer it as thin aluminium does.
+    pub fn gain(self, thickness: f64) -> f64 {
+        /// kg/m²: aluminium of 0.8 mm, which a child's breath swings against its neighbour.
+        const LIGHT: f64 = 2.16;
+        ((self.density() * thickness / LIGHT).max(1.0) * 10.0).round() / 10.0
+    }
+
+    /// kg/m³.
+    fn density(self) -> f64 {
+        match self {
+            Self::Aluminium => stock::ALUMINIUM,
+            Self::Steel => stock::STEEL,
+            Self::Brass => stock::BRASS,
+            Self::Copper => stock::COPPER,
+        }
+    }
+
+    fn finishes(self) -> Vec<Finish> {
+        let finish = |name, color, metallic, roughness| Finish { name, color, metallic, roughness };
+        match self {
+            Self::Brass => vec![finish("Brass", [0.80, 0.57, 0.25], 1.0, 0.28)],
+            Self::Copper => vec![finish("Copper", [0.86, 0.45, 0.32], 1.0, 0.28)],
+            Self::Aluminium | Self::Steel => vec![
+                finish("Red paint", [0.55, 0.018, 0.012], 0.0, 0.40),
+                finish("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45),
+                finish("Yellow paint", [0.72, 0.42, 0.02], 0.0, 0.42),
+                finish("Blue paint", [0.02, 0.08, 0.35], 0.0, 0.40),
+                finish("White paint", [0.80, 0.78, 0.72], 0.0, 0.45),
+            ],
+        }
+    }
+}
+
+/// A balanced mobile and its model.
+#[derive(Debug)]
+pub struct Given {
+    /// The pieces where they hang.
+    pub mobile: Mobile,
+    /// The model.
+    pub glb: Vec<u8>,
+    /// Names of the plates' nodes, the heaviest first, what each was given as, and where its middle is in the picture.
+    pub plates: Vec<(&'static str, String, [f64; 2])>,
+    /// Plates that hang in pairs, by their places in `plates`: the one behind, the one in front.
+    pub pairs: Vec<[usize; 2]>,
+}
+
+fn refused(message: String, help: &str) -> Diagnostic {
+    Diagnostic::new(codes::NEW, message).help(help)
+}
+
+/// Can this be cut, and hung by a hole? `None` where it can.
+fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
+    let (polygon, name) = (&outline.polygon, &outline.name);
+    let low = polygon.iter().copied().reduce(DVec2::min)?;
+    let high = polygon.iter().copied().reduce(DVec2::max)?;
+    let size = high - low;
+    let [least, most] = EXTENT;
+    if size.min_element() < least || size.max_element() > most {
+        let message = format!("{name} is {:.1} × {:.1} mm", size.x, size.y);
+        return Some(refused(message, &format!("plates are {least} to {most} mm high and wide")));
+    }
+    let (hung, _) = as_hung(&(polygon.clone(), Vec::new()), INSET);
+    let sides = || hung.iter().zip(hung.iter().cycle().skip(1));
+    let left = sides().map(|(p, q)| {
+        let along = ((-*p).dot(*q - *p) / (*q - *p).length_squared()).clamp(0.0, 1.0);
+        (*p + along * (*q - *p)).length()
+    });
+    let crossings = sides().filter(|(p, q)| (p.y > 0.0) != (q.y > 0.0) && p.x - p.y * (q.x - p.x) / (q.y - p.y) > 0.0);
+    let inside = crossings.count() % 2 == 1;
+    if !inside || left.fold(f64::INFINITY, f64::min) < HOLE_RADIUS + RIM {
+        let message = format!("{name} is too narrow above its middle for the hole that it hangs by");
+        let need = 2.0 * (HOLE_RADIUS + RIM);
+        let help =
+            format!("leave {need:.0} mm of sheet about a point {INSET} mm below its upper edge, over its centre");
+        return Some(refused(message, &help));
+    }
+    None
+}
+
+/// A unit of the chain: what hangs, how far it reaches from its plumb line, and its mass.
+struct Unit {
+    hanging: Hanging,
+    reach: f64,
+    mass: f64,
+}
+
+/// Radius of a wire that bears so many kg without sagging to the eye.
+fn wire_for(mass: f64) -> f64 {
+    let table = [(0.05, 0.6), (0.15, 0.8), (0.35, 1.0), (0.8, 1.3), (2.0, 1.8)];
+    MM * table.iter().find(|(most, _)| mass < *most).map_or(2.5, |(_, radius)| *radius)
+}
+
+/// The farthest that what hangs at the ends of a bough reaches from its loop; the balance decides the arms.
+fn reach(chord: f64, [right, left]: [&Unit; 2]) -> f64 {
+    let arm = chord * left.mass / (left.mass + right.mass);
+    (arm + right.reach).max(chord - arm + left.reach)
+}
+
+/// The unit of a bough that carries two.
+fn carried(name: String, chord: f64, rise: f64, depth: f64, turn: f64, [right, left]: [Unit; 2]) -> Unit {
+    let reach = reach(chord, [&right, &left]);
+    let loads = right.mass + left.mass;
+    let radius = wire_for(loads);
+    // The wire and its eyes: once more for what its curve and loop take.
+    let mass = loads + 2.0 * stock::STEEL * PI * radius * radius * chord;
+    let ends = [right.hanging, left.hanging];
+    Unit { hanging: Hanging::bough(Bough { name, radius, chord, rise, depth, turn, ends }), reach, mass }
+}
+
+/// A plate ready to hang.
+struct Ready {
+    piece: Piece,
+    reach: f64,
+    height: f64,
+}
+
+impl Ready {
+    fn unit(&self, turn: f64) -> Unit {
+        Unit { hanging: Hanging::Plate(self.piece.clone(), turn), reach: self.reach, mass: self.piece.mass().mass }
+    }
+}
+
+/// Cuts plate `k` with a stem of `stem` m.
+fn cut(k: usize, outline: &Outline, stem: f64, thickness: f64, metal: Metal, finish: usize) -> Ready {
+    let names = ["", "Hook", "Stem"].map(|end| named(format!("Plate{}{end}", k + 1)));
+    let drawn = (outline.polygon.clone(), Vec::new());
+    let (hung, _) = as_hung(&drawn, INSET);
+    let reach = MM * hung.iter().map(|p| p.x.abs()).fold(0.0, f64::max) + thickness;
+    let height = MM * (INSET - hung.iter().map(|p| p.y).fold(0.0, f64::min));
+    let piece = drawn_plate(names, &drawn, INSET, stem, (thickness, metal.density(), finish));
+    Ready { piece, reach, height }
+}
+
+/// Stem of a plate that hangs alone or behind, m.
+const STEM: f64 = 24.0 * MM;
+
+/// Two plates on a short bough, `behind` the heavier; the one in front hangs lower by a third of the other's height. Pair
+/// `number` leans now to one side, now to the other.
+fn pair(number: usize, behind: &Ready, front: &Ready, thickness: f64) -> Result<Unit, Diagnostic> {
+    let (heavy, light) = (behind.piece.mass().mass, front.piece.mass().mass);
+    if heavy > PAIR_RATIO * light {
+        let (a, b) = (1e3 * heavy, 1e3 * light);
+        let message = format!("two neighbours in weight, {a:.1} g and {b:.1} g, differ by more than 1 to {PAIR_RATIO}");
+        return Err(refused(message, "give plates that are more alike, or one of a size between them"));
+    }
+    let swing = STEM + 0.33 * behind.height + front.height;
+    let gap = (0.08 * swing).clamp(9.0 * MM, 15.0 * MM) + thickness;
+    let chord = (gap / sin(TOWARDS)).max(SHORTEST_ARM * (heavy + light) / light);
+    let depth = 0.2 * chord;
+    // Where the balance asks for a longer bough it points more to the side: the plates stay as near to each other.
+    let towards = asin(gap / chord);
+    let turn = if number % 2 == 1 { towards } else { PI - towards };
+    let units = [behind.unit(0.0), front.unit(0.0)];
+    Ok(carried(format!("Pair{number}"), chord, -depth, depth, turn, units))
+}
+
+/// Draws, balances and writes a mobile of `outlines`, cut from sheet of `thickness` m; the scene is called `title`.
+pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<Given, Vec<Diagnostic>> {
+    let problems: Vec<Diagnostic> = outlines.iter().filter_map(plate_problem).collect();
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let [fewest, most] = COUNT;
+    if !(fewest..=most).contains(&outlines.len()) {
+        let message = format!("{} plates make no mobile here", outlines.len());
+        return Err(vec![refused(message, &format!("give {fewest} to {most} of them"))]);
+    }
+    let [thinnest, thickest] = THICKNESS.map(|t| t * MM);
+    if !(thinnest..=thickest).contains(&thickness) {
+        let message = format!("a sheet of {} mm is not cut and hung here", thickness / MM);
+        return Err(vec![refused(message, &format!("give {} to {} mm", THICKNESS[0], THICKNESS[1]))]);
+    }
+    let mut sorted: Vec<&Outline> = outlines.iter().collect();
+    sorted.sort_by(|a, b| area_and_centroid(&b.polygon).0.total_cmp(&area_and_centroid(&a.polygon).0));
+
+    let mut scene = Scene::default();
+    let finishes: Vec<usize> = metal.finishes().iter().map(|finish| scene.finish(finish)).collect();
+    let iron = scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 });
+    let alone = sorted.len() % 2;
+    let pairs: Vec<[usize; 2]> = (alone..sorted.len()).step_by(2).map(|k| [k, k + 1]).collect();
+    let cut = |k: usize, stem: f64| cut(k, sorted[k], stem, thickness, metal, finishes[k % finishes.len()]);
+    let tree = || -> Result<Hanging, Diagnostic> {
+        let mut units = Vec::new();
+        if alone == 1 {
+            units.push(cut(0, STEM).unit(0.2));
+        }
+        for (number, [behind, front]) in (1..).zip(&pairs) {
+            let behind = cut(*behind, STEM);
+            let front = cut(*front, STEM + 0.33 * behind.height);
+            units.push(pair(number, &behind, &front, thickness)?);
+        }
+        // The lightest is the lowest; each bough points the other way.
+        let mut level = units.len();
+        let mut units = units.into_iter().rev();
+        let lowest = units.next();
+        let chain = units.fold(lowest, |below, unit| {
+            let below = below?;
+            level -= 1;
+            let arm = SHORTEST_ARM * (below.mass + unit.mass) / below.mass.min(unit.mass);
+            let chord = (below.reach + unit.reach + CLEAR).max(arm);
+            let depth = (0.04 * chord).clamp(8.0 * MM, 30.0 * MM);
+            let turn = if level % 2 == 1 { 0.12 } else { PI - 0.16 };
+            Some(carried(format!("Bough{level}"), chord, 0.04 * chord, depth, turn, [below, unit]))
+        });
+        // There are at least two plates, hence a pair.
+        chain.map(|unit| unit.hanging).ok_or_else(|| refused("there is no plate".into(), "give at least two"))
+    };
+    // Hung from nothing first, to see how low it reaches.
+    let one = |problem| vec![problem];
+    let (low, _) = bounds(&hang(DVec3::ZERO, tree().map_err(one)?));
+    let hook = DVec3::new(0.0, ((ABOVE_FLOOR - low.y) * 1e3).ceil() * MM, 0.0);
+    let work = Mobile { pieces: hang(hook, tree().map_err(one)?), stand: ceiling(iron) };
+    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: hook });
+    for (piece, pose) in &work.pieces {
+        piece.write(&mut scene, *pose);
+    }
+    let eye = Eye::on(&work, hook);
+    scene.camera("CamFront", eye.place, eye.target, FOVY, ASPECT);
+    let plates = (0..sorted.len()).map(|k| {
+        let name = named(format!("Plate{}", k + 1));
+        let middle = work.pieces.iter().find(|(piece, _)| piece.name == name);
+        let middle = middle.map_or(eye.target, |(piece, pose)| pose.point(piece.mass().center));
+        (name, sorted[k].name.clone(), eye.sees(middle))
+    });
+    let plates = plates.collect();
+    Ok(Given { mobile: work, glb: scene.into_glb(title, "Made with Soffio from given plates"), plates, pairs })
+}
+
+/// The box of all that pieces are.
+fn bounds(pieces: &[(Piece, Pose)]) -> (DVec3, DVec3) {
+    let corners = pieces.iter().flat_map(|(piece, pose)| {
+        let bends = piece.bends.iter().flat_map(|bend| bend.points.clone());
+        let parts = piece.parts.iter().flat_map(|part| part.solid.positions.iter().map(|p| part.place.point(*p)));
+        bends.chain(parts).map(|p| pose.point(p)).collect::<Vec<_>>()
+    });
+    let none = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
+    corners.fold(none, |(low, high), p| (low.min(p), high.max(p)))
+}
+
+/// Where the visitor looks from, and at.
+struct Eye {
+    place: DVec3,
+    target: DVec3,
+}
+
+impl Eye {
+    /// Before the work, so far that all of it and a little of the rod is seen.
+    fn on(work: &Mobile, hook: DVec3) -> Self {
+        let (low, high) = bounds(&work.pieces);
+        let high = high.max(hook + 0.04 * DVec3::Y);
+        let half = 0.5 * (high - low);
+        let target = 0.5 * (low + high);
+        let tall = half.y.max(half.x / ASPECT) * 1.12;
+        let far = tall * cos(0.5 * FOVY) / sin(0.5 * FOVY) + half.z;
+        Self { place: target + far * DVec3::new(-0.08, 0.05, 1.0).normalize(), target }
+    }
+
+    /// Picture coordinates of a point, (0,0) top left, to hundredths.
+    fn sees(&self, point: DVec3) -> [f64; 2] {
+        let back = (self.place - self.target).normalize();
+        let right = DVec3::Y.cross(back).normalize();
+        let up = back.cross(right);
+        let way = point - self.place;
+        let half = -way.dot(back) * sin(0.5 * FOVY) / cos(0.5 * FOVY);
+        let (x, y) = (0.5 + 0.5 * way.dot(right) / (half * ASPECT), 0.5 - 0.5 * way.dot(up) / half);
+        [x, y].map(|v| (v * 100.0).round() / 100.0)
+    }
+}
+
+/// A plate by its size: `120x80` is 120 mm wide and 80 high with round corners, `100` a disc of 100 mm.
+pub fn sized(text: &str) -> Result<Outline, Diagnostic> {
+    let wrong = || {
+        refused(
+            format!("\"{text}\" is no size of a plate"),
+            "write 120x80 (width x height, mm), or 100 for a disc of 100 mm",
+        )
+    };
+    let number = |s: &str| s.trim().parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0).ok_or_else(wrong);
+    let sides = text.trim().trim_end_matches("mm").split(['x', '×']).map(number).collect::<Result<Vec<_>, _>>()?;
+    let polygon = match sides[..] {
+        [diameter] => ellipse(DVec2::ZERO, DVec2::splat(0.5 * diameter), 0.5 * PI, 64),
+        [width, height] => {
+            let round = 0.18 * width.min(height);
+            let middle = 0.5 * DVec2::new(width, height) - round;
+            // A quarter of a circle about each inner corner, counter-clockwise.
+            (0..4)
+                .flat_map(|quarter| {
+                    (0..=8).map(move |k| (quarter, 0.5 * PI * (f64::from(quarter) + f64::from(k) / 8.0)))
+                })
+                .map(|(quarter, angle)| {
+                    let side =
+                        [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0), DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0)];
+                    middle * side[quarter as usize] + round * DVec2::new(cos(angle), sin(angle))
+                })
+                .collect()
+        }
+        _ => return Err(wrong()),
+    };
+    Ok(Outline { name: text.trim().to_owned(), polygon })
+}

@@ -1,0 +1,197 @@
+//! A binary glTF 2.0 file written from plain parts.
+//!
+//! Writing is deterministic: JSON keys are sorted, lengths are rounded to 0.1 µm, positions and normals are stored
+//! as 32-bit floats, so the same scene gives the same bytes on any machine. Layout as in the glTF 2.0
+//! specification, section 4.4: a 12-byte header, the JSON chunk padded with spaces, the binary chunk with zeros.
+
+use serde_json::{Value, json};
+
+use super::solid::Solid;
+use crate::model_writer::container;
+use soffio_math::{DQuat, DVec3};
+
+const FLOAT: u32 = 5126;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+
+/// How a surface looks (glTF metallic–roughness).
+#[derive(Clone, Copy, Debug)]
+pub struct Finish {
+    /// Name in the file.
+    pub name: &'static str,
+    /// Linear RGB.
+    pub color: [f64; 3],
+    /// 0 paint … 1 bare metal.
+    pub metallic: f64,
+    /// Perceptual, 0…1.
+    pub roughness: f64,
+}
+
+/// What light meets in glass.
+#[derive(Clone, Copy, Debug)]
+pub struct Glass {
+    /// Thickness of the wall, m.
+    pub wall: f64,
+    /// Index of refraction.
+    pub ior: f64,
+    /// Part of the light that is not scattered, 0…1.
+    pub through: f64,
+    /// Linear RGB that white has become after `way` metres of it.
+    pub color: [f64; 3],
+    /// m.
+    pub way: f64,
+}
+
+/// A scene under construction.
+#[derive(Debug, Default)]
+pub struct Scene {
+    nodes: Vec<Value>,
+    children: Vec<Vec<usize>>,
+    roots: Vec<usize>,
+    meshes: Vec<Value>,
+    materials: Vec<Value>,
+    cameras: Vec<Value>,
+    accessors: Vec<Value>,
+    views: Vec<Value>,
+    binary: Vec<u8>,
+}
+
+impl Scene {
+    /// Adds an empty node; its index. `translation` in metres, in the frame of `parent`.
+    pub fn node(&mut self, name: &str, parent: Option<usize>, translation: DVec3, rotation: DQuat) -> usize {
+        let index = self.nodes.len();
+        let mut node = json!({ "name": name });
+        if translation != DVec3::ZERO {
+            node["translation"] = json!(rounded(&translation.to_array(), 1e7));
+        }
+        if rotation != DQuat::IDENTITY {
+            node["rotation"] = json!(rounded(&rotation.to_array(), 1e9));
+        }
+        self.nodes.push(node);
+        self.children.push(Vec::new());
+        match parent {
+            Some(parent) => self.children[parent].push(index),
+            None => self.roots.push(index),
+        }
+        index
+    }
+
+    /// Adds a mark: an empty node that names a point of its parent's frame.
+    pub fn mark(&mut self, name: &str, parent: Option<usize>, point: DVec3) {
+        self.node(name, parent, point, DQuat::IDENTITY);
+    }
+
+    /// Adds a finish; its index.
+    pub fn finish(&mut self, finish: &Finish) -> usize {
+        let [r, g, b] = finish.color;
+        self.materials.push(json!({
+            "name": finish.name,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [r, g, b, 1.0],
+                "metallicFactor": finish.metallic,
+                "roughnessFactor": finish.roughness,
+            },
+        }));
+        self.materials.len() - 1
+    }
+
+    /// Makes a finish transparent, as the wall of a body of glass.
+    pub fn clear(&mut self, finish: usize, glass: &Glass) {
+        let Glass { wall, ior, through, color, way } = glass;
+        self.materials[finish]["extensions"] = json!({
+            "KHR_materials_ior": { "ior": ior },
+            "KHR_materials_transmission": { "transmissionFactor": through },
+            "KHR_materials_volume": { "attenuationColor": color, "attenuationDistance": way, "thicknessFactor": wall },
+        });
+    }
+
+    /// Gives `node` the shape of `solid` in `finish`.
+    pub fn mesh(&mut self, node: usize, solid: &Solid, finish: usize) {
+        let single = |v: &DVec3| v.as_vec3().to_array();
+        let positions: Vec<[f32; 3]> = solid.positions.iter().map(single).collect();
+        let normals: Vec<[f32; 3]> = solid.normals.iter().map(single).collect();
+        let bound = |pick: fn(f32, f32) -> f32| {
+            positions.iter().copied().reduce(|a, b| std::array::from_fn(|i| pick(a[i], b[i]))).unwrap_or_default()
+        };
+        let (low, high) = (bound(f32::min), bound(f32::max));
+        let indices: Vec<u32> = solid.triangles.iter().flatten().copied().collect();
+
+        let position = self.accessor(bytemuck::cast_slice(&positions), FLOAT, "VEC3", positions.len(), ARRAY_BUFFER);
+        self.accessors[position]["min"] = json!(low);
+        self.accessors[position]["max"] = json!(high);
+        let normal = self.accessor(bytemuck::cast_slice(&normals), FLOAT, "VEC3", normals.len(), ARRAY_BUFFER);
+        let index =
+            self.accessor(bytemuck::cast_slice(&indices), UNSIGNED_INT, "SCALAR", indices.len(), ELEMENT_ARRAY_BUFFER);
+        self.nodes[node]["mesh"] = json!(self.meshes.len());
+        self.meshes.push(json!({
+            "name": self.nodes[node]["name"],
+            "primitives": [{
+                "attributes": { "POSITION": position, "NORMAL": normal },
+                "indices": index,
+                "material": finish,
+            }],
+        }));
+    }
+
+    /// Adds a perspective camera that looks from `eye` at `target`, y upwards; `fovy` rad, made for `aspect`.
+    pub fn camera(&mut self, name: &str, eye: DVec3, target: DVec3, fovy: f64, aspect: f64) {
+        // A glTF camera looks along −Z of its node with +Y up.
+        let back = (eye - target).normalize();
+        let right = DVec3::Y.cross(back).normalize();
+        let rotation = DQuat::from_mat3(&soffio_math::DMat3::from_cols(right, back.cross(right), back));
+        let node = self.node(name, None, eye, rotation);
+        self.nodes[node]["camera"] = json!(self.cameras.len());
+        self.cameras.push(json!({
+            "name": name,
+            "type": "perspective",
+            "perspective": { "yfov": fovy, "aspectRatio": aspect, "znear": 0.01, "zfar": 100.0 },
+        }));
+    }
+
+    fn accessor(&mut self, bytes: &[u8], component: u32, shape: &str, count: usize, target: u32) -> usize {
+        // Every element here is a multiple of four bytes, so the views stay aligned as the accessors need.
+        self.views.push(json!({
+            "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len(), "target": target,
+        }));
+        self.binary.extend_from_slice(bytes);
+        self.accessors.push(json!({
+            "bufferView": self.views.len() - 1, "componentType": component, "count": count, "type": shape,
+        }));
+        self.accessors.len() - 1
+    }
+
+    /// The file. `copyright` goes where glTF viewers show it.
+    pub fn into_glb(mut self, name: &str, copyright: &str) -> Vec<u8> {
+        for (node, children) in self.nodes.iter_mut().zip(&self.children) {
+            if !children.is_empty() {
+                node["children"] = json!(children);
+            }
+        }
+        let mut document = json!({
+            "asset": { "version": "2.0", "generator": "Soffio forge", "copyright": copyright },
+            "scene": 0,
+            "scenes": [{ "name": name, "nodes": self.roots }],
+            "nodes": self.nodes,
+            "meshes": self.meshes,
+            "materials": self.materials,
+            "cameras": self.cameras,
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{ "byteLength": self.binary.len() }],
+        });
+        let mut used: Vec<&String> =
+            self.materials.iter().filter_map(|m| m["extensions"].as_object()).flat_map(|e| e.keys()).collect();
+        used.sort_unstable();
+        used.dedup();
+        if !used.is_empty() {
+            document["extensionsUsed"] = json!(used);
+        }
+        container(document.to_string().into_bytes(), &self.binary)
+    }
+}
+
+/// Numbers to a stated number of decimals: short in the file, the same on any machine.
+fn rounded(values: &[f64], scale: f64) -> Vec<f64> {
+    values.iter().map(|v| (v * scale).round() / scale).collect()
+}

@@ -1,0 +1,276 @@
+//! An exhibit folder from any glTF model: its files as they are, and a sidecar that proposes what it may be.
+//!
+//! A model that carries physics ([`super::khr`]) keeps it. Of any other, each thing that stands at the top of its scene is
+//! proposed as a body that hangs by the point right above its centre, as if on a nail, and feels the wind; what its name
+//! says stands (a floor, a stand) stands still. Masses are volumes times density; an open mesh is taken for sheet.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::khr::{self, called, written};
+use super::words::{attract, labels, quoted, three};
+use super::{File, Made};
+use soffio_exhibit::diagnostic::{Diagnostic, Report};
+use soffio_exhibit::model::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, Model, import};
+use soffio_exhibit::{SIDECAR, codes, fit as shapes, materials, paths};
+use soffio_geometry::TriangleMesh;
+use soffio_math::{DMat3, DVec3};
+
+/// Words of names of what stands still.
+const STILL: [&str; 14] = [
+    "stand", "base", "floor", "ground", "wall", "room", "frame", "ceiling", "post", "plinth", "foot", "table", "case",
+    "support",
+];
+/// Proposed for what has no physics of its own, and of its sheet, m.
+const MATERIAL: &str = "aluminium";
+const SHEET: f64 = 1e-3;
+
+/// Makes the folder's files from the model at `path`.
+///
+/// # Errors
+/// What the loader says about the model, and files beside it that cannot be read.
+pub fn folder(path: &Path, id: &str) -> Result<Made, Report> {
+    let Imported { model, warnings } = import(path)?;
+    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::of)?;
+    let json = document(&bytes).map_err(Report::of)?;
+    let binary = bytes.starts_with(b"glTF");
+    let name = format!("{id}.{}", if binary { "glb" } else { "gltf" });
+    let mut made = Made { files: beside(path, &json).map_err(Report::of)?, remarks: Vec::new() };
+    made.remarks.extend(warnings.into_iter().map(|warning| warning.message));
+    let text = sidecar(id, &name, &model, &json, &mut made.remarks);
+    made.files.push((name, bytes));
+    made.files.push((SIDECAR.into(), text.into_bytes()));
+    Ok(made)
+}
+
+/// The JSON of a glTF file.
+fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
+    let broken = |error: &dyn std::fmt::Display| {
+        Diagnostic::new(codes::BROKEN_MODEL, format!("the model's JSON cannot be read: {error}")).help(EXPORT_AGAIN)
+    };
+    if bytes.starts_with(b"glTF") {
+        let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| broken(&error))?;
+        return serde_json::from_slice(&glb.json).map_err(|error| broken(&error));
+    }
+    serde_json::from_slice(bytes).map_err(|error| broken(&error))
+}
+
+/// Buffers and images that lie beside the model, by the paths that it names them with.
+fn beside(path: &Path, json: &Value) -> Result<Vec<File>, Diagnostic> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut files: Vec<File> = Vec::new();
+    for kind in ["buffers", "images"] {
+        for uri in json[kind].as_array().into_iter().flatten().filter_map(|entry| entry["uri"].as_str()) {
+            if uri.starts_with("data:") {
+                continue;
+            }
+            let name = paths::percent_decoded(uri);
+            if files.iter().all(|(known, _)| *known != name) {
+                let bytes = paths::read_limited(&paths::inside(folder, &name)?, MAX_FILE_BYTES)?;
+                files.push((name, bytes));
+            }
+        }
+    }
+    Ok(files)
+}
+
+fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<String>) -> String {
+    let physics = khr::physics(model, json);
+    let mut out = format!(
+        "# Begun by `soffio import`: a proposal. Look through bodies and joints, and REPLACE the words.\n\
+         # `soffio check` with this folder says what is wrong in this file, where, and what to do; `soffio explain` prints each\n\
+         # value with its origin; `soffio schema exhibit` lists every key that may stand here.\n\
+         schema = \"exhibit/1\"\nmodel = \"{file}\"\nid = \"{id}\"\n\n[scene]\n"
+    );
+    let camera = model.nodes.iter().position(|node| node.camera.is_some());
+    match camera {
+        Some(node) => _ = writeln!(out, "camera = {}", quoted(&called(model, node))),
+        None => {
+            out.push_str("# The model has no camera: its bounds are framed. camera = \"NodeName\" looks through one.\n")
+        }
+    }
+    out.push_str("# Loudness beside the other exhibits: `soffio loudness --write` finds it.\nlevel = \"0 dB\"\n\n");
+    let moving = match physics {
+        Some(physics) => {
+            if physics.apart {
+                out.push_str("# Joints of the model are open at the start, and draw themselves together.\n[solver]\nassemble = true\n\n");
+            }
+            out.push_str("# ---- from the model's own physics (KHR_physics_rigid_bodies) -------------------------------------------------\n\n");
+            for remark in &physics.remarks {
+                let _ = writeln!(out, "# {remark}");
+            }
+            if !physics.remarks.is_empty() {
+                out.push('\n');
+            }
+            out.push_str(&physics.text);
+            remarks.extend(physics.remarks);
+            physics.moving
+        }
+        None => propose(&mut out, model, remarks),
+    };
+    let seen: Vec<usize> = moving.iter().copied().filter(|&node| !meshes(model, node).is_empty()).collect();
+    for (seed, node) in (1..).zip(&seen) {
+        let name = quoted(&called(model, *node));
+        let _ = write!(
+            out,
+            "[[wind_surface]]\nnode = {name}\nsampling = {{ per_area = \"4000 /m2\", min = 16, max = 64, seed = {seed} }}\n\n"
+        );
+    }
+    let mut captions = Vec::new();
+    if let Some(node) = seen.first() {
+        let name = quoted(&called(model, *node));
+        let _ = write!(
+            out,
+            "# `soffio sound --list` names the timbres; on = \"impact\" sounds a body when something hits it.\n\
+             [[sound]]\nname = \"air\"\nbody = {name}\non = \"wind\"\ntimbre = \"wind-room\"\ncaption = \"wind\"\n\n"
+        );
+        captions.push(("wind", ["[breath rushes past]", "[숨결이 스치는 소리]", "[fruscio del soffio]"]));
+    }
+    out.push_str(&attract(&[(5.0, 0.35, [0.5, 0.5]), (22.0, 0.5, [0.5, 0.6])]));
+    out.push('\n');
+    let words = three(
+        ["Replace this title", "제목을 바꾸세요", "Titolo da sostituire"],
+        ["", "", ""],
+        [
+            "REPLACE: what is to be seen.".into(),
+            "바꾸세요: 무엇이 보이는지.".into(),
+            "DA SOSTITUIRE: che cosa si vede.".into(),
+        ],
+        &captions,
+    );
+    out.push_str(&labels(&words));
+    if let Some(copyright) = json["asset"]["copyright"].as_str().filter(|text| !text.is_empty()) {
+        remarks.push(format!("the model says of its rights: {copyright}"));
+        out = out.replace("\"REPLACE by the maker's name\"", &quoted(copyright));
+    }
+    out
+}
+
+/// Nodes at and below one that have a mesh.
+fn meshes(model: &Model, root: usize) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut open = vec![root];
+    while let Some(node) = open.pop() {
+        found.extend(model.nodes[node].mesh.map(|_| node));
+        open.extend(&model.nodes[node].children);
+    }
+    found.sort_unstable();
+    found
+}
+
+/// The meshes at and below a node, in the world.
+fn solid(model: &Model, root: usize) -> Vec<TriangleMesh> {
+    let mut solids = Vec::new();
+    for node in meshes(model, root) {
+        let world = model.nodes[node].world;
+        let Some(mesh) = model.nodes[node].mesh.and_then(|mesh| model.meshes.get(mesh)) else { continue };
+        let mut out = TriangleMesh::default();
+        for primitive in &mesh.primitives {
+            let base = out.positions.len() as u32;
+            out.positions.extend(primitive.positions.iter().map(|p| DVec3::from(p.map(f64::from))));
+            out.triangles.extend(primitive.indices.chunks_exact(3).map(|t| [base + t[0], base + t[1], base + t[2]]));
+        }
+        let mut out = out.welded();
+        out.positions.iter_mut().for_each(|p| *p = world.transform_point3(*p));
+        if DMat3::from_mat4(world).determinant() < 0.0 {
+            out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        }
+        solids.push(out);
+    }
+    solids
+}
+
+/// What can be fitted to the meshes at and below a node, as the sidecar calls it.
+pub(super) fn fit(model: &Model, node: usize) -> Option<&'static str> {
+    let mut whole = TriangleMesh::default();
+    solid(model, node).iter().for_each(|mesh| whole.append(mesh));
+    let extents = whole.extents()?;
+    // Sheet: twenty times as wide as thick.
+    let flat = extents.half.z < 0.05 * extents.half.y;
+    if flat && shapes::plate(&whole, &extents).is_some() {
+        return Some("plate");
+    }
+    shapes::convex(&whole).map(|_| "convex")
+}
+
+/// Bodies for what has no physics of its own; those that move.
+fn propose(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<usize> {
+    out.push_str(
+        "# ---- bodies, as proposed --------------------------------------------------------------------------------------\n\
+         # A body moves as one, with what hangs below its node. Each hangs by a nail above its centre: put the nail where the\n\
+         # thing really hangs, or join two of them ([[constraint.point-to-point]]). What is listed nowhere stands still.\n\n",
+    );
+    // What holds all (an empty node at the top) is no thing itself.
+    let mut things: Vec<usize> = model.roots.clone();
+    while let [only] = things[..]
+        && model.nodes[only].mesh.is_none()
+    {
+        things = model.nodes[only].children.clone();
+    }
+    let boxes: Vec<(DVec3, DVec3)> = things.iter().map(|&node| bounds(&solid(model, node))).collect();
+    let mut moving = Vec::new();
+    for (i, &node) in things.iter().enumerate() {
+        let (name, solids) = (called(model, node), solid(model, node));
+        if solids.is_empty() {
+            continue;
+        }
+        let lower = model.nodes[node].name.to_lowercase();
+        if let Some(word) = STILL.iter().find(|word| lower.contains(**word)) {
+            remarks.push(format!("node \"{name}\" stands still: its name says {word}"));
+            continue;
+        }
+        let density = materials::builtin(MATERIAL).map_or(1.0, |material| material.density);
+        let open = solids.iter().any(|mesh| mesh.open_edges() > 0);
+        let moments = solids.iter().map(|mesh| {
+            if mesh.open_edges() > 0 { mesh.sheet_moments(SHEET, density) } else { mesh.solid_moments(density) }
+        });
+        let (mut mass, mut first) = (0.0, DVec3::ZERO);
+        for own in moments {
+            mass += own.mass;
+            first += own.mass * own.center();
+        }
+        if mass <= 0.0 || !mass.is_finite() {
+            remarks.push(format!("node \"{name}\" has no volume, or its faces point inwards: it stands still"));
+            continue;
+        }
+        let (low, high) = boxes[i];
+        // A hand's width above what it hangs by, as on a cord; at least its own height's tenth.
+        let hook = (first / mass).with_y(high.y + (0.1 * (high.y - low.y)).max(0.02));
+        let local = model.nodes[node].world.inverse().transform_point3(hook);
+        let sheet = if open {
+            format!("thickness = \"{} mm\"  # its mesh is open: taken for sheet\n", 1e3 * SHEET)
+        } else {
+            String::new()
+        };
+        let (shown, node_name) = (hook.to_array().map(|x| (x * 1e4).round() / 1e4), quoted(&name));
+        let _ = write!(
+            out,
+            "# {:.1} g as {MATERIAL}.\n[[body]]\nnode = {node_name}\nmaterial = \"{MATERIAL}\"\n{sheet}\n\
+             # At {shown:?} m of the world.\n[[constraint.nail]]\nname = \"hangs-{node}\"\nbody = {node_name}\nat = {}\nto = {}\n\
+             friction = {{ coefficient = 0.3, radius = \"0.3 mm\" }}\n\n",
+            1e3 * mass,
+            written(local),
+            written(hook)
+        );
+        remarks.push(format!("node \"{name}\" is a body of {:.1} g as {MATERIAL}, hung above its centre", 1e3 * mass));
+        let touches = |k: usize| k != i && boxes[k].0.cmple(high).all() && low.cmple(boxes[k].1).all();
+        if (0..things.len()).any(touches) {
+            remarks.push(format!("node \"{name}\" reaches into another's bounds: it has no collider yet"));
+        } else if let Some(fit) = fit(model, node) {
+            let _ = write!(out, "[[collider]]\nnode = {node_name}\nshape = {{ fit = \"{fit}\" }}\n\n");
+        }
+        moving.push(node);
+    }
+    if moving.is_empty() {
+        remarks.push("nothing moves yet: name a node as a [[body]]".to_owned());
+    }
+    moving
+}
+
+/// The box of meshes; empty where there is none.
+fn bounds(solids: &[TriangleMesh]) -> (DVec3, DVec3) {
+    let none = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
+    solids.iter().flat_map(|mesh| &mesh.positions).fold(none, |(low, high), p| (low.min(*p), high.max(*p)))
+}

@@ -1,0 +1,482 @@
+//! Physics that a glTF model carries, as our sidecar says it: `KHR_physics_rigid_bodies` with `KHR_implicit_shapes` (drafts
+//! of the Khronos Group, 2024 to 2026; <https://github.com/eoineoineoin/glTF_Physics>).
+//!
+//! Motions become bodies, shapes colliders, materials materials (with a pair for each combine rule), joints constraints:
+//! limits that leave no way lock their axes, and what is locked names the joint. Frames are nodes there and here, so
+//! every joint names its two nodes. What cannot be said in our words is told, node by node; nothing is dropped in silence.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use super::khr_joint;
+use super::piece::NOTHING;
+use super::words::quoted;
+use soffio_exhibit::model::Model;
+use soffio_geometry::bodies::MassProperties;
+use soffio_math::{DMat3, DQuat, DVec3, PI, Pose};
+
+/// Names of the extensions.
+pub const PHYSICS: &str = "KHR_physics_rigid_bodies";
+/// Shapes without a mesh.
+pub const SHAPES: &str = "KHR_implicit_shapes";
+/// The extension knows no density: water's, kg/m³.
+const DENSITY: f64 = 1000.0;
+/// Most pairs of materials and of colliders that are written one by one.
+const MOST_PAIRS: usize = 400;
+
+/// A model's physics in our words.
+#[derive(Clone, Debug, Default)]
+pub struct Physics {
+    /// Tables of the sidecar.
+    pub text: String,
+    /// What was not taken over as it was, and why.
+    pub remarks: Vec<String>,
+    /// Nodes that move by forces.
+    pub moving: Vec<usize>,
+    /// Are joints open at the start?
+    pub apart: bool,
+}
+
+/// Reads a model's physics; `None` where it has none. `json` is the file's own.
+pub fn physics(model: &Model, json: &Value) -> Option<Physics> {
+    let mut reader = Reader { model, json, out: Physics::default() };
+    let carries = (0..model.nodes.len()).any(|node| reader.own(node).is_some());
+    carries.then(|| {
+        reader.materials();
+        reader.bodies();
+        reader.colliders();
+        reader.joints();
+        reader.out
+    })
+}
+
+/// Three numbers.
+pub(super) fn vector(value: &Value) -> Option<DVec3> {
+    let numbers: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_f64).collect();
+    <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
+}
+
+/// A vector in TOML.
+pub(super) fn written(v: DVec3) -> String {
+    // Debug writes what no integer holds with an exponent: 1e30 is TOML, its digits are not.
+    format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
+}
+
+/// How the sidecar calls a node: by its name, or by its number where the name is not unique.
+pub(super) fn called(model: &Model, node: usize) -> String {
+    let name = &model.nodes[node].name;
+    let alone = model.nodes.iter().filter(|other| other.name == *name).count() == 1;
+    if alone && !name.is_empty() && !name.starts_with('#') { name.clone() } else { format!("#{node}") }
+}
+
+/// A shape of stated size, in a frame of its own.
+enum Solid {
+    Sphere {
+        radius: f64,
+    },
+    Box {
+        size: DVec3,
+    },
+    /// Height between the centres of the ends.
+    Capsule {
+        height: f64,
+        radius: f64,
+    },
+    Cylinder {
+        height: f64,
+        radius: f64,
+    },
+    Plane,
+}
+
+impl Solid {
+    fn toml(&self) -> String {
+        match self {
+            Self::Sphere { radius } => format!("{{ sphere = {{ radius = {radius:?} }} }}"),
+            Self::Box { size } => format!("{{ box = {{ size = {} }} }}", written(*size)),
+            Self::Capsule { height, radius } => {
+                format!("{{ capsule = {{ height = {height:?}, radius = {radius:?} }} }}")
+            }
+            Self::Cylinder { height, radius } => {
+                format!("{{ cylinder = {{ height = {height:?}, radius = {radius:?} }} }}")
+            }
+            Self::Plane => "{ plane = {} }".to_owned(),
+        }
+    }
+
+    /// Volume, and moments about the centre over the mass.
+    fn volume(&self) -> (f64, DVec3) {
+        match *self {
+            Self::Sphere { radius } => (4.0 / 3.0 * PI * radius * radius * radius, DVec3::splat(0.4 * radius * radius)),
+            Self::Box { size: DVec3 { x, y, z } } => {
+                (x * y * z, DVec3::new(y * y + z * z, z * z + x * x, x * x + y * y) / 12.0)
+            }
+            Self::Cylinder { height: h, radius: r } => {
+                let across = (3.0 * r * r + h * h) / 12.0;
+                (PI * r * r * h, DVec3::new(across, 0.5 * r * r, across))
+            }
+            Self::Capsule { height: h, radius: r } => {
+                let (tube, ends) = (PI * r * r * h, 4.0 / 3.0 * PI * r * r * r);
+                let volume = tube + ends;
+                // Half a ball's centre is 3r/8 from its face.
+                let across = tube * (3.0 * r * r + h * h) / 12.0 + ends * (0.4 * r * r + 0.25 * h * h + 0.375 * h * r);
+                let along = tube * 0.5 * r * r + ends * 0.4 * r * r;
+                (volume, DVec3::new(across, along, across) / volume)
+            }
+            Self::Plane => (0.0, DVec3::ZERO),
+        }
+    }
+}
+
+pub(super) struct Reader<'a> {
+    pub(super) model: &'a Model,
+    json: &'a Value,
+    pub(super) out: Physics,
+}
+
+impl Reader<'_> {
+    /// A node's physics.
+    pub(super) fn own(&self, node: usize) -> Option<&Value> {
+        self.json["nodes"].get(node)?.get("extensions")?.get(PHYSICS)
+    }
+
+    /// A list of the extension at the top of the file.
+    pub(super) fn list(&self, key: &str) -> &[Value] {
+        self.json["extensions"][PHYSICS][key].as_array().map_or(&[], Vec::as_slice)
+    }
+
+    pub(super) fn say(&mut self, node: usize, what: impl std::fmt::Display) {
+        let name = called(self.model, node);
+        self.out.remarks.push(format!("node \"{name}\": {what}"));
+    }
+
+    /// The node with a motion that this one moves with.
+    pub(super) fn mover(&self, node: usize) -> Option<usize> {
+        std::iter::successors(Some(node), |&n| self.model.nodes[n].parent)
+            .find(|&n| self.own(n).is_some_and(|own| own.get("motion").is_some()))
+    }
+
+    fn materials(&mut self) {
+        let list = self.list("physicsMaterials").to_vec();
+        let number = |material: &Value, key: &str, default: f64| material[key].as_f64().unwrap_or(default);
+        let out = &mut self.out.text;
+        for (i, material) in list.iter().enumerate() {
+            let _ = write!(
+                out,
+                "# The model's physicsMaterials {i}. It has neither density nor stiffness: REPLACE these by the real ones.\n\
+                 [material.khr-{i}]\ndensity = {DENSITY}\nyoungs_modulus = \"10 GPa\"\n\
+                 static_friction = {:?}\ndynamic_friction = {:?}\nrestitution = {:?}\n\n",
+                number(material, "staticFriction", 0.6),
+                number(material, "dynamicFriction", 0.6),
+                number(material, "restitution", 0.0).clamp(0.0, 1.0),
+            );
+        }
+        if list.len() * (list.len() + 1) / 2 > MOST_PAIRS {
+            self.out
+                .remarks
+                .push(format!("{} materials: their pairs combine by our rule, the geometric mean", list.len()));
+            return;
+        }
+        for (i, a) in list.iter().enumerate() {
+            for (k, b) in list.iter().enumerate().skip(i) {
+                let of = |key: &str, rule: &str, default: f64| {
+                    let (x, y) = (number(a, key, default), number(b, key, default));
+                    combined(x, y, [&a[rule], &b[rule]].map(|rule| rule.as_str().unwrap_or("average")))
+                };
+                let _ = write!(
+                    out,
+                    "[[material_pair]]\npair = [\"khr-{i}\", \"khr-{k}\"]\nstatic_friction = {:?}\ndynamic_friction = {:?}\nrestitution = {:?}\n\n",
+                    of("staticFriction", "frictionCombine", 0.6),
+                    of("dynamicFriction", "frictionCombine", 0.6),
+                    of("restitution", "restitutionCombine", 0.0).clamp(0.0, 1.0),
+                );
+            }
+        }
+    }
+
+    fn bodies(&mut self) {
+        for node in 0..self.model.nodes.len() {
+            let Some(motion) = self.own(node).and_then(|own| own.get("motion")).cloned() else { continue };
+            let animated =
+                self.model.animations.iter().any(|a| a.channels.iter().any(|c| c.node == node && !c.shapes()));
+            let mut table = format!("[[body]]\nnode = {}\n", quoted(&called(self.model, node)));
+            let kinematic = motion["isKinematic"].as_bool() == Some(true);
+            let infinite = motion["mass"].as_f64() == Some(0.0);
+            if animated {
+                table.push_str("motion = \"kinematic\"\n\n");
+                self.out.text.push_str(&table);
+                continue;
+            }
+            if kinematic || infinite {
+                let why = if kinematic { "is kinematic and has no animation" } else { "has an infinite mass" };
+                self.say(node, format_args!("{why}: it stands still"));
+                table.push_str("motion = \"static\"\n\n");
+                self.out.text.push_str(&table);
+                continue;
+            }
+            self.out.moving.push(node);
+            self.weigh(node, &motion, &mut table);
+            let turn = rotation_of(self.model, node);
+            let speeds = [("velocity", "linearVelocity"), ("angular_velocity", "angularVelocity")];
+            let initial: Vec<String> = speeds
+                .iter()
+                .filter_map(|(ours, theirs)| Some((ours, turn * vector(&motion[*theirs])?)))
+                .filter(|(_, v)| *v != DVec3::ZERO)
+                .map(|(ours, v)| format!("{ours} = {}", written(v)))
+                .collect();
+            if !initial.is_empty() {
+                let _ = writeln!(table, "initial = {{ {} }}", initial.join(", "));
+            }
+            if motion["gravityFactor"].as_f64().is_some_and(|factor| factor != 1.0) {
+                self.say(node, "gravityFactor is not taken over: gravity is one for all, [scene] gravity");
+            }
+            table.push('\n');
+            self.out.text.push_str(&table);
+        }
+    }
+
+    /// Material, mass, centre and inertia: as given; else of the shapes, as the extension has it; else of the mesh.
+    fn weigh(&mut self, node: usize, motion: &Value, table: &mut String) {
+        let material =
+            self.parts(node).into_iter().find_map(|part| self.own(part)?["collider"]["physicsMaterial"].as_u64());
+        let _ = match material {
+            Some(i) => writeln!(table, "material = \"khr-{i}\""),
+            None => writeln!(table, "material = \"beech\"  # the model names none"),
+        };
+        let shapes = self.shape_mass(node);
+        let given = motion["mass"].as_f64();
+        if let Some(mass) = given.or((shapes.mass > 0.0).then_some(shapes.mass)) {
+            let _ = writeln!(
+                table,
+                "mass = {mass:?}{}",
+                if given.is_none() { "  # volume of its shapes × density" } else { "" }
+            );
+            if let Some(center) = vector(&motion["centerOfMass"]) {
+                let _ = writeln!(table, "center_of_mass = {}", written(center));
+            } else if shapes.mass > 0.0 {
+                // Node space may be scaled.
+                let center = self.model.nodes[node]
+                    .world
+                    .inverse()
+                    .transform_point3(frame(self.model, node).point(shapes.center));
+                let _ = writeln!(table, "center_of_mass = {}", written(center));
+            }
+            let diagonal = vector(&motion["inertiaDiagonal"]);
+            match diagonal {
+                Some(d) if d.min_element() > 0.0 => {
+                    let turn = motion["inertiaOrientation"].as_array().into_iter().flatten().filter_map(Value::as_f64);
+                    let turn = <[f64; 4]>::try_from(turn.collect::<Vec<_>>());
+                    let turn = turn.map_or(String::new(), |q| format!(", orientation = {q:?}"));
+                    let _ = writeln!(table, "inertia = {{ diagonal = {}{turn} }}", written(d));
+                }
+                other => {
+                    if other.is_some() {
+                        self.say(
+                            node,
+                            "an infinite moment of inertia is not taken over; hold its axis by a constraint",
+                        );
+                    }
+                    if shapes.mass > 0.0 {
+                        let (moments, axes) =
+                            soffio_geometry::mass::principal_axes(shapes.inertia * (mass / shapes.mass));
+                        let q = DQuat::from_mat3(&axes).normalize();
+                        let _ = writeln!(
+                            table,
+                            "inertia = {{ diagonal = {}, orientation = [{:?}, {:?}, {:?}, {:?}] }}",
+                            written(moments),
+                            q.x,
+                            q.y,
+                            q.z,
+                            q.w
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// Nodes that move with a motion's node.
+    fn parts(&self, node: usize) -> Vec<usize> {
+        (0..self.model.nodes.len()).filter(|&n| self.mover(n) == Some(node)).collect()
+    }
+
+    /// What the shapes of a body weigh, in its rigid frame.
+    fn shape_mass(&mut self, node: usize) -> MassProperties {
+        let base = frame(self.model, node);
+        let mut whole = NOTHING;
+        for part in self.parts(node) {
+            let Some((solid, _)) = self.solid(part, false) else { continue };
+            let (volume, moments) = solid.volume();
+            let own = frame(self.model, part);
+            let turn = DMat3::from_quat(base.rotation.inverse() * own.rotation);
+            let mass = DENSITY * volume;
+            let inertia = turn * DMat3::from_diagonal(mass * moments) * turn.transpose();
+            whole = whole.combine(&MassProperties { mass, center: base.inverse_point(own.position), inertia });
+        }
+        whole
+    }
+
+    /// The shape that a node collides as, at its node's scale, and what is lost in our words.
+    fn solid(&self, node: usize, told: bool) -> Option<(Solid, Option<String>)> {
+        let collider = self.own(node)?.get("collider")?;
+        // The draft has moved it: collider.shape, then collider.geometry.shape.
+        let index = collider["geometry"]["shape"].as_u64().or(collider["shape"].as_u64())?;
+        let shape = self.json["extensions"][SHAPES]["shapes"].get(usize::try_from(index).ok()?)?;
+        let kind = shape["type"].as_str()?;
+        let own = &shape[kind];
+        let axes = DMat3::from_mat4(self.model.nodes[node].world);
+        let scale = DVec3::new(axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length());
+        let round = 0.5 * (scale.x + scale.z);
+        let number = |key: &str, default: f64| own[key].as_f64().unwrap_or(default);
+        let mut lost = None;
+        let mut radius = |default: f64| {
+            let (top, bottom) = (number("radiusTop", default), number("radiusBottom", default));
+            if told && top != bottom {
+                lost =
+                    Some(format!("its {kind} is {bottom} m wide at one end and {top} m at the other: taken as even"));
+            }
+            0.5 * (top + bottom) * round
+        };
+        let solid = match kind {
+            "sphere" => Solid::Sphere { radius: number("radius", 0.5) * scale.max_element() },
+            "box" => Solid::Box { size: vector(&own["size"]).unwrap_or(DVec3::ONE) * scale },
+            "capsule" => Solid::Capsule { height: number("height", 0.5) * scale.y, radius: radius(0.25) },
+            "cylinder" => Solid::Cylinder { height: number("height", 0.5) * scale.y, radius: radius(0.25) },
+            "plane" => {
+                if told && (own.get("sizeX").is_some() || own.get("sizeZ").is_some()) {
+                    lost = Some("its plane has an end: taken as endless".to_owned());
+                }
+                Solid::Plane
+            }
+            _ => return None,
+        };
+        Some((solid, lost))
+    }
+
+    fn colliders(&mut self) {
+        let mut filtered: Vec<(usize, Value)> = Vec::new();
+        for node in 0..self.model.nodes.len() {
+            let Some(own) = self.own(node).cloned() else { continue };
+            if own.get("trigger").is_some() {
+                self.say(
+                    node,
+                    "its trigger is not taken over: constraints here wait for hits or a breath (trigger = …)",
+                );
+            }
+            let Some(collider) = own.get("collider") else { continue };
+            let Some(shape) = self.shape_of(node, collider) else { continue };
+            let material =
+                collider["physicsMaterial"].as_u64().map_or(String::new(), |i| format!("material = \"khr-{i}\"\n"));
+            let name = quoted(&called(self.model, node));
+            let _ = write!(self.out.text, "[[collider]]\nnode = {name}\n{material}shape = {shape}\n\n");
+            if let Some(i) = collider["collisionFilter"].as_u64()
+                && let Some(filter) = self.list("collisionFilters").get(i as usize)
+            {
+                filtered.push((node, filter.clone()));
+            }
+        }
+        let mut apart = Vec::new();
+        for (i, (a, one)) in filtered.iter().enumerate() {
+            for (b, other) in &filtered[i + 1..] {
+                if !(meets(one, other) && meets(other, one)) {
+                    apart.push(format!(
+                        "    [{}, {}],\n",
+                        quoted(&called(self.model, *a)),
+                        quoted(&called(self.model, *b))
+                    ));
+                }
+            }
+        }
+        if apart.len() > MOST_PAIRS {
+            self.out.remarks.push(format!("{} pairs that its filters keep apart are not taken over", apart.len()));
+        } else if !apart.is_empty() {
+            let _ = write!(
+                self.out.text,
+                "[collision]\n# The model's collisionFilters.\nexclude = [\n{}]\n\n",
+                apart.concat()
+            );
+        }
+    }
+
+    /// The shape of a collider as TOML.
+    fn shape_of(&mut self, node: usize, collider: &Value) -> Option<String> {
+        if let Some((solid, lost)) = self.solid(node, true) {
+            if let Some(lost) = lost {
+                self.say(node, lost);
+            }
+            let still = self.mover(node).is_none();
+            if matches!(solid, Solid::Plane) && !still {
+                self.say(node, "its plane moves: not taken over, write a box");
+                return None;
+            }
+            return Some(solid.toml());
+        }
+        let geometry = &collider["geometry"];
+        // A mesh: of this node, of another one, or by its number.
+        let of = geometry["node"].as_u64().map(|n| n as usize).filter(|&n| n < self.model.nodes.len());
+        let here = of.unwrap_or(node);
+        let by_number = geometry["mesh"].as_u64().map(|m| m as usize);
+        if here != node || by_number.is_some_and(|mesh| self.model.nodes[node].mesh != Some(mesh)) {
+            self.say(node, "collides as the mesh of another node: not taken over; give it that mesh, or a shape");
+            return None;
+        }
+        if self.model.nodes[node].mesh.is_none() {
+            self.say(node, "collides as nothing that is known here: not taken over");
+            return None;
+        }
+        let Some(fit) = super::imported::fit(self.model, node) else {
+            self.say(node, "nothing can be fitted to its mesh: it has no collider");
+            return None;
+        };
+        if geometry["convexHull"].as_bool() != Some(true) {
+            self.say(node, "collides as its triangles: its convex hull is taken");
+        }
+        Some(format!("{{ fit = \"{fit}\" }}"))
+    }
+
+    fn joints(&mut self) {
+        for node in 0..self.model.nodes.len() {
+            let Some(joint) = self.own(node).and_then(|own| own.get("joint")).cloned() else { continue };
+            khr_joint::take(self, node, &joint);
+        }
+    }
+}
+
+/// Two coefficients by the stronger of two rules.
+fn combined(x: f64, y: f64, rules: [&str; 2]) -> f64 {
+    let either = |rule: &str| rules.contains(&rule);
+    if either("average") {
+        0.5 * (x + y)
+    } else if either("minimum") {
+        x.min(y)
+    } else if either("maximum") {
+        x.max(y)
+    } else {
+        x * y
+    }
+}
+
+/// Does what has filter `a` wish to meet what has filter `b`?
+fn meets(a: &Value, b: &Value) -> bool {
+    let words = |value: &Value| -> Option<Vec<String>> {
+        Some(value.as_array()?.iter().filter_map(|word| word.as_str().map(str::to_owned)).collect())
+    };
+    let systems = words(&b["collisionSystems"]).unwrap_or_default();
+    let named = |list: &Value| words(list).map(|list| systems.iter().any(|system| list.contains(system)));
+    named(&a["collideWithSystems"]).unwrap_or(true) && !named(&a["notCollideWithSystems"]).unwrap_or(false)
+}
+
+/// World rotation of a node, whatever its scale.
+pub(super) fn rotation_of(model: &Model, node: usize) -> DQuat {
+    let axes = DMat3::from_mat4(model.nodes[node].world);
+    let unit = |v: DVec3| v.normalize_or(DVec3::X);
+    let (x, y) = (unit(axes.x_axis), unit(axes.y_axis));
+    // A mirrored frame has no rotation: its third axis is then the other one.
+    DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))).normalize()
+}
+
+/// Pose of a node without its scale.
+fn frame(model: &Model, node: usize) -> Pose {
+    Pose { rotation: rotation_of(model, node), position: model.nodes[node].world.w_axis.truncate() }
+}

@@ -1,0 +1,224 @@
+//! Mobiles: branches that balance, pieces that hang on one another, and the figures of the whole.
+//!
+//! A piece is at rest when the torque of its own weight and of the loads at its joints about the point it hangs on
+//! is zero, that is when Σ mᵢ xᵢ = Σ mᵢ zᵢ = 0 in its own frame. For a straight branch of length l with loads m_L,
+//! m_R and wire mass w the loop sits at a = (m_R l + w l/2)/(m_L + m_R + w) from the left; [`branch`] starts near
+//! there and lets the true centre of the bent wire correct it. A branch is stable because its loop stands above
+//! the line of its loads.
+//!
+//! Invariant: every piece of a [`Mobile`] but the first hangs at a mark of one before it, the poses say where.
+
+use soffio_geometry::bodies::MassProperties;
+use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
+
+use super::outline::ring;
+use super::piece::{Bend, Part, Piece, load, yaw};
+
+/// Corners of an eye bent in wire.
+pub const EYE_STEPS: usize = 12;
+/// kg/m³.
+pub const STEEL: f64 = 7850.0;
+/// Standard weight, m/s²; the period needs it, the balance does not.
+const GRAVITY: f64 = 9.81;
+
+/// A balanced work: all pieces, and where they stand at rest.
+#[derive(Debug)]
+pub struct Mobile {
+    /// Pieces with the pose of their frames; what carries comes before what hangs.
+    pub pieces: Vec<(Piece, Pose)>,
+    /// What stands still.
+    pub stand: Piece,
+}
+
+/// A branch of the mobile.
+pub struct Branch {
+    /// Piece, loop, wire, and the marks of its right (+x) and left (−x) ends.
+    pub names: [&'static str; 5],
+    /// Of the wire, m.
+    pub radius: f64,
+    /// Radius of the loop and the eyes, m.
+    pub eye: f64,
+    /// Between the two loads, m.
+    pub chord: f64,
+    /// How far the right and the left end droop, m.
+    pub droop: [f64; 2],
+    /// Straight pieces of each arm.
+    pub steps: usize,
+    /// Right and left, kg.
+    pub loads: [f64; 2],
+    /// What is fixed to the right and to the left end, placed from there.
+    pub tips: [Option<Part>; 2],
+}
+
+impl Branch {
+    /// A piece bent after this, with its loads.
+    fn loaded(&self, piece: &Piece) -> MassProperties {
+        let [.., right, left] = self.names;
+        let loads = [load(self.loads[0], piece.mark(right)), load(self.loads[1], piece.mark(left))];
+        loads.iter().fold(piece.mass(), |whole, load| whole.combine(load))
+    }
+
+    /// What hangs at the right and at the left end and is fixed there, kg.
+    fn ends(&self) -> [f64; 2] {
+        let tip = |k: usize| self.tips[k].as_ref().map_or(0.0, |tip| tip.solid.mass(tip.density).mass);
+        [self.loads[0] + tip(0), self.loads[1] + tip(1)]
+    }
+}
+
+/// Bends a wire whose right end droops as far as puts the centre of all it carries `depth` m below the loop: what the
+/// period of its tilt follows from. The left end droops, or rises, as drawn.
+pub fn branch_of_depth(mut drawn: Branch, depth: f64) -> Piece {
+    // The right end's share of the whole is what its droop moves the centre by: Newton's step again.
+    let [right, left] = drawn.ends();
+    let share = right / (right + left);
+    for _ in 0..20 {
+        let missing = depth + drawn.loaded(&branch(&drawn)).center.y;
+        drawn.droop[0] += missing / share;
+    }
+    branch(&drawn)
+}
+
+/// Bends a wire with a loop in it where it balances, and an eye at each end.
+pub fn branch(branch: &Branch) -> Piece {
+    let [name, hook, wire, right_mark, left_mark] = branch.names;
+    let bend = |right: f64| {
+        let left = branch.chord - right;
+        let bottom = branch.radius - 2.0 * branch.eye;
+        // The ends leave the loop level and droop as x², the shape a light wire takes.
+        let [right_droop, left_droop] = branch.droop;
+        let arm = |length: f64, side: f64, droop: f64| {
+            (1..=branch.steps).map(move |i| {
+                let t = i as f64 / branch.steps as f64;
+                DVec3::new(side * length * t, bottom - droop * t * t, 0.0)
+            })
+        };
+        let eye_at = |end: DVec3| end - branch.eye * DVec3::Y;
+        let right_eye = eye_at(DVec3::new(right, bottom - right_droop, 0.0));
+        let left_eye = eye_at(DVec3::new(-left, bottom - left_droop, 0.0));
+
+        let mut points = ring(left_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS);
+        points.reverse();
+        points.extend(arm(left, -1.0, left_droop).collect::<Vec<_>>().into_iter().rev().skip(1));
+        points.extend(ring(
+            DVec3::new(0.0, branch.radius - branch.eye, 0.0),
+            branch.eye,
+            DVec3::NEG_Y,
+            DVec3::X,
+            EYE_STEPS,
+        ));
+        points.extend(arm(right, 1.0, right_droop).take(branch.steps - 1));
+        points.extend(ring(right_eye, branch.eye, DVec3::Y, DVec3::Z, EYE_STEPS));
+        let rest = (branch.eye - branch.radius) * DVec3::Y;
+        let fixed = branch.tips.iter().zip([right_eye, left_eye]).filter_map(|(tip, end)| {
+            let mut part = tip.clone()?;
+            part.place.position += end;
+            Some(part)
+        });
+        Piece {
+            name,
+            parts: fixed.collect(),
+            bends: vec![Bend { name: wire, points, radius: branch.radius, density: STEEL }],
+            marks: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
+        }
+    };
+    // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
+    let [right_end, left_end] = branch.ends();
+    let start = left_end / (left_end + right_end) * branch.chord;
+    let right = (0..40).fold(start, |right, _| right - branch.loaded(&bend(right)).center.x);
+    bend(right)
+}
+
+/// What the two branches of a [`cascade`] are bent from, the upper one first.
+pub struct Wires {
+    /// m.
+    pub radius: [f64; 2],
+    /// Radius of the loop and the eyes, m.
+    pub eye: [f64; 2],
+    /// Between the two loads, m.
+    pub chord: [f64; 2],
+    /// How far the ends droop, m.
+    pub droop: [f64; 2],
+    /// The lower branch against the upper one, rad.
+    pub lower_yaw: f64,
+}
+
+/// Three pieces on two branches: the large one on the left of the upper branch, on its right a lower one with the
+/// middle and the small one.
+pub fn cascade(hook: DVec3, wires: &Wires, [large, middle, small]: [Piece; 3], stand: Piece) -> Mobile {
+    let bent = |i: usize, names, loads| {
+        let Wires { radius, eye, chord, droop, .. } = wires;
+        branch(&Branch {
+            names,
+            radius: radius[i],
+            eye: eye[i],
+            chord: chord[i],
+            droop: [droop[i]; 2],
+            steps: 6,
+            loads,
+            tips: [None, None],
+        })
+    };
+    let loads = [small.mass().mass, middle.mass().mass];
+    let lower = bent(1, ["Lower", "LowerLoop", "LowerWire", "LowerRight", "LowerLeft"], loads);
+    let below = lower.mass().mass + small.mass().mass + middle.mass().mass;
+    let loads = [below, large.mass().mass];
+    let upper = bent(0, ["Upper", "UpperLoop", "UpperWire", "UpperRight", "UpperLeft"], loads);
+    let top = Pose { rotation: DQuat::IDENTITY, position: hook };
+    let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
+    let large_pose = hung(top, &upper, "UpperLeft");
+    let lower_pose = Pose { rotation: yaw(wires.lower_yaw), ..hung(top, &upper, "UpperRight") };
+    let small_pose = hung(lower_pose, &lower, "LowerRight");
+    let middle_pose = hung(lower_pose, &lower, "LowerLeft");
+    let pieces =
+        vec![(upper, top), (lower, lower_pose), (large, large_pose), (middle, middle_pose), (small, small_pose)];
+    Mobile { pieces, stand }
+}
+
+/// The figures of the balanced work.
+#[derive(Clone, Copy, Debug)]
+pub struct Statics {
+    /// kg.
+    pub total_mass: f64,
+    /// First moment of the weight about each piece's hook over its weight: how far its centre stands from under
+    /// the point it hangs on, m; the worst.
+    pub worst_offset: f64,
+    /// About the vertical through the point, loads at their joints, kg m².
+    pub yaw_inertia: f64,
+    /// Depth of the centre of all weights below the point, loads at their joints, m.
+    pub depth: f64,
+    /// s.
+    pub tilt_period: f64,
+}
+
+impl Mobile {
+    /// Mass properties of piece `i` with what hangs below it as loads at its marks, in its own frame.
+    pub fn loaded(&self, i: usize) -> MassProperties {
+        let (piece, pose) = &self.pieces[i];
+        self.pieces
+            .iter()
+            .enumerate()
+            .filter(|(k, (_, hung))| {
+                *k != i && piece.marks.iter().skip(1).any(|(_, m)| pose.point(*m) == hung.position)
+            })
+            .map(|(k, (_, hung))| load(self.loaded(k).mass, pose.inverse_point(hung.position)))
+            .fold(piece.mass(), |whole, load| whole.combine(&load))
+    }
+
+    /// Weighs and measures the work.
+    pub fn statics(&self) -> Statics {
+        let top = self.loaded(0);
+        let about_point = top.inertia_about(DVec3::ZERO);
+        let offset = |i: usize| {
+            let center = self.loaded(i).center;
+            DVec2::new(center.x, center.z).length()
+        };
+        let depth = -top.center.y;
+        Statics {
+            total_mass: top.mass,
+            worst_offset: (0..self.pieces.len()).map(offset).fold(0.0, f64::max),
+            yaw_inertia: about_point.y_axis.y,
+            depth,
+            tilt_period: 2.0 * PI * (about_point.z_axis.z / (top.mass * GRAVITY * depth)).sqrt(),
+        }
+    }
+}

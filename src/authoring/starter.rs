@@ -1,0 +1,264 @@
+//! The sidecars of new exhibits, with comments that teach: a mobile of given plates, and one body to begin with.
+
+use std::fmt::Write;
+
+use super::Made;
+use super::given::{Given, Metal, Outline, mobile as given_mobile};
+use super::glb::{Finish, Scene};
+use super::hung::disc;
+use super::mobile::Mobile;
+use super::piece::Piece;
+use super::stock::{ALUMINIUM, MM, ceiling, write};
+use super::words::{Puff, Words, attract, labels, three};
+use soffio_exhibit::SIDECAR;
+use soffio_exhibit::diagnostic::Diagnostic;
+use soffio_math::DVec3;
+
+/// Head of a chapter of the sidecar.
+fn chapter(title: &str) -> String {
+    format!("\n# ---- {title} {}\n", "-".repeat(106_usize.saturating_sub(title.chars().count())))
+}
+
+/// `LargeStem` as a name of the sidecar: `large-stem`.
+fn kebab(name: &str) -> String {
+    let mut out = String::new();
+    for c in name.chars() {
+        if c.is_ascii_uppercase() && !out.is_empty() {
+            out.push('-');
+        }
+        out.push(c.to_ascii_lowercase());
+    }
+    out
+}
+
+/// What every sidecar begins with.
+pub(super) fn head(id: &str, about: &str) -> String {
+    format!(
+        "# {about}\n\
+         # `soffio check` with this folder says what is wrong in this file, where, and what to do; `soffio explain` prints each\n\
+         # value with its origin; `soffio schema exhibit` lists every key that may stand here. Numbers are SI (m, kg, s); a text\n\
+         # may carry a unit: \"12 mm\", \"35 deg\", \"85 g\".\n\
+         schema = \"exhibit/1\"\nmodel = \"{id}.glb\"\nid = \"{id}\"\n\n\
+         [scene]\ncamera = \"CamFront\"\n\
+         # Loudness beside the other exhibits: `soffio loudness --write` finds it.\nlevel = \"0 dB\"\n"
+    )
+}
+
+/// The wires of a piece; `body` as none stands still.
+fn wires(out: &mut String, piece: &Piece, still: bool) {
+    for bend in &piece.bends {
+        let _ = write!(out, "\n[[wire]]\nname = \"{}\"\n", kebab(bend.name));
+        if !still {
+            let _ = writeln!(out, "body = \"{}\"", piece.name);
+        }
+        let radius = (bend.radius / MM * 1e4).round() / 1e4;
+        let _ = write!(out, "points = \"{}.*\"\nradius = \"{radius} mm\"\nmaterial = \"steel\"\n", bend.name);
+        if still {
+            out.push_str("color = [0.05, 0.05, 0.055]\nmetallic = 0.9\nroughness = 0.45\n");
+        }
+    }
+}
+
+/// The joints of a work whose pieces hang by their first marks: the first on `point` of what stands still.
+fn joints(out: &mut String, work: &Mobile, point: &str) {
+    let friction = "friction = { coefficient = 0.3, radius = \"0.3 mm\" }\n";
+    for (i, (piece, pose)) in work.pieces.iter().enumerate() {
+        let (name, hook) = (kebab(piece.name), piece.marks[0].0);
+        let carrier = work.pieces[..i].iter().find_map(|(above, place)| {
+            let (mark, _) = above.marks.iter().skip(1).find(|(_, p)| place.point(*p) == pose.position)?;
+            Some((above.name, *mark))
+        });
+        let _ = match carrier {
+            None => write!(
+                out,
+                "\n[[constraint.nail]]\nname = \"{name}-hangs\"\nbody = \"{}\"\nat = \"{hook}\"\nto = {{ node = \"{point}\" }}\n{friction}",
+                piece.name
+            ),
+            Some((above, mark)) => write!(
+                out,
+                "\n[[constraint.point-to-point]]\nname = \"{name}-on-{}\"\na = {{ node = \"{}\", at = \"{hook}\" }}\n\
+                 b = {{ node = \"{above}\", at = \"{mark}\" }}\n{friction}",
+                kebab(above),
+                piece.name
+            ),
+        };
+    }
+}
+
+/// What a mobile does between visitors.
+const CALM: &str = "# Whoever blows next shall see their own breath, not the swing of the last one: left alone, it comes to rest.\n\
+                    [wind.calm]\nafter = \"3 s\"\ntime = \"2.5 s\"\n\n";
+
+/// A collider, a surface for the wind and a sound for a plate.
+fn plates(out: &mut String, names: &[&str]) {
+    for name in names {
+        let _ = write!(out, "\n[[collider]]\nnode = \"{name}\"\nshape = {{ fit = \"plate\" }}\n");
+    }
+    for (seed, name) in (1..).zip(names) {
+        let _ = write!(
+            out,
+            "\n[[wind_surface]]\nnode = \"{name}\"\nsampling = {{ per_area = \"9000 /m2\", min = 16, max = 32, seed = {seed} }}\n"
+        );
+    }
+    out.push_str(&chapter("sound"));
+    out.push_str("# A plate's size, shape and material make its notes; `soffio sound --list` names the timbres.\n");
+    for name in names {
+        let _ = write!(
+            out,
+            "\n[[sound]]\nname = \"{}-rings\"\nbody = \"{name}\"\non = \"impact\"\ntimbre = \"plate\"\ncaption = \"plate\"\n",
+            kebab(name)
+        );
+    }
+    let _ = write!(
+        out,
+        "\n[[sound]]\nname = \"air\"\nbody = \"{}\"\non = \"wind\"\ntimbre = \"wind-room\"\ncaption = \"wind\"\n\n",
+        names.first().copied().unwrap_or_default()
+    );
+}
+
+/// Captions of plates in English, Korean, Italian.
+const CAPTIONS: [(&str, [&str; 3]); 2] = [
+    ("plate", ["[metal plate rings]", "[금속판 울리는 소리]", "[una piastra di metallo risuona]"]),
+    ("wind", ["[breath rushes past]", "[숨결이 스치는 소리]", "[fruscio del soffio]"]),
+];
+
+/// A balanced mobile of `outlines`, cut from sheet of `thickness` m.
+pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<Made, Vec<Diagnostic>> {
+    let given = given_mobile(id, outlines, thickness, metal)?;
+    let work = &given.mobile;
+    let about = format!(
+        "A mobile of {} plates that ring in pairs. `soffio new` has bent its wires so that it hangs level; change a plate,\n\
+         # and the balance goes: make it anew rather than by hand.\n#",
+        given.plates.len()
+    );
+    let mut out = head(id, &about);
+    out.push_str(&chapter("what things are made of"));
+    let _ = write!(
+        out,
+        "# Density, friction and sound follow from a material's name; what stands here changes it. Sheet on a hook rings\n\
+         # shorter than the bare metal: the loss factor says how fast a sound fades.\n\n[material.{}]\nloss_factor = 2e-3\n",
+        metal.name()
+    );
+    out.push_str(&chapter("bodies"));
+    out.push_str(
+        "# Each moves as one, with what hangs below its node in the model. Its mass is its volume times the density.\n",
+    );
+    for (piece, _) in &work.pieces {
+        let plate = given.plates.iter().find(|(name, ..)| *name == piece.name);
+        let material = plate.map_or("steel", |_| metal.name());
+        let note = plate.map_or(String::new(), |(_, from, _)| format!("# {from}\n"));
+        let _ = write!(out, "\n{note}[[body]]\nnode = \"{}\"\nmaterial = \"{material}\"\n", piece.name);
+    }
+    out.push_str(&chapter("wires"));
+    out.push_str("# Drawn through the points of the model whose names begin so; they weigh, and feel the wind.\n");
+    wires(&mut out, &work.stand, true);
+    work.pieces.iter().for_each(|(piece, _)| wires(&mut out, piece, false));
+    out.push_str(&chapter("joints"));
+    out.push_str("# Loops in loops: two points that stay together. What rubs there brings a turning piece to rest.\n");
+    joints(&mut out, work, "CeilingPoint");
+    out.push_str(&chapter("what can hit, and what feels the wind"));
+    let names: Vec<&str> = given.plates.iter().map(|(name, ..)| *name).collect();
+    plates(&mut out, &names);
+    let gain = metal.gain(thickness);
+    if gain > 1.0 {
+        let _ = write!(
+            out,
+            "# Sheet so heavy hardly stirs in a breath: as if it were so many times stronger.\n[wind.breath]\ngain = {gain:?}\n\n"
+        );
+    }
+    out.push_str(CALM);
+    out.push_str(&attract(&puffs(&given)));
+    out.push('\n');
+    out.push_str(&labels(&mobile_words(given.plates.len())));
+    let s = work.statics();
+    let mut remarks: Vec<String> = (given.plates.iter())
+        .map(|(name, from, _)| {
+            let piece = work.pieces.iter().find(|(piece, _)| piece.name == *name);
+            let grams = piece.map_or(0.0, |(piece, _)| 1e3 * piece.mass().mass);
+            format!("{name}: {from}, {grams:.1} g with its stem")
+        })
+        .collect();
+    let (grams, tilt) = (1e3 * s.total_mass, s.tilt_period);
+    remarks.push(format!("in all {grams:.1} g; it tilts to and fro in {tilt:.1} s; level to {:.0e} m", s.worst_offset));
+    Ok(Made { files: vec![(SIDECAR.into(), out.into_bytes()), (format!("{id}.glb"), given.glb)], remarks })
+}
+
+/// Breaths at the plate in front of each pair, gently first, at most four.
+fn puffs(given: &Given) -> Vec<Puff> {
+    let front = given.pairs.iter().take(4).map(|[_, front]| given.plates[*front].2);
+    front.enumerate().map(|(i, aim)| (5.0 + 18.0 * i as f64, 0.35 + 0.1 * i as f64, aim)).collect()
+}
+
+fn mobile_words(count: usize) -> Vec<Words> {
+    three(
+        ["Mobile (replace this title)", "모빌 (제목을 바꾸세요)", "Mobile (titolo da sostituire)"],
+        [
+            "Its plates hang from bent wires, each hooked where it balances. Two and two they hang close: a breath makes \
+             them meet and ring, the larger the lower.",
+            "판은 휜 철사에, 저마다 균형을 이루는 자리에 걸려 있다. 둘씩 가까이 있어 숨결에 부딪혀 울리며, 클수록 낮은 소리가 난다.",
+            "Le piastre pendono da fili piegati, ciascuno agganciato dove sta in equilibrio. A due a due sono vicine: un \
+             soffio le fa incontrare e risuonare, tanto più grave quanto più sono grandi.",
+        ],
+        [
+            format!("A mobile: {count} flat metal plates hang from bent wires, in pairs one close before the other."),
+            format!("납작한 금속판 {count}개가 휜 철사에, 둘씩 앞뒤로 가까이 매달린 모빌."),
+            format!(
+                "Un mobile: {count} piastre piatte di metallo pendono da fili piegati, a coppie una davanti all'altra."
+            ),
+        ],
+        &CAPTIONS,
+    )
+}
+
+/// One disc on a stem: the least that swings in a breath.
+pub fn empty(id: &str) -> Made {
+    let mut scene = Scene::default();
+    let red = scene.finish(&Finish { name: "Red paint", color: [0.55, 0.018, 0.012], metallic: 0.0, roughness: 0.40 });
+    let iron = scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 });
+    let hook = 0.45 * DVec3::Y;
+    let disc = disc(["Disc", "DiscHook", "DiscStem"], (120.0 * MM, 1.0 * MM), 90.0 * MM, (ALUMINIUM, red));
+    let target = hook - 0.08 * DVec3::Y;
+    let stand = ceiling(iron);
+    let mut out = head(id, "One disc on a hook: the least that swings in a breath. Add yours.");
+    out.push_str(&chapter("bodies"));
+    out.push_str(
+        "# A body is a node of the model (Blender: an object) that moves as one, with what hangs below it. A node that is\n\
+         # no body stands still. `soffio import your-model.glb` writes such a file for a model of yours.\n\n\
+         [[body]]\nnode = \"Disc\"\nmaterial = \"aluminium\"\n",
+    );
+    out.push_str(&chapter("wires"));
+    out.push_str("# Drawn through the points of the model whose names begin so.\n");
+    wires(&mut out, &stand, true);
+    wires(&mut out, &disc, false);
+    out.push_str(&chapter("joints"));
+    out.push_str(
+        "# A nail holds a point of a body to a node that stands still. Other kinds: hinge, point-to-point, spring, gear, …;\n\
+         # `soffio schema exhibit` has them all.\n",
+    );
+    let work =
+        Mobile { pieces: vec![(disc.clone(), soffio_math::Pose { position: hook, ..Default::default() })], stand };
+    joints(&mut out, &work, "CeilingPoint");
+    out.push_str(&chapter("what can hit, and what feels the wind"));
+    plates(&mut out, &["Disc"]);
+    out.push_str(&attract(&[(5.0, 0.35, [0.5, 0.6])]));
+    out.push('\n');
+    let words = three(
+        ["A disc (replace this title)", "원판 (제목을 바꾸세요)", "Un disco (titolo da sostituire)"],
+        [
+            "A disc of sheet metal hangs from a hook and swings in a breath.",
+            "금속판 원반 하나가 고리에 걸려 숨결에 흔들린다.",
+            "Un disco di lamiera pende da un gancio e oscilla in un soffio.",
+        ],
+        [
+            "A round red plate hangs on a wire below a hook.".into(),
+            "고리 아래 철사에 빨간 원판이 매달려 있다.".into(),
+            "Una piastra rossa rotonda pende da un filo sotto un gancio.".into(),
+        ],
+        &CAPTIONS,
+    );
+    out.push_str(&labels(&words));
+    let pieces = [(work.stand, hook), (disc, hook)];
+    let away = DVec3::new(-0.12, 0.05, 1.0).normalize();
+    let glb = write(scene, id, &pieces, target + 0.75 * away, target);
+    Made { files: vec![(SIDECAR.into(), out.into_bytes()), (format!("{id}.glb"), glb)], remarks: Vec::new() }
+}

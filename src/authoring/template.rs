@@ -1,0 +1,50 @@
+//! New exhibits that begin as a copy of a shipped one: its model and its sidecar under another id.
+
+use toml_edit::{DocumentMut, value};
+
+use super::Made;
+use soffio_exhibit::SIDECAR;
+
+/// A shipped exhibit that can be begun from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Template {
+    /// The pendulum of a shelf clock.
+    Pendulum,
+    /// Eli Terry's clock.
+    Clock,
+}
+
+impl Template {
+    fn sources(self) -> (&'static str, &'static [u8]) {
+        match self {
+            Self::Pendulum => (
+                include_str!("../../exhibits/pendulum/exhibit.toml"),
+                include_bytes!("../../exhibits/pendulum/pendulum.glb"),
+            ),
+            Self::Clock => (
+                include_str!("../../exhibits/terry-clock/exhibit.toml"),
+                include_bytes!("../../exhibits/terry-clock/terry-clock.glb"),
+            ),
+        }
+    }
+
+    /// The copy. Its sidecar keeps the comments that explain it; level, joints and words are those of the original.
+    ///
+    /// # Errors
+    /// Only where the shipped sidecar is not TOML.
+    pub fn copy(self, id: &str) -> Result<Made, toml_edit::TomlError> {
+        let (sidecar, model) = self.sources();
+        let mut document: DocumentMut = sidecar.parse()?;
+        // The first comment tells where the shipped model comes from.
+        let about = "# Begun as a copy of a shipped exhibit. REPLACE its words ([label], [credit]) by yours; `soffio check`\n\
+             # with this folder says what is wrong in this file, where, and what to do.\n";
+        if let Some(mut key) = document.key_mut("schema") {
+            key.leaf_decor_mut().set_prefix(about);
+        }
+        for (key, text) in [("model", format!("{id}.glb")), ("id", id.to_owned())] {
+            document[key] = value(text);
+        }
+        let files = vec![(SIDECAR.into(), document.to_string().into_bytes()), (format!("{id}.glb"), model.to_vec())];
+        Ok(Made { files, remarks: Vec::new() })
+    }
+}

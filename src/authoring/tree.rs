@@ -1,0 +1,107 @@
+//! Mobiles of any shape: boughs that carry plates and boughs, bent from the lowest upwards.
+//!
+//! Whoever builds one hangs the lowest bough first, finds where it balances, and hangs it on the next: so does [`hang`].
+//! Each bough's right end droops as far as puts the centre of what it carries `depth` below its loop, and with that
+//! its tilt has the period 2π √(I/(M g depth)), I about the loop.
+
+use soffio_math::{DVec3, Pose};
+
+use super::mobile::{Branch, branch_of_depth};
+use super::piece::{Part, Piece, named, yaw};
+
+/// What hangs from a point.
+pub enum Hanging {
+    /// A plate on its stem, by its first mark; turned about the vertical, rad, against the world.
+    Plate(Piece, f64),
+    /// A bough with what it carries.
+    Bough(Box<Bough>),
+    /// A part that is fixed to the wire's end, placed from there.
+    Fixed(Part),
+}
+
+impl Hanging {
+    /// A bough.
+    pub fn bough(bough: Bough) -> Self {
+        Self::Bough(Box::new(bough))
+    }
+}
+
+/// A wire with a loop where it balances, and something at each end.
+pub struct Bough {
+    /// Its node; the loop is `<name>Loop`, the wire `<name>Wire`, the ends `<name>Right` and `<name>Left`.
+    pub name: String,
+    /// Of the wire, m.
+    pub radius: f64,
+    /// Between the two loads, m.
+    pub chord: f64,
+    /// How far the left end rises over the loop's foot, m; it droops where this is negative.
+    pub rise: f64,
+    /// Of the centre of all it carries below the loop, m.
+    pub depth: f64,
+    /// Where its right end points, rad about the vertical against the world.
+    pub turn: f64,
+    /// What hangs at the right and at the left end.
+    pub ends: [Hanging; 2],
+}
+
+/// Straight pieces of each arm: an arc to the eye.
+const STEPS: usize = 12;
+/// Radius of loops and eyes over that of the wire, and the least, m.
+const EYE: (f64, f64) = (2.7, 1.7e-3);
+
+struct Bent {
+    piece: Piece,
+    turn: f64,
+    mass: f64,
+    hung: Vec<(&'static str, Bent)>,
+}
+
+/// What hangs, bent and weighed, or what is fixed.
+fn bend(hanging: Hanging) -> Result<Bent, Part> {
+    match hanging {
+        Hanging::Plate(piece, turn) => Ok(Bent { mass: piece.mass().mass, piece, turn, hung: Vec::new() }),
+        Hanging::Bough(bough) => Ok(bend_bough(*bough)),
+        Hanging::Fixed(part) => Err(part),
+    }
+}
+
+fn bend_bough(Bough { name, radius, chord, rise, depth, turn, ends }: Bough) -> Bent {
+    let ends = ends.map(bend);
+    let load = |end: &Result<Bent, Part>| end.as_ref().map_or(0.0, |bent| bent.mass);
+    let loads = [load(&ends[0]), load(&ends[1])];
+    let tips = [&ends[0], &ends[1]].map(|end| end.as_ref().err().cloned());
+    let name = named(name);
+    let [loops, wire, right, left] = ["Loop", "Wire", "Right", "Left"].map(|end| named(format!("{name}{end}")));
+    let drawn = Branch {
+        names: [name, loops, wire, right, left],
+        radius,
+        eye: (EYE.0 * radius).max(EYE.1),
+        chord,
+        droop: [depth, -rise],
+        steps: STEPS,
+        loads,
+        tips,
+    };
+    let piece = branch_of_depth(drawn, depth);
+    let mass = piece.mass().mass + loads[0] + loads[1];
+    let hung = [right, left].into_iter().zip(ends).filter_map(|(mark, end)| Some((mark, end.ok()?)));
+    Bent { piece, turn, mass, hung: hung.collect() }
+}
+
+fn place(bent: Bent, position: DVec3, pieces: &mut Vec<(Piece, Pose)>) {
+    let pose = Pose { rotation: yaw(bent.turn), position };
+    let hooks: Vec<DVec3> = bent.hung.iter().map(|(mark, _)| pose.point(bent.piece.mark(mark))).collect();
+    pieces.push((bent.piece, pose));
+    for ((_, below), hook) in bent.hung.into_iter().zip(hooks) {
+        place(below, hook, pieces);
+    }
+}
+
+/// All pieces of a mobile that hangs at `hook`, and where they are at rest; what carries comes before what hangs.
+pub fn hang(hook: DVec3, top: Hanging) -> Vec<(Piece, Pose)> {
+    let mut pieces = Vec::new();
+    if let Ok(bent) = bend(top) {
+        place(bent, hook, &mut pieces);
+    }
+    pieces
+}

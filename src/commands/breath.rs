@@ -1,0 +1,138 @@
+//! `soffio breath`: the blow detector alone, over recordings.
+//!
+//! Per file one JSON line; with `--csv` a row per 1/240 s, the simulation's step, of one file.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::{Failure, Outcome};
+use soffio_detector::{BlowDetector, BlowEstimate, Reason};
+use soffio_offline::feed::WavFeed;
+use soffio_offline::wav::{self, Recording};
+use soffio_simulation::STEPS_PER_SECOND;
+
+/// Runs the blow detector alone over WAV files.
+///
+/// Example: soffio breath exhibits/steel-fish/breaths/*.wav
+#[derive(clap::Args, Debug, Default)]
+pub struct Args {
+    /// Recordings: PCM 8–32 bit or float, 8–192 kHz.
+    #[arg(required = true, value_name = "FILE.wav")]
+    files: Vec<PathBuf>,
+    /// Rows `t,speed,confidence` at 240 Hz instead of a summary; one file.
+    #[arg(long)]
+    csv: bool,
+    /// With --csv: a fourth column, why the detector decided as it did.
+    #[arg(long, requires = "csv")]
+    reasons: bool,
+}
+
+/// What the detector made of one recording.
+#[derive(Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The recording, as it was named.
+    pub file: String,
+    /// Did anybody blow?
+    pub blow: bool,
+    /// When the first breath was decided, s.
+    pub onset_s: Option<f64>,
+    /// Highest source speed, m/s.
+    pub peak: f64,
+    /// Mean source speed while blowing, m/s.
+    pub mean: f64,
+    /// Time with wind, s.
+    pub seconds_blowing: f64,
+    /// Separate breaths.
+    pub triggers: usize,
+}
+
+/// Runs the command.
+pub fn run(args: Args) -> Outcome {
+    if args.csv && args.files.len() != 1 {
+        let message = format!("breath: --csv takes one file, {} were given. Name one.", args.files.len());
+        return Err(Failure { code: 2, message });
+    }
+    let mut out = std::io::stdout().lock();
+    let mut problems = Vec::new();
+    for path in &args.files {
+        match wav::read(path) {
+            Err(error) => problems.push(error.to_string()),
+            Ok(recording) => {
+                let steps = steps(&recording);
+                let written = if args.csv {
+                    write_rows(&mut out, &steps, args.reasons)
+                } else {
+                    let summary = summarise(path.display().to_string(), &steps);
+                    let line = serde_json::to_string(&summary).map_err(Failure::input)?;
+                    writeln!(out, "{line}")
+                };
+                match written {
+                    // Whoever reads the pipe has had enough (`| head`): not an error.
+                    Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(()),
+                    other => other.map_err(|error| Failure::input(format!("cannot write the output: {error}")))?,
+                }
+            }
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(Failure::input(problems.join("\nsoffio: "))) }
+}
+
+/// The detector's estimate at the end of every step of 1/240 s, and at the end of the recording.
+pub fn steps(recording: &Recording) -> Vec<(f64, BlowEstimate)> {
+    let mut detector = BlowDetector::new(recording.sample_rate);
+    let mut feed = WavFeed::from(recording);
+    let mut rows = Vec::new();
+    while !feed.is_over() {
+        feed.microphone().reach(&mut detector);
+        rows.push(((rows.len() + 1) as f64 / STEPS_PER_SECOND as f64, detector.estimate()));
+    }
+    rows
+}
+
+/// Sums up the steps of one recording.
+pub fn summarise(file: String, steps: &[(f64, BlowEstimate)]) -> Summary {
+    let blowing = || steps.iter().filter(|(_, e)| e.speed > 0.0);
+    let count = blowing().count();
+    let began = |pair: &&[(f64, BlowEstimate)]| pair[0].1.speed == 0.0 && pair[1].1.speed > 0.0;
+    let from_start = steps.first().is_some_and(|(_, e)| e.speed > 0.0);
+    Summary {
+        file,
+        blow: count > 0,
+        onset_s: blowing().next().map(|(t, _)| *t),
+        peak: blowing().map(|(_, e)| e.speed).fold(0.0, f64::max),
+        mean: blowing().fold(0.0, |sum, (_, e)| sum + e.speed) / count.max(1) as f64,
+        seconds_blowing: count as f64 / STEPS_PER_SECOND as f64,
+        triggers: steps.windows(2).filter(began).count() + usize::from(from_start),
+    }
+}
+
+fn write_rows(out: &mut impl Write, steps: &[(f64, BlowEstimate)], reasons: bool) -> std::io::Result<()> {
+    writeln!(out, "t,speed,confidence{}", if reasons { ",reason" } else { "" })?;
+    for (t, estimate) in steps {
+        write!(out, "{t:.6},{:.4},{:.4}", estimate.speed, estimate.confidence)?;
+        if reasons {
+            write!(out, ",{}", word(estimate.reason))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// A reason in a word.
+fn word(reason: Reason) -> &'static str {
+    match reason {
+        Reason::NoSignal => "no-signal",
+        Reason::Settling => "settling",
+        Reason::Quiet => "quiet",
+        Reason::Voiced => "voiced",
+        Reason::MidBand => "mid-band",
+        Reason::Impulse => "impulse",
+        Reason::Waiting => "waiting",
+        Reason::Blow => "blow",
+        Reason::Latched => "latched",
+        Reason::OwnVoice => "own-voice",
+        Reason::Fault => "fault",
+    }
+}

@@ -1,0 +1,64 @@
+//! What the kiosk turns while it plays, and what it reads off: both outlive a loudspeaker that is pulled out.
+//!
+//! One number each, so atomics do: the callback waits for nobody.
+
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+
+/// Volume and night go in, the A-weighted energy of what was played comes out.
+#[derive(Debug)]
+pub struct Knobs {
+    /// Linear, bits of an f32.
+    volume: AtomicU32,
+    night: AtomicBool,
+    /// Sum of power times time, bits of an f64; written by the one loudspeaker that plays.
+    energy: AtomicU64,
+    /// Time of it, s, bits of an f64.
+    seconds: AtomicU64,
+}
+
+impl Knobs {
+    /// At this volume, linear, by day.
+    pub fn new(volume: f32) -> Self {
+        let knobs = Self {
+            volume: AtomicU32::new(0),
+            night: AtomicBool::new(false),
+            energy: AtomicU64::new(0f64.to_bits()),
+            seconds: AtomicU64::new(0f64.to_bits()),
+        };
+        knobs.set_volume(volume);
+        knobs
+    }
+
+    /// Linear, 0 to 1; the loudspeaker glides there.
+    pub fn set_volume(&self, volume: f32) {
+        self.volume.store(volume.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+    }
+
+    /// The night's sound or the day's.
+    pub fn set_night(&self, night: bool) {
+        self.night.store(night, Ordering::Relaxed);
+    }
+
+    /// Power times time ([`soffio_sound::AWeighting::power`], s) of all that was played, and the time, s.
+    pub fn played(&self) -> (f64, f64) {
+        // Read apart they may differ by one block, which no mean over a second shows.
+        let read = |number: &AtomicU64| f64::from_bits(number.load(Ordering::Relaxed));
+        (read(&self.energy), read(&self.seconds))
+    }
+
+    pub(super) fn volume(&self) -> f32 {
+        f32::from_bits(self.volume.load(Ordering::Relaxed))
+    }
+
+    pub(super) fn night(&self) -> bool {
+        self.night.load(Ordering::Relaxed)
+    }
+
+    /// A block was played.
+    pub(super) fn note(&self, energy: f64, seconds: f64) {
+        for (number, more) in [(&self.energy, energy), (&self.seconds, seconds)] {
+            let sum = f64::from_bits(number.load(Ordering::Relaxed)) + more;
+            number.store(sum.to_bits(), Ordering::Relaxed);
+        }
+    }
+}

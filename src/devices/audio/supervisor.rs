@@ -1,0 +1,532 @@
+//! Opens the devices, watches them, opens them again.
+//!
+//! Streams live and die on this thread alone. A device is given up when its error callback says so, or when it has not
+//! asked for a block for [`STALLED`]: some drivers die without a word. Then it is tried again after 1, 2, 4, 8, 10, 10, … s.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use cpal::traits::{DeviceTrait, StreamTrait};
+use cpal::{BufferSize, Device, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
+use cpu_time::ThreadTime;
+
+use super::devices::{Chosen, Direction, choose, is_present};
+use super::hearing::{self, Hearing};
+use super::input::{self, Ears, Recorder};
+use super::output::{self, Engine, Player, Voice, Workshop};
+use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SynthFactory};
+use soffio_config::remedies;
+use soffio_math::from_decibels;
+
+/// Between two looks at the devices.
+const LOOK: Duration = Duration::from_millis(100);
+/// A device that asks for no block for this long is lost.
+const STALLED: Duration = Duration::from_secs(3);
+/// Between two looks whether the device is still listed.
+const ROLL_CALL: Duration = Duration::from_secs(1);
+/// From so many blocks on their length is judged.
+const ENOUGH_BLOCKS: u64 = 50;
+/// The first pause before a device is tried again, and the longest: whoever plugs it in again waits for three seconds at
+/// most.
+const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(2));
+
+/// Where this is set, the loudspeaker's callback measures its processor time, for the log's last line.
+const MEASURE: &str = "SOFFIO_MEASURE_CALLBACK";
+
+/// What the kiosk asks of the supervisor.
+pub(super) enum Request {
+    /// Other instruments.
+    Instruments { synth: SynthFactory, generation: u64 },
+    /// The microphone open, or closed.
+    Listen(bool),
+    /// The end.
+    Stop,
+}
+
+/// The kiosk's end of a device that was opened; `None` when it was lost.
+pub(super) enum Link {
+    Microphone(Option<Ears>),
+    Loudspeaker(Option<Voice>),
+}
+
+/// What the callbacks of one stream report.
+#[derive(Default)]
+struct Health {
+    /// Blocks so far.
+    blocks: AtomicU64,
+    /// Frames of the longest block.
+    longest: AtomicU64,
+    /// Gaps so far.
+    xruns: AtomicU64,
+    /// Greatest share of its own time that a block took of a processor, millionths; only where it is measured.
+    worst: AtomicU64,
+    /// Why the stream is over.
+    lost: OnceLock<String>,
+}
+
+impl Health {
+    /// A callback had so many frames.
+    fn block(&self, frames: usize) {
+        self.blocks.fetch_add(1, Ordering::Relaxed);
+        self.longest.fetch_max(frames as u64, Ordering::Relaxed);
+    }
+
+    /// A callback of so many frames took so much processor time, s.
+    fn worked(&self, seconds: f64, frames: usize, sample_rate: u32) {
+        let share = 1e6 * seconds * f64::from(sample_rate) / frames.max(1) as f64;
+        self.worst.fetch_max(share as u64, Ordering::Relaxed);
+    }
+
+    fn report(&self, error: &cpal::Error) {
+        match error.kind() {
+            ErrorKind::Xrun => {
+                self.xruns.fetch_add(1, Ordering::Relaxed);
+            }
+            // The stream goes on: on another device, or at ordinary priority.
+            ErrorKind::DeviceChanged | ErrorKind::RealtimeDenied => {}
+            _ => {
+                // Only the first reason counts. The stream is over, so this thread may allocate.
+                let _ = self.lost.set(error.to_string());
+            }
+        }
+    }
+}
+
+/// One device over all its lives.
+struct Line {
+    direction: Direction,
+    /// Of the device that is open.
+    id: String,
+    called: Instant,
+    stream: Option<Stream>,
+    health: Arc<Health>,
+    seen: (u64, Instant),
+    retry_at: Instant,
+    pause: Duration,
+    /// Hz.
+    sample_rate: u32,
+    /// Has the log been told how long its blocks are?
+    told: bool,
+    /// Gaps of earlier lives.
+    xruns: u64,
+}
+
+impl Line {
+    fn new(direction: Direction) -> Self {
+        let now = Instant::now();
+        let (health, seen) = (Arc::default(), (0, now));
+        Self {
+            direction,
+            id: String::new(),
+            called: now,
+            stream: None,
+            health,
+            seen,
+            retry_at: now,
+            pause: BACK_OFF.0,
+            sample_rate: 1,
+            told: false,
+            xruns: 0,
+        }
+    }
+
+    fn xruns(&self) -> u64 {
+        self.xruns + self.health.xruns.load(Ordering::Relaxed)
+    }
+
+    /// Length of its longest block, ms: told once in a life, when there were enough of them to judge.
+    fn tell_block(&mut self) -> Option<f64> {
+        if self.told || self.health.blocks.load(Ordering::Relaxed) < ENOUGH_BLOCKS {
+            return None;
+        }
+        self.told = true;
+        Some(1e3 * self.health.longest.load(Ordering::Relaxed) as f64 / f64::from(self.sample_rate))
+    }
+
+    /// Why the stream is over, if it is.
+    fn lost(&mut self) -> Option<String> {
+        self.stream.as_ref()?;
+        if let Some(reason) = self.health.lost.get() {
+            return Some(reason.clone());
+        }
+        let blocks = self.health.blocks.load(Ordering::Relaxed);
+        if blocks != self.seen.0 {
+            self.seen = (blocks, Instant::now());
+            // It works: the next trouble is a new one.
+            self.pause = BACK_OFF.0;
+        } else if self.seen.1.elapsed() > STALLED {
+            return Some(format!("the device stood still for {} s", STALLED.as_secs()));
+        }
+        if self.called.elapsed() > ROLL_CALL {
+            self.called = Instant::now();
+            if !is_present(self.direction, &self.id) {
+                return Some("it was pulled out".into());
+            }
+        }
+        None
+    }
+
+    fn give_up(&mut self) {
+        self.xruns = self.xruns();
+        self.stream = None;
+        self.health = Arc::default();
+        self.retry_at = Instant::now() + self.pause;
+        self.pause = (self.pause * 2).min(BACK_OFF.1);
+    }
+
+    fn due(&self) -> bool {
+        self.stream.is_none() && Instant::now() >= self.retry_at
+    }
+
+    fn opened(&mut self, stream: Stream, id: String, sample_rate: u32) {
+        self.stream = Some(stream);
+        (self.id, self.called) = (id, Instant::now());
+        (self.sample_rate, self.told) = (sample_rate, false);
+        self.seen = (0, Instant::now());
+    }
+}
+
+pub(super) struct Supervisor {
+    settings: AudioSettings,
+    listens: bool,
+    synth: SynthFactory,
+    generation: u64,
+    inbox: Receiver<Request>,
+    links: Sender<Link>,
+    status: Arc<Mutex<AudioStatus>>,
+    knobs: Arc<Knobs>,
+    microphone: Line,
+    loudspeaker: Line,
+    hearing_loop: Line,
+    /// The opening of the loudspeaker that the second output hears.
+    follows: u64,
+    openings: u64,
+    workshop: Option<(Workshop, u32)>,
+}
+
+impl Supervisor {
+    pub fn new(
+        (settings, listens): (AudioSettings, bool),
+        synth: SynthFactory,
+        inbox: Receiver<Request>,
+        links: Sender<Link>,
+        status: Arc<Mutex<AudioStatus>>,
+        knobs: Arc<Knobs>,
+    ) -> Self {
+        Self {
+            settings,
+            listens,
+            synth,
+            generation: 0,
+            inbox,
+            links,
+            status,
+            knobs,
+            microphone: Line::new(Direction::Input),
+            loudspeaker: Line::new(Direction::Output),
+            hearing_loop: Line::new(Direction::Output),
+            follows: 0,
+            openings: 0,
+            workshop: None,
+        }
+    }
+
+    /// Until the kiosk stops.
+    pub fn run(mut self) {
+        loop {
+            self.tend_loudspeaker();
+            self.tend_microphone();
+            self.tend_hearing_loop();
+            for (name, line) in [("microphone", &mut self.microphone), ("loudspeaker", &mut self.loudspeaker)] {
+                if let Some(length) = line.tell_block() {
+                    tracing::info!("{name} in blocks of {length:.1} ms");
+                }
+            }
+            let xruns = self.microphone.xruns() + self.loudspeaker.xruns();
+            self.tell(|status| status.xruns = xruns);
+            match self.inbox.recv_timeout(LOOK) {
+                Ok(Request::Instruments { synth, generation }) => {
+                    (self.synth, self.generation) = (synth, generation);
+                    self.install_synth();
+                }
+                Ok(Request::Listen(listens)) => self.listens = listens,
+                Ok(Request::Stop) | Err(RecvTimeoutError::Disconnected) => break,
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Some((workshop, _)) = &mut self.workshop {
+                        workshop.clear();
+                    }
+                }
+            }
+        }
+        let health = &self.loudspeaker.health;
+        let blocks = health.blocks.load(Ordering::Relaxed);
+        let worst = health.worst.load(Ordering::Relaxed) as f64 / 1e4;
+        if std::env::var_os(MEASURE).is_some() {
+            let xruns = self.loudspeaker.xruns();
+            tracing::info!("loudspeaker: {blocks} blocks, xruns: {xruns}, the worst took {worst:.2} % of its time");
+        }
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut AudioStatus)) {
+        change(&mut self.status.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// Passes an end to the kiosk; when the kiosk is gone, `Stop` is on its way.
+    fn link(&self, link: Link) {
+        let _ = self.links.send(link);
+    }
+
+    fn install_synth(&mut self) {
+        if let Some((workshop, rate)) = &mut self.workshop {
+            let synth = Box::new((self.synth)(*rate));
+            workshop.exchange(Some(Engine { synth, generation: self.generation }));
+        }
+    }
+
+    fn tend_loudspeaker(&mut self) {
+        if let Some(reason) = self.loudspeaker.lost() {
+            tracing::warn!("loudspeaker lost: {reason}");
+            self.loudspeaker.give_up();
+            self.workshop = None;
+            self.link(Link::Loudspeaker(None));
+            self.tell(|status| status.output = DeviceState::Missing(reason));
+        }
+        if !self.loudspeaker.due() {
+            return;
+        }
+        let result = choose(Direction::Output, &self.settings.loudspeaker, self.settings.block_ms).and_then(|chosen| {
+            let Chosen { device, id, name, config, format } = chosen;
+            let open = |config: StreamConfig| {
+                let (player, voice, workshop) =
+                    output::open(config.sample_rate, config.channels.into(), self.knobs.clone());
+                let stream = play(&device, config, format, player, self.loudspeaker.health.clone())?;
+                Ok((stream, voice, workshop))
+            };
+            let (stream, voice, workshop) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, voice, workshop, id, name, config.sample_rate))
+        });
+        match result {
+            Ok((stream, voice, workshop, id, name, sample_rate)) => {
+                tracing::info!("loudspeaker: {name}, {sample_rate} Hz");
+                self.loudspeaker.opened(stream, id, sample_rate);
+                self.workshop = Some((workshop, sample_rate));
+                self.openings += 1;
+                self.install_synth();
+                self.link(Link::Loudspeaker(Some(voice)));
+                self.tell(|status| {
+                    status.output = DeviceState::Ok { name, sample_rate };
+                    status.openings += 1;
+                });
+            }
+            Err(reason) => {
+                self.loudspeaker.give_up();
+                self.tell(|status| status.output = DeviceState::Missing(reason));
+            }
+        }
+    }
+
+    /// The second output follows the loudspeaker that is open; neither opening nor losing it touches the first.
+    fn tend_hearing_loop(&mut self) {
+        let wanted = self.settings.hearing_loop.trim();
+        if wanted.is_empty() {
+            return;
+        }
+        let lost = match &self.workshop {
+            None => Some("waits for the loudspeaker".to_owned()),
+            Some(_) if self.follows != self.openings => Some("the loudspeaker is another one".into()),
+            Some(_) => self.hearing_loop.lost(),
+        };
+        if let Some(reason) = lost {
+            if self.hearing_loop.stream.is_some() {
+                tracing::warn!("hearing loop closed: {reason}");
+                self.hearing_loop.give_up();
+            }
+            self.follows = self.openings;
+            self.tell(|status| status.hearing_loop = Some(DeviceState::Missing(reason)));
+        }
+        let Some((workshop, from_rate)) = self.workshop.as_mut().filter(|_| self.hearing_loop.due()) else { return };
+        let gain = from_decibels(self.settings.hearing_loop_db) as f32;
+        let result = choose(Direction::Output, wanted, self.settings.block_ms).and_then(|chosen| {
+            let Chosen { device, id, name, config, format } = chosen;
+            let open = |config: StreamConfig| {
+                let (tail, hearing) = hearing::open(*from_rate, config.sample_rate, config.channels.into(), gain);
+                Ok((play(&device, config, format, hearing, self.hearing_loop.health.clone())?, tail))
+            };
+            let (stream, tail) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, tail, id, name, config.sample_rate))
+        });
+        let state = match result {
+            Ok((stream, tail, id, name, sample_rate)) => {
+                tracing::info!("hearing loop: {name}, {sample_rate} Hz");
+                self.hearing_loop.opened(stream, id, sample_rate);
+                workshop.lead(tail);
+                DeviceState::Ok { name, sample_rate }
+            }
+            Err(reason) => {
+                self.hearing_loop.give_up();
+                DeviceState::Missing(reason)
+            }
+        };
+        self.tell(|status| status.hearing_loop = Some(state));
+    }
+
+    fn tend_microphone(&mut self) {
+        if !self.listens {
+            return self.close_microphone();
+        }
+        if let Some(reason) = self.microphone.lost() {
+            tracing::warn!("microphone lost: {reason}");
+            self.microphone.give_up();
+            self.link(Link::Microphone(None));
+            self.tell(|status| (status.input, status.capsules) = (DeviceState::Missing(reason), 0));
+        }
+        if !self.microphone.due() {
+            return;
+        }
+        let result = choose(Direction::Input, &self.settings.microphone, self.settings.block_ms).and_then(|chosen| {
+            let Chosen { device, id, name, config, format } = chosen;
+            let open = |config: StreamConfig| {
+                let wanted = [self.settings.microphone_channel, self.settings.second_capsule_channel];
+                let (recorder, ears) = input::open(config.sample_rate, config.channels.into(), wanted);
+                Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, ears))
+            };
+            let (stream, ears) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, ears, id, name, config.sample_rate))
+        });
+        match result {
+            Ok((stream, ears, id, name, sample_rate)) => {
+                let capsules = ears.capsules();
+                tracing::info!("microphone: {name}, {sample_rate} Hz, capsules: {capsules}");
+                if capsules < 2 && self.settings.second_capsule_channel > 0 {
+                    tracing::warn!("no second capsule: {}", remedies::NO_SECOND_CAPSULE);
+                }
+                self.microphone.opened(stream, id, sample_rate);
+                self.link(Link::Microphone(Some(ears)));
+                self.tell(|status| (status.input, status.capsules) = (DeviceState::Ok { name, sample_rate }, capsules));
+            }
+            Err(reason) => {
+                self.microphone.give_up();
+                self.tell(|status| status.input = DeviceState::Missing(reason));
+            }
+        }
+    }
+}
+
+impl Supervisor {
+    /// The stream ends, so that the system shows nobody listening; it is opened at once when it is wanted again.
+    fn close_microphone(&mut self) {
+        if self.microphone.stream.is_some() {
+            tracing::info!("microphone closed");
+            self.microphone.give_up();
+            self.link(Link::Microphone(None));
+        }
+        (self.microphone.retry_at, self.microphone.pause) = (Instant::now(), BACK_OFF.0);
+        self.tell(|status| (status.input, status.capsules) = (DeviceState::Closed, 0));
+    }
+}
+
+/// With the block that is wanted, or else with the device's own: some drivers promise more than they keep.
+fn with_any_block<T>(
+    config: StreamConfig,
+    mut open: impl FnMut(StreamConfig) -> Result<T, cpal::Error>,
+) -> Result<T, cpal::Error> {
+    open(config).or_else(|_| open(StreamConfig { buffer_size: BufferSize::Default, ..config }))
+}
+
+/// What an output's callback calls.
+trait Plays: Send + 'static {
+    fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]);
+}
+
+impl Plays for Player {
+    fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
+        Player::play(self, data);
+    }
+}
+
+impl Plays for Hearing {
+    fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
+        Hearing::play(self, data);
+    }
+}
+
+fn play(
+    device: &Device,
+    config: StreamConfig,
+    format: SampleFormat,
+    player: impl Plays,
+    health: Arc<Health>,
+) -> Result<Stream, cpal::Error> {
+    fn build<T: SizedSample + FromSample<f32>>(
+        device: &Device,
+        config: StreamConfig,
+        mut player: impl Plays,
+        health: Arc<Health>,
+    ) -> Result<Stream, cpal::Error> {
+        let errors = health.clone();
+        let channels = usize::from(config.channels).max(1);
+        // Asking the time of a thread is a system call, so it is asked only in a test of it.
+        let measured = std::env::var_os(MEASURE).is_some();
+        let callback = move |data: &mut [T], _: &cpal::OutputCallbackInfo| {
+            let before = measured.then(ThreadTime::now);
+            player.play(data);
+            if let Some(before) = before {
+                health.worked(before.elapsed().as_secs_f64(), data.len() / channels, config.sample_rate);
+            }
+            health.block(data.len() / channels);
+        };
+        let stream = device.build_output_stream(config, callback, move |error| errors.report(&error), None)?;
+        stream.play()?;
+        Ok(stream)
+    }
+    match format {
+        SampleFormat::F32 => build::<f32>(device, config, player, health),
+        SampleFormat::F64 => build::<f64>(device, config, player, health),
+        SampleFormat::I32 => build::<i32>(device, config, player, health),
+        SampleFormat::I24 => build::<cpal::I24>(device, config, player, health),
+        SampleFormat::I16 => build::<i16>(device, config, player, health),
+        SampleFormat::U16 => build::<u16>(device, config, player, health),
+        SampleFormat::U8 => build::<u8>(device, config, player, health),
+        _ => Err(ErrorKind::UnsupportedConfig.into()),
+    }
+}
+
+fn record(
+    device: &Device,
+    config: StreamConfig,
+    format: SampleFormat,
+    recorder: Recorder,
+    health: Arc<Health>,
+) -> Result<Stream, cpal::Error> {
+    fn build<T: SizedSample>(
+        device: &Device,
+        config: StreamConfig,
+        mut recorder: Recorder,
+        health: Arc<Health>,
+    ) -> Result<Stream, cpal::Error>
+    where
+        f32: FromSample<T>,
+    {
+        let errors = health.clone();
+        let channels = usize::from(config.channels).max(1);
+        let callback = move |data: &[T], _: &cpal::InputCallbackInfo| {
+            recorder.record(data);
+            health.block(data.len() / channels);
+        };
+        let stream = device.build_input_stream(config, callback, move |error| errors.report(&error), None)?;
+        stream.play()?;
+        Ok(stream)
+    }
+    match format {
+        SampleFormat::F32 => build::<f32>(device, config, recorder, health),
+        SampleFormat::F64 => build::<f64>(device, config, recorder, health),
+        SampleFormat::I32 => build::<i32>(device, config, recorder, health),
+        SampleFormat::I24 => build::<cpal::I24>(device, config, recorder, health),
+        SampleFormat::I16 => build::<i16>(device, config, recorder, health),
+        SampleFormat::U16 => build::<u16>(device, config, recorder, health),
+        SampleFormat::U8 => build::<u8>(device, config, recorder, health),
+        _ => Err(ErrorKind::UnsupportedConfig.into()),
+    }
+}

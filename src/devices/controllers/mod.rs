@@ -1,0 +1,247 @@
+//! Other ways to blow and to aim than microphone and glass: gamepads, MIDI breath controllers, OSC, a serial line.
+//!
+//! ```text
+//! one thread a driver:  open → listen → (lost) → wait 1, 2, 4, 8, 10, 10, … s → open …
+//!                               └→ its slot ─┐
+//! kiosk thread                  Controllers::reading() joins all slots: the strongest breath, every stick, any button
+//! ```
+//!
+//! Invariant: a driver that is lost leaves nothing behind; its slot is emptied before it is opened again. A device that
+//! is not there is no fault: somebody may plug it in tomorrow.
+
+mod gamepad;
+mod midi;
+mod osc;
+mod serial;
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+pub use soffio_config::{ControllerKind, ControllerSettings};
+
+/// The first pause before a driver is opened again, and the longest, s.
+const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(10));
+/// Weaker than this a controller is at rest.
+const FAINTEST: f64 = 0.02;
+/// How long a driver may wait for news before it looks whether the kiosk ends.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// What the controllers say now.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// How hard is blown, 0 … 1.
+    pub strength: f64,
+    /// Is a button held that blows?
+    pub hold: bool,
+    /// Where a stick points, right and down, −1 … 1 each: the aim moves that way.
+    pub stick: [f64; 2],
+    /// A place that was named, picture coordinates, and how many were named so far.
+    pub aim: Option<([f64; 2], u64)>,
+    /// Inputs so far: whoever sees it grow knows that somebody is there.
+    pub activity: u64,
+}
+
+impl Reading {
+    /// A strength, if it is a number; its change is an input. A sensor at rest trembles: that is nobody.
+    fn blow(&mut self, strength: f64) {
+        let strength = if strength >= FAINTEST { strength.min(1.0) } else { 0.0 };
+        self.activity += u64::from(strength != self.strength);
+        self.strength = strength;
+    }
+
+    /// A button that blows.
+    fn press(&mut self, down: bool) {
+        self.activity += u64::from(down != self.hold);
+        self.hold = down;
+    }
+
+    /// One axis of a stick (0 right, 1 down).
+    fn tilt(&mut self, axis: usize, value: f64) {
+        let value = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
+        self.activity += u64::from(value != self.stick[axis]);
+        self.stick[axis] = value;
+    }
+
+    /// A place on the picture.
+    fn point(&mut self, at: [f64; 2]) {
+        if at.iter().all(|x| x.is_finite()) {
+            let count = self.aim.map_or(0, |(_, count)| count) + 1;
+            self.aim = Some((at.map(|x| x.clamp(0.0, 1.0)), count));
+            self.activity += 1;
+        }
+    }
+
+    /// The device is gone: what it held is let go of.
+    fn let_go(&mut self) {
+        *self = Self { activity: self.activity, aim: self.aim, ..Self::default() };
+    }
+
+    /// Two devices as one.
+    fn join(self, other: Self) -> Self {
+        let count = |reading: &Self| reading.aim.map_or(0, |(_, count)| count);
+        Self {
+            strength: self.strength.max(other.strength),
+            hold: self.hold || other.hold,
+            stick: std::array::from_fn(|i| (self.stick[i] + other.stick[i]).clamp(-1.0, 1.0)),
+            aim: if count(&other) > count(&self) { other.aim } else { self.aim },
+            activity: self.activity + other.activity,
+        }
+    }
+}
+
+/// A driver's place among the readings.
+#[derive(Clone, Default)]
+struct Slot(Arc<Mutex<Reading>>);
+
+impl Slot {
+    fn update(&self, change: impl FnOnce(&mut Reading)) {
+        change(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    fn read(&self) -> Reading {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// One kind of controller, on a thread of its own.
+trait Driver {
+    /// Opens what there is; what it listens to, or why it does not.
+    fn open(&mut self, slot: &Slot) -> Result<String, String>;
+
+    /// Waits up to `wait` for news and enters them. An error: it is lost, and this is why.
+    fn listen(&mut self, slot: &Slot, wait: Duration) -> Result<(), String>;
+}
+
+/// All controllers of a kiosk.
+pub struct Controllers {
+    slots: Vec<Slot>,
+    states: Vec<(ControllerKind, Arc<Mutex<State>>)>,
+    stop: Arc<AtomicBool>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+/// How one driver is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Listens to this.
+    Listening(String),
+    /// There is nothing to listen to, for this reason; it is looked for again and again.
+    Waiting(String),
+}
+
+impl Controllers {
+    /// Starts to look for all controllers that the site wants, and returns at once.
+    pub fn start(settings: &ControllerSettings) -> Self {
+        let stop = Arc::new(AtomicBool::new(false));
+        let (mut slots, mut states, mut threads) = (Vec::new(), Vec::new(), Vec::new());
+        for &kind in &settings.listen {
+            let (slot, state) = (Slot::default(), Arc::new(Mutex::new(State::Waiting("starting".into()))));
+            let theirs = (settings.clone(), slot.clone(), state.clone(), stop.clone());
+            let thread = std::thread::Builder::new().name(kind.name().into()).spawn(move || {
+                let (settings, slot, state, stop) = theirs;
+                tend(kind, driver(kind, &settings).as_mut(), &slot, &state, &stop);
+            });
+            match thread {
+                Ok(thread) => threads.push(thread),
+                Err(error) => tracing::error!("{}: no thread for it: {error}", kind.name()),
+            }
+            slots.push(slot);
+            states.push((kind, state));
+        }
+        Self { slots, states, stop, threads }
+    }
+
+    /// What all of them say now, as one.
+    pub fn reading(&self) -> Reading {
+        self.slots.iter().map(Slot::read).fold(Reading::default(), Reading::join)
+    }
+
+    /// How each of them is.
+    pub fn states(&self) -> impl Iterator<Item = (ControllerKind, State)> {
+        self.states.iter().map(|(kind, state)| (*kind, state.lock().unwrap_or_else(PoisonError::into_inner).clone()))
+    }
+}
+
+impl Drop for Controllers {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        for thread in self.threads.drain(..) {
+            // It has nothing to say; a panic of it was printed when it happened.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn driver(kind: ControllerKind, settings: &ControllerSettings) -> Box<dyn Driver> {
+    match kind {
+        ControllerKind::Gamepad => Box::new(gamepad::Gamepads::default()),
+        ControllerKind::Midi => Box::new(midi::Midi::new(&settings.midi, settings.midi_controller)),
+        ControllerKind::Osc => Box::new(osc::Osc::new(&settings.osc)),
+        ControllerKind::Serial => Box::new(serial::Serial::new(&settings.serial, settings.serial_baud)),
+    }
+}
+
+/// The life of a driver: opened, listened to, lost, opened again.
+fn tend(kind: ControllerKind, driver: &mut dyn Driver, slot: &Slot, state: &Mutex<State>, stop: &AtomicBool) {
+    let tell = |new: State| {
+        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+        if *state != new {
+            match &new {
+                State::Listening(to) => tracing::info!("{}: listens to {to}", kind.name()),
+                State::Waiting(reason) => tracing::info!("{}: {reason}", kind.name()),
+            }
+            *state = new;
+        }
+    };
+    let mut pause = BACK_OFF.0;
+    while !stop.load(Ordering::Relaxed) {
+        match driver.open(slot) {
+            Ok(name) => {
+                tell(State::Listening(name));
+                pause = BACK_OFF.0;
+                let lost = loop {
+                    if stop.load(Ordering::Relaxed) {
+                        return;
+                    }
+                    if let Err(reason) = driver.listen(slot, LOOK) {
+                        break reason;
+                    }
+                };
+                slot.update(Reading::let_go);
+                tell(State::Waiting(lost));
+            }
+            Err(reason) => tell(State::Waiting(reason)),
+        }
+        let mut waited = Duration::ZERO;
+        while waited < pause && !stop.load(Ordering::Relaxed) {
+            std::thread::sleep(LOOK);
+            waited += LOOK;
+        }
+        pause = (pause * 2).min(BACK_OFF.1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_devices_are_one_visitor() {
+        let (mut pad, mut pipe) = (Reading::default(), Reading::default());
+        pad.tilt(0, 0.8);
+        pad.press(true);
+        pipe.blow(0.4);
+        pipe.point([0.2, 3.0]);
+        let both = pad.join(pipe);
+        let expected =
+            Reading { strength: 0.4, hold: true, stick: [0.8, 0.0], aim: Some(([0.2, 1.0], 1)), activity: 4 };
+        assert_eq!(both, expected);
+        pad.let_go();
+        assert_eq!((pad.hold, pad.stick, pad.activity), (false, [0.0; 2], 2), "a lost pad holds nothing");
+        pipe.blow(f64::NAN);
+        pipe.point([f64::NAN, 0.0]);
+        assert_eq!((pipe.strength, pipe.aim), (0.0, Some(([0.2, 1.0], 1))));
+    }
+}

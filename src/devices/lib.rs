@@ -1,0 +1,4 @@
+//! What the kiosk hears, plays and is played by.
+
+pub mod audio;
+pub mod controllers;

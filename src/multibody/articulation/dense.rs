@@ -1,0 +1,103 @@
+//! The dense reference: all rows in one matrix, without regard to who hangs on whom.
+//!
+//! ```text
+//! (J M⁻¹ Jᵀ + Γ) λ = g − J M⁻¹ b          a = M⁻¹ (b + Jᵀ λ)
+//! ```
+//!
+//! by Cholesky with the pivots of redundant rows left out. O((rows)³): for tests and for figures of a few bodies.
+
+use super::cholesky::Cholesky;
+use super::loops::{GATHERING, LoopRow};
+use super::quads::Quads;
+use soffio_math::spatial::Articulated;
+use soffio_math::spatial::{Mat6, Vec6, add_scaled, dot, inverse, mul};
+
+/// A pivot below this share of its row's answer alone says that the row repeats earlier ones.
+const REDUNDANT: f64 = 1e-11;
+
+/// Factor of the dense system. Its rows are given as [`LoopRow`]s, which know no tree.
+#[derive(Clone, Debug)]
+pub struct Dense {
+    /// Every row that there may be, joints and couplings alike.
+    pub rows: Vec<LoopRow>,
+    driven: Vec<bool>,
+    inverse: Vec<Mat6>,
+    active: Vec<usize>,
+    factor: Cholesky,
+    mu: Vec<f64>,
+}
+
+impl Dense {
+    /// Room for these rows.
+    pub fn new(rows: Vec<LoopRow>, driven: &[bool]) -> Self {
+        let n = rows.len();
+        Self {
+            driven: driven.to_vec(),
+            inverse: vec![[[0.0; 6]; 6]; driven.len()],
+            active: Vec::with_capacity(n),
+            factor: Cholesky::with_room(n, REDUNDANT),
+            mu: vec![0.0; n],
+            rows,
+        }
+    }
+
+    /// Was this row found to repeat others at the last factorisation?
+    pub fn is_redundant(&self, row: usize) -> bool {
+        self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
+    }
+
+    /// Factors J M⁻¹ Jᵀ + Γ for the active rows. Does the figure gather?
+    pub fn factor(&mut self, quads: &Quads, gathering: bool) {
+        for (body, inverted) in self.inverse.iter_mut().enumerate() {
+            *inverted = inverse(&Articulated::alone(quads.mass(body), quads.inertia(body)).matrix());
+        }
+        self.active.clear();
+        self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
+        let n = self.active.len();
+        self.factor.begin(n);
+        for i in 0..n {
+            for j in 0..=i {
+                let (r, s) = (&self.rows[self.active[i]], &self.rows[self.active[j]]);
+                let mut sum = 0.0;
+                for (body, block) in &r.parts {
+                    for (other, against) in &s.parts {
+                        if body == other && !self.driven[*body] {
+                            sum += dot(block, &mul(&self.inverse[*body], against));
+                        }
+                    }
+                }
+                *self.factor.entry(i, j) = sum;
+            }
+            let alone = *self.factor.entry(i, i);
+            self.factor.measure(i, alone);
+            *self.factor.entry(i, i) += if gathering { GATHERING * alone } else { 0.0 };
+            self.rows[self.active[i]].add_compliance(i, &mut self.factor);
+        }
+        self.factor.factor();
+    }
+
+    /// Solves for `a` and `lambda`; the `a` of driven bodies must be given.
+    pub fn solve(&mut self, b: &mut [Vec6], g: &[f64], a: &mut [Vec6], lambda: &mut [f64]) {
+        for body in (0..b.len()).filter(|&body| !self.driven[body]) {
+            a[body] = mul(&self.inverse[body], &b[body]);
+        }
+        let n = self.active.len();
+        for k in 0..n {
+            let row = &self.rows[self.active[k]];
+            self.mu[k] = g[row.at] - row.parts.iter().map(|(body, block)| dot(block, &a[*body])).sum::<f64>();
+        }
+        self.factor.solve(&mut self.mu[..n]);
+        for k in 0..n {
+            let row = &self.rows[self.active[k]];
+            lambda[row.at] = self.mu[k];
+            for (body, block) in &row.parts {
+                if !self.driven[*body] {
+                    add_scaled(&mut b[*body], self.mu[k], block);
+                }
+            }
+        }
+        for body in (0..b.len()).filter(|&body| !self.driven[body]) {
+            a[body] = mul(&self.inverse[body], &b[body]);
+        }
+    }
+}

@@ -1,0 +1,436 @@
+//! The tree factor: linear-time solution of the constrained equations of motion.
+//!
+//! # The equations
+//!
+//! With M the block-diagonal mass matrix, J the rows of all joints, Γ ≥ 0 a diagonal compliance (zero for a hard
+//! row), b the impulses or forces and g the wanted J a:
+//!
+//! ```text
+//! M a − Jᵀ λ = b
+//! J a + Γ λ  = g
+//! ```
+//!
+//! # The elimination (D. Baraff, Linear-time dynamics using Lagrange multipliers, SIGGRAPH 1996)
+//!
+//! Bodies are eliminated leaves first; a tree has no fill-in. Let c be a body whose children are gone, A its
+//! articulated mass block, p its parent, J_c and J_p the joint's blocks. From a_c = A⁻¹ (b_c + J_cᵀ λ):
+//!
+//! ```text
+//! K = J_c A⁻¹ J_cᵀ + Γ         W = A⁻¹ J_cᵀ         h = K⁻¹ (g − Wᵀ b_c)
+//! λ = h − X a_p                X = K⁻¹ J_p           A_p += J_pᵀ X        b_p += J_pᵀ h
+//! ```
+//!
+//! (the parent feels J_pᵀ λ = J_pᵀ h − J_pᵀ X a_p). Then, roots first, a_c = A⁻¹ b_c + W λ. The factor
+//! depends on poses and masses only, so one factor serves accelerations, position and velocity projection, friction
+//! and impacts. A body that hangs by one point only goes through `ball.rs`, the same elimination in 3×3 blocks; those of
+//! one depth do not wait for each other and go four at a time (`sweeps.rs`).
+//!
+//! A driven body's a is given: it is ground that moves. Γ need not be diagonal within a joint: `share.rs` says why.
+//!
+//! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
+
+use fearless_simd::Level;
+
+use super::Groups;
+use super::ball::Ball;
+use super::block::{MAX_ROWS, RowBlock, RowSquare, for_rows, pseudo_inverse};
+use super::quads::{Members, Slot};
+use soffio_math::DVec3;
+use soffio_math::lanes::{Four, One, WIDTH};
+use soffio_math::spatial::NUMBERS;
+use soffio_math::spatial::{Mat6, add_scaled, dot, mul};
+
+/// Rows of one joint at one configuration, for the general elimination.
+#[derive(Clone, Debug)]
+pub struct JointRows {
+    /// Used rows, at most [`MAX_ROWS`].
+    pub rows: usize,
+    /// Blocks that multiply the coordinates of the first body.
+    pub a: RowBlock,
+    /// Blocks that multiply the coordinates of the second body; unused where it is the world.
+    pub b: RowBlock,
+    /// Γ, lower triangle; 0 is hard.
+    pub compliance: RowSquare,
+}
+
+impl Default for JointRows {
+    fn default() -> Self {
+        Self { rows: 0, a: [[0.0; 6]; MAX_ROWS], b: [[0.0; 6]; MAX_ROWS], compliance: [[0.0; MAX_ROWS]; MAX_ROWS] }
+    }
+}
+
+/// A joint as the tree needs it now.
+#[derive(Clone, Copy, Debug)]
+pub enum Form<'a> {
+    /// One point, hard: arms from the first and the second body's centre, world axes, m.
+    Point(DVec3, DVec3),
+    /// Any rows.
+    Rows(&'a JointRows),
+}
+
+/// Which bodies a joint connects: the first is always a body, the second may be the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// First body.
+    pub a: usize,
+    /// Second body; `None` is the world.
+    pub b: Option<usize>,
+}
+
+/// How a body hangs in the tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hang {
+    /// Parent body; `None`: the world, or nothing.
+    pub parent: Option<usize>,
+    /// Joint to the parent; `None` for the root of a piece that is not joined to the ground.
+    pub joint: Option<usize>,
+    /// Where the joint's numbers begin in `g` and `lambda`.
+    pub at: usize,
+    /// Is this body the joint's first one?
+    pub first: bool,
+    /// Was the joint a point at the last factorisation?
+    pub ball: bool,
+    /// Joints on the way from the root.
+    depth: usize,
+    /// Does nothing hang on it?
+    pub leaf: bool,
+}
+
+/// What the bodies of a quad hang on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hooks {
+    /// Parents; where there is none, the index after the last body: the world's.
+    pub parents: [usize; WIDTH],
+    /// Their slots.
+    pub slots: [Slot; WIDTH],
+    /// Signs of the joints' rows as seen from these bodies.
+    pub signs: Four,
+    /// Where the joints' numbers begin.
+    pub at: [usize; WIDTH],
+}
+
+/// One step of the elimination.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step {
+    /// The members of a quad, all of one depth, each by one point.
+    Quad(usize),
+    /// A body that hangs by one point, alone at its depth.
+    Point(Slot),
+    /// Any other body.
+    Body(usize),
+}
+
+/// What is kept of a body's general elimination, in the letters of the file's head; `k` holds K⁻¹.
+#[derive(Clone, Debug)]
+pub(super) struct General {
+    pub rows: usize,
+    pub inverse: Mat6,
+    pub jp: RowBlock,
+    pub w: RowBlock,
+    pub k: RowSquare,
+    pub x: RowBlock,
+    pub redundant: u32,
+}
+
+/// Elimination order and factor of an articulated figure.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    pub(super) level: Level,
+    /// Roots first.
+    order: Vec<usize>,
+    /// The same by quads, without what is driven; reversed it is the elimination order. Then those of them whose bodies are awake.
+    pub(super) steps: Vec<Step>,
+    pub(super) awake: Vec<Step>,
+    /// Quads that the factor begins with: those of whom is eliminated, and of what these hang on.
+    pub(super) begun: Vec<usize>,
+    pub(super) hang: Vec<Hang>,
+    pub(super) driven: Vec<bool>,
+    loops: Vec<usize>,
+    pub(super) members: Vec<Members>,
+    pub(super) slots: Vec<Slot>,
+    pub(super) hooks: Vec<Hooks>,
+    /// Articulated masses by bodies, and what hangs on the world, which does not move for it.
+    pub(super) articulated: Vec<[f64; NUMBERS]>,
+    /// By quads.
+    pub(super) balls: Vec<Ball<Four>>,
+    /// Per body, where its joint is ever anything but a point.
+    pub(super) general: Vec<Option<Box<General>>>,
+}
+
+impl Tree {
+    /// The elimination order of bodies joined by `links`: breadth first from the ground (the world and what is
+    /// driven), then each piece that floats from its first body. `at` is where each link's numbers begin, `points`
+    /// whether it is never anything but a point. Links that would close a loop are left out, see [`Tree::loops`].
+    /// `level` says which instructions there are, `groups` which bodies stand beside each other where they may.
+    pub fn new(
+        level: Level,
+        driven: &[bool],
+        links: &[Link],
+        (at, points): (&[usize], &[bool]),
+        groups: &Groups,
+    ) -> Self {
+        let bodies = driven.len();
+        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies];
+        for (joint, link) in links.iter().enumerate() {
+            beside[link.a].push(joint);
+            if let Some(b) = link.b {
+                beside[b].push(joint);
+            }
+        }
+        let root = |joint: Option<usize>| {
+            let at = joint.map_or(0, |j| at[j]);
+            Hang { parent: None, joint, at, first: true, ball: false, depth: 0, leaf: true }
+        };
+        let mut hang: Vec<Option<Hang>> = vec![None; bodies];
+        let mut in_tree = vec![false; links.len()];
+        let mut order = Vec::with_capacity(bodies);
+        for body in (0..bodies).filter(|&body| driven[body]) {
+            hang[body] = Some(root(None));
+            order.push(body);
+        }
+        for (joint, link) in links.iter().enumerate() {
+            if link.b.is_none() && hang[link.a].is_none() {
+                hang[link.a] = Some(root(Some(joint)));
+                in_tree[joint] = true;
+                order.push(link.a);
+            }
+        }
+        let mut head = 0;
+        for piece in 0..=bodies {
+            while head < order.len() {
+                let parent = order[head];
+                head += 1;
+                let depth = hang[parent].map_or(0, |hang| hang.depth) + 1;
+                for &joint in &beside[parent] {
+                    let link = links[joint];
+                    let child = if link.a == parent { link.b } else { Some(link.a) };
+                    let Some(child) = child.filter(|&child| hang[child].is_none()) else { continue };
+                    let (first, at) = (link.a == child, at[joint]);
+                    in_tree[joint] = true;
+                    let (parent, joint) = (Some(parent), Some(joint));
+                    hang[child] = Some(Hang { parent, joint, at, first, ball: false, depth, leaf: true });
+                    order.push(child);
+                }
+            }
+            if piece < bodies && hang[piece].is_none() {
+                hang[piece] = Some(root(None));
+                order.push(piece);
+            }
+        }
+        let mut hang: Vec<Hang> = hang.into_iter().flatten().collect();
+        for (hang, &driven) in hang.iter_mut().zip(driven) {
+            hang.ball = !driven && hang.joint.is_some_and(|joint| points[joint]);
+        }
+        for body in 0..bodies {
+            if let Some(parent) = hang[body].parent {
+                hang[parent].leaf = false;
+            }
+        }
+        // What sleeps is left out quad by quad, so groups share as few as they can; sums come out the same.
+        order.sort_by_key(|&body| (hang[body].depth, groups.first(body)));
+        let blank = || {
+            Box::new(General {
+                rows: 0,
+                inverse: [[0.0; 6]; 6],
+                jp: [[0.0; 6]; MAX_ROWS],
+                w: [[0.0; 6]; MAX_ROWS],
+                k: [[0.0; MAX_ROWS]; MAX_ROWS],
+                x: [[0.0; 6]; MAX_ROWS],
+                redundant: 0,
+            })
+        };
+        let (steps, members) = by_quads(&order, &hang, driven);
+        let world = Slot { quad: members.len(), lane: 0 };
+        let mut slots = vec![world; bodies];
+        for (quad, four) in members.iter().enumerate() {
+            for lane in 0..four.count {
+                slots[four.bodies[lane]] = Slot { quad, lane };
+            }
+        }
+        let hooks = |four: &Members| Hooks {
+            parents: four.bodies.map(|body| hang[body].parent.unwrap_or(bodies)),
+            slots: four.bodies.map(|body| hang[body].parent.map_or(world, |parent| slots[parent])),
+            signs: Four(four.bodies.map(|body| hang[body].sign())),
+            at: four.bodies.map(|body| hang[body].at),
+        };
+        let mut tree = Self {
+            level,
+            begun: Vec::with_capacity(members.len()),
+            general: hang.iter().map(|hang| (!hang.ball).then(blank)).collect(),
+            awake: steps.clone(),
+            steps,
+            hooks: members.iter().map(hooks).collect(),
+            slots,
+            articulated: vec![[0.0; NUMBERS]; bodies + 1],
+            balls: vec![Ball::default(); members.len()],
+            members,
+            order,
+            hang,
+            driven: driven.to_vec(),
+            loops: (0..links.len()).filter(|&joint| !in_tree[joint]).collect(),
+        };
+        tree.look_who_begins();
+        tree
+    }
+
+    /// Leaves out the steps whose bodies all sleep.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        let Self { steps, awake, members, .. } = self;
+        let of = |slot: &Slot| asleep[members[slot.quad].bodies[slot.lane]];
+        let idle = |step: &Step| match step {
+            Step::Quad(quad) => members[*quad].all().iter().all(|&body| asleep[body]),
+            Step::Point(slot) => of(slot),
+            Step::Body(body) => asleep[*body],
+        };
+        awake.clear();
+        awake.extend(steps.iter().filter(|step| !idle(step)));
+        self.look_who_begins();
+    }
+
+    fn look_who_begins(&mut self) {
+        let Self { awake, members, slots, hooks, begun, .. } = self;
+        let needs = |step: &Step, quad: usize| {
+            let (own, lanes) = match *step {
+                Step::Quad(own) => (own, 0..members[own].count),
+                Step::Point(slot) => (slot.quad, slot.lane..slot.lane + 1),
+                Step::Body(body) => (slots[body].quad, slots[body].lane..slots[body].lane + 1),
+            };
+            own == quad || hooks[own].slots[lanes].iter().any(|parent| parent.quad == quad)
+        };
+        begun.clear();
+        begun.extend((0..members.len()).filter(|&quad| awake.iter().any(|step| needs(step, quad))));
+    }
+
+    /// Who stands beside whom.
+    pub fn members(&self) -> &[Members] {
+        &self.members
+    }
+
+    /// Links that close a loop and so are not in the tree.
+    pub fn loops(&self) -> &[usize] {
+        &self.loops
+    }
+
+    /// Rows of a body's joint that repeat others at the last factorisation, as a bit set: they carry no multiplier.
+    pub fn redundant(&self, body: usize) -> u32 {
+        self.general[body].as_ref().filter(|_| !self.hang[body].ball).map_or(0, |f| f.redundant)
+    }
+
+    /// Joint by which a body hangs.
+    pub fn joint_of(&self, body: usize) -> Option<usize> {
+        self.hang[body].joint
+    }
+
+    /// Where a body's numbers are.
+    pub fn slot(&self, body: usize) -> Slot {
+        self.slots[body]
+    }
+
+    /// Where the point is by which a body hangs: arms from the centres of its joint's first and second body, world
+    /// axes, m.
+    pub fn arms(&self, body: usize) -> (DVec3, DVec3) {
+        let Slot { quad, lane } = self.slots[body];
+        let arms = self.balls[quad].arms.get(One(lane));
+        let (own, parent) = (arms.own.into(), arms.parent.into());
+        if self.hang[body].first { (own, parent) } else { (parent, own) }
+    }
+
+    /// Bodies on the ways from these to their roots, roots first.
+    pub fn paths(&self, from: impl Iterator<Item = usize>) -> Vec<usize> {
+        let (mut on, mut ways) = (vec![false; self.hang.len()], Vec::new());
+        self.paths_into(from, &mut on, &mut ways);
+        ways
+    }
+
+    /// The same into `ways`; `on` lends a flag a body.
+    pub fn paths_into(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
+        on.fill(false);
+        for mut body in from {
+            while !on[body] {
+                on[body] = true;
+                match self.hang[body].parent {
+                    Some(parent) => body = parent,
+                    None => break,
+                }
+            }
+        }
+        ways.clear();
+        ways.extend(self.order.iter().copied().filter(|&body| on[body]));
+    }
+
+    /// All bodies, roots first.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+}
+
+/// Steps from the roots, and the quads that they go by: two to four bodies of one depth that hang by a point side by
+/// side, the others in the order in which they come. What is driven is in a quad, but nothing is to be found of it.
+fn by_quads(order: &[usize], hang: &[Hang], driven: &[bool]) -> (Vec<Step>, Vec<Members>) {
+    let (mut steps, mut members) = (Vec::new(), Vec::<Members>::new());
+    let mut open = None;
+    for level in order.chunk_by(|&a, &b| hang[a].depth == hang[b].depth) {
+        let (points, mut others): (Vec<usize>, Vec<usize>) = level.iter().partition(|&&body| hang[body].ball);
+        for four in points.chunks(WIDTH) {
+            let (&first, rest) = four.split_first().unwrap_or((&0, &[]));
+            if rest.is_empty() {
+                others.push(first);
+                continue;
+            }
+            steps.push(Step::Quad(members.len()));
+            let mut quad = Members::first(first);
+            rest.iter().for_each(|&body| quad.push(body));
+            members.push(quad);
+        }
+        for body in others {
+            let quad = match open.filter(|&quad: &usize| members[quad].count < WIDTH) {
+                Some(quad) => {
+                    members[quad].push(body);
+                    quad
+                }
+                None => {
+                    members.push(Members::first(body));
+                    members.len() - 1
+                }
+            };
+            open = Some(quad);
+            let slot = Slot { quad, lane: members[quad].count - 1 };
+            if !driven[body] {
+                steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
+            }
+        }
+    }
+    (steps, members)
+}
+
+impl Hang {
+    /// Rows are written for the joint's first body: their sign as seen from this one.
+    #[inline]
+    pub fn sign(&self) -> f64 {
+        if self.first { 1.0 } else { -1.0 }
+    }
+}
+
+impl General {
+    /// Eliminates a body by these rows; J_p and X only where there is a parent to carry them.
+    #[inline(always)]
+    pub fn eliminate(&mut self, r: &JointRows, first: bool, hangs: bool) {
+        let (jc, jp) = if first { (&r.a, &r.b) } else { (&r.b, &r.a) };
+        self.rows = r.rows.min(MAX_ROWS);
+        for_rows!(self.rows, rows => {
+            for k in 0..rows {
+                self.w[k] = mul(&self.inverse, &jc[k]);
+                for l in 0..=k {
+                    self.k[k][l] = dot(&jc[k], &self.w[l]) + r.compliance[k][l];
+                }
+            }
+            self.redundant = pseudo_inverse(&mut self.k, rows);
+            for k in 0..if hangs { rows } else { 0 } {
+                (self.jp[k], self.x[k]) = (jp[k], [0.0; 6]);
+                for l in 0..rows {
+                    add_scaled(&mut self.x[k], self.k[k][l], &jp[l]);
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,348 @@
+//! Adams' method: what the last steps have learnt spares half of the next one's solves.
+//!
+//! Where accelerations have gone smoothly for three steps, their backward differences say how they go on (Hairer, Nørsett,
+//! Wanner, *Solving Ordinary Differential Equations I*, III.1 and III.10). With a = a(y_n), and ∇, ∇², ∇³ its differences:
+//!
+//! ```text
+//! predict    v* = v + h (a + ∇/2 + 5∇²/12 + 3∇³/8)            x* = x + h v + h² (a/2 + ∇/6 + ∇²/8 + 19∇³/180)
+//! evaluate   a* = a(y*),   ∇* = a* − a,   ∇*² = ∇* − ∇, …
+//! correct    v' = v + h (a* − ∇*/2 − ∇*²/12 − ∇*³/24)         x' = x + h (v + v')/2 − h² ∇*/12
+//! error      e  = 19/720 h ∇*⁴,   as a share of the velocities like that of `integrate.rs`
+//! ```
+//!
+//! Then the joints are closed, and the next step finds the rate there, under its own forces: two evaluations where Runge–Kutta
+//! takes four. Of fourth order as well; a pendulum of phase φ = ω h a step errs by φ⁵/80 in phase and by φ⁶/98 in amplitude (Runge–Kutta: φ⁵/120,
+//! φ⁶/144). A rotation's vector σ, q' = exp(σ) q, is found like x from ω and α, and because turns do not commute less h²/12 ω×ω',
+//! which is all that Magnus' series has to fourth order.
+//!
+//! Wind, resting contacts and friction push evenly for a step and change from one to the next. So a difference is taken within
+//! its step, under the forces of that step, from its beginning to where it was predicted to end, ∇*: what a changed force does at
+//! once is in `a`, and no difference knows of it. Whatever changes the joints, a hit, and a step of another length end the smooth
+//! run; Runge–Kutta begins the next. What else may happen to bodies the error tells.
+
+use super::Dynamics;
+use super::course::Course;
+use super::passes::{Pass, SLOWEST, norm};
+use crate::articulation::ball::Twist;
+use crate::articulation::quads::State;
+use soffio_math::lanes::{Lanes, Quat, Real, V3};
+
+/// Differences that a step goes on from, and room for the one of the present step.
+const ENOUGH: usize = 3;
+pub(super) const KEPT: usize = ENOUGH + 1;
+/// Largest error of a step that this method may do, as a share of the velocities: beyond, Runge–Kutta with its own bounds.
+const SMOOTH: f64 = 1e-7;
+/// ∇⁴'s share in the corrector's error.
+const ERROR: f64 = 19.0 / 720.0;
+
+/// How long the run of steps that differ by little has lasted.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Run {
+    /// Length of its steps, s.
+    h: f64,
+    /// Differences that belong to it, and where the present step's goes.
+    count: usize,
+    head: usize,
+    /// The last step has left one.
+    left: bool,
+}
+
+impl Run {
+    /// A substep begins where the last one ended.
+    pub fn begin(&mut self) {
+        if self.left {
+            self.head = (self.head + 1) % KEPT;
+            self.count = (self.count + 1).min(ENOUGH);
+            self.left = false;
+        }
+    }
+
+    /// Something has happened: what was learnt before says nothing of what comes.
+    pub fn end(&mut self) {
+        (self.count, self.left) = (0, false);
+    }
+
+    /// A step of `h` seconds is done; answers where its difference goes.
+    pub fn goes_by(&mut self, h: f64) -> usize {
+        if self.h != h {
+            self.end();
+            self.h = h;
+        }
+        self.left = true;
+        self.head
+    }
+
+    /// The slots of the last differences, the newest first.
+    fn slots(&self) -> [usize; ENOUGH] {
+        [1, 2, 3].map(|ago| (self.head + KEPT - ago) % KEPT)
+    }
+}
+
+impl Dynamics {
+    /// Moves the bodies from the time `t` by `h`, if they have moved smoothly enough for it; else they stay where they were.
+    pub(super) fn adams(&mut self, t: f64, h: f64) -> bool {
+        if self.run.count < ENOUGH || self.run.h != h {
+            return false;
+        }
+        let slots = self.run.slots();
+        self.ensure_rates(t);
+        self.by_quads(Predict { h, slots });
+        self.accelerate(t + h);
+        self.contacts.weigh(&self.system);
+        self.by_quads(Correct { h, slots, slot: self.run.head });
+        let [error, scale] = self.norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
+        // What is no number is not small.
+        let smooth = error <= SMOOTH * SMOOTH * scale;
+        if smooth {
+            // The corrected state is the predicted one but for an error of fifth order: its factor serves.
+            self.close(t + h, false);
+            self.run.left = true;
+            // It is another method's estimate.
+            self.fourth_step = None;
+        } else {
+            self.run.end();
+            self.back_to_start();
+        }
+        smooth
+    }
+}
+
+/// ∇, ∇² and ∇³ of the last steps.
+#[inline(always)]
+fn differences<L: Lanes>(lanes: L, course: &Course, slots: [usize; ENOUGH]) -> [Twist<L::T>; ENOUGH] {
+    let at = |ago: usize| course.differences[slots[ago]].get(lanes);
+    let (first, second, third) = (at(0), at(1), at(2));
+    let (last, before) = (less(first, second), less(second, third));
+    [first, last, less(last, before)]
+}
+
+#[inline(always)]
+pub(super) fn less<T: Real>(a: Twist<T>, b: Twist<T>) -> Twist<T> {
+    Twist { linear: a.linear - b.linear, angular: a.angular - b.angular }
+}
+
+/// Σ w_i of some vectors.
+#[inline(always)]
+fn sum<T: Real, const N: usize>(vectors: [V3<T>; N], weights: [f64; N]) -> V3<T> {
+    let mut sum = vectors[0] * vectors[0].x.all(weights[0]);
+    for i in 1..N {
+        sum += vectors[i] * vectors[i].x.all(weights[i]);
+    }
+    sum
+}
+
+/// The state that velocities `v`, ω and ways (m, rad) lead to.
+#[inline(always)]
+fn arrived<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, to: Twist<T>, mut way: Twist<T>) -> State<T> {
+    way.angular -= from.spin.cross(to.angular) * from.rotation.w.all(h * h / 12.0);
+    State {
+        position: from.position + way.linear,
+        rotation: Quat::of_turn(lanes, way.angular).times(from.rotation).renormalized(),
+        velocity: to.linear,
+        spin: to.angular,
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Predict {
+    h: f64,
+    slots: [usize; ENOUGH],
+}
+
+impl Pass for Predict {
+    #[inline(always)]
+    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
+        let (members, _) = dynamics.quad(index);
+        let a = dynamics.accelerations(lanes, &members);
+        let course = &mut dynamics.courses[index];
+        course.begun.put(lanes, &a);
+        let (start, h) = (course.start.get(lanes), self.h);
+        let [d, dd, ddd] = differences(lanes, course, self.slots);
+        let speed = |v, a, d, dd, ddd| sum([v, a, d, dd, ddd], [1.0, h, h / 2.0, h * 5.0 / 12.0, h * 3.0 / 8.0]);
+        let way = |v, a, d, dd, ddd| {
+            let h2 = h * h;
+            sum([v, a, d, dd, ddd], [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0])
+        };
+        let to = Twist {
+            linear: speed(start.velocity, a.linear, d.linear, dd.linear, ddd.linear),
+            angular: speed(start.spin, a.angular, d.angular, dd.angular, ddd.angular),
+        };
+        let way = Twist {
+            linear: way(start.velocity, a.linear, d.linear, dd.linear, ddd.linear),
+            angular: way(start.spin, a.angular, d.angular, dd.angular, ddd.angular),
+        };
+        let state = arrived(lanes, &start, h, to, way);
+        dynamics.put(lanes, index, &state);
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Correct {
+    h: f64,
+    slots: [usize; ENOUGH],
+    /// Where the step's own difference goes.
+    slot: usize,
+}
+
+impl Pass for Correct {
+    #[inline(always)]
+    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
+        let (members, quad) = dynamics.quad(index);
+        let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
+        let a = dynamics.accelerations(lanes, &members);
+        let course = &dynamics.courses[index];
+        let (start, h) = (course.start.get(lanes), self.h);
+        let [d, dd, ddd] = differences(lanes, course, self.slots);
+        let first = less(a, course.begun.get(lanes));
+        let second = less(first, d);
+        let third = less(second, dd);
+        let fourth = less(third, ddd);
+        let speed = |v, a, d, dd, ddd| sum([v, a, d, dd, ddd], [1.0, h, -h / 2.0, -h / 12.0, -h / 24.0]);
+        let to = Twist {
+            linear: speed(start.velocity, a.linear, first.linear, second.linear, third.linear),
+            angular: speed(start.spin, a.angular, first.angular, second.angular, third.angular),
+        };
+        let way = |from, to, d| sum([from, to, d], [h / 2.0, h / 2.0, -h * h / 12.0]);
+        let way = Twist {
+            linear: way(start.velocity, to.linear, first.linear),
+            angular: way(start.spin, to.angular, first.angular),
+        };
+        let state = arrived(lanes, &start, h, to, way);
+        let share = mass.all(ERROR * h);
+        let error = norm(mass, &inertia, &Twist { linear: fourth.linear * share, angular: fourth.angular * share });
+        let slowest = mass.all(SLOWEST);
+        let scale = norm(mass, &inertia, &to) + mass * slowest * slowest;
+        dynamics.courses[index].differences[self.slot].put(lanes, &first);
+        dynamics.put(lanes, index, &state);
+        lanes.scatter(members.count, &[error, scale], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::articulation::{Anchor, Constraint, ConstraintKind};
+    use crate::collision::{Collider, Reach, Shape, pairs};
+    use crate::dynamics::forces::Damping;
+    use crate::dynamics::{Figure, Integrator, Resistance, Settings, Solver, SurfacePair};
+    use soffio_geometry::bodies::{MassProperties, RigidBody};
+    use soffio_math::noise::Random;
+    use soffio_math::{DMat3, DVec3, Pose, rotation};
+
+    const G: f64 = 9.81;
+    const DT: f64 = 1.0 / 240.0;
+
+    /// One body, far above a floor.
+    fn figure(body: RigidBody, constraints: &[Constraint], gravity: f64, integrator: Integrator) -> Dynamics {
+        let far = Shape::plane(DVec3::Y * -100.0, DVec3::Y);
+        let collider = |body, shape| Collider { body, shape, material: 0, node: String::new() };
+        let colliders = [collider(Some(0), Shape::sphere(DVec3::ZERO, 1e-3)), collider(None, far)];
+        let surface = |pair| SurfacePair { pair, restitution: 0.0, friction: 0.0, resistance: Resistance::default() };
+        let settings = Settings {
+            gravity: DVec3::Y * -gravity,
+            friction: false,
+            stabilization_time: 0.04,
+            integrator,
+            solver: Solver::Sparse,
+        };
+        let figure = Figure {
+            bodies: vec![body],
+            damping: vec![Damping::default()],
+            constraints,
+            limits: &[],
+            springs: &[],
+            drives: &[],
+            pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
+            colliders: &colliders,
+        };
+        Dynamics::new(figure, settings)
+    }
+
+    fn body(inertia: DVec3, position: DVec3) -> RigidBody {
+        let properties = MassProperties { mass: 0.1, center: DVec3::ZERO, inertia: DMat3::from_diagonal(inertia) };
+        RigidBody::at_rest(properties, Pose { position, ..Pose::IDENTITY })
+    }
+
+    /// So many steps; answers how many of them this method did.
+    fn run(dynamics: &mut Dynamics, dt: f64, steps: usize) -> usize {
+        let mut own = 0;
+        for _ in 0..steps {
+            dynamics.step(dt, &[[0.0; 6]], &mut Vec::new());
+            own += usize::from(dynamics.fourth_step.is_none());
+        }
+        own
+    }
+
+    #[test]
+    fn a_pendulum_errs_in_phase_and_swing_as_the_formula_says() {
+        /// What is left of the formulas: the next order; in the swing also that joints are closed after each step.
+        const SPREAD: [f64; 2] = [0.05, 0.15];
+        const PHI: f64 = 0.07;
+        let omega = PHI / DT;
+        // ω² = m g r/(I + m r²) with I = 3 m r².
+        let arm = G / (4.0 * omega * omega);
+        let nail = |body, point| Anchor { body, point };
+        let kind = ConstraintKind::PointToPoint { a: nail(Some(0), DVec3::Y * arm), b: nail(None, DVec3::ZERO) };
+        let constraints = [Constraint::new("nail", kind)];
+        let [mut own, mut precise] = [Integrator::Auto, Integrator::Precise].map(|integrator| {
+            // Swings so small that they are nothing but sine.
+            let mut rod = body(DVec3::splat(0.3 * arm * arm), DVec3::Y * -arm);
+            rod.velocity = DVec3::X * 4e-4;
+            rod.angular_velocity = DVec3::Z * (4e-4 / arm);
+            figure(rod, &constraints, G, integrator)
+        });
+        let steps = 2000;
+        let done = run(&mut own, DT, steps);
+        assert!(done > steps - 10, "{done} of {steps}");
+        run(&mut precise, DT, steps);
+        let state = |dynamics: &Dynamics| {
+            let (x, v) = (dynamics.bodies[0].position.x * omega, dynamics.bodies[0].velocity.x);
+            (x.atan2(v), x.hypot(v))
+        };
+        let ((phase, swing), (true_phase, true_swing)) = (state(&own), state(&precise));
+        let late = (phase - true_phase) / steps as f64 / soffio_math::pow(PHI, 5.0);
+        let more = (swing / true_swing - 1.0) / steps as f64 / soffio_math::pow(PHI, 6.0);
+        assert!((late.abs() * 80.0 - 1.0).abs() < SPREAD[0], "{late} of φ⁵ a step");
+        assert!((more * 98.0 - 1.0).abs() < SPREAD[1], "{more} of φ⁶ a step");
+    }
+
+    #[test]
+    fn a_spinning_body_is_followed_to_fourth_order() {
+        let lands = |dt: f64, integrator| {
+            let mut top = body(DVec3::new(1e-5, 2e-5, 2.6e-5), DVec3::ZERO);
+            top.rotation = rotation(DVec3::new(0.3, -0.4, 0.5));
+            top.angular_velocity = DVec3::new(1.5, 2.0, -1.2);
+            let mut dynamics = figure(top, &[], 0.0, integrator);
+            let steps = (2.0 / dt).round() as usize;
+            let own = run(&mut dynamics, dt, steps);
+            assert!(integrator != Integrator::Auto || own > steps - 10, "{own} of {steps}");
+            dynamics.bodies[0].rotation
+        };
+        let reference = lands(DT / 4.0, Integrator::Precise);
+        let error = |dt: f64| 2.0 * (reference.conjugate() * lands(dt, Integrator::Auto)).xyz().length();
+        let (coarse, fine) = (error(2.0 * DT), error(DT));
+        // 2⁴, and its own start by Runge–Kutta, which is better.
+        assert!((12.0..22.0).contains(&(coarse / fine)) && fine < 1e-8, "{coarse} and {fine} rad");
+    }
+
+    #[test]
+    fn pushes_that_change_from_step_to_step_do_not_end_the_run_and_a_step_of_another_length_does() {
+        let mut dynamics = figure(body(DVec3::splat(1e-5), DVec3::ZERO), &[], 0.0, Integrator::Auto);
+        let mut random = Random::new(3);
+        let (mut speed, mut place, mut own) = (0.0, 0.0, 0);
+        for _ in 0..100 {
+            let push = random.signed();
+            dynamics.step(DT, &[[push, 0.0, 0.0, 0.0, 0.0, 0.0]], &mut Vec::new());
+            own += usize::from(dynamics.fourth_step.is_none());
+            place += DT * speed + 0.5 * DT * DT * push / 0.1;
+            speed += DT * push / 0.1;
+        }
+        assert!(own >= 97, "{own}");
+        // Rounding of a hundred steps.
+        assert!(
+            (dynamics.bodies[0].position.x - place).abs() < 1e-13
+                && (dynamics.bodies[0].velocity.x - speed).abs() < 1e-13
+        );
+        assert_eq!(run(&mut dynamics, 0.5 * DT, 4), 1);
+    }
+}

@@ -1,0 +1,326 @@
+//! Hits: what touches and approaches at one time, resolved body pair by body pair through the joints.
+//!
+//! A hit at one point follows its path of stick and slip (`impulse`). A hit at several points of the same two bodies
+//! (a box that lands flat) is one event: the contact problem gives the impulses P_c of compression, which end all
+//! approach; restitution then brings each normal impulse to (1 + e) P_c (Poisson) and friction follows it. If that
+//! would give back more than e² of what compression took (friction can do so with Poisson's law), the whole impulse
+//! is (1 + s) P_c with s ≤ e instead, which never does: with P_c·u₀ ≤ 0 and D ≥ 0 the work of friction,
+//!
+//! ```text
+//! ΔE(s) = (1 + s) P_c·u₀ + ½ (1 + s)² (−P_c·u₀ − D) ≤ ½ (1 − s²) P_c·u₀ ≤ 0
+//! ```
+//!
+//! Hits travel: what approaches after one is hit next, in a fixed order, so that of a row of balls the last one leaves.
+
+use super::problem::{LOCKED, Problem, Source, Touch};
+use super::sweep::Hit;
+use super::{CHATTER_SPEED, CHATTER_TIME, Contacts, Impact, ImpactKind, REST_SPEED, point_rows};
+use crate::articulation::System;
+use crate::collision::{ManifoldPoint, TOUCH};
+use crate::dynamics::impulse::impulse;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DMat3, DVec3};
+
+/// Points of the same two bodies that meet within this time are hit together, s: one sample of sound.
+const ONE_TIME: f64 = 1.0 / 48_000.0;
+/// 1/ω₀ with which joints of a figure that is struck by hand gather, s: none of them is open.
+const GATHERS: f64 = 0.04;
+/// Hits that travel from one, at most.
+const MOST_ROUNDS: usize = 256;
+
+/// Where and how two bodies are struck against each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Strike {
+    /// World, m.
+    pub point: DVec3,
+    /// Unit, from the second body to the first.
+    pub normal: DVec3,
+    /// The bodies; `None` is the world.
+    pub bodies: [Option<usize>; 2],
+    /// Coulomb coefficient.
+    pub friction: f64,
+    /// Energetic coefficient of restitution, 0 … 1.
+    pub restitution: f64,
+}
+
+/// What a strike did, in the frame (t, b, n) of `math::tangents`.
+#[derive(Clone, Copy, Debug)]
+pub struct Struck {
+    /// Impulse on the first body, N s.
+    pub impulse: DVec3,
+    /// Relative velocity before, m/s.
+    pub velocity: DVec3,
+    /// Effective inverse mass, joints included, 1/kg.
+    pub k: DMat3,
+}
+
+/// Resolves one hit at one point: three solves for the effective mass, one for the answer. The joints must be
+/// factored at the bodies' present state. `None` where joints hold the point or nothing approaches.
+pub fn strike(strike: &Strike, system: &mut System, bodies: &mut [RigidBody]) -> Option<Struck> {
+    let mut problem = Problem::new(1, (system.states().len(), GATHERS));
+    let touch = Touch::new(Source::Pair(0), strike.point, strike.normal, 0.0, strike.friction);
+    problem.push(touch, &point_rows(strike.point, strike.normal, strike.bodies, bodies));
+    problem.assemble(system, bodies);
+    let struck = strike_one(&mut problem, strike.restitution)?;
+    problem.apply(system, bodies);
+    Some(struck)
+}
+
+/// The impulse of a problem of one touch.
+fn strike_one(problem: &mut Problem, restitution: f64) -> Option<Struck> {
+    let touch = problem.touches[0];
+    let u = problem.velocity(&touch);
+    let k = touch.k();
+    if k.x_axis.x < LOCKED || u.x >= 0.0 {
+        return None;
+    }
+    if touch.rows == 1 {
+        problem.set(0, DVec3::new(-(1.0 + restitution) * u.x / k.x_axis.x, 0.0, 0.0));
+        return Some(Struck { impulse: DVec3::Z * problem.touches[0].impulse.x, velocity: DVec3::Z * u.x, k: *k });
+    }
+    // From (n, t, b) to (t, b, n).
+    let turn = |v: DVec3| DVec3::new(v.y, v.z, v.x);
+    let k = DMat3::from_cols(turn(k.y_axis), turn(k.z_axis), turn(k.x_axis));
+    let velocity = turn(u);
+    let p = impulse(&k, velocity, touch.friction, restitution);
+    problem.set(0, DVec3::new(p.z, p.x, p.y));
+    Some(Struck { impulse: p, velocity, k })
+}
+
+impl Contacts {
+    /// Resolves a hit at the bodies' present state and all that it sets off; `h` is the length of a substep. The
+    /// joints must be factored there.
+    pub(in crate::dynamics) fn resolve_hit(
+        &mut self,
+        hit: &Hit,
+        (time, h): (f64, f64),
+        system: &mut System,
+        bodies: &mut [RigidBody],
+        impacts: &mut Vec<Impact>,
+    ) {
+        // Hits change speeds, not places: what is near stays so.
+        self.find_near(bodies, bodies);
+        let mut next = Some(hit.source);
+        for _ in 0..MOST_ROUNDS {
+            let Some(source) = next else { break };
+            self.impacts_left = self.impacts_left.saturating_sub(1);
+            self.collect(source, bodies);
+            if self.problem.touches.is_empty() {
+                // It touches, but nothing approaches: what little there is belongs to rest.
+                self.set_rest(source, true);
+                self.collect_all(source, bodies);
+                self.problem.assemble(system, bodies);
+                let touches = self.problem.touches.len();
+                impacts.extend((touches > 0).then(|| self.tell(source, time, (0, touches), 0.0, true)));
+                break;
+            }
+            self.problem.assemble(system, bodies);
+            self.bounce(time, impacts);
+            self.work += self.problem.work();
+            self.problem.apply(system, bodies);
+            next = self.approaching(bodies);
+        }
+        if self.anything_rests() {
+            self.steady(h, system, bodies);
+        }
+    }
+
+    /// Seconds until what is to be hit is half into the touching layer, at the bodies' present state: sweeps go straight,
+    /// bodies do not. Negative where they have passed it; 0 where it cannot be told.
+    pub(in crate::dynamics) fn early(&mut self, hit: &Hit, bodies: &[RigidBody]) -> f64 {
+        let (gap, speed) = match hit.source {
+            Source::Bound(bound) => {
+                let (gap, row, _) = self.limits.row(bound, bodies);
+                (gap, -row.rate(bodies))
+            }
+            Source::Pair(pair) => {
+                let manifold = self.manifold(pair, bodies);
+                let nearest = |a: ManifoldPoint, b: &ManifoldPoint| if b.gap < a.gap { *b } else { a };
+                let at = manifold.points()[1..].iter().fold(manifold.points[0], nearest);
+                (at.gap, -self.velocity_at(pair, at.point, bodies).dot(manifold.normal))
+            }
+        };
+        if speed > REST_SPEED { (gap - 0.5 * TOUCH) / speed } else { 0.0 }
+    }
+
+    /// All touches that approach between the two bodies of a source.
+    fn collect(&mut self, source: Source, bodies: &[RigidBody]) {
+        self.problem.clear();
+        match source {
+            Source::Bound(bound) => self.push_bound(bound, bodies),
+            Source::Pair(pair) => {
+                // Pairs of the same two bodies stand together.
+                let two = self.bodies_of(pair);
+                let same = |other: &usize| self.bodies_of(*other) == two;
+                let first = (0..pair).rev().take_while(same).last().unwrap_or(pair);
+                let end = (pair + 1..self.pairs.len()).take_while(same).last().unwrap_or(pair);
+                for other in first..=end {
+                    if other == pair || self.may_touch(other, bodies) {
+                        self.collect_pair(other, other == pair, bodies);
+                    }
+                }
+            }
+        }
+    }
+
+    /// All touches of a source, however they move.
+    fn collect_all(&mut self, source: Source, bodies: &[RigidBody]) {
+        match source {
+            Source::Bound(bound) => self.push_bound(bound, bodies),
+            Source::Pair(pair) => {
+                let manifold = self.manifold(pair, bodies);
+                for at in manifold.points() {
+                    self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
+                }
+            }
+        }
+    }
+
+    /// Touches of a pair that approach and are closed, or will be within a sample. A pair that was found to hit has
+    /// one at least.
+    fn collect_pair(&mut self, pair: usize, hits: bool, bodies: &[RigidBody]) {
+        let manifold = self.manifold(pair, bodies);
+        let nearest = manifold.points().iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
+        for at in manifold.points() {
+            let speed = -self.velocity_at(pair, at.point, bodies).dot(manifold.normal);
+            if speed > 0.0 && (at.gap <= TOUCH + ONE_TIME * speed || (hits && at.gap == nearest)) {
+                self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
+            }
+        }
+    }
+
+    /// Finds the impulses of the problem's touches, says what they do, and decides what rests from now on.
+    fn bounce(&mut self, time: f64, impacts: &mut Vec<Impact>) {
+        // Touches stand in the order of their sources.
+        let count = self.problem.touches.len();
+        let mut least_e: f64 = 1.0;
+        let mut first = 0;
+        let began = impacts.len();
+        while first < count {
+            let source = self.problem.touches[first].source;
+            let end = (first..count).find(|&i| self.problem.touches[i].source != source).unwrap_or(count);
+            let touches = &self.problem.touches[first..end];
+            let speed = touches.iter().fold(0.0, |most: f64, touch| most.max(-self.problem.velocity(touch).x));
+            let (e, rests) = self.judge(source, time, speed);
+            least_e = least_e.min(e);
+            for touch in &mut self.problem.touches[first..end] {
+                // The rounds leave this alone; restitution reads it.
+                touch.least = e;
+            }
+            impacts.push(self.tell(source, time, (first, end), speed, rests));
+            first = end;
+        }
+        if count == 1 {
+            let e = self.problem.touches[0].least;
+            self.problem.touches[0].least = 0.0;
+            let _ = strike_one(&mut self.problem, e);
+        } else {
+            bounce_together(&mut self.problem, least_e);
+        }
+        for impact in &mut impacts[began..] {
+            let own = |touch: &&Touch| match touch.source {
+                Source::Pair(pair) => {
+                    let colliders = self.pairs[pair].pair;
+                    impact.colliders == Some([colliders.a, colliders.b])
+                }
+                Source::Bound(_) => true,
+            };
+            let sum = self.problem.touches.iter().filter(own).fold(DVec3::ZERO, |sum, touch| sum + touch.impulse);
+            impact.impulse = sum.length();
+        }
+    }
+
+    /// Restitution of a hit at this speed, and whether it is the beginning of rest.
+    fn judge(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
+        let now = self.clock + time;
+        let last = match source {
+            Source::Pair(pair) => &mut self.last_hit[pair],
+            Source::Bound(bound) => self.limits.last_hit(bound),
+        };
+        let chatters = now - *last < CHATTER_TIME && speed < CHATTER_SPEED;
+        *last = now;
+        let rests = speed < REST_SPEED || chatters || self.impacts_left == 0;
+        let e = match source {
+            Source::Pair(pair) => self.pairs[pair].restitution,
+            Source::Bound(bound) => self.limits.restitution(bound),
+        };
+        self.set_rest(source, rests);
+        (if rests { 0.0 } else { e }, rests)
+    }
+
+    /// The event of touches `first..end`, all of one source; its impulse is not known yet.
+    fn tell(&self, source: Source, time: f64, (first, end): (usize, usize), speed: f64, rests: bool) -> Impact {
+        let touches = &self.problem.touches[first..end];
+        let middle = touches.iter().fold(DVec3::ZERO, |sum, t| sum + t.point) / touches.len() as f64;
+        let (bodies, colliders, moving) = match source {
+            Source::Pair(pair) => {
+                let at = self.pairs[pair].pair;
+                (self.bodies_of(pair), Some([at.a, at.b]), ImpactKind::Impact)
+            }
+            Source::Bound(bound) => (self.limits.bodies(bound), None, ImpactKind::Stop),
+        };
+        Impact {
+            time,
+            kind: if rests { ImpactKind::Rest } else { moving },
+            bodies,
+            colliders,
+            point: middle,
+            normal: touches[0].normal,
+            impulse: 0.0,
+            speed,
+            mass: 1.0 / touches[0].k().x_axis.x.max(LOCKED),
+        }
+    }
+
+    /// What touches now and approaches too fast to be taken out without bounce.
+    fn approaching(&mut self, bodies: &[RigidBody]) -> Option<Source> {
+        for near in 0..self.near.len() {
+            let pair = self.near[near];
+            if !self.may_touch(pair, bodies) {
+                continue;
+            }
+            let manifold = self.manifold(pair, bodies);
+            let hits = |at: &ManifoldPoint| {
+                at.gap <= TOUCH && self.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
+            };
+            if manifold.points().iter().any(hits) {
+                return Some(Source::Pair(pair));
+            }
+        }
+        let approaches = |b: &usize| !self.limits.sleeps(*b) && self.limits.approaches(*b, bodies, TOUCH, REST_SPEED);
+        (0..self.limits.count()).find(approaches).map(Source::Bound)
+    }
+}
+
+/// One hit at several touches; each touch's `least` holds its restitution.
+fn bounce_together(problem: &mut Problem, least_e: f64) {
+    let restitution = |touch: &Touch| touch.least;
+    let mut any = false;
+    // Compression ends all approach.
+    let count = problem.touches.len();
+    let mut es = [0.0; super::problem::MOST_TOUCHES];
+    for (e, touch) in es.iter_mut().zip(&mut problem.touches) {
+        *e = restitution(touch);
+        any |= *e > 0.0;
+        touch.least = 0.0;
+    }
+    problem.solve();
+    if !any {
+        return;
+    }
+    let compressed = problem.work();
+    let mut pressed = [DVec3::ZERO; super::problem::MOST_TOUCHES];
+    for index in 0..count {
+        pressed[index] = problem.touches[index].impulse;
+        let mut impulse = pressed[index];
+        impulse.x *= 1.0 + es[index];
+        problem.set(index, impulse);
+    }
+    problem.solve_friction();
+    let most = es[..count].iter().fold(0.0, |m: f64, e| m.max(*e));
+    if problem.work() > compressed * (1.0 - most * most) {
+        for index in 0..count {
+            problem.set(index, (1.0 + least_e) * pressed[index]);
+        }
+    }
+}

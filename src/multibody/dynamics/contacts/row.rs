@@ -1,0 +1,40 @@
+//! One row of a contact problem: how a touch or a bound acts on its bodies.
+
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::{Vec6, add_scaled, dot, vec6};
+
+/// Most bodies of a row: the two wheels of a gear and what carries their axles.
+pub(in crate::dynamics) const ROW_ENDS: usize = 3;
+
+/// One row: the blocks of the bodies it acts on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::dynamics) struct Row {
+    pub ends: [Option<(usize, Vec6)>; ROW_ENDS],
+}
+
+impl Row {
+    /// Adds `scale` times a block of a body; nothing for the world.
+    pub fn add(&mut self, body: Option<usize>, scale: f64, block: &Vec6) {
+        let Some(body) = body else { return };
+        let own = |end: &&mut Option<(usize, Vec6)>| end.is_none_or(|(other, _)| other == body);
+        if let Some(slot) = self.ends.iter_mut().find(own) {
+            let mut sum = slot.map_or([0.0; 6], |(_, block)| block);
+            add_scaled(&mut sum, scale, block);
+            *slot = Some((body, sum));
+        }
+    }
+
+    /// Row times the bodies' coordinates.
+    pub fn along(&self, a: &[Vec6]) -> f64 {
+        self.ends.iter().flatten().fold(0.0, |sum, (body, block)| sum + dot(block, &a[*body]))
+    }
+
+    /// Row times the bodies' velocities.
+    pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
+        let along = |(body, block): &(usize, Vec6)| {
+            let body = &bodies[*body];
+            dot(block, &vec6(body.velocity, body.angular_velocity))
+        };
+        self.ends.iter().flatten().map(along).sum()
+    }
+}

@@ -1,0 +1,190 @@
+//! Driven bodies: a body whose place is given as a function of time by key frames or a path.
+//!
+//! Joints to a driven body need its velocity and acceleration, so both come with the pose. Between two keys the node
+//! goes along p(t) = p₀ + s (p₁ − p₀) and turns about one axis, R(t) = exp([s w]×) R₀ with w the rotation vector from
+//! R₀ to R₁, so that
+//!
+//! ```text
+//! ṗ = ṡ (p₁ − p₀)      p̈ = s̈ (p₁ − p₀)      ω = ṡ w      ω̇ = s̈ w
+//! ```
+//!
+//! with s(t) as in [`soffio_math::Function`]. A *spline* is the quintic of that module in p and in the rotation vector
+//! φ(t) from R₀, R(t) = `exp([φ]×)` R₀. With θ = |φ|, a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³
+//!
+//! ```text
+//! ω = φ̇ + a φ×φ̇ + b φ×(φ×φ̇)
+//! ω̇ = φ̈ + ȧ φ×φ̇ + a φ×φ̈ + ḃ φ×(φ×φ̇) + b (φ̇×(φ×φ̇) + φ×(φ×φ̈))
+//! ```
+//!
+//! and the inverse, φ̇ = ω − φ×ω/2 + c φ×(φ×ω) with c = (1 − θ (1 + cos θ)/(2 sin θ))/θ², gives φ̇ and φ̈ at the end of a
+//! span from the ω and ω̇ of its key: velocities and accelerations have no jumps.
+
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::function::{Span, ease, knot, neighbours, quintic, span};
+use soffio_math::{DQuat, DVec3, Pose, rotation, rotation_vector, sincos};
+use soffio_math::{Interpolation, Jet3};
+
+/// A body that follows its motion whatever pulls at it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// Index of the body.
+    pub body: usize,
+    /// Where it is when.
+    pub motion: Motion,
+}
+
+/// Poses of a node at given times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// (time s, world pose of the node), times rising, at least one.
+    pub keys: Vec<(f64, Pose)>,
+    /// What happens between two keys.
+    pub interpolation: Interpolation,
+    /// Begins anew after the last key.
+    pub repeat: bool,
+}
+
+/// A driven node at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// World pose of the node.
+    pub pose: Pose,
+    /// Velocity of its origin, m/s.
+    pub velocity: DVec3,
+    /// rad/s, world axes.
+    pub angular_velocity: DVec3,
+    /// Acceleration of its origin, m/s².
+    pub acceleration: DVec3,
+    /// rad/s², world axes.
+    pub angular_acceleration: DVec3,
+}
+
+impl Motion {
+    /// The node at `t` seconds after reset.
+    pub fn at(&self, t: f64) -> Instant {
+        let still = |pose| Instant {
+            pose,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
+            angular_acceleration: DVec3::ZERO,
+        };
+        if self.keys.is_empty() {
+            return still(Pose::IDENTITY);
+        }
+        let found = match span(self.keys.len(), |i| self.keys[i].0, self.repeat, t) {
+            Ok(found) => found,
+            Err(key) => return still(self.keys[key].1),
+        };
+        if self.interpolation == Interpolation::Spline {
+            return self.spline(found);
+        }
+        let ((t0, from), (t1, to)) = (self.keys[found.key], self.keys[found.key + 1]);
+        let Jet3 { value, rate, acceleration } = ease(self.interpolation, t1 - t0, found.since);
+        let (way, turn) = (to.position - from.position, turn_between(from.rotation, to.rotation));
+        Instant {
+            pose: Pose {
+                rotation: (rotation(value * turn) * from.rotation).normalize(),
+                position: from.position + value * way,
+            },
+            velocity: rate * way,
+            angular_velocity: rate * turn,
+            acceleration: acceleration * way,
+            angular_acceleration: acceleration * turn,
+        }
+    }
+
+    fn spline(&self, Span { key, since }: Span) -> Instant {
+        let ((t0, from), (t1, to)) = (self.keys[key], self.keys[key + 1]);
+        let ((v0, a0), (w0, alpha0)) = self.derivatives(key);
+        let ((v1, a1), (w1, alpha1)) = self.derivatives(key + 1);
+        let h = t1 - t0;
+        let (position, velocity, acceleration) = quintic((from.position, v0, a0), (to.position, v1, a1), h, since);
+        let whole = turn_between(from.rotation, to.rotation);
+        let rate = unspin(whole, w1);
+        // φ̈ at the end: what is left of ω̇ when the part of φ̇ alone is taken off.
+        let bend = unspin(whole, alpha1 - spin(whole, rate, DVec3::ZERO).1);
+        let (turn, turn_rate, turn_bend) = quintic((DVec3::ZERO, w0, alpha0), (whole, rate, bend), h, since);
+        let (angular_velocity, angular_acceleration) = spin(turn, turn_rate, turn_bend);
+        Instant {
+            pose: Pose { rotation: (rotation(turn) * from.rotation).normalize(), position },
+            velocity,
+            angular_velocity,
+            acceleration,
+            angular_acceleration,
+        }
+    }
+
+    /// Velocity and acceleration, and their angular fellows, at a key.
+    fn derivatives(&self, key: usize) -> ((DVec3, DVec3), (DVec3, DVec3)) {
+        let Some((before, after)) = neighbours(key, self.keys.len(), self.repeat) else {
+            return ((DVec3::ZERO, DVec3::ZERO), (DVec3::ZERO, DVec3::ZERO));
+        };
+        let mean = |i: usize| {
+            let ((t0, from), (t1, to)) = (self.keys[i], self.keys[i + 1]);
+            let h = t1 - t0;
+            (h, (to.position - from.position) / h, turn_between(from.rotation, to.rotation) / h)
+        };
+        let ((h0, v0, w0), (h1, v1, w1)) = (mean(before), mean(after));
+        (knot(v0, v1, h0, h1), knot(w0, w1, h0, h1))
+    }
+}
+
+impl Instant {
+    /// Puts a body there; answers the accelerations of its centre of mass (m/s²) and its rotation (rad/s²).
+    pub fn carry(&self, body: &mut RigidBody) -> (DVec3, DVec3) {
+        let arm = self.pose.rotation * body.properties.center;
+        let (w, alpha) = (self.angular_velocity, self.angular_acceleration);
+        body.rotation = self.pose.rotation;
+        body.position = self.pose.position + arm;
+        body.velocity = self.velocity + w.cross(arm);
+        body.angular_velocity = w;
+        (self.acceleration + alpha.cross(arm) + w.cross(w.cross(arm)), alpha)
+    }
+}
+
+/// Rotation vector of the shorter way from one rotation to another, world axes, rad.
+fn turn_between(from: DQuat, to: DQuat) -> DVec3 {
+    let turn = to * from.conjugate();
+    rotation_vector(if turn.w < 0.0 { -turn } else { turn })
+}
+
+/// Below this angle the coefficients a, b, c come from two terms of their series, rad.
+const SMALL: f64 = 1e-2;
+
+/// ω and ω̇ from the rotation vector φ and its two derivatives.
+fn spin(phi: DVec3, rate: DVec3, bend: DVec3) -> (DVec3, DVec3) {
+    let theta2 = phi.length_squared();
+    // a, b and their derivatives by θ over θ.
+    let (a, b, da, db) = if theta2 < SMALL * SMALL {
+        (0.5 - theta2 / 24.0, 1.0 / 6.0 - theta2 / 120.0, -1.0 / 12.0 + theta2 / 180.0, -1.0 / 60.0 + theta2 / 1260.0)
+    } else {
+        let theta = theta2.sqrt();
+        let (s, c) = sincos(theta);
+        let (a, b) = ((1.0 - c) / theta2, (theta - s) / (theta2 * theta));
+        (a, b, (s / theta - 2.0 * a) / theta2, (a - 3.0 * b) / theta2)
+    };
+    let along = phi.dot(rate);
+    let (once, twice) = (phi.cross(rate), phi.cross(phi.cross(rate)));
+    let omega = rate + a * once + b * twice;
+    let alpha = bend
+        + da * along * once
+        + a * phi.cross(bend)
+        + db * along * twice
+        + b * (rate.cross(once) + phi.cross(phi.cross(bend)));
+    (omega, alpha)
+}
+
+/// φ̇ from ω: the inverse of the part of [`spin`] that is linear in φ̇.
+fn unspin(phi: DVec3, omega: DVec3) -> DVec3 {
+    let theta2 = phi.length_squared();
+    let c = if theta2 < SMALL * SMALL {
+        1.0 / 12.0 + theta2 / 720.0
+    } else {
+        let theta = theta2.sqrt();
+        let (s, c) = sincos(theta);
+        // (1 + cos)/sin = sin/(1 − cos): the second has no pole where keys are half a turn apart.
+        (1.0 - 0.5 * theta * s / (1.0 - c)) / theta2
+    };
+    omega - 0.5 * phi.cross(omega) + c * phi.cross(phi.cross(omega))
+}

@@ -1,0 +1,246 @@
+//! Who blows: breaths before a microphone amid what else there is, and how far they stand above it.
+
+use super::{Condition, Dry, Hearing, Lips, R, World};
+use crate::rooms::APART_M;
+use crate::{Breath, Kind, RATE, Take, own};
+use soffio_detector::features::QUIETEST_DIFFERENCE;
+use soffio_detector::generate::filter::{high_passed, low_passed, power};
+use soffio_detector::generate::{self, BreathShape};
+use soffio_math::noise::{Random, hash_words};
+use soffio_math::{from_decibels, log10, pow};
+
+/// The longest that anybody blows evenly, s: with attack and release, less than what is latched as a machine's.
+const LONGEST_HOLD_S: f64 = 5.0;
+/// How long a scene has gone on before somebody blows, s: visitors come to rooms that have been loud for long, and what
+/// the ear remembers of the seconds before must be as full in a lesson as there.
+const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
+/// A breath that nowhere rises by this much above the noise cannot be heard, dB.
+const FAINT_DB: f64 = 3.0;
+
+/// Power of something that one or two capsules hear.
+type Loudness = fn(&[Vec<f64>]) -> f64;
+
+impl World {
+    /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
+    pub(super) fn blow(
+        &self,
+        condition: Condition,
+        index: u64,
+        mouth: (f64, f64, bool),
+        hearing: Hearing,
+        random: &mut Random,
+    ) -> Take {
+        let (distance, angle_deg, child) = mouth;
+        // Soft breaths are as frequent as hard ones: they are the harder to hear.
+        let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
+        let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
+        let (apart, past_deg) = (pair.range(APART_M.0, APART_M.1), pair.range(0.0, 360.0));
+        let first = BreathShape {
+            lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
+            strength: soft * pow(hard / soft, random.unit()),
+            lead_out: random.range(0.8, 1.5),
+            distance,
+            angle_deg,
+            apart: if hearing.stereo { apart } else { 0.0 },
+            past_deg,
+            foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
+            colour: pow(2.0, random.range(-0.8, 1.4)),
+            corner_hz: 5.0,
+            ..BreathShape::default()
+        };
+        let (shapes, breaths) = Self::row_of_breaths(&first, random);
+        let seconds = shapes.iter().map(BreathShape::duration).sum::<f64>();
+        let seed = random.word();
+        let lips = Lips::random(angle_deg, random);
+        let capsules = 1 + u64::from(hearing.stereo);
+        let streams: Vec<Vec<f64>> = (0..capsules)
+            .map(|capsule| {
+                let air = (0..).zip(&shapes).map(|(i, s)| generate::stream(RATE, hash_words(&[seed, i]), s, capsule));
+                lips.heard(air.collect::<Vec<_>>().concat())
+            })
+            .collect();
+        // How far above the noise: in hiss where the stream goes past the microphone, in what two capsules tell apart, else in all.
+        let (snr, loudness): (_, Loudness) = match condition {
+            Condition::Noisy(snr) => (Some(snr), |heard| power(&heard[0])),
+            Condition::Aside(snr) => (Some(snr), |heard| hiss(&heard[0])),
+            Condition::Between(snr) => (Some(snr), rumble_apart),
+            _ => (None, |_| 0.0),
+        };
+        let noisy = snr.is_some();
+        let dry = match condition {
+            Condition::Spoken => self.talk_before(breaths[0].onset, seconds, random),
+            Condition::Companions => self.companions(seconds, random),
+            _ if noisy && random.unit() < 0.5 => self.throng(seconds, random),
+            _ if noisy => self.museum_sounds(seconds, random.range(0.5, 2.5), random),
+            _ => Dry::silent(streams[0].len()),
+        };
+        let mut channels = self.heard(&dry, hearing.stereo, random);
+        channels.iter_mut().for_each(|c| c.resize(streams[0].len(), 0.0));
+        let loudest = match condition {
+            _ if noisy => -30.0,
+            Condition::Spoken | Condition::Companions => -45.0,
+            _ => -58.0,
+        };
+        let air_dbfs = random.range(if noisy { -70.0 } else { -72.0 }, loudest);
+        Self::add_air(&mut channels, air_dbfs, random);
+        let during = |heard: &[Vec<f64>], b: &Breath| {
+            heard
+                .iter()
+                .map(|samples| samples[(b.onset * R) as usize..(b.offset * R) as usize].to_vec())
+                .collect::<Vec<_>>()
+        };
+        if let Some(snr) = snr {
+            // The first one sets the noise.
+            let [air, noise] = [&streams, &channels].map(|heard| loudness(&during(heard, &breaths[0])));
+            let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
+            channels.iter_mut().flatten().for_each(|x| *x *= gain);
+        }
+        let heard = |b: &Breath| above_noise(&during(&streams, b), &during(&channels, b));
+        let breaths: Vec<Breath> =
+            breaths.iter().map(|b| Breath { snr_db: snr, faint: heard(b) < FAINT_DB, ..*b }).collect();
+        for (channel, stream) in channels.iter_mut().zip(&streams) {
+            channel.iter_mut().zip(stream).for_each(|(y, x)| *y += x);
+        }
+        let mut played = Vec::new();
+        if let Condition::Answered(room) = condition {
+            played = own::answers(seconds, &breaths, random);
+            // Headphones, a hearing loop or a cable that fell out: the microphone hears little or nothing of it.
+            let loud = if random.unit() < 0.25 { random.range(-60.0, -8.0) } else { random.range(-8.0, 4.0) };
+            self.hear_itself(&played, (room, loud), &mut channels, random);
+        }
+        let take = self.finish(condition, index, channels, Kind::Blow, breaths, hearing, random);
+        let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
+        let played = if matches!(condition, Condition::Answered(_)) { played.collect() } else { Vec::new() };
+        Take { events: dry.events, played, ..take }
+    }
+
+    /// One breath like `first`, or a few of one mouth: short puffs and long ones, hard and soft; when each of them is.
+    fn row_of_breaths(first: &BreathShape, random: &mut Random) -> (Vec<BreathShape>, Vec<Breath>) {
+        let count = if random.unit() < 0.6 { 1 } else { 2 + (random.unit() * 2.0) as usize };
+        let (mut shapes, mut breaths, mut start) = (Vec::new(), Vec::new(), 0.0);
+        for i in 0..count {
+            let long = random.unit() < 0.2;
+            let shape = BreathShape {
+                // A breath is taken between two.
+                lead_in: if i == 0 { first.lead_in } else { random.range(0.4, 1.2) },
+                strength: (first.strength * if i == 0 { 1.0 } else { random.range(0.7, 1.3) }).clamp(3.6, 17.0),
+                attack: random.range(0.04, 0.22),
+                hold: if long { random.range(3.0, LONGEST_HOLD_S) } else { random.range(0.4, 3.0) },
+                release: random.range(0.08, 0.45),
+                lead_out: if i + 1 == count { first.lead_out } else { 0.1 },
+                ..*first
+            };
+            let (onset, offset) = shape.span();
+            let (onset, offset) = (start + onset, start + offset);
+            breaths.push(Breath { onset, offset, strength: shape.strength, snr_db: None, faint: false });
+            start += shape.duration();
+            shapes.push(shape);
+        }
+        (shapes, breaths)
+    }
+}
+
+/// By how much a breath rises above the noise where it does so most, dB: below 200 Hz, above 500 Hz; of two capsules, also in
+/// the rumble that they do not share, and above the voices.
+fn above_noise(breath: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
+    let ratio = |of: Loudness| of(breath) / of(noise).max(1e-12);
+    let most = ratio(|heard| rumble(&heard[0])).max(ratio(|heard| hiss(&heard[0])));
+    let apart = rumble_apart(breath) / (rumble_apart(noise) + QUIETEST_DIFFERENCE);
+    let treble = if breath.len() == 2 { ratio(|heard| treble(&heard[0])) } else { 0.0 };
+    10.0 * log10(most.max(apart).max(treble).max(1e-12))
+}
+
+/// Power of what lies below 200 Hz.
+fn rumble(x: &[f64]) -> f64 {
+    power(&low_passed(x.to_vec(), R, 200.0, 2))
+}
+
+/// The same of half the difference of two capsules, which have no wave quite alike ([`super::UNLIKE`]); of one capsule, all of it.
+fn rumble_apart(heard: &[Vec<f64>]) -> f64 {
+    const LEFT: f64 = 1e-3;
+    let [first, second] = heard else { return rumble(&heard[0]) };
+    rumble(&first.iter().zip(second).map(|(a, b)| 0.5 * (a - b)).collect::<Vec<_>>()) + LEFT * rumble(first)
+}
+
+/// Power of what lies from 500 Hz to 3 kHz.
+fn hiss(x: &[f64]) -> f64 {
+    power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2))
+}
+
+/// Power of what lies above the voices (`wind/blow/upper.rs`): so near the highest that is heard a pass is little more
+/// than a difference of neighbours, and six of them leave 3 kHz 17 dB below 6.
+fn treble(x: &[f64]) -> f64 {
+    power(&high_passed(x.to_vec(), R, 4400.0, 6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use soffio_detector::generate::filter::white;
+
+    #[test]
+    fn of_what_two_capsules_share_nothing_is_between_them_and_of_eddies_half() {
+        const ROUNDING: f64 = 1e-12;
+        const HALF: std::ops::Range<f64> = 0.45..0.55;
+        let mut random = Random::new(5);
+        let [one, other] = [(); 2].map(|()| white(RATE as usize, &mut random));
+        let all = rumble(&one);
+        assert!(rumble_apart(&[one.clone(), one.clone()]) < 1.1e-3 * all);
+        assert!((rumble_apart(std::slice::from_ref(&one)) - all).abs() < ROUNDING);
+        let eddies = rumble_apart(&[one, other]) / all;
+        assert!(HALF.contains(&eddies), "{eddies} of their power");
+    }
+
+    #[test]
+    fn what_lies_above_the_voices_is_told_from_what_voices_have() {
+        /// What the tones' first samples add.
+        const BEGINS_DB: f64 = 0.1;
+        let tone =
+            |hz: f64| (0..RATE).map(|i| soffio_math::sin(std::f64::consts::TAU * hz * f64::from(i) / R)).collect();
+        let [voice, breath]: [Vec<f64>; 2] = [3000.0, 6000.0].map(tone);
+        // A pass of k = e^(−2π 4.4/16) is k |1 − z| / |1 − k z| at z = e^(iω).
+        let pass = |hz: f64| {
+            let (k, c) = (
+                soffio_math::exp(-std::f64::consts::TAU * 4400.0 / R),
+                soffio_math::cos(std::f64::consts::TAU * hz / R),
+            );
+            (2.0 - 2.0 * c) / (1.0 - 2.0 * k * c + k * k)
+        };
+        let apart_db = 10.0 * log10(treble(&breath) / treble(&voice));
+        let by_formula = 60.0 * log10(pass(6000.0) / pass(3000.0));
+        assert!((apart_db - by_formula).abs() < BEGINS_DB && apart_db > 15.0, "{apart_db}, not {by_formula} dB");
+        // One capsule does not listen there.
+        let [one, two] = [1, 2].map(|n| above_noise(&vec![breath.clone(); n], &vec![voice.clone(); n]));
+        assert!(two > 15.0 && one < two - 10.0, "{one} dB of one, {two} dB of two");
+    }
+
+    #[test]
+    fn a_breath_that_only_two_capsules_tell_from_the_crowd_is_not_faint() {
+        let (world, index) = (World::new(11), 3);
+        let take = |snr, stereo| world.take(Condition::Between(snr), index, Hearing { gain_db: 0.0, stereo });
+        let plain = take(20.0, true);
+        assert!(plain.right.is_some() && !plain.breaths[0].faint && plain.breaths[0].snr_db == Some(20.0));
+        assert!(take(-20.0, true).breaths[0].faint, "drowned in the difference as well");
+        // The crowd is as loud as the breath's difference allows: more of it where it may come nearer.
+        let crowd = |snr| {
+            power(&take(snr, true).left.iter().take(RATE as usize / 2).map(|x| f64::from(*x)).collect::<Vec<_>>())
+        };
+        assert!(crowd(0.0) > 10.0 * crowd(20.0), "{} and {}", crowd(0.0), crowd(20.0));
+    }
+
+    #[test]
+    fn companions_talk_before_and_while_somebody_blows() {
+        let (world, hearing) = (World::new(11), Hearing { gain_db: 0.0, stereo: true });
+        for index in 0..8 {
+            let take = world.take(Condition::Companions, index, hearing);
+            let talk = |at: f64| {
+                let talks = take.events.iter().filter(|event| event.what == "a companion's talk");
+                talks.filter(|event| event.at <= at && at <= event.until).count()
+            };
+            for breath in &take.breaths {
+                assert!((2..5).contains(&talk(breath.onset)) && (2..5).contains(&talk(breath.offset)), "{index}");
+            }
+            assert!(take.events.iter().any(|event| event.what == "a companion's laughter"), "{index}");
+        }
+    }
+}

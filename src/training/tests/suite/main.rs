@@ -1,0 +1,4 @@
+//! The training tool: what it scores, and what it says to wrong input.
+
+mod scores;
+mod tool;
