@@ -21,17 +21,17 @@ const PARTS: [(&str, &[&str]); 7] = [
 
 /// The files as they were when the program was built.
 const BUILT_IN: [(&str, &str); 11] = [
-    ("common", include_str!("../../shaders/common.wgsl")),
-    ("lighting", include_str!("../../shaders/lighting.wgsl")),
-    ("outline", include_str!("../../shaders/outline.wgsl")),
-    ("forward", include_str!("../../shaders/forward.wgsl")),
-    ("room", include_str!("../../shaders/room.wgsl")),
-    ("shadows", include_str!("../../shaders/shadows.wgsl")),
-    ("sheets", include_str!("../../shaders/sheets.wgsl")),
-    ("wires", include_str!("../../shaders/wires.wgsl")),
-    ("motes", include_str!("../../shaders/motes.wgsl")),
-    ("resolve", include_str!("../../shaders/resolve.wgsl")),
-    ("stretch", include_str!("../../shaders/stretch.wgsl")),
+    ("common", include_str!("wgsl/common.wgsl")),
+    ("lighting", include_str!("wgsl/lighting.wgsl")),
+    ("outline", include_str!("wgsl/outline.wgsl")),
+    ("forward", include_str!("wgsl/forward.wgsl")),
+    ("room", include_str!("wgsl/room.wgsl")),
+    ("shadows", include_str!("wgsl/shadows.wgsl")),
+    ("sheets", include_str!("wgsl/sheets.wgsl")),
+    ("wires", include_str!("wgsl/wires.wgsl")),
+    ("motes", include_str!("wgsl/motes.wgsl")),
+    ("resolve", include_str!("wgsl/resolve.wgsl")),
+    ("stretch", include_str!("wgsl/stretch.wgsl")),
 ];
 
 /// What a folder's shaders can be wrong with.
