@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The live proof in several rooms side by side: each part in a room of its own; what it says is printed when it ends.
+#
+#   tests/live/lanes.sh target/ci/soffio [PART …]
+#
+# SOFFIO_LIVE_LANES=3 is how many rooms there are at once; 1 is one part after another. Parts whose bars are seconds or
+# hundredths of them share one lane and go before the others on the processor (parts.sh says which).
+set -euo pipefail
+here=$(dirname "$(readlink -f "$0")")
+soffio=$(readlink -f "${1:?usage: tests/live/lanes.sh PATH-OF-SOFFIO [PART …]}")
+shift
+# shellcheck source-path=SCRIPTDIR
+. "$here/parts.sh"
+lanes=${SOFFIO_LIVE_LANES:-3}
+
+# One part in its room. A part that hangs is ended before it holds up the others for long.
+part() {
+    local code=0
+    SOFFIO_LIVE_PARTS=$1 timeout --foreground --kill-after=30 600 "$here/run.sh" "$soffio" >"$logs/$1" 2>&1 || code=$?
+    # A part that ends early has missed what it does not tell of.
+    if [ "$code" -ne 0 ] && ! grep -q '^live: BAD' "$logs/$1"; then
+        printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
+    fi
+    flock "$logs" cat "$logs/$1"
+}
+
+# Some parts, so many at a time, as nice to others as that.
+lane() { # lane ROOMS NICENESS PART…
+    [ $# -gt 2 ] || return 0
+    printf '%s\n' "${@:3}" | xargs -P "$1" -I{} nice -n "$2" "$0" "$soffio" --alone {}
+}
+
+if [ "${1:-}" = --alone ]; then
+    logs=$SOFFIO_LIVE_LOGS
+    part "$2"
+    exit
+fi
+logs=$(mktemp -d)
+export SOFFIO_LIVE_LOGS=$logs
+trap 'rm -rf "$logs"' EXIT
+trap 'exit 130' INT TERM
+
+[ $# -gt 0 ] || set -- "${prompt_parts[@]}" "${patient_parts[@]}"
+prompt=() patient=()
+for part in "$@"; do
+    if [[ " ${prompt_parts[*]} " == *" $part "* ]]; then prompt+=("$part"); else patient+=("$part"); fi
+done
+if [ "$lanes" -lt 2 ]; then
+    lane 1 0 "${prompt[@]}" "${patient[@]}" || true
+else
+    lane 1 0 "${prompt[@]}" &
+    lane $((lanes - 1)) 5 "${patient[@]}" || true
+    wait
+fi
+! grep -q '^live: BAD' "$logs"/*
