@@ -3,22 +3,41 @@
 #
 #   tests/live/lanes.sh target/ci/soffio [PART …]
 #
-# SOFFIO_LIVE_LANES=3 is how many rooms there are at once; 1 is one part after another. Parts whose bars are seconds or
-# hundredths of them share one lane and go before the others on the processor (parts.sh says which).
+# SOFFIO_LIVE_LANES=3 is how many rooms there are at once: one more than processors, where nobody says; 1 is one part after
+# another. Parts whose bars are seconds or hundredths of them go before the others on the processor (parts.sh says which).
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 soffio=$(readlink -f "${1:?usage: tests/live/lanes.sh PATH-OF-SOFFIO [PART …]}")
 shift
 # shellcheck source-path=SCRIPTDIR
 . "$here/parts.sh"
-lanes=${SOFFIO_LIVE_LANES:-3}
+lanes=${SOFFIO_LIVE_LANES:-$(($(nproc) + 1))}
 
 # One part in its room. A part that hangs is ended before it holds up the others for long.
 part() {
-    local code=0
-    SOFFIO_LIVE_PARTS=$1 timeout --foreground --kill-after=30 600 "$here/run.sh" "$soffio" >"$logs/$1" 2>&1 || code=$?
+    local code=0 nice=5
+    [[ " ${prompt_parts[*]} " != *" $1 "* ]] || nice=0
+    SOFFIO_LIVE_PARTS=$1 nice -n "$nice" timeout --foreground --kill-after=30 600 "$here/run.sh" "$soffio" >"$logs/$1" 2>&1 || code=$?
     # A part that ends early has missed what it does not tell of.
     if [ "$code" -ne 0 ] && ! grep -q '^live: BAD' "$logs/$1"; then
+        printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
+    fi
+    flock "$logs" cat "$logs/$1"
+}
+
+if [ "${1:-}" = --alone ]; then
+    logs=$SOFFIO_LIVE_LOGS
+    part "$2"
+    exit
+fi
+logs=$(mktemp -d)
+export SOFFIO_LIVE_LOGS=$logs
+trap 'rm -rf "$logs"' EXIT
+trap 'exit 130' INT TERM
+
+[ $# -gt 0 ] || set -- "${patient_parts[@]}" "${prompt_parts[@]}"
+printf '%s\n' "$@" | xargs -P "$lanes" -I{} "$0" "$soffio" --alone {}
+! grep -q '^live: BAD' "$logs/$1"; then
         printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
     fi
     flock "$logs" cat "$logs/$1"

@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC2034
-# The parts of the live proof, in the order in which they begin. Sourced by run.sh and lanes.sh.
+# The parts of the live proof, in each list those that take longest first. Sourced by run.sh and lanes.sh.
 
+# Those that wait for what they look for, however long a slow machine takes.
+patient_parts=(every_screen staff_pages privacy broker clock_set disk_full no_devices no_display one_run)
 # Those that listen, or whose bars are seconds until a picture or a sound is there: they get the processor first.
-prompt_parts=(a_visitor latency own_voice reads_aloud doctor_blow replugged speaker_replugged devices_out
-    compositor killed crash_loop config_broken gpu_lost monitor_off)
-# Those that wait for what they look for, however long a slow machine takes. The longest begin.
-patient_parts=(staff_pages every_screen broker privacy clock_set disk_full no_devices no_display one_run)
+prompt_parts=(latency crash_loop replugged speaker_replugged devices_out a_visitor killed monitor_off reads_aloud own_voice
+    config_broken compositor gpu_lost doctor_blow)

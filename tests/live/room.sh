@@ -104,9 +104,9 @@ pull_microphone() {
     pactl unload-module "$(cat "$room/plug")"
 }
 
-# Pictures a second where a part looks at single ones: each costs a software renderer most of a tenth of a second, and other
+# Pictures a second where a part looks at single ones: each costs a software renderer up to a quarter of a second, and other
 # rooms draw too. Whoever watches as a visitor does has the shipped configuration.
-few_pictures=5.0
+few_pictures=3.0
 
 # The site's configuration with its own words and few pictures: `configured FILE WORDS`, as printf takes them.
 configured() {
@@ -170,7 +170,7 @@ room_tone() {
 # The processes that a process has started, those that they have started, and so on.
 descendants() {
     local id
-    for id in $(cat "/proc/$1/task/"*/children 2>/dev/null); do
+    cat "/proc/$1/task/"*/children 2>/dev/null | xargs -rn 1 | while read -r id; do
         echo "$id"
         descendants "$id"
     done

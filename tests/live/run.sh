@@ -353,7 +353,7 @@ TRACED
     # In a folder of its own, where it would leave its files: beside this room others may write into out/.
     mkdir "$room/privacy.folder"
     cd "$room/privacy.folder"
-    DISPLAY=$address soffio=$room/traced start_kiosk privacy --no-attract --record "$room/privacy.jsonl" --for 16
+    DISPLAY=$address soffio=$room/traced start_kiosk privacy --config "$root/kiosk-config/kiosk.toml" --no-attract --record "$room/privacy.jsonl" --for 16
     cd "$OLDPWD"
     within 20 grep -q 'supervisor: microphone: ' "$room/privacy.err"
     sleep 2
@@ -381,7 +381,7 @@ TRACED
 # ---- ten times the microphone is pulled out and put in again --------------------------------------------------------
 replugged() {
     local i before
-    start_kiosk replugged --no-attract --trace "$room/replugged.csv"
+    limit=180 start_kiosk replugged --no-attract --trace "$room/replugged.csv"
     within 10 grep -q 'supervisor: microphone: ' "$room/replugged.err"
     for i in {1..10}; do
         before=$(grep -c 'supervisor: microphone: ' "$room/replugged.err")

@@ -2,10 +2,10 @@
 # sourced by run.sh. A screen is known by how much of the glass it changes: the page covers all of it, the panel a part, a
 # closed house is black. Languages are told by the title's corner, in which nothing else changes.
 
-# A picture of the whole glass.
-shot() { import -window root "$room/$1.png"; }
+# A picture of the whole glass; packing it would take longer than taking it.
+shot() { import -window root "$room/$1.ppm"; }
 # Share of the glass that differs between two such pictures, or of a part of it.
-differs() { changed "$room/$1.png" "$room/$2.png" "${3:-1280x720+0+0}"; }
+differs() { changed "$room/$1.ppm" "$room/$2.ppm" "${3:-1280x720+0+0}"; }
 # A swinging bob and its shadow on the wall change less.
 SWINGS=0.05
 # Of the title's corner: another language, and the same one. Letters cover a tenth of it.
@@ -19,7 +19,7 @@ PANEL=0.1
 becomes() { shot "$1" && holds "$(differs "$2" "$1" "${4:-}") > $3"; } # becomes NEW OLD SHARE [PART]
 # Waits until it does, for software graphics may take seconds for a picture, and then until it stands.
 changes() {
-    within 15 becomes "$@" || true
+    pause=0.3 within 15 becomes "$@" || true
     sleep 0.7
     shot "$1"
 }
@@ -31,7 +31,7 @@ languages() { # languages NAME CORNER
     for i in {1..12}; do
         xdotool key l
         # Software graphics may take a second for a picture.
-        within 15 becomes "$1-$i" "$1-$((i - 1))" $ANOTHER "$2" || alike=$((alike + 1))
+        pause=0.3 within 15 becomes "$1-$i" "$1-$((i - 1))" $ANOTHER "$2" || alike=$((alike + 1))
         holds "$(differs "$1-0" "$1-$i" "$2") < $SAME" && break
     done
     echo "$i $alike"
@@ -160,7 +160,7 @@ staff_pages() {
     for tab in $tabs; do
         xdotool mousemove "${tab%,*}" "${tab#*,}" click 1
         # The first one is open already.
-        if [ "$number" = 0 ]; then shot staff-0; else within 15 becomes "staff-$number" "staff-$((number - 1))" $ANOTHER $panel || true; fi
+        if [ "$number" = 0 ]; then shot staff-0; else pause=0.3 within 15 becomes "staff-$number" "staff-$((number - 1))" $ANOTHER $panel || true; fi
         for ((other = 0; other < number; other++)); do
             holds "$(differs "staff-$other" "staff-$number" $panel) > $ANOTHER" || alike=$((alike + 1))
         done
