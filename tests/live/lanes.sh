@@ -37,38 +37,4 @@ trap 'exit 130' INT TERM
 
 [ $# -gt 0 ] || set -- "${patient_parts[@]}" "${prompt_parts[@]}"
 printf '%s\n' "$@" | xargs -P "$lanes" -I{} "$0" "$soffio" --alone {}
-! grep -q '^live: BAD' "$logs/$1"; then
-        printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
-    fi
-    flock "$logs" cat "$logs/$1"
-}
-
-# Some parts, so many at a time, as nice to others as that.
-lane() { # lane ROOMS NICENESS PART…
-    [ $# -gt 2 ] || return 0
-    printf '%s\n' "${@:3}" | xargs -P "$1" -I{} nice -n "$2" "$0" "$soffio" --alone {}
-}
-
-if [ "${1:-}" = --alone ]; then
-    logs=$SOFFIO_LIVE_LOGS
-    part "$2"
-    exit
-fi
-logs=$(mktemp -d)
-export SOFFIO_LIVE_LOGS=$logs
-trap 'rm -rf "$logs"' EXIT
-trap 'exit 130' INT TERM
-
-[ $# -gt 0 ] || set -- "${prompt_parts[@]}" "${patient_parts[@]}"
-prompt=() patient=()
-for part in "$@"; do
-    if [[ " ${prompt_parts[*]} " == *" $part "* ]]; then prompt+=("$part"); else patient+=("$part"); fi
-done
-if [ "$lanes" -lt 2 ]; then
-    lane 1 0 "${prompt[@]}" "${patient[@]}" || true
-else
-    lane 1 0 "${prompt[@]}" &
-    lane $((lanes - 1)) 5 "${patient[@]}" || true
-    wait
-fi
 ! grep -q '^live: BAD' "$logs"/*
