@@ -95,10 +95,8 @@ killed() {
     xdotool key Next
     within 20 grep -q 'steel-fish is on show' "$room/killed.err" || true
     for _ in 1 2; do
-        xdotool keydown space
-        sleep 1
-        xdotool keyup space
-        sleep 1.5
+        hold killed 1
+        sleep 0.5
     done
     xdotool key ctrl+alt+m
     sleep 2.5
@@ -112,9 +110,7 @@ killed() {
     bar "killed: picture back" "$took < 4" "$took s after kill -9"
     within 10 test "$(child)" != "" || true
     sleep 3
-    xdotool keydown space
-    sleep 1
-    xdotool keyup space
+    hold killed 1
     sleep 3
     after=$(state hold)
     bar "killed: counters kept" "\"$before\" == \"2\" && \"$after\" == \"3\" && $(state starts) == 2" \
@@ -183,7 +179,7 @@ devices_out() {
     local t ears voice rows gaps code=0
     # By its name, or another loudspeaker takes its place.
     configured "$room/out.toml" '[audio]\nloudspeaker = "speakers"\n'
-    start_kiosk out --no-attract --config "$room/out.toml" --trace "$room/out.csv" --for 34
+    start_kiosk out --no-attract --config "$room/out.toml" --trace "$room/out.csv" --for 28
     within 10 grep -q 'supervisor: microphone: ' "$room/out.err" || true
     within 10 grep -q 'supervisor: loudspeaker: ' "$room/out.err" || true
     pull_microphone
@@ -201,7 +197,7 @@ devices_out() {
     bar "devices out: back" "$code == 0 && $ears > 0 && $ears < 3 && $voice > 0 && $voice < 3" \
         "the microphone after $ears s, the loudspeaker after $voice s"
     read -r rows gaps < <(gaps "$room/out.csv")
-    bar "devices out: motion" "$rows >= 2030 && $gaps == 0" "$rows moments in 34 s, $gaps gaps"
+    bar "devices out: motion" "$rows >= 1670 && $gaps == 0" "$rows moments in 28 s, $gaps gaps"
 }
 
 # ---- what the suite asks of real devices, and of a sound server that dies ---------------------------------------------
@@ -295,18 +291,14 @@ clock_set() {
         FAKETIME_DONT_FAKE_MONOTONIC=1 start_kiosk clock --no-attract --trace "$room/clock.csv" --for 26
     sleep 3
     for offset in +1d -1d +0d; do
-        xdotool keydown space
-        sleep 1
-        xdotool keyup space
+        hold clock 1
         sleep 2
         given="${given:-} $(given)"
         echo "$offset" >"$room/clock"
         sleep 1
     done
-    xdotool keydown space
+    hold clock 1
     sleep 1
-    xdotool keyup space
-    sleep 2
     end_kiosk clock || code=$?
     read -r rows gaps < <(gaps "$room/clock.csv")
     bar "clock set: motion" "$code == 0 && $rows >= 1550 && $gaps == 0" "$rows moments in 26 s, $gaps gaps"

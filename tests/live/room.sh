@@ -191,6 +191,19 @@ breaths() {
     sed -nE "s/.* ([0-9.]+) s: a breath $3 \($2\).*/\1/p" "$room/$1.err"
 }
 
+# Holds the key that blows so long, from when the kiosk says that this breath begins: an event waits for the picture that is
+# drawn meanwhile, and returns when it has ended.
+hold() { # hold KIOSK SECONDS
+    local held
+    held=$(breaths "$1" hold begins | wc -l)
+    xdotool keydown space
+    within 10 held_times "$1" begins $((held + 1)) || true
+    sleep "$2"
+    xdotool keyup space
+    within 10 held_times "$1" ends $((held + 1)) || true
+}
+held_times() { [ "$(breaths "$1" hold "$2" | wc -l)" -ge "$3" ]; }
+
 # Level of a recording between two moments, dB of full scale (RMS over both channels); −140 for silence.
 level() { # level RAW FROM SECONDS
     sox -t raw -r 48000 -c 2 -e float -b 32 "$1" -n trim "$2" "$3" stats 2>&1 |

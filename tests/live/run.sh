@@ -254,10 +254,8 @@ own_voice() {
     for place in "340 300" "925 280"; do
         # shellcheck disable=SC2086
         xdotool mousemove $place
-        xdotool keydown space
-        sleep 2
-        xdotool keyup space
-        sleep 4
+        hold own 2
+        sleep 3
     done
     # Ten times the power of the room's own −60 dBFS, on the mean over all pauses.
     loud=$(level "$room/ears.out" 0 99)
@@ -284,7 +282,7 @@ own_voice() {
 # One key begins, the same key or a touch ends; the voice comes back to the microphone as loud as it was played, and is no
 # breath.
 reads_aloud() {
-    local before during hushed again touched t_rec at
+    local before during hushed again touched t_rec at press
     close_the_loop 0
     start_kiosk aloud --no-attract
     within 10 grep -q 'supervisor: microphone: ' "$room/aloud.err"
@@ -294,9 +292,10 @@ reads_aloud() {
     t_rec=$(now)
     sleep 3
     local times=("$(now)")
-    for press in key key key click; do
-        if [ "$press" = key ]; then xdotool key r; else xdotool mousemove 640 200 mousedown 1 sleep 0.1 mouseup 1; fi
-        sleep 6
+    for press in key-speaks key-hushed key-speaks click-hushed; do
+        if [ "${press%-*}" = key ]; then xdotool key r; else xdotool mousemove 640 200 mousedown 1 sleep 0.1 mouseup 1; fi
+        within 10 "${press#*-}" || true
+        sleep 2.5
         times+=("$(now)")
     done
     kill "$recorder"
@@ -316,8 +315,15 @@ reads_aloud() {
     bar "a second press hushes" "$hushed < $during - 15" "$hushed dBFS"
     bar "a touch hushes" "$touched < $again - 10" "$touched dBFS"
     bar "the voice is no breath" "$(breaths aloud microphone begins | wc -l) == 0" \
-        "$(breaths aloud microphone begins | wc -l) breaths in a minute with the voice at the microphone"
+        "$(breaths aloud microphone begins | wc -l) breaths with the voice at the microphone"
 }
+
+# Does the voice's recording end in a voice, or in none?
+speaks() {
+    tail -c 192000 "$room/voice.out" >"$room/voice.end"
+    holds "$(level "$room/voice.end" 0 1) > -45"
+}
+hushed() { ! speaks; }
 
 # ---- no sample of the microphone is ever written, sent, or mapped where others read it -----------------------------
 # A known noise is played at the microphone of a kiosk whose every write and send is traced; its shared memory is read
@@ -413,7 +419,7 @@ listens_times() { [ "$(grep -c 'supervisor: microphone: ' "$room/$1.err")" -ge "
 speaker_replugged() {
     local i rows gaps
     configured "$room/mute.toml" '[audio]\nloudspeaker = "speakers"\n'
-    start_kiosk mute --no-attract --config "$room/mute.toml" --trace "$room/mute.csv" --for 40
+    start_kiosk mute --no-attract --config "$room/mute.toml" --trace "$room/mute.csv" --for 32
     within 10 grep -q 'supervisor: loudspeaker: ' "$room/mute.err"
     for i in 1 2 3; do
         pull_loudspeaker
@@ -424,9 +430,7 @@ speaker_replugged() {
     sleep 1
     start back parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 --raw
     local recorder=$last
-    xdotool keydown space
-    sleep 3
-    xdotool keyup space
+    hold mute 3
     kill "$recorder"
     wait "$recorder" 2>/dev/null || true
     end_kiosk mute || true
@@ -437,7 +441,7 @@ speaker_replugged() {
     bar "back: it sounds" "$(level "$room/back.out" 1 2) > -60" "$(level "$room/back.out" 1 2) dBFS"
     # A row 60 times a second, whatever the loudspeaker does.
     read -r rows gaps < <(awk -F, 'FNR > 2 && $1 - t > 0.018 { gaps++ } FNR > 1 { t = $1; times[$1] } END { print length(times), gaps + 0 }' "$room/mute.csv")
-    bar "the motion goes on" "$rows >= 2390 && $gaps == 0" "$rows moments in 40 s, $gaps gaps"
+    bar "the motion goes on" "$rows >= 1910 && $gaps == 0" "$rows moments in 32 s, $gaps gaps"
 }
 spoken() { [ "$(grep -c "$2" "$room/$1.err")" -ge "$3" ]; }
 
@@ -532,7 +536,7 @@ timed() {
     printf 'live: time  %-24s %s s\n' "$1" $((SECONDS - began))
 }
 
-for part in ${SOFFIO_LIVE_PARTS-${prompt_parts[*]} ${patient_parts[*]}}; do
+for part in ${SOFFIO_LIVE_PARTS-${live_parts[*]}}; do
     timed "$part"
 done
 if [ -n "${SOFFIO_LIVE_SUITE:-}" ]; then
