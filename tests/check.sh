@@ -181,9 +181,12 @@ run() {
         # They wait more than they work: with other parts to come they run beside them, and go before them.
         if [ "$part" = live ] && [ $# -gt 1 ]; then
             echo "== live: begun, in the background"
-            # In a group of its own, which can be ended whole.
-            setsid "$self" --beside live >"$marks/live.log" 2>&1 &
+            # In a process group of its own, which can be ended whole; not in a session, or the system would share the processor
+            # between sessions and not by niceness.
+            set -m
+            "$self" --beside live >"$marks/live.log" 2>&1 </dev/null &
             beside=$!
+            set +m
             before=(nice -n 19)
             continue
         fi

@@ -234,7 +234,7 @@ disk_full() {
     within 20 grep -q 'pixels on' "$room/full.log.out" || true
     sleep 4
     xdotool keydown space
-    sleep 1
+    sleep 2
     picture && rows=1 || rows=0
     xdotool keyup space
     wait "$kiosk" || code=$?

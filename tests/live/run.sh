@@ -438,7 +438,10 @@ speaker_replugged() {
         "lost $(grep -c 'loudspeaker lost' "$room/mute.err") times, $(grep -c 'supervisor: loudspeaker: ' "$room/mute.err") times opened"
     # A stream that was not opened again is digital silence here; how loud the wind of a second is (-49 to -51 dBFS) hangs on how
     # the work swings just then.
-    bar "back: it sounds" "$(level "$room/back.out" 1 2) > -60" "$(level "$room/back.out" 1 2) dBFS"
+    # Its last seconds: when the key is heard hangs on the picture that is drawn meanwhile.
+    local loud
+    loud=$(level "$room/back.out" "$(awk -v bytes="$(stat -c %s "$room/back.out")" 'BEGIN { t = bytes / 384000 - 2.5; print t > 0 ? t : 0 }')" 2)
+    bar "back: it sounds" "$loud > -60" "$loud dBFS"
     # A row 60 times a second, whatever the loudspeaker does.
     read -r rows gaps < <(awk -F, 'FNR > 2 && $1 - t > 0.018 { gaps++ } FNR > 1 { t = $1; times[$1] } END { print length(times), gaps + 0 }' "$room/mute.csv")
     bar "the motion goes on" "$rows >= 1910 && $gaps == 0" "$rows moments in 32 s, $gaps gaps"
