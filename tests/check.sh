@@ -1,47 +1,57 @@
 #!/usr/bin/env bash
-# Runs the parts of ./check in order and stops at the first that fails. Packages are ./check's business.
+# Runs the parts of ./check and says how long each took. Packages are ./check's business. What each part said is in out/check.
+# All build with the profile `ci`, the whole workspace at once: lints and docs share what they know of the dependencies; the
+# suite, the stored states and the live tests share one build.
 set -euo pipefail
-cd "$(dirname "$(readlink -f "$0")")/.."
+self=$(readlink -f "$0")
+cd "$(dirname "$self")/.."
+built="${CARGO_TARGET_DIR:-target}/ci"
+# Where the parts leave what they said, and how they ended.
+marks=out/check
+everything=(format lints build live headless docs exhibits states suite)
 
 format()   { cargo fmt --all -- --check; }
-lints()    { cargo clippy --locked --quiet --all-targets -- -D warnings; }
-headless() { cargo clippy --locked --quiet --all-targets --no-default-features -- -D warnings; }
-suite()    { cargo test --locked --quiet; }
-# The program without devices, as fast as it gets; its path is in $released.
-release() {
-    cargo build --release --locked --quiet --no-default-features
-    released="${CARGO_TARGET_DIR:-target}/release/soffio"
-}
-# The release build ends every exhibit's run in the state that its folder stores; devices have no part in it.
-states() {
-    local file id word found
-    release
-    for file in exhibits/*/expected.toml; do
-        id=$(basename "$(dirname "$file")")
-        word=$(sed -n 's/^state = "\(.*\)"$/\1/p' "$file")
-        found=$("$released" play "$id" --script tests/cases/gusts.jsonl --seconds 41.6667)
-        if [[ $found != *"\"state_hash\":\"$word\""* ]]; then
-            echo "$id: $word is stored in $file, the release build ends in ${found##*state_hash}" >&2
-            return 1
-        fi
-    done
-}
-exhibits() { release && "$released" check exhibits kiosk-config/kiosk.toml; }
-docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --document-private-items; }
-live()     { cargo build --locked --quiet --bins --example correlate && tests/live/run.sh "${CARGO_TARGET_DIR:-target}/debug/soffio"; }
-
+lints()    { cargo clippy --profile ci --workspace --locked --quiet --all-targets -- -D warnings; }
+# Without the kiosk: the two packages that have it as a feature.
+headless() { cargo clippy --profile ci -p soffio -p soffio-offline --locked --quiet --all-targets --no-default-features -- -D warnings; }
+docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --profile ci --workspace --locked --quiet --no-deps --document-private-items; }
+# All that is run later: the program, what looks for a recording, and the suites.
+build()    { cargo test --profile ci --workspace --locked --no-run; }
+# Of these only what a part needs that is run alone, with the same features of every dependency.
+program()  { cargo build --profile ci --workspace --locked --quiet --bins --example correlate; }
+suite()    { cargo test --profile ci --workspace --locked --quiet; }
+exhibits() { program && "$built/soffio" check exhibits kiosk-config/kiosk.toml; }
+live()     { program && tests/live/lanes.sh "$built/soffio"; }
 deb()      { tests/package.sh; }
+
+# Every exhibit's run ends in the state that its folder stores; one at a time for each processor.
+states() {
+    program
+    printf '%s\0' exhibits/*/expected.toml | xargs -0 -n 1 -P "$(nproc)" "$self" --state
+}
+state() { # state EXPECTED.toml
+    local id word found
+    id=$(basename "$(dirname "$1")")
+    word=$(sed -n 's/^state = "\(.*\)"$/\1/p' "$1")
+    found=$("$built/soffio" play "$id" --script tests/cases/gusts.jsonl --seconds 41.6667)
+    if [[ $found == *"\"state_hash\":\"$word\""* ]]; then
+        echo "state: good  $id"
+    else
+        echo "state: BAD   $id: $word is stored in $1, the run ends in ${found##*state_hash}"
+        return 1
+    fi
+}
 
 # One test of the suite that is too long for every day; it must be there.
 ignored() {
-    cargo test --release --locked --quiet --no-default-features --test suite -- --ignored --exact --nocapture "$1" |
+    cargo test --profile ci --workspace --locked --quiet --test suite -- --ignored --exact --nocapture "$1" |
         tee /dev/stderr | grep '^test result: ok. 1 passed' >/dev/null
 }
 
 # The suite's own program.
 suite_binary() {
-    cargo test --release --locked --no-run --test suite --message-format=json 2>/dev/null |
-        sed -n 's/.*"executable":"\([^"]*suite-[^"]*\)".*/\1/p' | tail -1
+    cargo test --profile ci --workspace --locked --no-run --test suite --message-format=json 2>/dev/null |
+        sed -n 's/.*"package_id":"[^"]*soffio@.*"executable":"\([^"]*suite-[^"]*\)".*/\1/p' | tail -1
 }
 
 # One bar of the rehearsed day, as its report has it: tells it, and fails where it is not met.
@@ -54,7 +64,7 @@ rehearsed() {
 
 # Longer runs than a change needs: each leaves its mark in out/long and is not run again until the sources change.
 long() {
-    local stamp part missed=() built="${CARGO_TARGET_DIR:-target}/release"
+    local stamp part missed=() released="${CARGO_TARGET_DIR:-target}/release/soffio"
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
@@ -66,34 +76,34 @@ long() {
         fi
         echo "== $part"
         case $part in
-            soak-blow)  "$built/soffio" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
-            soak-still) "$built/soffio" play steel-fish --seconds 7200 ;;
-            visits)     cargo test --locked --quiet --no-default-features --test suite two_hundred_visits -- --ignored --nocapture ;;
+            soak-blow)  "$released" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
+            soak-still) "$released" play steel-fish --seconds 7200 ;;
+            visits)     ignored wind::visits::what_moves_is_the_visitors_doing_in_two_hundred_visits ;;
             # Every shipped work and language, on whatever Vulkan driver there is.
-            contrast)   cargo test --release --locked --quiet --test suite kiosk::contrast -- --include-ignored --nocapture ;;
-            flashes)    cargo test --release --locked --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
+            contrast)   cargo test --profile ci --workspace --locked --quiet --test suite kiosk::contrast -- --include-ignored --nocapture ;;
+            flashes)    cargo test --profile ci --workspace --locked --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
             # An hour in all; where the fuzzer is not installed it says so.
             fuzz)       tests/fuzz/run.sh ;;
             hands)      ignored hands::no_handling_breaks_anything_in_twenty_seconds ;;
             blown)      ignored mobiles::ten_minutes_of_hard_breath_tangle_nothing ;;
             cabinet)    ignored cabinet::ten_minutes_of_hard_breath_break_nothing_in_the_cabinet ;;
             # 10,000 patches among 5,000 triangles in 4 ms of one core, and 20 times faster than every triangle.
-            wind)       "$built/soffio" bench --wind --json | tee /dev/stderr |
+            wind)       "$released" bench --wind --json | tee /dev/stderr |
                             awk -F'"(ms_per_step|ratio)":' '{ split($2, ms, /[,}]/); split($3, ratio, /[,}]/); exit !(ms[1] <= 4 && ratio[1] >= 20) }' ;;
-            soak-live)  SOFFIO_LIVE_SECONDS=7200 tests/live/run.sh "$built/soffio" ;;
-            stream-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_STREAM=600 tests/live/run.sh "$built/soffio" ;;
-            loaded-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_LOAD=600 tests/live/run.sh "$built/soffio" ;;
-            devices)    SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_SUITE=$(suite_binary) tests/live/run.sh "$built/soffio" ;;
+            soak-live)  SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_SECONDS=7200 tests/live/run.sh "$released" ;;
+            stream-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_STREAM=600 tests/live/run.sh "$released" ;;
+            loaded-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_LOAD=600 tests/live/run.sh "$released" ;;
+            devices)    SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_SUITE=$(suite_binary) tests/live/run.sh "$released" ;;
             deb)        deb ;;
             million-hits)  ignored hits::a_million_hits_keep_joints_energy_cone_and_momentum ;;
             beats)      ignored clock::two_minutes_of_beats_fall_where_a_finer_step_has_them ;;
             turning-gears) ignored motion::gears::gears_keep_their_phase_over_a_hundred_thousand_turns ;;
             half-day)      ignored clock::in_half_a_day_it_strikes_seventy_eight_blows ;;
             # Rehearsed minutes: the same the second time, and a crowd that is to be answered nothing.
-            minutes)    cargo test --release --locked --quiet --test suite rehearsal:: -- --ignored --nocapture ;;
+            minutes)    cargo test --profile ci --workspace --locked --quiet --test suite rehearsal:: -- --ignored --nocapture ;;
             # An eight-hour gallery day; its exit code says whether all its bars are met. Each of them is a part of its own, so
             # that one that is missed hides none.
-            rehearse)   "$built/soffio" rehearse --hours 8 --json >out/long/rehearse.json || [ -s out/long/rehearse.json ] ;;
+            rehearse)   "$released" rehearse --hours 8 --json >out/long/rehearse.json || [ -s out/long/rehearse.json ] ;;
             answered | first | groups | shuffled | nobody | staff | attract)
                         rehearsed "$part" || { missed+=("$part"); continue; } ;;
             clock-hour)    ignored escapement::an_anchor_keeps_a_pendulum_going_for_an_hour ;;
@@ -106,12 +116,100 @@ long() {
     fi
 }
 
-parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(format lints headless docs suite states exhibits live)
-[ "${parts[0]}" = --long ] && parts=(long)
-for part in "${parts[@]}"; do
-    echo "== $part"
-    began=$SECONDS
-    "$part"
-    echo "== $part: good, $((SECONDS - began)) s"
-done
+# ---- one part after another, the live tests beside the others --------------------------------------------------------------
+
+# Runs a part as a process of its own, so that its first failing command ends it, and notes how it ended and how long it took.
+run_part() {
+    local began=$SECONDS code=0
+    "${@:2}" "$self" --alone "$1" || code=$?
+    echo "$code $((SECONDS - began))" >"$marks/$1"
+}
+
+# What a part has counted of what it was asked to show: "PASSED FAILED". One that counts nothing is one thing itself.
+counted() { # counted PART EXIT-CODE
+    awk -v code="$2" '
+        /^test result: / { for (i = 2; i <= NF; i++) { if ($i ~ /^passed/) good += $(i - 1); if ($i ~ /^failed/) bad += $(i - 1) } }
+        /^(live|state): good / { good++ }
+        /^(live|state): BAD / { bad++ }
+        END {
+            if (code != 0 && !bad) bad = 1
+            if (code == 0 && !good) good = 1
+            print good + 0, bad + 0
+        }' "$marks/$1.log"
+}
+
+tell_end() { # tell_end PART: of one that has ended
+    local code time
+    read -r code time <"$marks/$1"
+    [ "$code" = 0 ] && echo "== $1: good, $time s" || echo "== $1: FAILED, $time s"
+}
+
+# The live tests that run in the background; none runs where this is empty.
+beside=
+finish_live() {
+    [ -n "$beside" ] || return 0
+    echo "== live: waiting for the rest of it"
+    wait "$beside" || true
+    beside=
+    sed 's/^/    /' "$marks/live.log"
+    tell_end live
+}
+
+# The times of all parts, and the sum of what they have counted.
+table() {
+    local part code time passed failed good=0 bad=0
+    echo
+    for part in "$@"; do
+        [ -f "$marks/$part" ] || { printf '%-10s      -    not run\n' "$part"; bad=$((bad + 1)); continue; }
+        read -r code time <"$marks/$part"
+        read -r passed failed < <(counted "$part" "$code")
+        good=$((good + passed)) bad=$((bad + failed))
+        printf '%-10s %6d s  %5d passed, %d failed\n' "$part" "$time" "$passed" "$failed"
+    done
+    printf '%-10s %6d s\n' "all" "$SECONDS"
+    echo "$good passed, $bad failed"
+    [ "$bad" -eq 0 ]
+}
+
+run() {
+    local part before=()
+    rm -rf "$marks"
+    mkdir -p "$marks"
+    trap '[ -z "$beside" ] || kill -- -"$beside" 2>/dev/null || true' EXIT
+    trap 'exit 130' INT TERM
+    for part in "$@"; do
+        # They wait more than they work: with other parts to come they run beside them, and go before them.
+        if [ "$part" = live ] && [ $# -gt 1 ]; then
+            echo "== live: begun, in the background"
+            # In a process group of its own, which can be ended whole; not in a session, or the system would share the processor
+            # between sessions and not by niceness.
+            set -m
+            "$self" --beside live >"$marks/live.log" 2>&1 </dev/null &
+            beside=$!
+            set +m
+            before=(nice -n 19)
+            continue
+        fi
+        echo "== $part"
+        run_part "$part" "${before[@]}" 2>&1 | tee "$marks/$part.log"
+        tell_end "$part"
+        # Without the program there is nothing to run.
+        [ "$part" != build ] || [ "$(cut -d' ' -f1 "$marks/build")" = 0 ] || break
+    done
+    finish_live
+    table "$@"
+}
+
+case ${1:-} in
+    --alone) "$2" ;;
+    --beside) run_part "$2" ;;
+    --state) state "$2" ;;
+    --long)  run long ;;
+    "")      run "${everything[@]}" ;;
+    *)
+        for part in "$@"; do
+            [[ " ${everything[*]} deb long " == *" $part "* ]] || { echo "check: no part is called $part: ${everything[*]} deb, or --long" >&2; exit 2; }
+        done
+        run "$@"
+        ;;
+esac

@@ -19,6 +19,9 @@ if [ -z "$package" ]; then
     command -v cargo-deb >/dev/null || [ -x "$tools/bin/cargo-deb" ] || cargo install --locked --quiet --root "$tools" cargo-deb
     PATH=$PATH:$tools/bin
     cargo build --release --locked --quiet
+    # The licences of all that is linked into the program, where Cargo.toml takes them from.
+    python3 kiosk-config/debian/notices.py --output out/package/THIRD-PARTY
+    python3 kiosk-config/debian/notices.py --debian-copyright --output out/package/copyright
     cargo-deb deb --no-build --output "$work/soffio.deb" >/dev/null
     package=$work/soffio.deb
 fi
@@ -38,17 +41,27 @@ everything >"$work/before"
 package_manager --install "$package"
 for file in usr/bin/soffio usr/lib/soffio/launch usr/lib/systemd/system/soffio.service etc/soffio/kiosk.toml \
     usr/share/soffio/exhibits/steel-fish/exhibit.toml usr/share/soffio/exhibits/steel-fish/breaths/normal.wav \
-    usr/share/doc/soffio/README.md usr/share/doc/soffio/weston.ini; do
+    usr/share/doc/soffio/README.md usr/share/doc/soffio/weston.ini usr/share/doc/soffio/copyright usr/share/doc/soffio/THIRD-PARTY; do
     [ -f "$scratch/$file" ] || fail "$file is not installed"
 done
 [ -z "$(cd "$scratch" && find usr etc -type f -perm /022)" ] || fail "files that others may write"
 soffio=$scratch/usr/bin/soffio
+# Symbols are for whoever builds it.
+sections=$(readelf --section-headers --wide "$soffio")
+[[ $sections != *.symtab* && $sections != *.debug_info* ]] || fail "the program is not stripped"
+grep -q '^Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/' "$scratch/usr/share/doc/soffio/copyright" ||
+    fail "its copyright file is not the one that notices.py has written"
 cmp "$scratch/etc/soffio/kiosk.toml" kiosk-config/kiosk.toml || fail "the installed configuration is not the shipped one"
 
 # systemd understands the unit. The compositor that it begins with is another package's, so something else stands there.
 if command -v systemd-analyze >/dev/null; then
     sed 's#^ExecStart=/usr/bin/cage #ExecStart=/bin/true #' "$scratch/usr/lib/systemd/system/soffio.service" >"$work/soffio.service"
-    systemd-analyze verify "$work/soffio.service" 2>"$work/verify" && [ ! -s "$work/verify" ] || { cat "$work/verify" >&2; fail "the unit"; }
+    if ! systemd-analyze verify "$work/soffio.service" 2>"$work/verify" || [ -s "$work/verify" ]; then
+        cat "$work/verify" >&2
+        fail "the unit"
+    fi
+elif [ -n "${SOFFIO_REQUIRE_ALL:-}" ]; then
+    fail "the unit cannot be verified without systemd-analyze: apt-get install systemd"
 else
     echo "package: the unit is not verified: no systemd-analyze here" >&2
 fi
@@ -71,9 +84,9 @@ grep -q '^# of the house' "$scratch/etc/soffio/kiosk.toml" || fail "an update ha
 mkdir -p "$scratch/var/lib/soffio/exhibits/own"
 touch "$scratch/var/lib/soffio/state.json"
 package_manager --remove soffio
-[ ! -e "$scratch/usr/bin/soffio" ] && [ -f "$scratch/etc/soffio/kiosk.toml" ] || fail "removal"
+if [ -e "$scratch/usr/bin/soffio" ] || [ ! -f "$scratch/etc/soffio/kiosk.toml" ]; then fail "removal"; fi
 package_manager --purge soffio
-[ -d "$scratch/var/lib/soffio/exhibits/own" ] && [ ! -e "$scratch/var/lib/soffio/state.json" ] || fail "purge and /var/lib/soffio"
+if [ ! -d "$scratch/var/lib/soffio/exhibits/own" ] || [ -e "$scratch/var/lib/soffio/state.json" ]; then fail "purge and /var/lib/soffio"; fi
 rm -r "$scratch/var"/lib/soffio
 everything >"$work/after"
 diff "$work/before" "$work/after" || fail "something is left"

@@ -1,8 +1,12 @@
-# Shared by ./kiosk and ./check: finds which system packages are missing, says why they are wanted, installs them.
+# shellcheck shell=bash
+# Shared by ./kiosk and ./check: finds which system packages are missing, says why they are wanted, installs them; looks
+# whether disk and memory are enough.
 # Sourced, not run.
 
 missing=()
 wanted=()
+# Package:witness of all that was asked for.
+asked_for=()
 
 say() { printf 'soffio: %s\n' "$*" >&2; }
 
@@ -36,7 +40,8 @@ present() {
         lvp_icd) any /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json ;;
         DejaVu*) any /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf /usr/share/fonts/truetype/noto/NotoSansArabic* ;;
         Nanum*) any /usr/share/fonts/truetype/nanum/*.ttf /usr/share/fonts/opentype/noto/*CJK* ;;
-        *) command -v "$1" >/dev/null 2>&1 ;;
+        # Servers lie where only root looks.
+        *) PATH=$PATH:/usr/sbin:/sbin command -v "$1" >/dev/null 2>&1 ;;
     esac
 }
 
@@ -50,6 +55,7 @@ look() {
     local -n list=$1
     local why=$2 pair
     shift 2
+    asked_for+=("$@")
     for pair in "$@"; do
         if ! present "${pair#*:}"; then
             local package=${pair%%:*}
@@ -86,4 +92,35 @@ install_all() {
         return 0
     fi
     rm -f "$log"
+}
+
+# Ends the script where something that was asked for could not be had.
+all_there() {
+    local pair absent=()
+    for pair in "${asked_for[@]}"; do
+        present "${pair#*:}" || absent+=("${pair%%:*}")
+    done
+    [ ${#absent[@]} -eq 0 ] && return 0
+    say "still missing: ${absent[*]}. Without them a part of the check would prove nothing: install them, then run this again."
+    exit 3
+}
+
+# Ends the script where disk or memory are not enough: enough FOLDER MB-OF-DISK MB-OF-MEMORY "for what".
+enough() {
+    local folder=$1 disk=$2 memory=$3 what=$4 free short=
+    # What is not there yet comes into the folder above it.
+    while [ ! -d "$folder" ]; do folder=$(dirname "$folder"); done
+    free=$(df -Pm "$folder" | awk 'NR == 2 { print $4 }')
+    if [ "${free:-$disk}" -lt "$disk" ]; then
+        say "$what needs about $disk MB of disk, and $(readlink -f "$folder") has $free MB free. Make room, or set CARGO_TARGET_DIR to a folder on another disk."
+        short=1
+    fi
+    # Swap counts: it is slow, but it works.
+    free=$(awk '/^(MemAvailable|SwapFree):/ { kb += $2 } END { if (NR) print int(kb / 1024) }' /proc/meminfo 2>/dev/null || true)
+    if [ "${free:-$memory}" -lt "$memory" ]; then
+        say "$what needs about $memory MB of memory, and $free MB are available. End other programs, or add swap."
+        short=1
+    fi
+    [ -n "$short" ] || return 0
+    [ -n "${SOFFIO_ANYWAY:-}" ] || { say "SOFFIO_ANYWAY=1 goes on all the same."; exit 3; }
 }

@@ -42,19 +42,21 @@ start() {
     started+=("$last")
 }
 
-# Waits up to so many seconds until a command succeeds.
+# Waits up to so many seconds until a command succeeds, which is tried every tenth of a second, or every $pause.
 within() {
     local end=$((SECONDS + $1))
     shift
     until "$@" >/dev/null 2>&1; do
         [ "$SECONDS" -lt "$end" ] || return 1
-        sleep 0.1
+        sleep "${pause:-0.1}"
     done
 }
 
 enter_room() {
     mkdir -p "$room/run" "$room/home"
     chmod 700 "$room/run"
+    # As it is shipped, with fewer pictures.
+    sed "s/^software_fps = .*/software_fps = $few_pictures/" "$root/kiosk-config/kiosk.toml" >"$room/kiosk.toml"
     export HOME=$room/home XDG_RUNTIME_DIR=$room/run PULSE_SERVER=unix:$room/run/pulse/native
     export XDG_CONFIG_HOME=$room/home/.config XDG_CACHE_HOME=$room/home/.cache
     unset WAYLAND_DISPLAY RUST_LOG PULSE_SINK PULSE_SOURCE XDG_STATE_HOME STATE_DIRECTORY
@@ -102,20 +104,42 @@ pull_microphone() {
     pactl unload-module "$(cat "$room/plug")"
 }
 
+# Pictures a second where a part looks at single ones: each costs a software renderer up to a quarter of a second, and other
+# rooms draw too. Whoever watches as a visitor does has the shipped configuration.
+few_pictures=3.0
+
+# The site's configuration with its own words and few pictures: `configured FILE WORDS`, as printf takes them.
+configured() {
+    local file=$1
+    shift
+    # shellcheck disable=SC2059
+    { printf '[screen]\nsoftware_fps = %s\n' "$few_pictures" && printf "$@"; } >"$file"
+}
+
 # Kiosk under test: its log is $room/$1.err. A debug build on software graphics opens its window within seconds.
 start_kiosk() {
     local name=$1
     shift
+    [[ " $* " == *" --config "* ]] || set -- --config "$room/kiosk.toml" "$@"
     start "$name" timeout --kill-after=5 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" "$@"
     kiosk=$last
     within 20 grep -q 'pixels on' "$room/$name.err"
 }
 
-# Waits for the kiosk's own end; its exit code.
+# Waits for the kiosk's own end; its exit code, or 0 for the one that is wanted: `end_kiosk NAME [CODE]`.
 end_kiosk() {
     local code=0
     wait "$kiosk" || code=$?
+    [ "$code" -ne "${2:-0}" ] || code=0
     [ "$code" -eq 0 ] || sed "s/^/    /" "$room/$1.err" >&2
+    return "$code"
+}
+
+# Ends the kiosk as a service manager would, before its own time is over; its exit code, 0 for an orderly end.
+leave_kiosk() {
+    local code=0
+    kill -TERM "$kiosk" 2>/dev/null || true
+    end_kiosk "$1" 130 || code=$?
     return "$code"
 }
 
@@ -143,6 +167,15 @@ room_tone() {
     start tone sh -c "while paplay -d mic_in '$room/tone.wav'; do :; done"
 }
 
+# The processes that a process has started, those that they have started, and so on.
+descendants() {
+    local id
+    cat "/proc/$1/task/"*/children 2>/dev/null | xargs -rn 1 | while read -r id; do
+        echo "$id"
+        descendants "$id"
+    done
+}
+
 # Wall clock, s.
 now() {
     date +%s.%N
@@ -157,6 +190,19 @@ log_times() {
 breaths() {
     sed -nE "s/.* ([0-9.]+) s: a breath $3 \($2\).*/\1/p" "$room/$1.err"
 }
+
+# Holds the key that blows so long, from when the kiosk says that this breath begins: an event waits for the picture that is
+# drawn meanwhile, and returns when it has ended.
+hold() { # hold KIOSK SECONDS
+    local held
+    held=$(breaths "$1" hold begins | wc -l)
+    xdotool keydown space
+    within 10 held_times "$1" begins $((held + 1)) || true
+    sleep "$2"
+    xdotool keyup space
+    within 10 held_times "$1" ends $((held + 1)) || true
+}
+held_times() { [ "$(breaths "$1" hold "$2" | wc -l)" -ge "$3" ]; }
 
 # Level of a recording between two moments, dB of full scale (RMS over both channels); −140 for silence.
 level() { # level RAW FROM SECONDS

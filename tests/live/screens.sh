@@ -2,10 +2,10 @@
 # sourced by run.sh. A screen is known by how much of the glass it changes: the page covers all of it, the panel a part, a
 # closed house is black. Languages are told by the title's corner, in which nothing else changes.
 
-# A picture of the whole glass.
-shot() { import -window root "$room/$1.png"; }
+# A picture of the whole glass; packing it would take longer than taking it.
+shot() { import -window root "$room/$1.ppm"; }
 # Share of the glass that differs between two such pictures, or of a part of it.
-differs() { changed "$room/$1.png" "$room/$2.png" "${3:-1280x720+0+0}"; }
+differs() { changed "$room/$1.ppm" "$room/$2.ppm" "${3:-1280x720+0+0}"; }
 # A swinging bob and its shadow on the wall change less.
 SWINGS=0.05
 # Of the title's corner: another language, and the same one. Letters cover a tenth of it.
@@ -19,7 +19,7 @@ PANEL=0.1
 becomes() { shot "$1" && holds "$(differs "$2" "$1" "${4:-}") > $3"; } # becomes NEW OLD SHARE [PART]
 # Waits until it does, for software graphics may take seconds for a picture, and then until it stands.
 changes() {
-    within 15 becomes "$@" || true
+    pause=0.3 within 15 becomes "$@" || true
     sleep 0.7
     shot "$1"
 }
@@ -31,7 +31,7 @@ languages() { # languages NAME CORNER
     for i in {1..12}; do
         xdotool key l
         # Software graphics may take a second for a picture.
-        within 15 becomes "$1-$i" "$1-$((i - 1))" $ANOTHER "$2" || alike=$((alike + 1))
+        pause=0.3 within 15 becomes "$1-$i" "$1-$((i - 1))" $ANOTHER "$2" || alike=$((alike + 1))
         holds "$(differs "$1-0" "$1-$i" "$2") < $SAME" && break
     done
     echo "$i $alike"
@@ -70,8 +70,8 @@ every_screen() {
     "$soffio" doctor >"$room/doctor.out" 2>&1 || true
     wanted=$((wanted - $(grep -cE '(Korean|Hebrew|Urdu): none found' "$room/doctor.out" || true)))
     site() {
-        printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[visit]\ncalm = true\n[attract]\nidle_s = 45\n%s\n' \
-            "$works" "${1:-}" >"$toml"
+        configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[visit]\ncalm = true\n[attract]\nidle_s = 36\n%s\n' \
+            "$works" "${1:-}"
     }
     site
     launch_kiosk screens --config "$toml"
@@ -107,7 +107,7 @@ every_screen() {
     # The page closes by itself, and then nobody is here.
     xdotool key Tab
     changes page after $PAGE
-    within 40 becomes now page $PAGE && left=1 || left=0
+    pause=0.5 within 40 becomes now page $PAGE && left=1 || left=0
     within 40 grep -q 'attract mode begins' "$room/screens.err" && seen=1 || seen=0
     sleep 2
     shot attract
@@ -137,8 +137,8 @@ staff_pages() {
     local number=0 alike=0 shut covered deaf back code=0
     # The picture goes on moving beside the panel, and only the first language's title stands in its corner.
     local panel=490x720+790+0 title=400x90+0+620 another
-    printf '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[attract]\nenabled = false\nidle_s = 20\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
-        "$root/exhibits" "$(echo 271828 | "$soffio" pin)" "$room/staff.state" "$room/staff.prom" >"$toml"
+    configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[attract]\nenabled = false\nidle_s = 20\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
+        "$root/exhibits" "$(echo 271828 | "$soffio" pin)" "$room/staff.state" "$room/staff.prom"
     launch_kiosk staff --config "$toml"
     within 30 picture || true
     sleep 3
@@ -160,7 +160,7 @@ staff_pages() {
     for tab in $tabs; do
         xdotool mousemove "${tab%,*}" "${tab#*,}" click 1
         # The first one is open already.
-        if [ "$number" = 0 ]; then shot staff-0; else within 15 becomes "staff-$number" "staff-$((number - 1))" $ANOTHER $panel || true; fi
+        if [ "$number" = 0 ]; then shot staff-0; else pause=0.3 within 15 becomes "staff-$number" "staff-$((number - 1))" $ANOTHER $panel || true; fi
         for ((other = 0; other < number; other++)); do
             holds "$(differs "staff-$other" "staff-$number" $panel) > $ANOTHER" || alike=$((alike + 1))
         done
@@ -178,11 +178,11 @@ staff_pages() {
     shot cleaned
     covered=$(differs before-cleaning cleaning)
     deaf=$(differs cleaning cleaned)
-    within 70 becomes now cleaning $PAGE && back=1 || back=0
+    pause=0.5 within 70 becomes now cleaning $PAGE && back=1 || back=0
     bar "cleaning" "$covered > $PAGE && $deaf < 0.02 && $back == 1 && $(breaths staff hold begins | wc -l) == 0" \
         "$covered of the glass; $deaf of it changed when pressed; over by itself"
     # The first language is back after the last visitor, with no attract mode to bring it.
-    within 40 resembles first "$title" && back=1 || back=0
+    pause=0.5 within 40 resembles first "$title" && back=1 || back=0
     bar "reset without attract" "$another == 1 && $back == 1" "another language, and the first one when nobody is here"
     end_launcher || true
     if command -v promtool >/dev/null; then
@@ -190,6 +190,8 @@ staff_pages() {
         promtool check rules "$root/kiosk-config/prometheus/soffio.rules.yml" >>"$room/promtool.out" 2>&1 || code=1
         bar "promtool" "$code == 0 && $(grep -c '^kiosk_' "$room/staff.prom") > 20" \
             "$(grep -c '^kiosk_' "$room/staff.prom") samples and the alert rules"
+    else
+        cannot "promtool" "promtool is missing: apt-get install prometheus"
     fi
 }
 resembles() { shot now && holds "$(differs "$1" now "$2") < $SAME"; }

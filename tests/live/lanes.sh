@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# The live proof in several rooms side by side: each part in a room of its own; what it says is printed when it ends.
+#
+#   tests/live/lanes.sh target/ci/soffio [PART …]
+#
+# SOFFIO_LIVE_LANES=3 is how many rooms there are at once: one more than processors, where nobody says; 1 is one part after
+# another. Parts whose bars are seconds or hundredths of them (parts.sh says which) go before the others on the processor.
+# One of these that misses a bar beside other rooms is tried once more in the only room; what was missed is told all the same.
+set -euo pipefail
+here=$(dirname "$(readlink -f "$0")")
+soffio=$(readlink -f "${1:?usage: tests/live/lanes.sh PATH-OF-SOFFIO [PART …]}")
+shift
+# shellcheck source-path=SCRIPTDIR
+. "$here/parts.sh"
+lanes=${SOFFIO_LIVE_LANES:-$(($(nproc) + 1))}
+
+is_patient() { [[ " ${patient_parts[*]} " == *" $1 "* ]]; }
+
+# One part in its room. A part that hangs is ended before it holds up the others for long.
+part() {
+    local code=0 nice=0
+    ! is_patient "$1" || nice=5
+    SOFFIO_LIVE_PARTS=$1 nice -n "$nice" timeout --foreground --kill-after=30 600 "$here/run.sh" "$soffio" >"$logs/$1" 2>&1 || code=$?
+    # A part that ends early has missed what it does not tell of.
+    if [ "$code" -ne 0 ] && ! grep -q '^live: BAD' "$logs/$1"; then
+        printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
+    fi
+    # What is tried again has missed nothing yet.
+    if [ -n "${SOFFIO_LIVE_AGAIN:-}" ] && ! is_patient "$1" && grep -q '^live: BAD' "$logs/$1"; then
+        touch "$logs/$1.again"
+        sed -i 's/^live: BAD  /live: AGAIN/; /^live: good/d' "$logs/$1"
+    fi
+    flock "$logs" cat "$logs/$1"
+}
+
+if [ "${1:-}" = --alone ]; then
+    logs=$SOFFIO_LIVE_LOGS
+    part "$2"
+    exit
+fi
+logs=$(mktemp -d)
+export SOFFIO_LIVE_LOGS=$logs
+trap 'rm -rf "$logs"' EXIT
+trap 'exit 130' INT TERM
+
+[ $# -gt 0 ] || set -- "${live_parts[@]}"
+if [ "$lanes" -gt 1 ] && [ $# -gt 1 ]; then export SOFFIO_LIVE_AGAIN=1; fi
+printf '%s\n' "$@" | xargs -P "$lanes" -I{} "$0" "$soffio" --alone {}
+unset SOFFIO_LIVE_AGAIN
+for part in "$@"; do
+    [ ! -e "$logs/$part.again" ] || part "$part"
+done
+! grep -q '^live: BAD' "$logs"/*
