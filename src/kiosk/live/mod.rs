@@ -6,6 +6,9 @@
 //! for a copy. Only the clock, the devices and the trace file are here; what a step does is in [`Stage`].
 
 mod frame;
+pub mod microphone;
+pub mod pace;
+pub mod recording;
 mod thread;
 
 use std::path::PathBuf;
@@ -13,9 +16,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
-use super::recording::Recording;
-use super::site::Site;
-use super::stage::{Controls, Stage};
+use crate::live::recording::Recording;
+use crate::step::stage::{Controls, Stage};
+use crate::venue::site::Site;
 pub use frame::{Frame, Load, Onset};
 use soffio_exhibit::Exhibit;
 use soffio_offline::feed::WavFeed;

@@ -5,8 +5,8 @@ use std::time::Instant;
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
-use crate::input::Request;
-use crate::loudness::Wishes;
+use crate::venue::loudness::Wishes;
+use crate::visitor::input::Request;
 use soffio_simulation::Command;
 
 impl App<'_> {

@@ -7,11 +7,11 @@ use winit::event_loop::ActiveEventLoop;
 
 use super::App;
 use crate::fleet::SAFE_MODE;
-use crate::input::Request;
 use crate::live::Frame;
-use crate::shelf::{Places, folders, id};
-use crate::site::{News, Site, waits_for_restart};
 use crate::staff::Wish;
+use crate::venue::shelf::{Places, folders, id};
+use crate::venue::site::{News, Site, waits_for_restart};
+use crate::visitor::input::Request;
 use soffio_config::{Day, TimeOfDay};
 use soffio_simulation::Command;
 

@@ -4,9 +4,9 @@
 use std::time::Instant;
 
 use super::App;
+use crate::fleet::mqtt::Order;
 use crate::fleet::{SAFE_MODE, Seen};
 use crate::live::Frame;
-use crate::mqtt::Order;
 
 impl App<'_> {
     /// Goes on as the run before left it.

@@ -20,34 +20,41 @@ use soffio_config::Config;
 use soffio_devices::audio::DeviceState;
 use soffio_simulation::Snapshot;
 
-use super::aloud::Aloud;
-use super::drift::Drift;
-use super::dwell::Dwell;
-use super::events::{is_input, translate};
-use super::fleet::Fleet;
-use super::given::Given;
-use super::house::{Above, House};
-use super::input::{Keys, Request, Visitor};
-use super::languages::unwritten;
-use super::live::{self, Frame, Live, Report};
-use super::log::Log;
-use super::menu::Menu;
-use super::needs::Needs;
-use super::overlay::Overlay;
-use super::rest::Rest;
-use super::screen::Screen;
-use super::shelf::{Offer, Places, Shelf};
-use super::site::{Overrides, SiteFile};
-use super::staff::Staff;
-use super::tiers::Tiers;
-use super::timing::{Clock, FirstSight};
-use super::workbench::Workbench;
+use crate::attract::drift::Drift;
+use crate::fleet::Fleet;
+use crate::live::{self, Frame, Live, Report};
+use crate::pages::aloud::Aloud;
+use crate::pages::languages::unwritten;
+use crate::pages::menu::Menu;
+use crate::pages::overlay::Overlay;
+use crate::staff::Staff;
+use crate::staff::log::Log;
+use crate::venue::house::{Above, House};
+use crate::venue::shelf::{Offer, Places, Shelf};
+use crate::venue::site::{Overrides, SiteFile};
+use crate::visitor::dwell::Dwell;
+use crate::visitor::given::Given;
+use crate::visitor::input::{Keys, Request, Visitor};
+use crate::visitor::needs::Needs;
+use crate::window::events::{is_input, translate};
+use crate::window::rest::Rest;
+use crate::window::screen::Screen;
+use crate::window::tiers::Tiers;
+use crate::window::timing::{Clock, FirstSight};
+use crate::window::workbench::Workbench;
 
 mod asked;
 mod day;
+mod events;
 mod fleet;
 mod picture;
+pub mod rest;
+pub mod rhythm;
+mod screen;
+pub mod tiers;
+mod timing;
 mod visit;
+pub mod workbench;
 mod works;
 
 /// Size of the window on a desk, pixels.
@@ -158,7 +165,7 @@ pub fn run(
         inputs: 0,
         waker: events.create_proxy(),
         #[cfg(target_os = "linux")]
-        watchdog: super::watchdog::Watchdog::default(),
+        watchdog: crate::fleet::watchdog::Watchdog::default(),
         pictures_shown: 0,
         pictures_dark: 0,
         pictures_at_rest: 0,
@@ -264,7 +271,7 @@ struct App<'a> {
     /// Lets the simulation end a rest.
     waker: EventLoopProxy<()>,
     #[cfg(target_os = "linux")]
-    watchdog: super::watchdog::Watchdog,
+    watchdog: crate::fleet::watchdog::Watchdog,
     /// Pictures so far, and those after which the next one waited because nothing moved.
     pictures_shown: u64,
     /// For which the display was off.

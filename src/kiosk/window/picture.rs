@@ -5,17 +5,18 @@ use std::time::Instant;
 use winit::event_loop::ActiveEventLoop;
 
 use super::{App, Show, visit};
-use crate::languages::{first, offered};
-use crate::live::Frame;
-use crate::menu::tiles;
-use crate::overlay::Scene;
-use crate::rest::{PICTURE_S, Signs};
-use crate::screen::{Drawn, Screen};
-use crate::staff::{Sight, Vitals};
-use crate::tiers::Tiers;
 #[cfg(target_os = "linux")]
-use crate::watchdog::Progress;
-use crate::workbench::Workbench;
+use crate::fleet::watchdog::Progress;
+use crate::live::Frame;
+use crate::pages::languages::{first, offered};
+use crate::pages::menu::tiles;
+use crate::pages::overlay::Scene;
+use crate::staff::{Sight, Vitals};
+use crate::step::stillness::PICTURE_S;
+use crate::window::rest::Signs;
+use crate::window::screen::{Drawn, Screen};
+use crate::window::tiers::Tiers;
+use crate::window::workbench::Workbench;
 
 /// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
 const LOST_DEVICES: u32 = 3;

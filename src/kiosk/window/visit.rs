@@ -3,11 +3,11 @@
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
-use crate::aloud::goes_on;
-use crate::dwell::Target;
-use crate::input::{Request, Signal};
 use crate::live::Frame;
-use crate::needs::Needs;
+use crate::pages::aloud::goes_on;
+use crate::visitor::dwell::Target;
+use crate::visitor::input::{Request, Signal};
+use crate::visitor::needs::Needs;
 use soffio_devices::audio::{DeviceState, Words};
 
 impl App<'_> {

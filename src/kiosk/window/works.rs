@@ -2,8 +2,8 @@
 
 use super::App;
 use crate::live::Frame;
-use crate::menu::Menu;
-use crate::shelf::{self, News};
+use crate::pages::menu::Menu;
+use crate::venue::shelf::{self, News};
 
 impl App<'_> {
     /// What the shelf has to say.

@@ -6,10 +6,10 @@ use std::sync::{Arc, LazyLock};
 
 use soffio_config::{Chord, Config};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::gesture::{Lift, Press};
-use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-use soffio_kiosk::needs::Needs;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::step::stage::{Controls, Stage};
+use soffio_kiosk::visitor::gesture::{Lift, Press};
+use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
+use soffio_kiosk::visitor::needs::Needs;
 use soffio_simulation::{Settings, Simulation};
 
 const ASPECT: f64 = 16.0 / 9.0;

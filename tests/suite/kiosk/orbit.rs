@@ -4,10 +4,10 @@
 use std::sync::Arc;
 
 use soffio_exhibit::{Attract, AttractAction, AttractStep, Exhibit, Leeway, View};
-use soffio_kiosk::gesture::{Lift, Press};
-use soffio_kiosk::orbit::{PRESS, TURN, soft};
-use soffio_kiosk::recording::Recording;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::live::recording::Recording;
+use soffio_kiosk::step::stage::{Controls, Stage};
+use soffio_kiosk::visitor::gesture::{Lift, Press};
+use soffio_kiosk::visitor::orbit::{PRESS, TURN, soft};
 use soffio_math::Pose;
 use soffio_simulation::{Settings, Simulation, record};
 

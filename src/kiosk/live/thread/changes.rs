@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::Thread;
-use crate::captions::Captions;
-use crate::governor::Governor;
 use crate::live::local_time;
-use crate::moments::Moments;
-use crate::site::Site;
-use crate::voice::{Guest, Trial, Tried, Voice, hit};
+use crate::step::captions::Captions;
+use crate::step::governor::Governor;
+use crate::step::moments::Moments;
+use crate::step::voice::{Guest, Trial, Tried, Voice, hit};
+use crate::venue::site::Site;
 use soffio_config::AudioSettings;
 use soffio_devices::audio::AudioIo;
 use soffio_devices::controllers::Controllers;
