@@ -15,7 +15,7 @@ use super::twin::left_alone;
 use super::visitor::Press;
 use super::{FRAMES, Rehearsal, RehearsalError, open_house};
 use soffio_exhibit::Exhibit;
-use soffio_kiosk::step::stage::Controls;
+use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::visitor::gesture;
 use soffio_math::Pose;
 use soffio_simulation::{SAMPLES_PER_STEP, STEPS_PER_SECOND, Snapshot};

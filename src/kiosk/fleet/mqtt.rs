@@ -123,7 +123,7 @@ impl Mqtt {
             let (client, connection) = Client::new(options, QUEUE);
             let shared = Arc::new(Shared::default());
             let thread = Thread { client: client.clone(), shared: shared.clone(), settings: settings.clone(), tell };
-            let thread = std::thread::Builder::new().name("mqtt".into()).spawn(move || thread.run(connection));
+            let thread = std::thread::Builder::new().name("soffio-mqtt".into()).spawn(move || thread.run(connection));
             thread.map(|thread| Line { client, shared, thread, topic: settings.topic.clone() })
         });
         let line = line.transpose().unwrap_or_else(|error| {

@@ -33,7 +33,7 @@ impl Writer {
                 failed = result.is_err();
             }
         };
-        match std::thread::Builder::new().name(name.into()).spawn(write) {
+        match std::thread::Builder::new().name(format!("soffio-{name}")).spawn(write) {
             Ok(thread) => Self { to: Some(to), thread: Some(thread) },
             Err(error) => {
                 tracing::warn!("{name}: {error}");

@@ -69,6 +69,8 @@ pub struct Load {
     pub step_s: f64,
     /// Steps of time that were dropped so far.
     pub dropped: u64,
+    /// Commands of the window that gave way to newer ones so far.
+    pub commands_dropped: u64,
     /// How the microphone does.
     pub microphone: MicrophoneHealth,
     /// What the devices say.

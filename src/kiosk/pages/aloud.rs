@@ -44,8 +44,11 @@ impl Aloud {
             let (tell, found) = channel();
             let program = program.to_owned();
             // Whoever does not listen any more has another program.
-            std::thread::spawn(move || drop(tell.send(Speaker::find(&program))));
-            self.finding = Some(found);
+            let find = move || drop(tell.send(Speaker::find(&program)));
+            match std::thread::Builder::new().name("soffio-voices".into()).spawn(find) {
+                Ok(_) => self.finding = Some(found),
+                Err(error) => tracing::warn!("nothing is read aloud: {error}"),
+            }
         }
     }
 

@@ -217,7 +217,7 @@ fn tile(page: &Page, tile: &Tile, room: Rect) {
 fn wall_text(page: &Page, scene: &Scene, room: Rect) {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return };
-    let invite = if scene.hears { own.invite } else { "" };
+    let invite = if scene.hearing.hears { own.invite } else { "" };
     let hold = own.how(scene.needs);
     let play = [invite, own.aim, hold, own.take];
     let parts: Vec<(&str, f32, f32)> = [(label.title.as_str(), 1.5, 0.2), (label.maker.as_str(), 0.8, 1.0)]
@@ -225,7 +225,7 @@ fn wall_text(page: &Page, scene: &Scene, room: Rect) {
         .chain([(label.body.trim(), 0.95, 1.2)])
         .chain(play.into_iter().map(|line| (line, 0.9, 0.35)))
         .chain([
-            (if scene.hears { own.privacy } else { "" }, SMALL, 0.6),
+            (if scene.hearing.hears { own.privacy } else { "" }, SMALL, 0.6),
             (scene.exhibit.credit.notice.trim(), SMALL, 0.0),
         ])
         .filter(|(text, ..)| !text.is_empty())
@@ -266,11 +266,11 @@ enum Item<'a> {
 fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     let own = words(scene.language);
     let mut items: Vec<(Item, Request)> = Vec::new();
-    if let Some(speaks) = scene.speech {
+    if let Some(speaks) = scene.sound.speech {
         items.push((Item::Word(own.speak, speaks), Request::Speak));
     }
-    if scene.has_ear {
-        items.push((Item::Word(own.ear, scene.listens), Request::Listen));
+    if scene.hearing.has_ear {
+        items.push((Item::Word(own.ear, scene.hearing.listens), Request::Listen));
     }
     items.push((Item::Word(own.large, scene.needs.reading.large), Request::Large));
     items.push((Item::Word(own.contrast, scene.needs.reading.contrast), Request::Contrast));
@@ -278,7 +278,7 @@ fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     items.push((Item::Word(own.dwell, scene.needs.dwell), Request::Dwell));
     items.push((Item::Word(own.calm, scene.needs.calm), Request::Calm));
     items.push((Item::Word(own.round, scene.needs.round), Request::Round));
-    if scene.volume {
+    if scene.sound.volume {
         items.push((Item::Sign("\u{2212}"), Request::Louder(-1)));
         items.push((Item::Sign("+"), Request::Louder(1)));
     }

@@ -38,6 +38,32 @@ const HARD: f64 = 0.6;
 const LINE_SHARE: f32 = 0.32;
 const TALL_LINE_SHARE: f32 = 0.46;
 
+/// What becomes of a visitor's breath.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Hearing {
+    /// Does anything listen to it?
+    pub hears: bool,
+    /// Does the site want visitors to blow?
+    pub breath: bool,
+    /// Is there a microphone that a visitor can switch?
+    pub has_ear: bool,
+    /// Is it on?
+    pub listens: bool,
+}
+
+/// What is heard of the work.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sound<'a> {
+    /// Keys of the captions of what can be heard.
+    pub captions: &'a [String],
+    /// Is the sound off?
+    pub silent: bool,
+    /// Is something being read aloud? `None` where nothing can read the language shown.
+    pub speech: Option<bool>,
+    /// May a visitor change the volume?
+    pub volume: bool,
+}
+
 /// What the overlay is drawn from.
 pub struct Scene<'a> {
     /// What is shown.
@@ -52,28 +78,18 @@ pub struct Scene<'a> {
     pub inviting: &'a str,
     /// Closed, or cleaned: all is covered.
     pub house: &'a House,
-    /// Does anything listen to the visitor's breath?
-    pub hears: bool,
-    /// Does the site want visitors to blow?
-    pub breath: bool,
-    /// Is there a microphone that a visitor can switch, and is it on?
-    pub has_ear: bool,
-    /// See above.
-    pub listens: bool,
-    /// Keys of the captions of what can be heard.
-    pub captions: &'a [String],
+    /// What becomes of a visitor's breath.
+    pub hearing: Hearing,
+    /// What is heard of the work.
+    pub sound: Sound<'a>,
     /// Seconds blown at it in this visit and today.
     pub given: [f64; 2],
-    /// Is the sound off?
-    pub silent: bool,
     /// What is left of the time after which the kiosk takes it that nobody is there, s, where that is near.
     pub leaves_in: Option<f64>,
     /// What the visitor needs otherwise.
     pub needs: Needs,
     /// Where a pointer rests that presses by resting (picture coordinates), and how much of that time is over.
     pub rests: Option<([f64; 2], f64)>,
-    /// Is something being read aloud? `None` where nothing can read the language shown.
-    pub speech: Option<bool>,
     /// The works to choose from.
     pub tiles: &'a [Tile],
     /// How they are grouped.
@@ -82,8 +98,6 @@ pub struct Scene<'a> {
     pub languages: &'a [String],
     /// Code of the language shown.
     pub language: &'a str,
-    /// May a visitor change the volume?
-    pub volume: bool,
     /// Seconds, for fading.
     pub time: f64,
     /// Points per millimetre of glass.
@@ -146,7 +160,7 @@ impl Overlay {
             buttons.push((last, Request::Round));
         }
         if let Some(left) = scene.leaves_in {
-            leaving(&page, left, last, if scene.hears { own.stay } else { own.stay_touch });
+            leaving(&page, left, last, if scene.hearing.hears { own.stay } else { own.stay_touch });
         }
         buttons.push((more, Request::Menu));
         rest(&page, picture, scene);
@@ -165,7 +179,7 @@ impl Overlay {
         let target = if shown { 1.0 } else { 0.0 };
         self.invitation += (target - self.invitation) * (1.0 - (-dt / FADE).exp());
         self.moves = (target - self.invitation).abs() > FADED;
-        let hard = scene.hears && !attracts && scene.moment.breath.meter > HARD;
+        let hard = scene.hearing.hears && !attracts && scene.moment.breath.meter > HARD;
         self.blown += if hard { dt } else { -self.blown * dt / WEARS_OFF };
         self.rests = self.blown > if self.rests { RESTED } else { TOO_MUCH };
     }
@@ -210,15 +224,15 @@ fn invitation(scene: &Scene) -> String {
     let label = scene.exhibit.labels.get(scene.inviting);
     let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
     // Whoever need not hold is not told to.
-    if scene.needs.once() && !(scene.hears && scene.breath) {
+    if scene.needs.once() && !(scene.hearing.hears && scene.hearing.breath) {
         return own.how(scene.needs).into();
     }
-    if !scene.breath {
+    if !scene.hearing.breath {
         return own.no_breath.into();
     }
     // Nobody is invited to blow where nothing hears it.
-    let shown = scene.attract_text.filter(|key| scene.hears || *key != "invite").and_then(find);
-    let (key, fallback) = if scene.hears { ("invite", own.invite) } else { ("hold", own.hold) };
+    let shown = scene.attract_text.filter(|key| scene.hearing.hears || *key != "invite").and_then(find);
+    let (key, fallback) = if scene.hearing.hears { ("invite", own.invite) } else { ("hold", own.hold) };
     shown.or_else(|| find(key)).unwrap_or_else(|| fallback.into())
 }
 
@@ -240,12 +254,12 @@ fn line(page: &Page) -> f32 {
 fn wall_label(page: &Page, label: &Label, scene: &Scene) {
     let own = words(scene.language);
     let mut at = page.picture.left_bottom();
-    let ear = match (scene.hears, scene.has_ear && !scene.listens) {
+    let ear = match (scene.hearing.hears, scene.hearing.has_ear && !scene.hearing.listens) {
         (true, _) => own.privacy,
         (false, true) => own.ear_off,
         (false, false) => "",
     };
-    let sound = match (scene.exhibit.sounds.is_empty(), scene.silent) {
+    let sound = match (scene.exhibit.sounds.is_empty(), scene.sound.silent) {
         (true, _) => own.no_sound,
         (false, true) => own.silent,
         (false, false) => "",
@@ -277,8 +291,8 @@ fn wall_label(page: &Page, label: &Label, scene: &Scene) {
 /// What is heard, in the middle of the lower edge.
 fn captions(page: &Page, label: &Label, scene: &Scene) {
     let said = |key: &String| label.caption.iter().find(|(k, _)| k == key).map(|(_, text)| text.as_str());
-    let all: Vec<&str> = scene.captions.iter().filter_map(said).collect();
-    if !all.is_empty() && !scene.silent {
+    let all: Vec<&str> = scene.sound.captions.iter().filter_map(said).collect();
+    if !all.is_empty() && !scene.sound.silent {
         let at = page.picture.center_bottom();
         page.text(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, INK, 0.9 * line(page));
     }

@@ -67,10 +67,14 @@ impl Speaker {
     pub fn make(&self, texts: Vec<(String, String)>, sample_rate: u32) -> Making {
         let (tell, told) = channel();
         let program = self.program.clone();
-        std::thread::spawn(move || {
+        let make = move || {
             // Whoever does not listen any more has asked for something else.
             let _ = tell.send(words(&program, &texts, sample_rate));
-        });
+        };
+        // Where it does not start its end of the channel is gone, and [`Making::ready`] says so.
+        if let Err(error) = std::thread::Builder::new().name("soffio-speech".into()).spawn(make) {
+            tracing::warn!("nothing is read aloud: {error}");
+        }
         Making(told)
     }
 }
@@ -116,11 +120,15 @@ fn run(program: &str, language: &str, text: &str) -> Result<Vec<u8>, String> {
     let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
     let (tell, told) = channel();
     // It is read while it is fed, so that neither pipe can fill.
-    std::thread::spawn(move || {
+    let reader = std::thread::Builder::new().name("soffio-reader".into()).spawn(move || {
         let mut bytes = Vec::new();
         let read = stdout.map_or(Ok(0), |mut stdout| stdout.read_to_end(&mut bytes));
         let _ = tell.send(read.map(|_| bytes));
     });
+    if let Err(error) = reader {
+        end(&mut child);
+        return Err(failed(error));
+    }
     let fed = stdin.map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
     let read = told.recv_timeout(PATIENCE);
     end(&mut child);

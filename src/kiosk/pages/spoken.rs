@@ -11,10 +11,10 @@ pub type Said = (String, String);
 pub fn work(scene: &Scene) -> Vec<Said> {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return Vec::new() };
-    let invite = if scene.hears && scene.breath { own.invite } else { "" };
+    let invite = if scene.hearing.hears && scene.hearing.breath { own.invite } else { "" };
     let hold = own.how(scene.needs);
     let sound = if scene.exhibit.sounds.is_empty() { own.no_sound } else { "" };
-    let privacy = if scene.hears { own.privacy } else { "" };
+    let privacy = if scene.hearing.hears { own.privacy } else { "" };
     let parts = [
         &label.title,
         &label.maker,
@@ -46,7 +46,7 @@ pub fn button(request: Request, scene: &Scene) -> Vec<Said> {
         Request::Dwell => switch(own.dwell, scene.needs.dwell),
         Request::Calm => switch(own.calm, scene.needs.calm),
         Request::Round => switch(own.round, scene.needs.round),
-        Request::Listen => switch(own.ear, scene.listens),
+        Request::Listen => switch(own.ear, scene.hearing.listens),
         Request::Speak => own.speak.to_owned(),
         // Each language by its own name, in its own voice.
         Request::Language(index) => {

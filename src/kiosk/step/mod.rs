@@ -5,7 +5,10 @@
 
 pub mod breaths;
 pub mod captions;
+pub mod command;
+pub mod controls;
 pub mod governor;
+pub mod inbox;
 pub mod moments;
 mod pointing;
 pub mod stage;

@@ -1,7 +1,7 @@
 //! Where the breath is aimed: the pointer or finger puts the aim down, a place that is named puts it there too, a stick
 //! or the arrow keys push it on from wherever it is. Whoever moved last counts.
 
-use crate::step::stage::Controls;
+use crate::step::controls::Controls;
 use soffio_simulation::{CENTRE, STEPS_PER_SECOND};
 
 /// The aim over time.

@@ -6,7 +6,6 @@
 
 use std::sync::Arc;
 
-use soffio_devices::audio::Words;
 use soffio_exhibit::{Exhibit, Leeway, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_offline::feed::WavFeed;
@@ -17,75 +16,10 @@ use soffio_simulation::{
 use soffio_sound::SoundCommand;
 
 use crate::attract::script::Attract;
+use crate::step::controls::Controls;
 use crate::step::pointing::Pointing;
-use crate::step::voice::Trial;
-use crate::venue::loudness::Wishes;
-use crate::venue::site::Site;
-use crate::visitor::gesture::{Gestures, Lift, Press, Touch};
+use crate::visitor::gesture::{Gestures, Lift, Touch};
 use crate::visitor::orbit::{self, Orbit, Way};
-
-/// What the visitor does, as the window tells it.
-#[derive(Clone, Debug, Default)]
-pub struct Controls {
-    /// Where the breath is aimed, picture coordinates; `None` is the centre.
-    pub aim: Option<[f64; 2]>,
-    /// The last place that was named instead of pointed at, and how many were named so far.
-    pub named: Option<([f64; 2], u64)>,
-    /// Where a stick or the arrow keys point, right and down, −1 … 1 each, times their speed, picture heights/s.
-    pub stick: [f64; 2],
-    /// Is a blow held by a key, a switch or a controller?
-    pub hold: bool,
-    /// The pointer's button and the fingers that are down: each of them blows, or takes the sculpture by the hand.
-    pub presses: Vec<Press>,
-    /// Those that have come up and are not yet taken in.
-    pub lifts: Vec<Lift>,
-    /// Times that the key that blows went down.
-    pub keyed: u64,
-    /// Does a press begin the breath and the next one end it?
-    pub press_once: bool,
-    /// Does the visitor look round the work? Then presses beside it, sticks and arrow keys turn the camera.
-    pub round: bool,
-    /// Less motion: no change of scene in which parts fly together, gentler attract mode.
-    pub calm: bool,
-    /// How hard a breath controller is blown, 0 … 1.
-    pub strength: f64,
-    /// Has the visitor switched the microphone off?
-    pub deaf: bool,
-    /// Width over height of the picture.
-    pub aspect: f64,
-    /// Inputs so far.
-    pub activity: u64,
-    /// What moves the exhibit; `None` is its own choice.
-    pub mode: Option<MotionMode>,
-    /// What is asked of the loudness and not yet done.
-    pub loudness: Wishes,
-    /// Commands not yet carried out.
-    pub commands: Vec<Command>,
-    /// A reloaded exhibit that waits for the next step boundary.
-    pub exhibit: Option<Arc<Exhibit>>,
-    /// A changed configuration that waits for it too.
-    pub site: Option<Box<Site>>,
-    /// Nobody is heard, whatever they do: the house is closed, or the glass is cleaned.
-    pub inert: bool,
-    /// The house is closed: no sound, and no microphone.
-    pub closed: bool,
-    /// What staff look at.
-    pub look: Look,
-    /// What staff want to hear and have not yet heard.
-    pub trials: Vec<Trial>,
-    /// What is to be said next, and not yet sent.
-    pub words: Option<Words>,
-    /// The loudspeaker is to chirp to the microphone, once.
-    pub chirp: bool,
-}
-
-impl Controls {
-    /// The same with nobody there.
-    pub fn without_visitor(&self) -> Self {
-        let Self { aspect, activity, mode, inert, calm, keyed, .. } = *self;
-        Self { aspect, activity, mode, inert, calm, keyed, commands: self.commands.clone(), ..Self::default() }
-    }
-}
 
 /// What a step was told, but for breath and hands.
 #[derive(Clone, Debug, Default)]
@@ -120,6 +54,9 @@ pub struct Stage {
     calm: bool,
     /// What the next step begins with: another exhibit gathers its parts.
     called: Option<Command>,
+    /// Presses that have come up, and commands, that the next step takes: that step alone.
+    lifts: Vec<Lift>,
+    commands: Vec<Command>,
     snapshot: Snapshot,
 }
 
@@ -145,17 +82,33 @@ impl Stage {
             told: Told::default(),
             calm: false,
             called: None,
+            lifts: Vec::new(),
+            commands: Vec::new(),
             snapshot,
         }
+    }
+
+    /// A press has come up: the next step takes it in, once.
+    pub fn lift(&mut self, lift: Lift) {
+        self.lifts.push(lift);
+    }
+
+    /// A command that goes before the next step, once, after those of the attract script.
+    pub fn command(&mut self, command: Command) {
+        self.commands.push(command);
     }
 
     /// Advances by one step. `microphone` is what was heard since the last; a recording goes before it.
     pub fn step(&mut self, controls: &Controls, microphone: Option<Microphone>) {
         let nobody = controls.inert.then(|| controls.without_visitor());
         let controls = nobody.as_ref().unwrap_or(controls);
+        let mut lifts = std::mem::take(&mut self.lifts);
+        if controls.inert {
+            lifts.clear();
+        }
         // The detector's word of the step before: a breath is an input like any other.
         let breathing = self.snapshot.breath.estimate.speed > 0.0;
-        let pressed = controls.hold || !controls.presses.is_empty() || !controls.lifts.is_empty();
+        let pressed = controls.hold || !controls.presses.is_empty() || !lifts.is_empty();
         self.calm = controls.calm;
         // Whoever cleans is here too, though not to play: attract mode waits.
         let visitor = breathing || pressed || controls.inert || controls.activity != self.activity;
@@ -166,7 +119,7 @@ impl Stage {
         if self.calm {
             cue.commands.iter_mut().for_each(gentler);
         }
-        cue.commands.extend_from_slice(&controls.commands);
+        cue.commands.append(&mut self.commands);
         // Whoever blows or presses does not wait until the parts have gathered, and whoever wants less motion does not see it.
         let impatient = (breathing || pressed || self.calm) && self.simulation.gathers_from().is_some();
         cue.commands.extend(self.called.take().or(impatient.then_some(Command::Reset)));
@@ -174,7 +127,7 @@ impl Stage {
         let takeable = |at| simulation.can_be_taken(at, controls.aspect);
         let touch = Touch {
             presses: &controls.presses,
-            lifts: &controls.lifts,
+            lifts: &lifts,
             hold: controls.hold,
             keyed: controls.keyed,
             once: controls.press_once,
@@ -182,6 +135,8 @@ impl Stage {
             aspect: controls.aspect,
         };
         let blows = self.gestures.step(&touch, takeable);
+        lifts.clear();
+        self.lifts = lifts;
         // Whoever looks round turns with the stick; the aim stays.
         let stick = if controls.round { [0.0; 2] } else { controls.stick };
         let aim = self.pointing.step(controls, stick);

@@ -55,10 +55,23 @@ pub struct Wishes {
     pub louder: i32,
     /// Presses of the staff's mute.
     pub mutes: u32,
+    /// Muted, or not, as ordered from afar, whatever it was before.
+    pub muted: Option<bool>,
     /// Presses of the staff's night key.
     pub nights: u32,
     /// The last visitor has left, and takes those steps along.
     pub leaves: bool,
+}
+
+impl Wishes {
+    /// Adds what is asked for next.
+    pub fn add(&mut self, next: Self) {
+        self.louder += next.louder;
+        self.mutes += next.mutes;
+        self.muted = next.muted.or(self.muted);
+        self.nights += next.nights;
+        self.leaves |= next.leaves;
+    }
 }
 
 /// The loudness as staff see it.
@@ -132,7 +145,8 @@ impl Loudness {
             return;
         }
         self.volume.step(wishes.louder);
-        if wishes.mutes % 2 == 1 {
+        let muted = self.volume.is_muted();
+        if wishes.muted.unwrap_or(muted != (wishes.mutes % 2 == 1)) != muted {
             self.volume.toggle_mute();
             tracing::info!("{}", if self.volume.is_muted() { "muted by staff" } else { "sounds again" });
         }

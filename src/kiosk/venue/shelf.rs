@@ -89,7 +89,10 @@ impl Shelf {
             looks: folders(places).into_iter().map(|folder| (folder, false)).collect(),
             shown: shown.to_path_buf(),
         };
-        std::thread::spawn(move || worker.run(&asked));
+        let thread = std::thread::Builder::new().name("soffio-exhibits".into()).spawn(move || worker.run(&asked));
+        if let Err(error) = thread {
+            tracing::error!("no other exhibit can be loaded: {error}");
+        }
         let (watch, one) = match places {
             Places::One(folder) => (folder, true),
             Places::All { folder, .. } => (folder, false),

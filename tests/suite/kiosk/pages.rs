@@ -10,7 +10,7 @@ use soffio_exhibit::{self as exhibit, Exhibit, Label};
 use soffio_kiosk::pages::fonts;
 use soffio_kiosk::pages::languages::{offered, unwritten};
 use soffio_kiosk::pages::menu::{Menu, Tile, tiles};
-use soffio_kiosk::pages::overlay::{Overlay, Scene};
+use soffio_kiosk::pages::overlay::{Hearing, Overlay, Scene, Sound};
 use soffio_kiosk::pages::page::BUTTON_MM;
 use soffio_kiosk::pages::words::{WORDS, words};
 use soffio_kiosk::step::captions::Captions;
@@ -142,21 +142,15 @@ impl Before {
             attract_text: self.attract,
             inviting: &self.language,
             house: &self.house,
-            hears: self.hears,
-            breath: self.breath,
-            has_ear: true,
-            listens: self.hears,
-            captions: &self.captions,
+            hearing: Hearing { hears: self.hears, breath: self.breath, has_ear: true, listens: self.hears },
+            sound: Sound { captions: &self.captions, silent: self.silent, volume: true, speech: self.speech },
             given: [20.0, 400.0],
-            silent: self.silent,
             leaves_in: self.leaves_in,
             languages: &self.languages,
             language: &self.language,
-            volume: true,
             time: self.time,
             needs: self.needs,
             rests: self.rests,
-            speech: self.speech,
             tiles: &tiles,
             groups: &self.groups,
             points_per_mm: POINTS_PER_MM,

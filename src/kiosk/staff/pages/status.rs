@@ -57,75 +57,105 @@ fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
 
 /// The numbers, one a row.
 fn numbers(ui: &mut Ui, sight: &Sight) {
-    let (frame, vitals) = (sight.frame, &sight.vitals);
-    let breath = &frame.current.breath;
-    let heard = &breath.estimate;
-    let state = &frame.current.diagnostics;
-    let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
-    let mut row = |name: &str, value: String, bad: bool| row(ui, name, value, bad);
+    house(ui, sight);
+    microphone(ui, sight);
+    motion(ui, sight);
+    picture(ui, sight);
+    loudspeaker(ui, sight);
+    loudness(ui, sight);
+}
+
+fn house(ui: &mut Ui, sight: &Sight) {
     let house = match (sight.house.is_open(), sight.house.is_early()) {
         (true, false) => "open",
         (true, true) => "open, by staff, before its hours",
         (false, _) => "closed",
     };
-    row("house", house.into(), false);
-    row("breath", if sight.site.visit.breath { "wanted" } else { "off: visitors press and hold" }.into(), false);
-    row("exhibit", frame.exhibit.id.clone(), false);
+    row(ui, "house", house, false);
+    row(ui, "breath", if sight.site.visit.breath { "wanted" } else { "off: visitors press and hold" }, false);
+    row(ui, "exhibit", sight.frame.exhibit.id.clone(), false);
+}
+
+/// The microphone, its foam, and what is heard of a breath.
+fn microphone(ui: &mut Ui, sight: &Sight) {
+    let frame = sight.frame;
+    let breath = &frame.current.breath;
+    let heard = &breath.estimate;
+    let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
     let capsules = if audio.capsules == 2 { ", two capsules" } else { "" };
     let missing = !frame.hears && audio.input != DeviceState::Closed;
-    row("microphone", format!("{}{capsules}", audio.input), missing);
+    row(ui, "microphone", format!("{}{capsules}", audio.input), missing);
     let level = if frame.hears {
         format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs)
     } else {
         "nothing arrives".into()
     };
-    row("level", level, heard.clipping);
+    row(ui, "level", level, heard.clipping);
     let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
-    row("at full scale", clips, microphone.clips_lately());
+    row(ui, "at full scale", clips, microphone.clips_lately());
     let foam = sight.kept.care.foam(sight.kept.tally.breaths());
     let lasts = u64::from(sight.site.care.foam_blows);
     let said = if lasts > 0 { format!("{foam} breaths of {lasts}") } else { format!("{foam} breaths") };
-    row("foam", said, lasts > 0 && foam >= lasts);
+    row(ui, "foam", said, lasts > 0 && foam >= lasts);
     match &sight.kept.care.last {
-        Some((verdict, when)) => row("chirp", format!("{verdict}; {when}"), verdict.is_bad()),
-        None => row("chirp", "none yet".into(), false),
+        Some((verdict, when)) => row(ui, "chirp", format!("{verdict}; {when}"), verdict.is_bad()),
+        None => row(ui, "chirp", "none yet", false),
     }
-    row("gain control", if heard.gain_control { "seen" } else { "none seen" }.into(), heard.gain_control);
-    row("detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
-    row("breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
-    row("wind force", format!("{:.4} N", state.wind_force.length()), false);
-    row("attract mode", if frame.attracts { "playing".into() } else { "waiting".into() }, false);
-    row("joint error", format!("{:.2e} m", state.joint_error), state.joint_error > 1e-3);
-    row("energy", format!("{:.4} J", state.energy), false);
-    row("substeps", state.substeps.to_string(), false);
-    row("impacts", state.impacts.to_string(), false);
-    row("faults", state.faults.to_string(), state.faults > 0);
-    row("step", format!("{:.3} ms of 4.167", 1e3 * frame.load.step_s), frame.load.step_s > 1.0 / 240.0);
-    let changes = frame.load.mode_changes;
-    row("moved by", format!("{}, {changes} changes", state.mode.name()), state.mode != MotionMode::Dynamic);
-    row("hands", state.hands.to_string(), false);
-    row("steps dropped", frame.load.dropped.to_string(), false);
-    row("picture", format!("{:.1} ms, {}x{}", 1e3 * vitals.frame_s, vitals.size[0], vitals.size[1]), false);
-    row("wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);
-    row("graphics", vitals.adapter.to_owned(), false);
-    for (kind, state) in &frame.load.controllers {
+    row(ui, "gain control", if heard.gain_control { "seen" } else { "none seen" }, heard.gain_control);
+    row(ui, "detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
+    row(ui, "breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
+}
+
+/// What moves, and how well the thread that moves it keeps up.
+fn motion(ui: &mut Ui, sight: &Sight) {
+    let (frame, load) = (sight.frame, &sight.frame.load);
+    let state = &frame.current.diagnostics;
+    row(ui, "wind force", format!("{:.4} N", state.wind_force.length()), false);
+    row(ui, "attract mode", if frame.attracts { "playing" } else { "waiting" }, false);
+    row(ui, "joint error", format!("{:.2e} m", state.joint_error), state.joint_error > 1e-3);
+    row(ui, "energy", format!("{:.4} J", state.energy), false);
+    row(ui, "substeps", state.substeps.to_string(), false);
+    row(ui, "impacts", state.impacts.to_string(), false);
+    row(ui, "faults", state.faults.to_string(), state.faults > 0);
+    row(ui, "step", format!("{:.3} ms of 4.167", 1e3 * load.step_s), load.step_s > 1.0 / 240.0);
+    let changes = load.mode_changes;
+    row(ui, "moved by", format!("{}, {changes} changes", state.mode.name()), state.mode != MotionMode::Dynamic);
+    row(ui, "hands", state.hands.to_string(), false);
+    row(ui, "steps dropped", load.dropped.to_string(), false);
+    row(ui, "commands dropped", load.commands_dropped.to_string(), load.commands_dropped > 0);
+}
+
+fn picture(ui: &mut Ui, sight: &Sight) {
+    let vitals = &sight.vitals;
+    let [width, height] = vitals.size;
+    row(ui, "picture", format!("{:.1} ms, {width}x{height}", 1e3 * vitals.frame_s), false);
+    row(ui, "wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);
+    row(ui, "graphics", vitals.adapter, false);
+    for (kind, state) in &sight.frame.load.controllers {
         let (State::Listening(said) | State::Waiting(said)) = state;
-        row(kind, said.clone(), false);
+        row(ui, kind, said.clone(), false);
     }
-    row("loudspeaker", audio.output.to_string(), false);
+}
+
+fn loudspeaker(ui: &mut Ui, sight: &Sight) {
+    let audio = &sight.frame.load.audio;
+    row(ui, "loudspeaker", audio.output.to_string(), false);
     if let Some(state) = &audio.hearing_loop {
-        row("hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
+        row(ui, "hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
     }
-    row("late blocks", audio.xruns.to_string(), audio.xruns > 0);
-    let loud = &frame.load.loudness;
+    row(ui, "late blocks", audio.xruns.to_string(), audio.xruns > 0);
+}
+
+fn loudness(ui: &mut Ui, sight: &Sight) {
+    let loud = &sight.frame.load.loudness;
     let muted = if loud.muted { ", muted" } else { "" };
     let eased = if loud.eased_db > 0.0 { format!(", {:.1} dB eased", loud.eased_db) } else { String::new() };
-    row("volume", format!("{:.1} dB, {:+} steps{eased}{muted}", loud.volume_db, loud.steps), loud.muted);
+    row(ui, "volume", format!("{:.1} dB, {:+} steps{eased}{muted}", loud.volume_db, loud.steps), loud.muted);
     let by = match loud.by {
         NightBy::Hours => "the hours",
         NightBy::Night | NightBy::Day => "staff",
     };
-    row("sound of the", format!("{}, by {by}", if loud.night { "night" } else { "day" }), false);
+    row(ui, "sound of the", format!("{}, by {by}", if loud.night { "night" } else { "day" }), false);
     for (name, level, laeq) in
         [("level, minute", loud.level_db[0], loud.laeq_db[0]), ("level, day", loud.level_db[1], loud.laeq_db[1])]
     {
@@ -134,6 +164,6 @@ fn numbers(ui: &mut Ui, sight: &Sight) {
             None if level.is_finite() => format!("{level:.1} dB(A) of full scale, not calibrated"),
             None => "silent".into(),
         };
-        row(name, value, false);
+        row(ui, name, value, false);
     }
 }
