@@ -4,14 +4,26 @@
 //! thread ([`window`]) draws the latest two moments and passes on what the visitor does. What happens in one step is in
 //! [`step`], which knows no clock and no device, so that tests and recordings run exactly what visitors see.
 //!
-//! The rooms, in their order; each may use only those before it:
+//! The rooms stand in their order: each uses only those before it (`tests/suite/kiosk/rooms.rs`).
 
+// What visitors do and find.
 pub mod attract;
-pub mod fleet;
-pub mod live;
-pub mod pages;
-pub mod staff;
-pub mod step;
-pub mod venue;
+
 pub mod visitor;
+
+pub mod venue;
+
+pub mod pages;
+
+// What moves.
+pub mod step;
+
+pub mod live;
+
+// Who looks after it.
+pub mod fleet;
+
+pub mod staff;
+
+// What shows it.
 pub mod window;

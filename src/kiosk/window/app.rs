@@ -12,6 +12,7 @@ use winit::platform::wayland::WindowAttributesExtWayland;
 use winit::window::{Fullscreen, Window, WindowId};
 
 use super::events::{is_input, translate};
+use super::ground::{Ended, Ground, Missing};
 use super::parts::desk::Desk;
 use super::parts::graphics::Graphics;
 use super::parts::life::Life;
@@ -20,7 +21,6 @@ use super::parts::pacing::Pacing;
 use super::parts::setup::Setup;
 use super::parts::visit::Visit;
 use super::parts::works::Works;
-use super::run::{Ended, Ground, Missing};
 use super::screen::Screen;
 use super::workbench::Workbench;
 use crate::fleet::Fleet;

@@ -4,7 +4,7 @@
 //! only the staff panel leads out, or a signal from the terminal. On somebody's desk (`--windowed`) it closes like
 //! any window.
 //!
-//! The window thread owns what is in [`app`]; it never waits for the simulation, a disk or the network. The
+//! The window thread owns what is in `app`; it never waits for the simulation, a disk or the network. The
 //! simulation learns of it through [`Inbox`](crate::step::inbox::Inbox) alone.
 
 mod app;
@@ -12,6 +12,7 @@ mod asked;
 mod day;
 mod events;
 mod fleet;
+mod ground;
 mod parts;
 mod picture;
 pub mod rest;
@@ -24,4 +25,5 @@ mod visit;
 pub mod workbench;
 mod works;
 
-pub use run::{Ended, Ground, Missing, event_loop, run};
+pub use ground::{Ended, Ground, Missing};
+pub use run::{event_loop, run};

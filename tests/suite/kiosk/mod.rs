@@ -589,6 +589,7 @@ mod record;
 mod rest;
 #[cfg(feature = "kiosk")]
 mod rhythm;
+mod rooms;
 #[cfg(feature = "kiosk")]
 mod screens;
 #[cfg(feature = "kiosk")]

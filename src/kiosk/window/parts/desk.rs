@@ -6,7 +6,7 @@ use crate::staff::log::Log;
 use soffio_devices::audio::DeviceState;
 
 /// What staff have before them.
-pub(in crate::window) struct Desk {
+pub(crate) struct Desk {
     pub panel: Staff,
     pub log: Log,
     /// Is the cursor shown?

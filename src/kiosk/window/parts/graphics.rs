@@ -14,7 +14,7 @@ use soffio_simulation::Snapshot;
 const LOST_DEVICES: u32 = 3;
 
 /// What draws.
-pub(in crate::window) struct Graphics {
+pub(crate) struct Graphics {
     pub instance: wgpu::Instance,
     /// Shaders that somebody works on.
     pub workbench: Option<Workbench>,

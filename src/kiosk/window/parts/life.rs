@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 
 use crate::live::Options;
-use crate::window::run::Missing;
+use crate::window::ground::Missing;
 
 /// The run's beginning and end.
-pub(in crate::window) struct Life<'a> {
+pub(crate) struct Life<'a> {
     /// Set by a signal from outside.
     pub interrupted: &'a AtomicBool,
     /// The run, until there is a window to show it in.

@@ -13,7 +13,7 @@ const INVITES_S: f64 = 6.0;
 
 /// The pages over the picture.
 #[derive(Default)]
-pub(in crate::window) struct Overlaid {
+pub(crate) struct Overlaid {
     pub overlay: Overlay,
     pub menu: Menu,
     pub aloud: Aloud,
@@ -41,7 +41,7 @@ impl Overlaid {
 }
 
 /// Languages a visitor can choose from, and the one chosen.
-pub(in crate::window) struct Languages {
+pub(crate) struct Languages {
     pub offered: Vec<String>,
     /// Those that this system's fonts cannot write.
     unwritten: Vec<&'static str>,

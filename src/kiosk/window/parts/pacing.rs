@@ -15,7 +15,7 @@ const COMMON_REFRESH: f64 = 1.0 / 60.0;
 
 /// The rhythm of the pictures.
 #[derive(Default)]
-pub(in crate::window) struct Pacing {
+pub(crate) struct Pacing {
     pub clock: Clock,
     pub sight: FirstSight,
     pub tiers: Tiers,
@@ -27,7 +27,7 @@ pub(in crate::window) struct Pacing {
 
 /// Pictures so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::window) struct Counts {
+pub(crate) struct Counts {
     pub shown: u64,
     /// Those of them after which the next one waited because nothing moved.
     pub at_rest: u64,
@@ -37,7 +37,7 @@ pub(in crate::window) struct Counts {
 
 /// The picture that is begun.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::window) struct Begun {
+pub(crate) struct Begun {
     /// When it was begun, and the one before it.
     pub now: Instant,
     pub last: Instant,

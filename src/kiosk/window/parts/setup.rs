@@ -6,7 +6,7 @@ use crate::visitor::input::Keys;
 use soffio_config::Config;
 
 /// How the site wants its kiosk.
-pub(in crate::window) struct Setup {
+pub(crate) struct Setup {
     pub config: Config,
     pub file: Option<SiteFile>,
     /// What staff should know of the configuration: what is wrong with it, what waits for a restart.
@@ -20,7 +20,7 @@ pub(in crate::window) struct Setup {
 }
 
 /// What a good configuration changes for the window.
-pub(in crate::window) struct Change {
+pub(crate) struct Change {
     /// The configuration before.
     pub before: Config,
     /// What visitors find is another.

@@ -11,7 +11,7 @@ use crate::visitor::needs::Needs;
 use soffio_config::Config;
 
 /// Whoever stands before the kiosk.
-pub(in crate::window) struct Visit {
+pub(crate) struct Visit {
     pub visitor: Visitor,
     pub modifiers: ModifiersState,
     pub needs: Needs,

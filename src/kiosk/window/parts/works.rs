@@ -6,7 +6,7 @@ use crate::venue::shelf::{Offer, Places, Shelf, folders, id};
 use soffio_config::Config;
 
 /// The works on offer.
-pub(in crate::window) struct Works {
+pub(crate) struct Works {
     pub shelf: Shelf,
     pub offer: Offer,
     /// Pictures of the works, by id.
