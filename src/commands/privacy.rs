@@ -101,7 +101,7 @@ pub fn report(config: &Config) -> Report {
     ));
     const COUNTS: &str = "counts over all visitors (visits and how long they were, breaths by their source, languages)";
     #[cfg(feature = "kiosk")]
-    if let Some(folder) = soffio_kiosk::kept::folder(config) {
+    if let Some(folder) = soffio_kiosk::fleet::kept::folder(config) {
         let what = format!(
             "{COUNTS}; the day's sum of breath; how loud the kiosk's own chirp arrived in seven octaves; wrong PINs, mute, night, the work on show"
         );

@@ -8,7 +8,7 @@ use super::play::progress_bar;
 use super::{Failure, Outcome};
 use soffio_config::Config;
 use soffio_detector::BlowSettings;
-use soffio_kiosk::site::Site;
+use soffio_kiosk::venue::site::Site;
 use soffio_offline::wav;
 use soffio_rehearsal::{Crowd, ROOMS, Rehearsal, RehearsalError, featured_exhibits, listen, recorded, run as rehearse};
 

@@ -31,7 +31,7 @@ use std::sync::Arc;
 
 use soffio_config::{Config, OTHERS};
 use soffio_exhibit::{self as exhibit, Diagnostic, Exhibit, Report};
-use soffio_kiosk::site::Site;
+use soffio_kiosk::venue::site::Site;
 use soffio_math::noise::{Random, hash_words};
 use soffio_render::RenderError;
 use soffio_soundscape::EXAM;

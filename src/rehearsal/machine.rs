@@ -12,9 +12,10 @@ use super::{FRAMES, SAMPLE_RATE_HZ};
 use soffio_devices::audio::output::{self, Engine, Player, Workshop};
 use soffio_devices::audio::{Heard, Knobs, ReferenceTap, input};
 use soffio_exhibit::Exhibit;
-use soffio_kiosk::site::Site;
-use soffio_kiosk::stage::{Controls, Stage};
-use soffio_kiosk::voice::Voice;
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::step::voice::Voice;
+use soffio_kiosk::venue::site::Site;
 use soffio_math::from_decibels;
 use soffio_sound::{SoundCommand, Volume, WindSound};
 

@@ -15,8 +15,8 @@ use super::twin::left_alone;
 use super::visitor::Press;
 use super::{FRAMES, Rehearsal, RehearsalError, open_house};
 use soffio_exhibit::Exhibit;
-use soffio_kiosk::gesture;
-use soffio_kiosk::stage::Controls;
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::visitor::gesture;
 use soffio_math::Pose;
 use soffio_simulation::{SAMPLES_PER_STEP, STEPS_PER_SECOND, Snapshot};
 use soffio_wind::SurfaceShape;
@@ -454,7 +454,7 @@ mod tests {
     use crate::visitor::{Visit, Way};
     use soffio_config::Config;
     use soffio_exhibit as exhibit;
-    use soffio_kiosk::site::Site;
+    use soffio_kiosk::venue::site::Site;
     use soffio_math::noise::Random;
 
     #[test]

@@ -5,7 +5,8 @@
 //! has changed the work, however much it swings anyhow.
 
 use super::judge::{FPS, SOON};
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
 use soffio_math::Pose;
 use soffio_simulation::STEPS_PER_SECOND;
 

@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
 use soffio_exhibit::Exhibit;
-use soffio_kiosk::moments::Moments;
+use soffio_kiosk::step::moments::Moments;
 use soffio_math::{DQuat, Pose};
 use soffio_render::{Frame, Gpu, Options, RenderError, Renderer};
 use soffio_simulation::{Mote, Settings, Simulation, Snapshot, StepInput};

@@ -8,7 +8,7 @@ use soffio_config::Config;
 use soffio_detector::generate::{self, BreathShape};
 use soffio_detector::{BlowSettings, Rules};
 use soffio_exhibit as exhibit;
-use soffio_kiosk::site::Site;
+use soffio_kiosk::venue::site::Site;
 use soffio_math::noise::Random;
 use soffio_offline::wav::Recording;
 use soffio_rehearsal::day::{Day, Task};

@@ -38,7 +38,7 @@ fn every_shader_file_is_part_of_a_shader() {
 #[cfg(feature = "kiosk")]
 #[test]
 fn a_kiosk_reads_changed_shaders_and_says_what_is_wrong_with_them() {
-    use soffio_kiosk::workbench::Workbench;
+    use soffio_kiosk::window::workbench::Workbench;
     let folder = tempfile::tempdir().expect("a folder");
     for file in std::fs::read_dir("shaders").expect("the shaders").flatten() {
         std::fs::copy(file.path(), folder.path().join(file.file_name())).expect("copied");

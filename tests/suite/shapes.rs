@@ -161,7 +161,7 @@ fn an_export_names_the_shapes_that_it_leaves_at_rest() {
 #[cfg(feature = "kiosk")]
 mod drawn {
     use soffio_exhibit::View;
-    use soffio_kiosk::rest::Stillness;
+    use soffio_kiosk::step::stillness::Stillness;
     use soffio_render::Frame;
     use soffio_simulation::{Settings, Simulation, StepInput};
 

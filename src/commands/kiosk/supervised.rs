@@ -5,7 +5,7 @@ use std::sync::Arc;
 use soffio_authoring::template::Template;
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::kept::{Keeper, Kept, folder, last_good};
+use soffio_kiosk::fleet::kept::{Keeper, Kept, folder, last_good};
 
 /// Set by the launcher from the second start on.
 const RESTARTED: &str = "SOFFIO_RESTARTED";

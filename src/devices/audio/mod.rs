@@ -122,7 +122,7 @@ impl AudioIo {
         let knobs = Arc::new(Knobs::new(from_decibels(settings.volume_db) as f32));
         let supervisor =
             Supervisor::new((settings.clone(), listens), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
-        let supervisor = std::thread::Builder::new().name("audio".into()).spawn(move || supervisor.run());
+        let supervisor = std::thread::Builder::new().name("soffio-audio".into()).spawn(move || supervisor.run());
         if let Err(error) = &supervisor {
             let missing = DeviceState::Missing(format!("no thread for the devices: {error}"));
             let none = AudioStatus { input: missing.clone(), output: missing, ..AudioStatus::default() };

@@ -139,7 +139,7 @@ impl Controllers {
         for &kind in &settings.listen {
             let (slot, state) = (Slot::default(), Arc::new(Mutex::new(State::Waiting("starting".into()))));
             let theirs = (settings.clone(), slot.clone(), state.clone(), stop.clone());
-            let thread = std::thread::Builder::new().name(kind.name().into()).spawn(move || {
+            let thread = std::thread::Builder::new().name(format!("soffio-{}", kind.name())).spawn(move || {
                 let (settings, slot, state, stop) = theirs;
                 tend(kind, driver(kind, &settings).as_mut(), &slot, &state, &stop);
             });

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::breaths::Blows;
-use crate::chirping::Outcome;
-use crate::loudness::View;
-use crate::microphone::MicrophoneHealth;
-use crate::moments::{BEHIND, Moments};
-use crate::stage::Stage;
+use crate::live::microphone::MicrophoneHealth;
+use crate::step::breaths::Blows;
+use crate::step::moments::{BEHIND, Moments};
+use crate::step::stage::Stage;
+use crate::venue::chirping::Outcome;
+use crate::venue::loudness::View;
 use soffio_devices::audio::{AudioStatus, DeviceState};
 use soffio_devices::controllers::State;
 use soffio_exhibit::Exhibit;
@@ -69,6 +69,8 @@ pub struct Load {
     pub step_s: f64,
     /// Steps of time that were dropped so far.
     pub dropped: u64,
+    /// Commands of the window that gave way to newer ones so far.
+    pub commands_dropped: u64,
     /// How the microphone does.
     pub microphone: MicrophoneHealth,
     /// What the devices say.

@@ -2,75 +2,37 @@
 //!
 //! The thread wakes at step boundaries, consumes everything that the microphone has delivered since (spread evenly
 //! over the steps due, so that the way from breath to wind never grows), steps, and publishes. The window never
-//! waits for a step and the simulation never for a picture: both sides share two small values under a mutex held
-//! for a copy. Only the clock, the devices and the trace file are here; what a step does is in [`Stage`].
+//! waits for a step and the simulation never for a picture: both sides share two small values, each under a mutex
+//! held for a copy. Only the clock, the devices and the trace file are here; what a step does is in [`Stage`].
 
 mod frame;
+pub mod microphone;
+mod options;
+pub mod pace;
+pub mod recording;
+mod shared;
 mod thread;
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::JoinHandle;
 
-use super::recording::Recording;
-use super::site::Site;
-use super::stage::{Controls, Stage};
+use crate::step::command::KioskCommand;
+use crate::step::controls::Controls;
+use crate::step::inbox::Inbox;
+use crate::step::stage::Stage;
 pub use frame::{Frame, Load, Onset};
-use soffio_exhibit::Exhibit;
-use soffio_offline::feed::WavFeed;
+pub use options::{Options, Report};
+use recording::Recording;
+use shared::{Shared, local_time, lock, trace_error};
 use soffio_offline::trace::{DEFAULT_FPS, TraceWriter};
-use soffio_simulation::{MotionMode, Settings};
+use soffio_simulation::Settings;
 use thread::Thread;
-
-/// What a run is made of.
-pub struct Options {
-    /// What is shown first.
-    pub exhibit: Arc<Exhibit>,
-    /// What the site says.
-    pub site: Site,
-    /// Is the house closed when the run begins?
-    pub closed: bool,
-    /// A recording in the microphone's place.
-    pub recording: Option<WavFeed>,
-    /// End after so many steps.
-    pub steps: Option<u64>,
-    /// Where the trace goes.
-    pub trace: Option<PathBuf>,
-    /// Where the record goes.
-    pub record: Option<PathBuf>,
-    /// What moves the exhibits; `None` is their own choice.
-    pub mode: Option<MotionMode>,
-}
-
-/// How a run ended.
-#[derive(Clone, Debug, Default, serde::Serialize)]
-pub struct Report {
-    /// Steps done.
-    pub steps: u64,
-    /// Steps of time that were dropped because the machine was too slow.
-    pub dropped: u64,
-    /// Impacts of the last exhibit.
-    pub impacts: u64,
-    /// Gaps of microphone and loudspeaker.
-    pub xruns: u64,
-    /// A-weighted mean level of all that was played, dB of a full-scale sine; null for silence.
-    pub level_dba: Option<f64>,
-    /// Says whether two runs are the same run.
-    #[serde(serialize_with = "hex")]
-    pub state_hash: u64,
-}
 
 /// A running simulation.
 pub struct Live {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<Result<Report, String>>>,
-}
-
-struct Shared {
-    controls: Mutex<Controls>,
-    frame: Mutex<Arc<Frame>>,
-    stop: AtomicBool,
 }
 
 impl Live {
@@ -89,27 +51,29 @@ impl Live {
             record.begin(&options.exhibit, settings);
         }
         let frame = Frame { hears: options.recording.is_some(), ..Frame::new(&stage) };
+        let closed = options.closed;
+        let controls = Controls { aspect, closed, inert: closed, ..Controls::default() };
         let shared = Arc::new(Shared {
-            controls: Mutex::new(Controls {
-                aspect,
-                closed: options.closed,
-                inert: options.closed,
-                ..Controls::default()
-            }),
+            inbox: Mutex::new(Inbox::new(controls)),
             frame: Mutex::new(Arc::new(frame)),
             stop: AtomicBool::new(false),
         });
         let theirs = shared.clone();
         let thread = std::thread::Builder::new()
-            .name("simulation".into())
+            .name("soffio-sim".into())
             .spawn(move || Thread::new(stage, (trace, record), options, (theirs, Box::new(wake))).run())
             .map_err(|error| format!("the simulation thread does not start: {error}"))?;
         Ok(Self { shared, thread: Some(thread) })
     }
 
-    /// What the visitor does. Hold it briefly.
-    pub fn controls(&self) -> MutexGuard<'_, Controls> {
-        lock(&self.shared.controls)
+    /// What the next step takes: levels to overwrite, and the queue of commands. Hold it briefly.
+    pub fn inbox(&self) -> MutexGuard<'_, Inbox> {
+        lock(&self.shared.inbox)
+    }
+
+    /// Sends a command; never waits.
+    pub fn send(&self, command: KioskCommand) {
+        self.inbox().send(command);
     }
 
     /// The latest moments.
@@ -138,24 +102,4 @@ impl Drop for Live {
     fn drop(&mut self) {
         self.join();
     }
-}
-
-/// A poisoned lock holds a whole value all the same: every writer replaces it at once.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Seconds after midnight, by the clock on the wall.
-fn local_time() -> Option<f64> {
-    let now = jiff::Zoned::now();
-    Some(f64::from(3600 * i32::from(now.hour()) + 60 * i32::from(now.minute()) + i32::from(now.second())))
-}
-
-/// A hash as text: JSON numbers lose bits beyond 2⁵³.
-fn hex<S: serde::Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(&format!("{hash:016x}"))
-}
-
-fn trace_error(error: std::io::Error) -> String {
-    format!("the trace cannot be written: {error}")
 }

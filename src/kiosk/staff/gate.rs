@@ -101,7 +101,7 @@ impl Gate {
             // Whoever shut the gate meanwhile does not wait for the answer.
             let _ = tell.send(pin.matches(&entered));
         };
-        match std::thread::Builder::new().name("pin".into()).spawn(check) {
+        match std::thread::Builder::new().name("soffio-pin".into()).spawn(check) {
             Ok(_) => self.answer = Some(answer),
             Err(error) => tracing::error!("the PIN cannot be checked: {error}"),
         }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::house::House;
-use crate::kept::Kept;
+use crate::fleet::kept::Kept;
 use crate::live::Frame;
-use crate::log::Log;
+use crate::staff::log::Log;
+use crate::venue::house::House;
 use soffio_config::Config;
 use soffio_exhibit::View;
 

@@ -4,48 +4,70 @@ use std::time::Instant;
 
 use winit::event_loop::ActiveEventLoop;
 
-use super::{App, Show, visit};
-use crate::languages::{first, offered};
-use crate::live::Frame;
-use crate::menu::tiles;
-use crate::overlay::Scene;
-use crate::rest::{PICTURE_S, Signs};
-use crate::screen::{Drawn, Screen};
-use crate::staff::{Sight, Vitals};
-use crate::tiers::Tiers;
+use super::app::{App, Show};
+use super::parts::overlaid::Overlaid;
+use super::parts::pacing::Begun;
+use super::parts::visit::Visit;
+use super::parts::works::Works;
+use super::screen::Drawn;
+use super::tiers::Tiers;
+use super::visit;
 #[cfg(target_os = "linux")]
-use crate::watchdog::Progress;
-use crate::workbench::Workbench;
+use crate::fleet::watchdog::Progress;
+use crate::live::Frame;
+use crate::pages::menu::tiles;
+use crate::pages::overlay::{Hearing, Scene, Sound};
+use crate::staff::{Sight, Vitals, Wish};
+use crate::venue::house::House;
+use soffio_config::Config;
+use soffio_exhibit::View;
+use soffio_simulation::Snapshot;
 
-/// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
-const LOST_DEVICES: u32 = 3;
-/// While attract mode plays the invitation goes to the next language after so long, s: two readings of a short line.
-const INVITES_S: f64 = 6.0;
 /// What one picture may count as given breath, s: after a longer pause nobody knows.
 const LONGEST_GIFT: f64 = 0.5;
-/// Refresh of a display that does not say it, s.
-const COMMON_REFRESH: f64 = 1.0 / 60.0;
 /// Between two pictures while the house is closed, s.
 const CLOSED_S: f64 = 0.25;
 
 impl App<'_> {
+    /// Draws a picture, and looks on at what has changed since the last one.
     pub(super) fn draw(&mut self, events: &ActiveEventLoop) {
-        let desk = self.on_desk();
-        let Some(show) = &mut self.show else { return };
+        let Some((frame, begun)) = self.begin_picture() else { return };
+        let moment = self.moment(&frame, &begun);
+        let Some((drawn, wishes, points)) = self.paint(&frame, &begun, &moment) else { return };
+        self.count(drawn, &frame, &begun, &moment);
+        self.graphics.moment = moment;
+        self.follow_attract(&frame);
+        self.desk.follow_devices(self.pacing.time(), &frame);
+        self.follow_visit(&frame);
+        self.follow_rest(events, self.pacing.clock.seconds(begun.now), points);
+        let look = self.desk.panel.look(&self.setup.config);
+        if let Some(show) = &self.show {
+            show.live.inbox().controls.look = look;
+            if let Some(shown) = self.desk.cursor() {
+                show.screen.window.set_cursor_visible(shown);
+            }
+        }
+        for wish in wishes {
+            self.fulfil(events, wish, &frame);
+        }
+        if drawn == Drawn::DeviceLost {
+            self.mend(events, &frame);
+        }
+    }
+
+    /// How finely the next picture is drawn, what it is drawn from, and which time it shows.
+    fn begin_picture(&mut self) -> Option<(std::sync::Arc<Frame>, Begun)> {
+        let show = self.show.as_mut()?;
         let now = Instant::now();
-        let last = self.clock.last;
-        let (adapter, software) = show.screen.adapter();
-        let open = self.house.is_open() || self.staff.is_open();
+        let (_, software) = show.screen.adapter();
+        let panel = self.desk.panel.is_open();
+        let open = self.house.is_open() || panel;
         let least = match (open, software) {
             (false, _) => CLOSED_S,
-            (true, true) => 1.0 / self.config.screen.software_fps,
-            (true, false) => self.tiers.tier().least,
+            (true, true) => 1.0 / self.setup.config.screen.software_fps,
+            (true, false) => self.pacing.tiers.tier().least,
         };
-        let asked = least.max(show.screen.refresh().unwrap_or(COMMON_REFRESH));
-        // The way to a picture that had time says nothing of the machine.
-        let rested = self.rest.rests();
-        if open && !rested && self.tiers.note(now.duration_since(last).as_secs_f64(), asked) {
-            let tier = self.tiers.tier();
+        if let Some(tier) = self.pacing.keep_up(now, open, least, show.screen.refresh()) {
             tracing::info!(
                 "pictures are drawn with {} of their pixels and {} samples from here",
                 tier.finish.scale,
@@ -53,142 +75,99 @@ impl App<'_> {
             );
             show.screen.set_finish(tier.finish);
         }
-        self.clock.rhythm.set_refresh(show.screen.refresh());
+        self.pacing.clock.rhythm.set_refresh(show.screen.refresh());
         let frame = show.live.frame();
-        let signs =
-            Signs { still: frame.still, page_moves: self.overlay.moves() || self.staff.is_open(), inputs: self.inputs };
-        let rests = self.rest.note(self.clock.seconds(now), signs);
-        let shown = self.clock.tick(now, if rests { least.max(PICTURE_S) } else { least });
-        let mut moment = std::mem::take(&mut self.moment);
-        frame.set_moment(shown, &mut moment);
+        let page_moves = self.overlaid.overlay.moves() || panel;
+        let begun = self.pacing.begin(now, frame.still, page_moves, least);
+        Some((frame, begun))
+    }
+
+    /// What the picture shows; a breath in it is counted as given.
+    fn moment(&mut self, frame: &Frame, begun: &Begun) -> Snapshot {
+        let mut moment = std::mem::take(&mut self.graphics.moment);
+        frame.set_moment(begun.shown, &mut moment);
         // Even times are worth less than a breath that is seen at once.
-        if self.sight.misses(&frame, &moment) {
+        if self.pacing.sight.misses(frame, &moment) {
             frame.set_newest(&mut moment);
         }
-        if self.needs.calm {
+        if self.visit.needs.calm {
             moment.motes.clear();
         }
         if moment.breath.speed > 0.0 && !frame.attracts {
-            let seconds = now.duration_since(last).as_secs_f64().min(LONGEST_GIFT);
-            self.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
+            let seconds = begun.now.duration_since(begun.last).as_secs_f64().min(LONGEST_GIFT);
+            self.visit.given.note(&frame.exhibit.id, jiff::Zoned::now().date(), seconds);
         }
+        moment
+    }
+
+    /// Draws the work, the pages over it and the panel over all. Returns what became of it, what staff want, and the
+    /// picture's size in points.
+    fn paint(&mut self, frame: &Frame, begun: &Begun, moment: &Snapshot) -> Option<(Drawn, Vec<Wish>, egui::Rect)> {
+        let desk = self.setup.on_desk();
+        let show = self.show.as_mut()?;
+        let (adapter, _) = show.screen.adapter();
         let rest = frame.exhibit.view(show.screen.aspect()).turned(moment.turn);
-        let sways = frame.attracts && !self.needs.calm;
-        let view = self.drift.view(rest, self.clock.seconds(shown), sways);
-        let size = show.screen.size();
+        let sways = frame.attracts && !self.visit.needs.calm;
+        let view = self.graphics.drift.view(rest, self.pacing.clock.seconds(begun.shown), sways);
         let vitals = Vitals {
             adapter: &adapter,
-            frame_s: self.clock.frame_s,
-            size,
-            time: self.clock.seconds(now),
-            sight_s: self.sight.seconds,
+            frame_s: self.pacing.clock.frame_s,
+            size: show.screen.size(),
+            time: self.pacing.clock.seconds(begun.now),
+            sight_s: self.pacing.sight.seconds,
         };
-        self.menu.tend(vitals.time, self.visitor.activity(), frame.current.breath.estimate.speed > 0.0);
-        let works: Vec<String> = self.offer.works().iter().map(|work| work.id.clone()).collect();
+        let (visitor, config) = (&self.visit.visitor, &self.setup.config);
+        let breathes = frame.current.breath.estimate.speed > 0.0;
+        self.overlaid.menu.tend(vitals.time, visitor.activity(), breathes);
+        let works: Vec<String> = self.works.offer.works().iter().map(|work| work.id.clone()).collect();
         let works: Vec<&str> = works.iter().map(String::as_str).collect();
         let mut wishes = Vec::new();
         let mut points = egui::Rect::NOTHING;
-        let silent = frame.load.loudness.muted || frame.is_mute();
-        let drawn = show.screen.draw(&frame.exhibit, &view, &moment, |ui| {
-            self.languages = offered(ui.ctx(), &frame.exhibit.labels, &self.config, &self.unwritten);
-            if !self.languages.contains(&self.language) {
-                self.language = first(&self.languages, &frame.exhibit.labels, &self.config);
-            }
-            let tiles = tiles(ui.ctx(), self.offer.works(), &mut self.pictures, &frame.exhibit.folder, &self.language);
-            let turn = (vitals.time / INVITES_S) as usize % self.languages.len().max(1);
-            let inviting = if frame.attracts { self.languages.get(turn) } else { None };
-            let scene = Scene {
-                exhibit: &frame.exhibit,
-                moment: &moment,
-                view,
-                attract_text: frame.attract_text.as_deref(),
-                inviting: inviting.unwrap_or(&self.language),
-                house: &self.house,
-                hears: !frame.is_deaf() && !frame.deaf,
-                breath: self.config.visit.breath,
-                has_ear: !frame.is_deaf(),
-                listens: self.listens,
-                captions: &frame.captions,
-                given: self.given.of(&frame.exhibit.id),
-                silent,
-                leaves_in: frame.leaves_in,
-                needs: self.needs,
-                rests: self.visitor.rests().zip(self.dwell.share(vitals.time, self.config.visit.dwell_s)),
-                speech: self.aloud.can_speak(&self.language).then_some(self.aloud.is_on()).filter(|_| !silent),
-                tiles: &tiles,
-                groups: &self.config.exhibits.groups,
-                languages: &self.languages,
-                language: &self.language,
-                volume: self.config.volume.steps > 0 && !frame.load.loudness.muted,
-                time: vitals.time,
-                points_per_mm: 1.0 / (self.config.screen.mm_per_px as f32 * ui.ctx().pixels_per_point()),
-            };
-            if let Some(rate) = visit::rate(&frame).filter(|_| scene.speech.is_some()) {
-                self.aloud.follow(&scene, rate);
-            }
-            let painter = ui.ctx().layer_painter(egui::LayerId::background());
+        let points_per_mm =
+            |context: &egui::Context| 1.0 / (config.screen.mm_per_px as f32 * context.pixels_per_point());
+        let drawn = show.screen.draw(&frame.exhibit, &view, moment, |ui| {
             points = ui.ctx().content_rect();
-            self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
+            let pages = Pages { frame, moment, view, time: vitals.time, points_per_mm: points_per_mm(ui.ctx()) };
+            self.overlaid.paint(ui, &pages, (&mut self.works, &self.visit), (config, &self.house));
             let sight = Sight {
-                frame: &frame,
+                frame,
                 view,
                 vitals,
-                site: &self.config,
-                site_says: &self.site_says,
-                work_says: self.work_says.as_deref(),
-                file: self.site.as_ref().map(|site| site.path.as_path()),
+                site: config,
+                site_says: &self.setup.says,
+                work_says: self.works.says.as_deref(),
+                file: self.setup.file.as_ref().map(|file| file.path.as_path()),
                 works: &works,
                 house: &self.house,
                 kept: self.fleet.kept(),
-                log: &self.log,
-                activity: self.visitor.activity(),
+                log: &self.desk.log,
+                activity: visitor.activity(),
                 on_desk: desk,
-                points_per_mm: scene.points_per_mm,
+                points_per_mm: pages.points_per_mm,
             };
-            wishes.extend(self.staff.show(ui, &sight));
+            wishes.extend(self.desk.panel.show(ui, &sight));
         });
-        if drawn == Drawn::Shown {
-            self.sight.note(&frame, &moment, now);
-            self.pictures_shown += 1;
-            self.pictures_at_rest += u64::from(rests);
-            if self.house.is_open() && !rested {
-                self.fleet.picture(now.duration_since(last).as_secs_f64());
-            }
+        Some((drawn, wishes, points))
+    }
+
+    /// Counts a picture, and tells whoever supervises the kiosk that it is alive.
+    fn count(&mut self, drawn: Drawn, frame: &Frame, begun: &Begun, moment: &Snapshot) {
+        self.pacing.note(drawn, begun, frame, moment);
+        if drawn == Drawn::Shown && self.house.is_open() && !begun.rested {
+            self.fleet.picture(begun.now.duration_since(begun.last).as_secs_f64());
         }
-        self.pictures_dark += u64::from(drawn == Drawn::Dark);
+        #[cfg(target_os = "linux")]
         if matches!(drawn, Drawn::Shown | Drawn::Dark) {
-            #[cfg(target_os = "linux")]
+            let counts = self.pacing.counts();
+            let pictures = counts.shown + counts.dark;
             self.watchdog.tend(
-                now,
-                Progress {
-                    pictures: self.pictures_shown + self.pictures_dark,
-                    due: frame.due,
-                    played: frame.load.played,
-                },
+                begun.now,
+                Progress { pictures, due: frame.due, played: frame.load.played },
                 &format!(
                     "{} on show; microphone {}; loudspeaker {}",
                     frame.exhibit.id, frame.load.audio.input, frame.load.audio.output
                 ),
             );
-        }
-        self.moment = moment;
-        self.follow_attract(&frame);
-        self.follow_devices(&frame);
-        self.follow_visit(&frame);
-        self.follow_rest(events, vitals.time, points);
-        let (look, open) = (self.staff.look(&self.config), self.staff.is_open());
-        if let Some(show) = &self.show {
-            show.live.controls().look = look;
-            if self.cursor != open {
-                show.screen.window.set_cursor_visible(open);
-            }
-        }
-        self.cursor = open;
-        for wish in wishes {
-            self.fulfil(events, wish, &frame);
-        }
-        if drawn == Drawn::DeviceLost {
-            self.mend(events, &frame);
         }
     }
 
@@ -198,26 +177,20 @@ impl App<'_> {
         let window = screen.window.clone();
         // The old surface must be gone before the window can have a new one.
         drop(screen);
-        self.pictures.clear();
-        self.lost += 1;
-        if self.lost > LOST_DEVICES {
-            return self.fail(events, format!("the graphics device was lost {} times", self.lost));
-        }
-        match Screen::new(self.instance.clone(), window, &frame.exhibit) {
+        self.works.thumbnails.clear();
+        match self.graphics.replace(window, &frame.exhibit) {
             Ok(screen) => {
-                tracing::info!("a new graphics device draws in the old window: {}", screen.adapter().0);
-                self.tiers = Tiers::default();
-                self.workbench = self.workbench.take().map(Workbench::again);
+                self.pacing.tiers = Tiers::default();
                 self.show = Some(Show { screen, live });
             }
-            Err(error) => self.fail(events, error),
+            Err(error) => self.life.fail(events, error),
         }
     }
 
     /// Draws with shaders that have changed; what is wrong with them is said, and the last good ones stay.
     pub(super) fn follow_workbench(&mut self) {
-        let time = self.clock.seconds(Instant::now());
-        let Some(news) = self.workbench.as_mut().and_then(|workbench| workbench.news(time)) else { return };
+        let time = self.pacing.time();
+        let Some(news) = self.graphics.workbench.as_mut().and_then(|workbench| workbench.news(time)) else { return };
         match (news, &mut self.show) {
             (Ok(shaders), Some(show)) => {
                 show.screen.set_shaders(shaders);
@@ -226,5 +199,67 @@ impl App<'_> {
             (Ok(_), None) => {}
             (Err(error), _) => self.say(format!("{error}\nThe last good shaders stay.")),
         }
+    }
+}
+
+/// What the pages over a picture are drawn from, beside what the window itself owns.
+struct Pages<'a> {
+    frame: &'a Frame,
+    moment: &'a Snapshot,
+    view: View,
+    time: f64,
+    points_per_mm: f32,
+}
+
+impl Overlaid {
+    /// Draws the pages, and begins to read aloud what was asked for.
+    fn paint(
+        &mut self,
+        ui: &egui::Ui,
+        picture: &Pages,
+        (works, visit): (&mut Works, &Visit),
+        (config, house): (&Config, &House),
+    ) {
+        let Pages { frame, time, .. } = *picture;
+        self.languages.offer(ui.ctx(), &frame.exhibit, config);
+        let language = &self.languages.shown;
+        let folder = &frame.exhibit.folder;
+        let tiles = tiles(ui.ctx(), works.offer.works(), &mut works.thumbnails, folder, language);
+        let silent = frame.load.loudness.muted || frame.is_mute();
+        let scene = Scene {
+            exhibit: &frame.exhibit,
+            moment: picture.moment,
+            view: picture.view,
+            attract_text: frame.attract_text.as_deref(),
+            inviting: self.languages.inviting(frame.attracts, time),
+            house,
+            hearing: Hearing {
+                hears: !frame.is_deaf() && !frame.deaf,
+                breath: config.visit.breath,
+                has_ear: !frame.is_deaf(),
+                listens: visit.listens,
+            },
+            sound: Sound {
+                captions: &frame.captions,
+                silent,
+                speech: self.aloud.can_speak(language).then_some(self.aloud.is_on()).filter(|_| !silent),
+                volume: config.volume.steps > 0 && !frame.load.loudness.muted,
+            },
+            given: visit.given.of(&frame.exhibit.id),
+            leaves_in: frame.leaves_in,
+            needs: visit.needs,
+            rests: visit.visitor.rests().zip(visit.dwell.share(time, config.visit.dwell_s)),
+            tiles: &tiles,
+            groups: &config.exhibits.groups,
+            languages: &self.languages.offered,
+            language,
+            time,
+            points_per_mm: picture.points_per_mm,
+        };
+        if let Some(rate) = visit::rate(frame).filter(|_| scene.sound.speech.is_some()) {
+            self.aloud.follow(&scene, rate);
+        }
+        let painter = ui.ctx().layer_painter(egui::LayerId::background());
+        self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);
     }
 }

@@ -2,45 +2,48 @@
 
 use winit::event_loop::ActiveEventLoop;
 
-use super::App;
-use crate::aloud::goes_on;
-use crate::dwell::Target;
-use crate::input::{Request, Signal};
+use super::app::App;
 use crate::live::Frame;
-use crate::needs::Needs;
+use crate::pages::aloud::goes_on;
+use crate::step::command::KioskCommand;
+use crate::visitor::dwell::Target;
+use crate::visitor::input::{Request, Signal};
+use crate::visitor::needs::Needs;
 use soffio_devices::audio::{DeviceState, Words};
 
 impl App<'_> {
     /// Looks on, once a picture.
     pub(super) fn follow_visit(&mut self, frame: &Frame) {
-        self.aloud.settle(&self.config.visit.reads_aloud);
-        let made = self.aloud.tend(frame.speaks);
+        self.overlaid.aloud.settle(&self.setup.config.visit.reads_aloud);
+        let made = self.overlaid.aloud.tend(frame.speaks);
         self.utter(made);
         // Whoever listens is there.
         if frame.speaks {
-            self.visitor.note();
+            self.visit.visitor.note();
             self.tell();
         }
         // Whoever blows wants the sculpture.
         if frame.current.breath.estimate.speed > 0.0 {
-            let hush = self.aloud.end();
+            let hush = self.overlaid.aloud.end();
             self.utter(hush);
         }
         if frame.attracts || !self.house.is_open() {
-            let hush = self.aloud.leave();
+            let hush = self.overlaid.aloud.leave();
             self.utter(hush);
         }
-        if frame.turned != self.turned {
-            self.leaf((frame.turned - self.turned) as i32);
-            self.turned = frame.turned;
+        match self.works.swiped(frame.turned) {
+            0 => {}
+            by => {
+                self.leaf(by);
+            }
         }
     }
 
     /// Presses where the pointer rests, for whoever chose that.
     pub(super) fn follow_rest(&mut self, events: &ActiveEventLoop, time: f64, points: egui::Rect) {
-        let hears = self.needs.dwell && self.house.hears(time) && !self.staff.is_open();
-        let pointer = self.visitor.rests().filter(|_| hears).map(|[x, y]| {
-            let below = self.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)));
+        let hears = self.visit.needs.dwell && self.house.hears(time) && !self.desk.panel.is_open();
+        let pointer = self.visit.visitor.rests().filter(|_| hears).map(|[x, y]| {
+            let below = self.overlaid.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)));
             let on = match below {
                 Some(Request::Nothing) => None,
                 Some(request) => Some(Target::Button(request)),
@@ -49,12 +52,12 @@ impl App<'_> {
             ([x, y], on)
         });
         let aspect = f64::from(points.width() / points.height());
-        match self.dwell.tend(time, pointer, self.config.visit.dwell_s, aspect) {
+        match self.visit.dwell.tend(time, pointer, self.setup.config.visit.dwell_s, aspect) {
             Some(Target::Button(request)) => {
-                self.visitor.note();
+                self.visit.visitor.note();
                 self.grant(events, request);
             }
-            Some(Target::Work) => self.visitor.tap(pointer.map_or([0.5, 0.5], |(at, _)| at)),
+            Some(Target::Work) => self.visit.visitor.tap(pointer.map_or([0.5, 0.5], |(at, _)| at)),
             None => return,
         }
         self.tell();
@@ -62,20 +65,20 @@ impl App<'_> {
 
     /// The next visitor finds what the site says.
     pub(super) fn forget_needs(&mut self) {
-        self.needs = Needs::of(&self.config.visit);
+        self.visit.needs = Needs::of(&self.setup.config.visit);
     }
 
     /// A touch or a key ends the reading, unless it is about the reading itself.
     pub(super) fn hush_at(&mut self, signal: &Signal, request: Option<Request>) {
-        let touches = self.visitor.press_position(signal).is_some();
+        let touches = self.visit.visitor.press_position(signal).is_some();
         let types = matches!(signal, Signal::Key(key) if key.pressed && !key.repeat);
         // Enter is whatever the marked button is.
         let means = match request {
-            Some(Request::Enter) => self.menu.marked(&self.buttons),
+            Some(Request::Enter) => self.overlaid.marked(),
             request => request,
         };
         if (touches || types) && !goes_on(means) {
-            let hush = self.aloud.end();
+            let hush = self.overlaid.aloud.end();
             self.utter(hush);
         }
     }
@@ -83,17 +86,17 @@ impl App<'_> {
     /// What a visitor chooses for this visit.
     pub(super) fn choose(&mut self, request: Request) {
         match request {
-            Request::PressOnce => self.needs.press_once ^= true,
-            Request::Dwell => self.needs.dwell ^= true,
-            Request::Calm => self.needs.calm ^= true,
+            Request::PressOnce => self.visit.needs.press_once ^= true,
+            Request::Dwell => self.visit.needs.dwell ^= true,
+            Request::Calm => self.visit.needs.calm ^= true,
             Request::Round => {
-                self.needs.round ^= true;
+                self.visit.needs.round ^= true;
                 // Whoever wants to look round wants to see the work.
-                self.menu.open = false;
-                self.visitor.let_go();
+                self.overlaid.menu.open = false;
+                self.visit.visitor.let_go();
             }
             Request::Speak => {
-                let hush = self.aloud.press();
+                let hush = self.overlaid.aloud.press();
                 self.utter(hush);
             }
             _ => {}
@@ -101,8 +104,8 @@ impl App<'_> {
     }
 
     fn utter(&self, words: Option<Words>) {
-        if let (Some(words), Some(show)) = (words, &self.show) {
-            show.live.controls().words = Some(words);
+        if let Some(words) = words {
+            self.send(KioskCommand::Say(words));
         }
     }
 }

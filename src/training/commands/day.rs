@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use soffio_config::Config;
-use soffio_kiosk::site::Site;
+use soffio_kiosk::venue::site::Site;
 use soffio_rehearsal::{Crowd, Rehearsal, featured_exhibits, listen};
 
 use super::{Failure, Outcome, detector};

@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use soffio_detector::BlowDetector;
 use soffio_devices::audio::{LOUDEST, Words};
-use soffio_kiosk::aloud::{Aloud, goes_on};
-use soffio_kiosk::input::Request;
-use soffio_kiosk::speech::Speaker;
-use soffio_kiosk::words::{WORDS, words};
+use soffio_kiosk::pages::aloud::{Aloud, goes_on};
+use soffio_kiosk::pages::speech::Speaker;
+use soffio_kiosk::pages::words::{WORDS, words};
+use soffio_kiosk::visitor::input::Request;
 use soffio_offline::wav;
 
 use super::pages::{Before, GLASSES, load};
@@ -157,7 +157,7 @@ fn every_button_of_the_page_has_a_name_in_every_language() {
         let buttons = visitor.look();
         visitor.look_with(|scene| {
             for (_, request) in buttons.iter().filter(|(_, request)| *request != Request::Nothing) {
-                let said = soffio_kiosk::spoken::button(*request, scene);
+                let said = soffio_kiosk::pages::spoken::button(*request, scene);
                 assert!(said.iter().all(|(text, _)| !text.is_empty()) && said.len() == 1, "{}: {request:?}", own.code);
             }
         });

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use soffio_exhibit::Label;
-use soffio_kiosk::bidi::{is_mixed, lines, reads_from_right};
-use soffio_kiosk::fonts::{self, Script};
-use soffio_kiosk::page::{INK, Page, Reading};
+use soffio_kiosk::pages::bidi::{is_mixed, lines, reads_from_right};
+use soffio_kiosk::pages::fonts::{self, Script};
+use soffio_kiosk::pages::page::{INK, Page};
+use soffio_kiosk::visitor::needs::Reading;
 
 use super::glass::Glass;
 use super::pages::{Before, load};

@@ -3,11 +3,11 @@
 use soffio_config::{Config, Day, TimeOfDay};
 use soffio_devices::audio::output;
 use soffio_devices::audio::{AudioStatus, DeviceState, Knobs};
-use soffio_kiosk::care::{CLEAN_NIGHTS, Care, Verdict};
-use soffio_kiosk::chirp::{HEARD_S, arrived, chirp};
-use soffio_kiosk::chirping::{Act, Course};
 use soffio_kiosk::fleet::Fleet;
-use soffio_kiosk::kept::{Keeper, Kept};
+use soffio_kiosk::fleet::kept::{Keeper, Kept};
+use soffio_kiosk::venue::care::{CLEAN_NIGHTS, Care, Verdict};
+use soffio_kiosk::venue::chirp::{HEARD_S, arrived, chirp};
+use soffio_kiosk::venue::chirping::{Act, Course};
 use soffio_math::noise::Random;
 use std::sync::Arc;
 

@@ -9,11 +9,11 @@ use std::path::Path;
 use egui::Rect;
 use image::RgbaImage;
 use soffio_config::Config;
-use soffio_kiosk::house::House;
-use soffio_kiosk::languages::{offered, unwritten};
-use soffio_kiosk::page::Reading;
+use soffio_kiosk::pages::languages::{offered, unwritten};
+use soffio_kiosk::pages::words::words;
 use soffio_kiosk::staff::Page;
-use soffio_kiosk::words::words;
+use soffio_kiosk::venue::house::House;
+use soffio_kiosk::visitor::needs::Reading;
 use soffio_offline::pictures::Pictures;
 
 use super::glass::{Glass, luminance};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use soffio_exhibit::View;
-use soffio_kiosk::drift::Drift;
+use soffio_kiosk::attract::drift::Drift;
 
 const REST: View = View { eye: DVec3::new(0.3, 0.4, 1.9), target: DVec3::new(0.1, 0.2, 0.0), up: DVec3::Y, fovy: 0.5 };
 /// Pictures a second.

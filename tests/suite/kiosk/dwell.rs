@@ -1,7 +1,7 @@
 //! Pressing by resting the pointer.
 
-use soffio_kiosk::dwell::{Dwell, Target};
-use soffio_kiosk::input::Request;
+use soffio_kiosk::visitor::dwell::{Dwell, Target};
+use soffio_kiosk::visitor::input::Request;
 
 const WIDE: f64 = 16.0 / 9.0;
 const AFTER: f64 = 1.0;

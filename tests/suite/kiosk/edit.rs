@@ -4,7 +4,7 @@ use std::path::Path;
 
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
-use soffio_kiosk::edit::{Changes, Number, numbers, with_key, with_list, with_number};
+use soffio_kiosk::staff::edit::{Changes, Number, numbers, with_key, with_list, with_number};
 
 fn shipped(path: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);

@@ -11,7 +11,8 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 use soffio_exhibit as exhibit;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
 use soffio_offline::pictures::Pictures;
 use soffio_simulation::Settings;
 

@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
-use soffio_kiosk::breaths::{Blows, Source, Turn};
-use soffio_kiosk::house::House;
-use soffio_kiosk::kept::Kept;
+use soffio_kiosk::fleet::kept::Kept;
+use soffio_kiosk::fleet::metrics::{Numbers, text};
+use soffio_kiosk::fleet::visits::{DWELL_S, FRAME_S, Histogram};
 use soffio_kiosk::live::{Frame, Load};
-use soffio_kiosk::loudness::{NightBy, Wishes};
-use soffio_kiosk::metrics::{Numbers, text};
-use soffio_kiosk::site::Overrides;
 use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
-use soffio_kiosk::stage::Stage;
-use soffio_kiosk::visits::{DWELL_S, FRAME_S, Histogram};
+use soffio_kiosk::step::breaths::{Blows, Source, Turn};
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::venue::house::House;
+use soffio_kiosk::venue::loudness::{NightBy, Wishes};
+use soffio_kiosk::venue::site::Overrides;
 use soffio_simulation::Settings;
 
 fn frame(load: Load) -> Frame {

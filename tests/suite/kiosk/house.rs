@@ -5,10 +5,11 @@ use std::sync::Arc;
 use soffio_config::{Chord, Day, Opening};
 use soffio_detector::generate::{self, BreathShape};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::gesture::Press;
-use soffio_kiosk::house::{Above, CLEANING_S, House};
-use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::venue::house::{Above, CLEANING_S, House};
+use soffio_kiosk::visitor::gesture::Press;
+use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
 use soffio_simulation::{Microphone, Settings};
 
 const RATE: u32 = 48_000;

@@ -173,11 +173,11 @@ mod live {
     use soffio_config::Chord;
     use soffio_detector::generate;
     use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
-    use soffio_kiosk::attract::Attract;
-    use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-    use soffio_kiosk::pace::{MOST_BEHIND, Pacer};
-    use soffio_kiosk::shelf::{News, Offer, Places, Shelf, folders, id};
-    use soffio_kiosk::words::{WORDS, language_name, words};
+    use soffio_kiosk::attract::script::Attract;
+    use soffio_kiosk::live::pace::{MOST_BEHIND, Pacer};
+    use soffio_kiosk::pages::words::{WORDS, language_name, words};
+    use soffio_kiosk::venue::shelf::{News, Offer, Places, Shelf, folders, id};
+    use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
     use soffio_simulation::Command;
 
     #[test]
@@ -589,6 +589,7 @@ mod record;
 mod rest;
 #[cfg(feature = "kiosk")]
 mod rhythm;
+mod rooms;
 #[cfg(feature = "kiosk")]
 mod screens;
 #[cfg(feature = "kiosk")]

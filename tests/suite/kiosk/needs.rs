@@ -6,10 +6,11 @@ use std::sync::{Arc, LazyLock};
 
 use soffio_config::{Chord, Config};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::gesture::{Lift, Press};
-use soffio_kiosk::input::{Key, Keys, Phase, Request, Signal, Visitor};
-use soffio_kiosk::needs::Needs;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::visitor::gesture::{Lift, Press};
+use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
+use soffio_kiosk::visitor::needs::Needs;
 use soffio_simulation::{Settings, Simulation};
 
 const ASPECT: f64 = 16.0 / 9.0;
@@ -47,11 +48,10 @@ fn key(name: &str, pressed: bool, repeat: bool) -> Signal {
 }
 
 /// What the window tells of a visitor who presses once.
-fn told(visitor: &mut Visitor) -> Controls {
+fn told(visitor: &Visitor) -> Controls {
     Controls {
         aim: visitor.aim(),
         presses: visitor.presses().collect(),
-        lifts: visitor.lifts(),
         hold: visitor.holds_key(),
         keyed: visitor.keyed(),
         activity: visitor.activity(),
@@ -63,8 +63,8 @@ fn told(visitor: &mut Visitor) -> Controls {
 /// So many steps with what the visitor does now; what has come up is told once.
 fn run(stage: &mut Stage, visitor: &mut Visitor, steps: usize) {
     for _ in 0..steps {
-        let controls = told(visitor);
-        stage.step(&controls, None);
+        visitor.lifts().into_iter().for_each(|lift| stage.lift(lift));
+        stage.step(&told(visitor), None);
     }
 }
 
@@ -140,7 +140,8 @@ fn a_swipe_beside_the_work_leads_on_and_a_pull_at_it_does_not() {
             hands = hands.max(stage.snapshot().diagnostics.hands);
         }
         let at = [from[0] + 0.3, from[1]];
-        stage.step(&Controls { lifts: vec![Lift { id: 1, from, at }], ..still() }, None);
+        stage.lift(Lift { id: 1, from, at });
+        stage.step(&still(), None);
         assert_eq!(stage.turned(), turned, "from {from:?}");
         assert_eq!(hands, usize::from(turned == 0), "from {from:?}");
     }
@@ -152,7 +153,8 @@ fn a_swipe_beside_the_work_leads_on_and_a_pull_at_it_does_not() {
     }
     assert!(stage.snapshot().breath.speed > 5.0);
     let at = [beside[0] + 0.5, beside[1]];
-    stage.step(&Controls { lifts: vec![Lift { id: 1, from: beside, at }], ..still() }, None);
+    stage.lift(Lift { id: 1, from: beside, at });
+    stage.step(&still(), None);
     assert_eq!(stage.turned(), 0);
 }
 

@@ -4,10 +4,11 @@
 use std::sync::Arc;
 
 use soffio_exhibit::{Attract, AttractAction, AttractStep, Exhibit, Leeway, View};
-use soffio_kiosk::gesture::{Lift, Press};
-use soffio_kiosk::orbit::{PRESS, TURN, soft};
-use soffio_kiosk::recording::Recording;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::live::recording::Recording;
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::visitor::gesture::{Lift, Press};
+use soffio_kiosk::visitor::orbit::{PRESS, TURN, soft};
 use soffio_math::Pose;
 use soffio_simulation::{Settings, Simulation, record};
 
@@ -35,7 +36,8 @@ fn drag(stage: &mut Stage, controls: &Controls, way: [f64; 2]) {
         stage.step(&Controls { presses: vec![press], ..controls.clone() }, None);
     }
     let lift = Lift { id: 5, from: BESIDE, at: at(1.0) };
-    stage.step(&Controls { lifts: vec![lift], ..controls.clone() }, None);
+    stage.lift(lift);
+    stage.step(&controls, None);
 }
 
 fn stage(id: &str) -> Stage {
@@ -142,7 +144,8 @@ fn keys_and_sticks_turn_and_a_press_turns_for_whoever_presses_once() {
     let mut stage = self::stage("steel-fish");
     for (at, turned) in [([0.95, 0.6], [PRESS, 0.0]), ([0.04, 0.6], [0.0, 0.0])] {
         let lift = Lift { id: 1, from: at, at };
-        stage.step(&Controls { lifts: vec![lift], ..once.clone() }, None);
+        stage.lift(lift);
+        stage.step(&once, None);
         wait(&mut stage, &once, FOLLOWED);
         let turn = stage.snapshot().turn;
         assert!((turn[0] - turned[0]).abs() < 1e-4 && turn[1] == turned[1], "{at:?}: {turn:?}");

@@ -7,17 +7,18 @@ use std::sync::Arc;
 use egui::{Rect, pos2};
 use soffio_config::{Config, Group};
 use soffio_exhibit::{self as exhibit, Exhibit, Label};
-use soffio_kiosk::captions::Captions;
-use soffio_kiosk::fonts;
-use soffio_kiosk::house::House;
-use soffio_kiosk::input::Request;
-use soffio_kiosk::languages::{offered, unwritten};
-use soffio_kiosk::menu::{Menu, Tile, tiles};
-use soffio_kiosk::needs::Needs;
-use soffio_kiosk::overlay::{Overlay, Scene};
-use soffio_kiosk::page::{BUTTON_MM, Reading};
-use soffio_kiosk::shelf::Work;
-use soffio_kiosk::words::{WORDS, words};
+use soffio_kiosk::pages::fonts;
+use soffio_kiosk::pages::languages::{offered, unwritten};
+use soffio_kiosk::pages::menu::{Menu, Tile, tiles};
+use soffio_kiosk::pages::overlay::{Hearing, Overlay, Scene, Sound};
+use soffio_kiosk::pages::page::BUTTON_MM;
+use soffio_kiosk::pages::words::{WORDS, words};
+use soffio_kiosk::step::captions::Captions;
+use soffio_kiosk::venue::house::House;
+use soffio_kiosk::venue::shelf::Work;
+use soffio_kiosk::visitor::input::Request;
+use soffio_kiosk::visitor::needs::Needs;
+use soffio_kiosk::visitor::needs::Reading;
 use soffio_simulation::{Command, Settings, Simulation, Snapshot, StepInput};
 use soffio_sound::SoundCommand;
 
@@ -141,21 +142,15 @@ impl Before {
             attract_text: self.attract,
             inviting: &self.language,
             house: &self.house,
-            hears: self.hears,
-            breath: self.breath,
-            has_ear: true,
-            listens: self.hears,
-            captions: &self.captions,
+            hearing: Hearing { hears: self.hears, breath: self.breath, has_ear: true, listens: self.hears },
+            sound: Sound { captions: &self.captions, silent: self.silent, volume: true, speech: self.speech },
             given: [20.0, 400.0],
-            silent: self.silent,
             leaves_in: self.leaves_in,
             languages: &self.languages,
             language: &self.language,
-            volume: true,
             time: self.time,
             needs: self.needs,
             rests: self.rests,
-            speech: self.speech,
             tiles: &tiles,
             groups: &self.groups,
             points_per_mm: POINTS_PER_MM,

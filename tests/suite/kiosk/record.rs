@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use serde_json::Value;
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::gesture::Press;
-use soffio_kiosk::recording::Recording;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::live::recording::Recording;
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::visitor::gesture::Press;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::{MotionMode, Settings};
 

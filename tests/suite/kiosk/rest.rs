@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use soffio_exhibit::{Exhibit, View};
-use soffio_kiosk::rest::{BRIGHT, PICTURE_S, QUIET_S, Rest, Signs, Stillness, UNSEEN};
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::step::stillness::{BRIGHT, PICTURE_S, QUIET_S, Stillness, UNSEEN};
+use soffio_kiosk::window::rest::{Rest, Signs};
 use soffio_simulation::{Mote, STEPS_PER_SECOND, Settings, Simulation, Snapshot};
 
 use super::pages::load;

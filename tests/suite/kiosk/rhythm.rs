@@ -1,8 +1,8 @@
 //! Even motion is seen evenly: the times that pictures show, from the uneven times at which they are begun. No clock runs.
 
 use glam::DVec3;
-use soffio_kiosk::moments::{BEHIND, Moments};
-use soffio_kiosk::rhythm::Rhythm;
+use soffio_kiosk::step::moments::{BEHIND, Moments};
+use soffio_kiosk::window::rhythm::Rhythm;
 use soffio_math::Pose;
 use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 

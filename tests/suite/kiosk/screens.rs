@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use image::{RgbaImage, imageops};
 use soffio_config::Config;
-use soffio_kiosk::languages::{offered, unwritten};
-use soffio_kiosk::needs::Needs;
-use soffio_kiosk::page::Reading;
-use soffio_kiosk::shelf::{THUMBNAIL, Work, id};
+use soffio_kiosk::pages::languages::{offered, unwritten};
+use soffio_kiosk::venue::shelf::{THUMBNAIL, Work, id};
+use soffio_kiosk::visitor::needs::Needs;
+use soffio_kiosk::visitor::needs::Reading;
 use soffio_offline::pictures::{Pictures, write_png};
 use soffio_simulation::{Command, StepInput};
 

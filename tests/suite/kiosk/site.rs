@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
-use soffio_kiosk::shelf::{Offer, Places, Work};
-use soffio_kiosk::site::{News, Overrides, Site, SiteFile, waits_for_restart};
-use soffio_kiosk::stage::Stage;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::venue::shelf::{Offer, Places, Work};
+use soffio_kiosk::venue::site::{News, Overrides, Site, SiteFile, waits_for_restart};
 use soffio_simulation::{Profile, Settings};
 
 /// Far longer than the debounce time: only a watcher that misses the change takes so long.

@@ -7,10 +7,11 @@ use soffio_detector::generate::{self, BreathShape};
 use soffio_detector::{BlowEstimate, Reason};
 use soffio_devices::audio::{Heard, input};
 use soffio_exhibit::{self as exhibit, AttractAction, Exhibit};
-use soffio_kiosk::gesture::Press;
-use soffio_kiosk::governor::Governor;
-use soffio_kiosk::microphone::MicrophoneHealth;
-use soffio_kiosk::stage::{Controls, Stage};
+use soffio_kiosk::live::microphone::MicrophoneHealth;
+use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::governor::Governor;
+use soffio_kiosk::step::stage::Stage;
+use soffio_kiosk::visitor::gesture::{Lift, Press};
 use soffio_offline::feed::WavFeed;
 use soffio_offline::play::{self, Play};
 use soffio_offline::wav;
@@ -314,6 +315,30 @@ fn press_and_pull_takes_the_sculpture_and_press_and_hold_blows_at_it() {
 }
 
 #[test]
+fn a_command_acts_in_one_step_even_where_several_are_due() {
+    let mut stage = Stage::new(steel_fish(), Settings::default(), None, None);
+    let controls = Controls { aspect: 16.0 / 9.0, press_once: true, ..Controls::default() };
+    stage.step(&controls, None);
+    stage.command(Command::Blow(Some(3.0)));
+    stage.command(Command::Reset);
+    // A press that came and went between two wakings of the thread, which then does three steps.
+    stage.lift(Lift { id: 1, from: [0.02, 0.02], at: [0.02, 0.02] });
+    let told: Vec<usize> = (0..3)
+        .map(|_| {
+            stage.step(&controls, None);
+            stage.told().commands.len()
+        })
+        .collect();
+    assert_eq!(told, [2, 0, 0]);
+    assert!(stage.holds(), "one press begins a breath; taken twice it would have ended it");
+    // Where nobody is heard a lift is over too, and is not taken later.
+    stage.lift(Lift { id: 2, from: [0.02, 0.02], at: [0.02, 0.02] });
+    stage.step(&Controls { inert: true, ..controls.clone() }, None);
+    stage.step(&controls, None);
+    assert!(!stage.holds());
+}
+
+#[test]
 fn what_the_governor_chose_repeats_to_the_bit() {
     const STEPS: u64 = 5 * 240;
     let exhibit = steel_fish();
@@ -321,7 +346,7 @@ fn what_the_governor_chose_repeats_to_the_bit() {
     let mut governor = Governor::new(exhibit.motion);
     let mut controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
     let mut script = vec![String::from(r#"{"t": 0, "blow": 9.0}"#)];
-    controls.commands = vec![Command::Blow(Some(9.0))];
+    stage.command(Command::Blow(Some(9.0)));
     let mut before = None;
     for step in 0..STEPS {
         controls.mode = governor.mode();
@@ -331,7 +356,6 @@ fn what_the_governor_chose_repeats_to_the_bit() {
             script.push(format!(r#"{{"t": {t}, "solver": "{name}"}}"#));
         }
         stage.step(&controls, None);
-        controls.commands.clear();
         // As on a machine that is too slow for the laws from the second second on.
         let slow = step > 240 && controls.mode.is_none();
         governor.note(if slow { 5e-3 } else { 5e-4 });

@@ -1,6 +1,6 @@
 //! The way to draw that a machine keeps up with: found, kept, and left again when it can do better. No clock runs.
 
-use soffio_kiosk::tiers::{TIERS, Tiers, WAITS};
+use soffio_kiosk::window::tiers::{TIERS, Tiers, WAITS};
 
 const REFRESH: f64 = 1.0 / 60.0;
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use soffio_exhibit as exhibit;
-use soffio_kiosk::voice::{Guest, Trial, Tried, Voice, hit, timbres};
+use soffio_kiosk::step::voice::{Guest, Trial, Tried, Voice, hit, timbres};
 use soffio_sound::{SoundCommand, Synth};
 
 const RATE: u32 = 48_000;

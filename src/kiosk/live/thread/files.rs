@@ -1,0 +1,61 @@
+//! The files that a run writes: the trace of its first exhibit, and the record of all that it was told.
+
+use super::super::recording::Recording;
+use super::super::shared::trace_error;
+use crate::step::stage::Stage;
+use soffio_offline::trace::TraceWriter;
+
+/// Trace and record, where they are asked for.
+pub(super) struct Files {
+    pub trace: Option<TraceWriter>,
+    pub record: Option<Recording>,
+}
+
+impl Files {
+    /// A step has been done.
+    pub(super) fn note(&mut self, stage: &Stage) {
+        if let Some(record) = &mut self.record {
+            record.note(stage);
+        }
+    }
+
+    /// Adds the present moment to the trace.
+    pub(super) fn write_trace(&mut self, stage: &Stage) -> Result<(), String> {
+        match &mut self.trace {
+            Some(trace) => trace.push(stage.snapshot()).map_err(trace_error),
+            None => Ok(()),
+        }
+    }
+
+    /// The run of the exhibit on show is over.
+    pub(super) fn end(&mut self, stage: &Stage) {
+        if let Some(record) = &mut self.record {
+            record.end(stage);
+        }
+    }
+
+    /// An exhibit begins at its start. A trace knows one run only and ends.
+    pub(super) fn begin(&mut self, stage: &Stage) {
+        if let Some(record) = &mut self.record {
+            record.begin(stage.exhibit(), *stage.settings());
+        }
+        if let Some(trace) = self.trace.take() {
+            match trace.finish() {
+                Ok(_) => tracing::warn!("the trace ends here: the exhibit begins anew"),
+                Err(error) => tracing::error!("{error}"),
+            }
+        }
+    }
+
+    /// Ends both, at the end of the thread.
+    pub(super) fn finish(&mut self, stage: &Stage) -> Result<(), String> {
+        if let Some(trace) = self.trace.take() {
+            trace.finish().map_err(trace_error)?;
+        }
+        if let Some(mut record) = self.record.take() {
+            record.end(stage);
+            record.finish();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,178 @@
+//! A place to set type on: sizes are shares of the picture's height, so that type keeps its place in the composition.
+//!
+//! Type stands on slips of paper, like a label beside a work, and meets a contrast of 4.5 : 1 over any picture; lines keep
+//! 3 : 1 by a pale halo. With high contrast type is nearly black on white.
+
+use std::sync::Arc;
+
+use egui::text::{ByteIndex, LayoutJob, LayoutSection, TextFormat, TextWrapping};
+use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2};
+
+use crate::pages::bidi;
+use crate::visitor::needs::Reading;
+
+/// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
+pub const BUTTON_MM: f32 = 15.0;
+/// Smallest type, em: 2.9 mm on a 1280 x 720 picture of the usual screen.
+pub const SMALL: f32 = 0.72;
+/// How much larger large type is: 18 points for 14 (WCAG 2.2, large text).
+const LARGE: f32 = 1.3;
+
+/// Type.
+pub const INK: Color32 = Color32::from_rgb(38, 36, 34);
+/// On the floor too, the darkest ground that type stands on (luminance 0.34), 4.5 : 1.
+pub const SOFT_INK: Color32 = Color32::from_rgb(52, 50, 48);
+/// The one colour.
+pub const VERMILION: Color32 = Color32::from_rgb(190, 44, 22);
+/// Round type and lines.
+pub const HALO: Color32 = Color32::from_rgba_premultiplied(170, 170, 168, 170);
+/// How opaque a strip of it is: over black it leaves 9 : 1.
+const STRIP: f32 = 0.85;
+/// Under type, where there is no wall behind it.
+pub const PAPER: Color32 = Color32::from_rgb(246, 244, 241);
+
+/// A place to set type on.
+pub struct Page<'a> {
+    /// What draws.
+    pub painter: &'a Painter,
+    /// The picture, without its margin.
+    pub picture: Rect,
+    /// Height of type.
+    pub em: f32,
+    /// Least side of a button.
+    pub button: f32,
+    /// How it is to be read.
+    pub reading: Reading,
+}
+
+impl<'a> Page<'a> {
+    /// The whole of `picture`; `points_per_mm` of the glass.
+    pub fn new(painter: &'a Painter, picture: Rect, points_per_mm: f32, reading: Reading) -> Self {
+        let em = picture.height().min(picture.width() * 0.75) / 45.0;
+        let scaled = if reading.large { LARGE * em } else { em };
+        let button = (2.0 * em).max(BUTTON_MM * points_per_mm);
+        Self { painter, picture: picture.shrink(2.0 * em), em: scaled, button, reading }
+    }
+
+    /// Is it taller than wide?
+    pub fn is_tall(&self) -> bool {
+        self.picture.height() > self.picture.width()
+    }
+
+    /// Type `size` em high, in lines no longer than this.
+    pub fn set(&self, text: &str, size: f32, color: Color32, longest: f32) -> Arc<Galley> {
+        let color =
+            if self.reading.contrast { Color32::BLACK.gamma_multiply(f32::from(color.a()) / 255.0) } else { color };
+        let font = FontId::proportional(size * self.em);
+        match bidi::is_mixed(text) {
+            false => self.painter.layout(text.into(), font, color, longest),
+            true => self.set_mixed(text, font, color, longest),
+        }
+    }
+
+    /// The same where something is read from the right. Lines begin where most of the text does.
+    fn set_mixed(&self, text: &str, font: FontId, color: Color32, longest: f32) -> Arc<Galley> {
+        let format = TextFormat::simple(font.clone(), color);
+        let width = |piece: &str| self.painter.layout_no_wrap(piece.into(), font.clone(), color).size().x;
+        let lines = bidi::lines(text, longest, width);
+        let lengths: Vec<f32> = lines.iter().map(|line| line.iter().map(|piece| width(piece)).sum()).collect();
+        let longest = lengths.iter().copied().fold(0.0, f32::max);
+        let from_right = bidi::reads_from_right(text);
+        let mut job = LayoutJob { wrap: TextWrapping::no_max_width(), ..LayoutJob::default() };
+        for (i, (line, length)) in lines.iter().zip(&lengths).enumerate() {
+            if i > 0 {
+                job.append("\n", 0.0, format.clone());
+            }
+            let mut space = if from_right { longest - length } else { 0.0 };
+            // Each piece is a section of its own, which `append` would join with the one before: what is shaped
+            // together is turned about together, and a comma would go to the wrong side of its word.
+            for piece in line {
+                let start = job.text.len();
+                job.text.push_str(piece);
+                let byte_range = ByteIndex(start)..ByteIndex(job.text.len());
+                job.sections.push(LayoutSection { leading_space: space, byte_range, format: format.clone() });
+                space = 0.0;
+            }
+        }
+        self.painter.layout_job(job)
+    }
+
+    /// Puts type down where its anchor is, on paper that keeps it readable over a picture.
+    pub fn put(&self, galley: Arc<Galley>, at: Pos2, anchor: Align2, color: Color32) -> Rect {
+        let rect = anchor.anchor_size(at, galley.size());
+        let opacity = f32::from(color.a()) / 255.0;
+        // No higher than the gap to the next line: paper must not lie on what was put down before.
+        let paper = rect.expand2(vec2(0.3, 0.05) * self.em);
+        let sheet = if self.reading.contrast { Color32::WHITE } else { PAPER.gamma_multiply(STRIP) };
+        self.painter.rect_filled(paper, 0.2 * self.em, sheet.gamma_multiply(opacity));
+        self.painter.galley(rect.min, galley, color);
+        rect
+    }
+
+    /// Both.
+    pub fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32, longest: f32) -> Rect {
+        self.put(self.set(text, size, color, longest), at, anchor, color)
+    }
+
+    /// A line `width` em wide in a pale halo.
+    pub fn line(&self, points: Vec<Pos2>, width: f32, color: Color32) {
+        self.painter.line(points.clone(), Stroke::new((width + 0.14) * self.em, HALO.gamma_multiply(0.6)));
+        self.painter.line(points, Stroke::new((width * self.em).max(1.0), color));
+    }
+
+    /// The room of a word to press: as large as a finger.
+    pub fn word_size(&self, text: &str) -> Vec2 {
+        let size = self.set(text, 0.85, INK, f32::INFINITY).size();
+        vec2((size.x + self.em).max(self.button), self.button.max(size.y + 0.6 * self.em))
+    }
+
+    /// A word to press whose right lower corner is here; `on` underlines it.
+    pub fn word(&self, right_bottom: Pos2, text: &str, on: bool) -> Rect {
+        let color = if on { INK } else { SOFT_INK };
+        let galley = self.set(text, 0.85, color, f32::INFINITY);
+        let size = self.word_size(text);
+        let rect = Rect::from_min_size(right_bottom - size, size);
+        let set = self.put(galley, rect.center(), Align2::CENTER_CENTER, color);
+        if on {
+            let y = set.bottom() + 0.15 * self.em;
+            self.painter.hline(set.left()..=set.right(), y, Stroke::new(0.1 * self.em, VERMILION));
+        }
+        rect
+    }
+
+    /// A sign in a circle to press, its right lower corner here.
+    pub fn sign(&self, right_bottom: Pos2, sign: &str) -> Rect {
+        let size = vec2(self.button, self.button);
+        let rect = Rect::from_min_size(right_bottom - size, size);
+        let ink = if self.reading.contrast { Color32::BLACK } else { SOFT_INK };
+        self.painter.circle(
+            rect.center(),
+            0.42 * self.button,
+            PAPER.gamma_multiply(0.6),
+            Stroke::new(0.08 * self.em, ink),
+        );
+        let galley = self.set(sign, 1.1, ink, f32::INFINITY);
+        self.painter.galley(rect.center() - 0.5 * galley.size(), galley, ink);
+        rect
+    }
+
+    /// Shows which button the keys are on.
+    pub fn focus(&self, rect: Rect) {
+        self.painter.rect_stroke(
+            rect.expand(0.1 * self.em),
+            0.3 * self.em,
+            Stroke::new(0.22 * self.em, VERMILION),
+            StrokeKind::Outside,
+        );
+    }
+
+    /// A part of a circle's rim, clockwise from the top.
+    pub fn arc(&self, center: Pos2, radius: f32, share: f32, color: Color32) {
+        let corners = (64.0 * share).ceil().max(2.0);
+        let at = |i: f32| {
+            let (s, c) = (std::f32::consts::TAU * share * i / corners).sin_cos();
+            pos2(center.x + radius * s, center.y - radius * c)
+        };
+        self.painter.line((0..=corners as u32).map(|i| at(i as f32)).collect(), Stroke::new(0.2 * self.em, color));
+    }
+}

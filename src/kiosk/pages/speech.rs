@@ -1,0 +1,273 @@
+//! Speech: texts as samples, by the system's own speech program, found at run time.
+//!
+//! The program writes a WAV to its standard output; it never opens a device. So the kiosk's own loudspeaker is the only
+//! source of sound, and the ear hears nothing that it does not know. Without a program there is no button to press.
+//!
+//! The program's rate is made the loudspeaker's by its spectrum: all partials below both Nyquist frequencies, exactly. Its
+//! loudness is set over that of the works (−23 LUFS), which one calibration of the site holds for.
+
+use std::io::{Cursor, Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Duration;
+
+use realfft::RealFftPlanner;
+
+use soffio_devices::audio::{LOUDEST, Words};
+use soffio_math::from_decibels;
+
+/// Loudness of speech, LUFS: 3 dB over the works, which are 12 dB softer meanwhile.
+const SPEECH_LUFS: f64 = -20.0;
+/// Longest time that a program may take for a text. The longest shipped label takes a tenth of a second.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Languages whose script the program spells instead of reading: it says "Chinese letter" for every Han character.
+const SPELT: &[&str] = &["ja", "zh", "cmn", "yue"];
+/// Longest speech, s: nobody listens longer, and memory has an end.
+const LONGEST_S: f64 = 300.0;
+
+/// A speech program and what it can speak.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Speaker {
+    program: String,
+    languages: Vec<String>,
+}
+
+/// A text on its way to the loudspeaker.
+pub struct Making(Receiver<Result<Words, String>>);
+
+impl Speaker {
+    /// Asks a program (`espeak-ng`, or one that takes its arguments) for its languages. The error says why it cannot speak.
+    pub fn find(program: &str) -> Result<Self, String> {
+        let output = Command::new(program)
+            .arg("--voices")
+            .stdin(Stdio::null())
+            .output()
+            .map_err(|error| format!("{program}: {error}"))?;
+        if !output.status.success() {
+            return Err(format!("{program} --voices: {}", output.status));
+        }
+        // Pty Language Age/Gender VoiceName …
+        let table = String::from_utf8_lossy(&output.stdout);
+        let languages: Vec<String> =
+            table.lines().skip(1).filter_map(|line| line.split_whitespace().nth(1)).map(str::to_owned).collect();
+        match languages.is_empty() {
+            true => Err(format!("{program} has no voices")),
+            false => Ok(Self { program: program.to_owned(), languages }),
+        }
+    }
+
+    /// Does it read this language, and not only spell it?
+    pub fn can_speak(&self, language: &str) -> bool {
+        let base = base(language);
+        let speaks = |voice: &String| voice.split('-').next() == Some(base);
+        !SPELT.contains(&base) && self.languages.iter().any(speaks)
+    }
+
+    /// Begins to make words of texts with their languages, for a loudspeaker of this rate, Hz.
+    pub fn make(&self, texts: Vec<(String, String)>, sample_rate: u32) -> Making {
+        let (tell, told) = channel();
+        let program = self.program.clone();
+        let make = move || {
+            // Whoever does not listen any more has asked for something else.
+            let _ = tell.send(words(&program, &texts, sample_rate));
+        };
+        // Where it does not start its end of the channel is gone, and [`Making::ready`] says so.
+        if let Err(error) = std::thread::Builder::new().name("soffio-speech".into()).spawn(make) {
+            tracing::warn!("nothing is read aloud: {error}");
+        }
+        Making(told)
+    }
+}
+
+impl Making {
+    /// The words, once they are there; the error says why there are none.
+    pub fn ready(&self) -> Option<Result<Words, String>> {
+        match self.0.try_recv() {
+            Ok(words) => Some(words),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err("the thread that made the words is gone".into())),
+        }
+    }
+}
+
+/// Language without its region.
+fn base(language: &str) -> &str {
+    language.split(['-', '_']).next().unwrap_or(language)
+}
+
+/// Texts, one after the other, as one utterance.
+fn words(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Words, String> {
+    let mut all = Vec::new();
+    for (text, language) in texts.iter().filter(|(text, _)| !text.trim().is_empty()) {
+        let (samples, rate) = parse(&run(program, base(language), text)?)?;
+        all.extend(at_rate(&samples, rate, sample_rate));
+    }
+    all.truncate((LONGEST_S * f64::from(sample_rate)) as usize);
+    level(&mut all, sample_rate)?;
+    Ok(Words { samples: all.into(), sample_rate })
+}
+
+/// The program's WAV of a text. The text goes in by its standard input, so that nothing in it is an option.
+fn run(program: &str, language: &str, text: &str) -> Result<Vec<u8>, String> {
+    let failed = |error: std::io::Error| format!("{program}: {error}");
+    let mut child = Command::new(program)
+        .args(["--stdout", "--stdin", "-b", "1", "-v", language])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(failed)?;
+    let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
+    let (tell, told) = channel();
+    // It is read while it is fed, so that neither pipe can fill.
+    let reader = std::thread::Builder::new().name("soffio-reader".into()).spawn(move || {
+        let mut bytes = Vec::new();
+        let read = stdout.map_or(Ok(0), |mut stdout| stdout.read_to_end(&mut bytes));
+        let _ = tell.send(read.map(|_| bytes));
+    });
+    if let Err(error) = reader {
+        end(&mut child);
+        return Err(failed(error));
+    }
+    let fed = stdin.map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
+    let read = told.recv_timeout(PATIENCE);
+    end(&mut child);
+    match (fed, read) {
+        (Ok(()), Ok(bytes)) => bytes.map_err(failed),
+        (Err(error), _) => Err(failed(error)),
+        (_, Err(_)) => Err(format!("{program} has not spoken within {} s", PATIENCE.as_secs())),
+    }
+}
+
+/// The program is over, or shall be.
+fn end(child: &mut Child) {
+    // Fails where it has ended by itself.
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+/// Samples (full scale ±1) and rate of a WAV whose header may promise more than comes: a stream does not know its length.
+fn parse(bytes: &[u8]) -> Result<(Vec<f32>, u32), String> {
+    let mut reader = hound::WavReader::new(Cursor::new(bytes)).map_err(|error| format!("no WAV: {error}"))?;
+    let spec = reader.spec();
+    let full_scale = (1_i64 << (spec.bits_per_sample - 1)) as f32;
+    let samples: Vec<f32> = match (spec.sample_format, spec.channels) {
+        (hound::SampleFormat::Int, 1) => {
+            reader.samples::<i32>().map_while(Result::ok).map(|sample| sample as f32 / full_scale).collect()
+        }
+        _ => return Err("not one channel of whole numbers".into()),
+    };
+    Ok((samples, spec.sample_rate))
+}
+
+/// The same at another rate. With n samples at f and m = n g/f, the first bins of both spectra are the same:
+///
+/// ```text
+/// Y_k = m/n X_k     0 ≤ k ≤ min(n, m)/2          y = F⁻¹ Y
+/// ```
+fn at_rate(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
+    if from == to || samples.is_empty() {
+        return samples.to_vec();
+    }
+    // A whole number of periods of both rates, so that m is whole, with silence at the end.
+    let period = from / gcd(from, to);
+    let n = samples.len().div_ceil(period as usize) * period as usize;
+    let m = n / period as usize * (to / gcd(from, to)) as usize;
+    let mut planner = RealFftPlanner::<f32>::new();
+    let (forward, inverse) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(m));
+    let (mut x, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
+    x[..samples.len()].copy_from_slice(samples);
+    let (mut other, mut y) = (inverse.make_input_vec(), inverse.make_output_vec());
+    if forward.process(&mut x, &mut spectrum).is_err() {
+        return Vec::new();
+    }
+    let shared = spectrum.len().min(other.len()) - 1;
+    other[..shared].copy_from_slice(&spectrum[..shared]);
+    other[0].im = 0.0;
+    if inverse.process(&mut other, &mut y).is_err() {
+        return Vec::new();
+    }
+    y.iter().map(|sample| sample / n as f32).collect()
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// As loud as speech is to be, and no sample beyond what the loudspeaker takes.
+fn level(samples: &mut [f32], sample_rate: u32) -> Result<(), String> {
+    let failed = |error: ebur128::Error| format!("loudness: {error}");
+    let mut meter = ebur128::EbuR128::new(1, sample_rate, ebur128::Mode::I).map_err(failed)?;
+    // It comes from both loudspeakers.
+    meter.set_channel(0, ebur128::Channel::DualMono).map_err(failed)?;
+    meter.add_frames_f32(samples).map_err(failed)?;
+    let loudness = meter.loudness_global().map_err(failed)?;
+    let peak = samples.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
+    // Too short to be measured: as loud as it came.
+    let gain = if loudness.is_finite() { from_decibels(SPEECH_LUFS - loudness) as f32 } else { 1.0 };
+    let gain = gain.min(LOUDEST / peak.max(f32::MIN_POSITIVE));
+    samples.iter_mut().for_each(|sample| *sample *= gain);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Rounding of transforms of some ten thousand f32, full scale 1.
+    const ROUNDING: f64 = 1e-4;
+
+    #[test]
+    fn a_sine_is_the_same_sine_at_another_rate() {
+        let sine = |rate: u32, i: usize| (0.5 * (TAU * 1000.0 * i as f64 / f64::from(rate)).sin()) as f32;
+        for (from, to) in [(22_050, 48_000), (22_050, 44_100), (48_000, 16_000), (16_000, 16_000)] {
+            // A whole second holds a whole number of its periods: nothing leaks.
+            let samples: Vec<f32> = (0..from as usize).map(|i| sine(from, i)).collect();
+            let other = at_rate(&samples, from, to);
+            assert_eq!(other.len(), to as usize, "{from} to {to}");
+            for (i, sample) in other.iter().enumerate() {
+                let error = f64::from(sample - sine(to, i)).abs();
+                assert!(error < ROUNDING, "{from} to {to} Hz, sample {i}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn speech_is_as_loud_as_it_shall_be_and_never_too_great() {
+        /// BS.1770 weighs 1 kHz by about 0 dB; a sine of amplitude a on both sides has 20 log a LUFS.
+        const TOLERANCE_DB: f64 = 0.3;
+        let tone = |a: f64| -> Vec<f32> { (0..96_000).map(|i| (a * (TAU * i as f64 / 48.0).sin()) as f32).collect() };
+        for amplitude in [0.9, 0.01] {
+            let mut samples = tone(amplitude);
+            level(&mut samples, 48_000).expect("it is measured");
+            let peak = samples.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
+            let lufs = 20.0 * f64::from(peak).log10();
+            assert!((lufs - SPEECH_LUFS).abs() < TOLERANCE_DB, "{amplitude}: {lufs}");
+        }
+        // One click in silence would need far more than full scale.
+        let mut click = tone(1e-5);
+        click[500] = 1.0;
+        level(&mut click, 48_000).expect("it is measured");
+        assert!(click.iter().all(|sample| sample.abs() <= LOUDEST));
+    }
+
+    #[test]
+    fn a_program_that_is_not_there_or_says_nonsense_is_no_speaker() {
+        let error = Speaker::find("no-such-program-of-speech").expect_err("it is not there");
+        assert!(error.contains("no-such-program-of-speech"), "{error}");
+        assert!(Speaker::find("true").expect_err("no voices").contains("no voices"));
+        assert!(parse(b"not a wave").is_err());
+        assert!(run("cat", "en", "").is_ok_and(|bytes| bytes.is_empty()), "cat refuses the options and says nothing");
+    }
+
+    #[test]
+    fn a_language_is_spoken_by_its_own_voice_only() {
+        let languages = ["en-gb", "fr-fr", "kok", "ja", "it"].map(str::to_owned).to_vec();
+        let speaker = Speaker { program: String::new(), languages };
+        for (language, can) in [("en", true), ("en-US", true), ("it", true), ("ko", false), ("ja", false), ("i", false)]
+        {
+            assert_eq!(speaker.can_speak(language), can, "{language}");
+        }
+    }
+}

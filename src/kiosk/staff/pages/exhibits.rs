@@ -1,0 +1,130 @@
+//! Which works visitors find, and in which order: `exhibits.show`, row by row.
+
+use std::path::Path;
+
+use egui::{RichText, Ui};
+
+use crate::staff::edit::{Changes, with_list};
+use crate::staff::sight::Sight;
+use crate::staff::wish::Wish;
+use crate::venue::shelf::{Places, folders, id};
+use soffio_config::OTHERS;
+
+/// What the page remembers.
+#[derive(Debug, Default)]
+pub struct Exhibits {
+    /// The list of the configuration, and as it is being changed.
+    configured: Vec<String>,
+    list: Vec<String>,
+    /// Ids of all exhibits of the folder, looked up when the list is.
+    all: Vec<String>,
+}
+
+/// What is done to the list.
+enum Change {
+    /// A row goes so many places down.
+    Move(usize, isize),
+    Remove(usize),
+    Add(String),
+}
+
+impl Exhibits {
+    /// Draws it.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        sight: &Sight,
+        may: bool,
+        wishes: &mut Vec<Wish>,
+        changes: &mut Changes,
+        said: &mut Option<String>,
+    ) {
+        let site = &sight.site.exhibits;
+        if self.configured != site.show || self.all.is_empty() {
+            (self.configured, self.list) = (site.show.clone(), site.show.clone());
+            let places = Places::All { folder: site.folder.clone(), show: vec![OTHERS.to_owned()] };
+            self.all = folders(&places).iter().map(|folder| id(folder)).collect();
+        }
+        ui.label("Visitors find the works in this order.");
+        let change = ui.add_enabled_ui(may, |ui| self.rows(ui, sight, wishes)).inner;
+        if let Some(change) = change {
+            self.apply(change);
+        }
+        ui.separator();
+        let changed = self.list != self.configured;
+        ui.horizontal(|ui| {
+            let may_save = may && changed && sight.file.is_some();
+            if ui.add_enabled(may_save, egui::Button::new("Save the order")).clicked()
+                && let Some(file) = sight.file
+            {
+                *said = Some(save(file, &self.list, changes));
+            }
+            if ui.add_enabled(changed, egui::Button::new("Discard")).clicked() {
+                self.list.clone_from(&self.configured);
+            }
+        });
+        if sight.file.is_none() {
+            ui.weak("The configuration is built in: without a file nothing can be saved.");
+        }
+    }
+
+    fn rows(&self, ui: &mut Ui, sight: &Sight, wishes: &mut Vec<Wish>) -> Option<Change> {
+        let mut change = None;
+        for (row, id) in self.list.iter().enumerate() {
+            ui.horizontal(|ui| {
+                for (sign, by) in [("\u{2191}", -1), ("\u{2193}", 1)] {
+                    let to = row as isize + by;
+                    let room = (0..self.list.len() as isize).contains(&to);
+                    if ui.add_enabled(room, egui::Button::new(RichText::new(sign).monospace())).clicked() {
+                        change = Some(Change::Move(row, by));
+                    }
+                }
+                if ui.button("\u{00d7}").clicked() {
+                    change = Some(Change::Remove(row));
+                }
+                let stands = sight.works.contains(&id.as_str());
+                match id.as_str() {
+                    OTHERS => {
+                        let others = self.all.iter().filter(|id| !self.list.contains(id)).count();
+                        ui.label(format!("all others ({others})"));
+                    }
+                    id if stands => {
+                        if ui.selectable_label(sight.frame.exhibit.id == id, id).clicked() {
+                            wishes.push(Wish::Show(id.to_owned()));
+                        }
+                    }
+                    id => {
+                        ui.weak(format!("{id} (not there, or it does not load: see the log)"));
+                    }
+                }
+            });
+        }
+        ui.separator();
+        ui.label("Not in the list:");
+        ui.horizontal_wrapped(|ui| {
+            let others = self.all.iter().map(String::as_str).chain([OTHERS]);
+            for id in others.filter(|id| !self.list.iter().any(|listed| listed == id)) {
+                let name = if id == OTHERS { "all others" } else { id };
+                if ui.button(format!("+ {name}")).clicked() {
+                    change = Some(Change::Add(id.to_owned()));
+                }
+            }
+        });
+        change
+    }
+
+    fn apply(&mut self, change: Change) {
+        match change {
+            Change::Move(row, by) => self.list.swap(row, row.saturating_add_signed(by)),
+            Change::Remove(row) => drop(self.list.remove(row)),
+            Change::Add(id) => self.list.push(id),
+        }
+    }
+}
+
+fn save(file: &Path, list: &[String], changes: &mut Changes) -> String {
+    match changes.make(file, |text| with_list(text, "exhibits", "show", list)) {
+        Ok(()) => format!("Saved in {}.", file.display()),
+        Err(error) => error,
+    }
+}

@@ -1,0 +1,169 @@
+//! The microphone: what it hears, how the detector judges, and what to do about it, as `soffio doctor` says.
+
+use egui::{Color32, DragValue, Grid, Sense, Ui, pos2, vec2};
+
+use super::style::{BAD, GOOD, ROW, row};
+use crate::staff::edit::{Changes, with_key};
+use crate::staff::sight::Sight;
+use soffio_config::remedies;
+use soffio_detector::{BlowEstimate, Reason};
+
+/// Lower end of the meter, dB of full scale.
+const QUIETEST_DBFS: f64 = -80.0;
+/// Height of the meter, points.
+const METER: f32 = 22.0;
+/// Breaths that a calibration asks for.
+const BREATHS: usize = 3;
+
+/// What the page remembers.
+#[derive(Debug, Default)]
+pub struct Microphone {
+    /// Loudest and quietest since the page was opened, dB of full scale.
+    range: Option<[f64; 2]>,
+    calibration: Option<Calibration>,
+    /// Being dragged, dB.
+    sensitivity: Option<f64>,
+}
+
+/// Breaths that are listened to.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Calibration {
+    breaths: usize,
+    blows: bool,
+    /// Sum of the speeds at the lips, m/s, and how many there are.
+    sum: f64,
+    count: u32,
+}
+
+impl Calibration {
+    /// Takes notice of what the detector says.
+    pub fn note(&mut self, heard: &BlowEstimate) {
+        let blows = heard.reason == Reason::Blow;
+        if blows {
+            self.sum += heard.speed;
+            self.count += 1;
+        }
+        self.breaths += usize::from(self.blows && !blows);
+        self.blows = blows;
+    }
+
+    /// Were there enough breaths?
+    pub fn is_over(&self) -> bool {
+        self.breaths >= BREATHS
+    }
+
+    /// The sensitivity with which they would be normal breaths, dB, for breaths heard with `now_db`.
+    pub fn proposal(&self, now_db: f64) -> Option<f64> {
+        (self.count > 0).then(|| remedies::sensitivity(self.sum / f64::from(self.count), now_db))
+    }
+}
+
+impl Microphone {
+    /// Draws it.
+    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, changes: &mut Changes, said: &mut Option<String>) {
+        let frame = sight.frame;
+        let heard = &frame.current.breath.estimate;
+        if !frame.hears {
+            ui.colored_label(BAD, format!("nothing arrives; {}", frame.load.audio.input));
+            for remedy in frame.load.microphone.remedies() {
+                ui.colored_label(BAD, remedy);
+            }
+            self.range = None;
+            return;
+        }
+        let level = heard.level_dbfs.max(QUIETEST_DBFS);
+        let [low, high] = self.range.unwrap_or([level, level]);
+        let range = [low.min(level), high.max(level)];
+        self.range = Some(range);
+        meter(ui, heard, range);
+        let health = &frame.load.microphone;
+        Grid::new("microphone").num_columns(2).min_row_height(ROW).spacing([24.0, 4.0]).show(ui, |ui| {
+            row(ui, "level now", format!("{:6.1} dBFS", heard.level_dbfs), false);
+            row(ui, "since the page opened", format!("{:6.1} to {:6.1} dBFS", range[0], range[1]), false);
+            let loud = heard.floor_dbfs > remedies::LOUD_DBFS;
+            row(ui, "floor of the room", format!("{:6.1} dBFS", heard.floor_dbfs), loud);
+            let clips = format!("{} times, {} without a breath", health.clips, health.clips_without_breath);
+            row(ui, "at full scale", clips, health.clips_lately());
+            row(ui, "gain control", if heard.gain_control { "seen" } else { "none seen" }, heard.gain_control);
+            row(ui, "detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
+            row(ui, "breath at the lips", format!("{:5.2} m/s", heard.speed), false);
+            let capsules = frame.load.audio.capsules;
+            row(ui, "capsules", capsules.to_string(), sight.site.audio.second_capsule_channel > 0 && capsules < 2);
+        });
+        ui.separator();
+        let mut well = true;
+        for remedy in health.remedies() {
+            well = false;
+            ui.colored_label(BAD, remedy);
+        }
+        if well {
+            ui.colored_label(GOOD, "Nothing to mend.");
+        }
+        if ui.button("Measure the range anew").clicked() {
+            self.range = None;
+        }
+        ui.separator();
+        ui.add_enabled_ui(may && sight.file.is_some(), |ui| self.sensitivity(ui, sight, changes, said));
+    }
+
+    fn sensitivity(&mut self, ui: &mut Ui, sight: &Sight, changes: &mut Changes, said: &mut Option<String>) {
+        let now = sight.site.breath.sensitivity_db;
+        let mut wanted = self.sensitivity.unwrap_or(now);
+        let mut save = None;
+        ui.horizontal(|ui| {
+            let field = DragValue::new(&mut wanted).range(-40.0..=40.0).speed(0.2).fixed_decimals(1).suffix(" dB");
+            let response = ui.add(field);
+            ui.label("breath.sensitivity_db, how strong a breath is taken to be");
+            self.sensitivity = Some(wanted).filter(|_| response.dragged() || response.has_focus());
+            save = (response.drag_stopped() || response.lost_focus() && wanted != now).then_some(wanted);
+        });
+        match &mut self.calibration {
+            None => {
+                if ui.button("Calibrate with a breath").clicked() {
+                    self.calibration = Some(Calibration::default());
+                }
+            }
+            Some(calibration) if !calibration.is_over() => {
+                calibration.note(&sight.frame.current.breath.estimate);
+                let left = BREATHS - calibration.breaths;
+                ui.label(format!(
+                    "Blow at the microphone from where visitors stand, as they would, a second or two, {left} times more."
+                ));
+                if ui.button("Stop").clicked() {
+                    self.calibration = None;
+                }
+            }
+            Some(calibration) => {
+                let proposed = calibration.proposal(now).unwrap_or(now);
+                ui.label(format!("If those were normal breaths: {proposed:.0} dB instead of {now:.0} dB."));
+                let (mut take, mut forget) = (false, false);
+                ui.horizontal(|ui| {
+                    take = ui.button("Take it over").clicked();
+                    forget = ui.button("Forget it").clicked();
+                });
+                save = take.then_some(proposed).or(save);
+                if take || forget {
+                    self.calibration = None;
+                }
+            }
+        }
+        if let Some((value, file)) = save.zip(sight.file) {
+            let made = changes.make(file, |text| with_key(text, "breath", "sensitivity_db", value));
+            *said = Some(made.err().unwrap_or_else(|| format!("Saved in {}.", file.display())));
+        }
+    }
+}
+
+/// The level, the range it had, and a mark at the room's floor.
+fn meter(ui: &mut Ui, heard: &BlowEstimate, range: [f64; 2]) {
+    let (room, _) = ui.allocate_exact_size(vec2(ui.available_width(), METER), Sense::hover());
+    let place = |dbfs: f64| room.left() + room.width() * (1.0 - dbfs / QUIETEST_DBFS).clamp(0.0, 1.0) as f32;
+    let painter = ui.painter();
+    painter.rect_filled(room, 2.0, Color32::from_gray(215));
+    let had = room.with_min_x(place(range[0])).with_max_x(place(range[1]));
+    painter.rect_filled(had, 0.0, Color32::from_gray(185));
+    let level = room.with_max_x(place(heard.level_dbfs)).shrink2(vec2(0.0, 4.0));
+    painter.rect_filled(level, 2.0, if heard.clipping { BAD } else { GOOD });
+    let floor = pos2(place(heard.floor_dbfs), room.top());
+    painter.rect_filled(egui::Rect::from_min_size(floor, vec2(2.0, room.height())), 0.0, Color32::BLACK);
+}

@@ -1,0 +1,69 @@
+//! The panel's pages, one a file: each draws itself from a [`Sight`](super::Sight) and remembers what it needs.
+
+pub(super) mod bodies;
+mod display;
+pub(super) mod exhibits;
+pub(super) mod keypad;
+pub(super) mod log;
+pub(super) mod microphone;
+pub(super) mod parameters;
+mod plot;
+pub(super) mod sound;
+pub(super) mod status;
+pub(super) mod style;
+pub(super) mod test;
+pub(super) mod wind;
+
+/// A page of the panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Page {
+    /// Is it well? And what staff do every day.
+    #[default]
+    Status,
+    /// Which works, in which order.
+    Exhibits,
+    /// Bodies, joints, energy.
+    Bodies,
+    /// Where the breath goes.
+    Wind,
+    /// Instruments, tried through the loudspeaker.
+    Sound,
+    /// The work's numbers.
+    Parameters,
+    /// Levels, gain, what to do about it.
+    Microphone,
+    /// Glass, loudspeakers, microphone.
+    Test,
+    /// What was logged.
+    Log,
+}
+
+impl Page {
+    /// All of them, in the order of their tabs.
+    pub const ALL: [Self; 9] = [
+        Self::Status,
+        Self::Exhibits,
+        Self::Bodies,
+        Self::Wind,
+        Self::Sound,
+        Self::Parameters,
+        Self::Microphone,
+        Self::Test,
+        Self::Log,
+    ];
+
+    /// The words on its tab.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Status => "Status",
+            Self::Exhibits => "Exhibits",
+            Self::Bodies => "Bodies",
+            Self::Wind => "Wind",
+            Self::Sound => "Sound",
+            Self::Parameters => "Parameters",
+            Self::Microphone => "Microphone",
+            Self::Test => "Test",
+            Self::Log => "Log",
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Instruments, tried through the live loudspeaker: the work's own and all shipped timbres.
+
+use egui::{Slider, Ui};
+
+use super::style::BAD;
+use crate::staff::sight::Sight;
+use crate::staff::wish::Wish;
+use crate::step::voice::{Trial, Tried, timbres};
+
+/// What the page remembers.
+#[derive(Debug)]
+pub struct Sound {
+    /// m/s.
+    speed: f64,
+    pan: f32,
+    /// The shipped timbres that can be tried, looked up once.
+    timbres: Vec<&'static str>,
+}
+
+impl Default for Sound {
+    fn default() -> Self {
+        Self { speed: 0.5, pan: 0.0, timbres: Vec::new() }
+    }
+}
+
+impl Sound {
+    /// Draws it.
+    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
+        if self.timbres.is_empty() {
+            self.timbres = timbres().collect();
+        }
+        let frame = sight.frame;
+        if frame.load.loudness.muted || frame.is_mute() {
+            ui.colored_label(BAD, "nothing will be heard: muted, or no loudspeaker");
+        }
+        ui.add(Slider::new(&mut self.speed, 0.02..=4.0).logarithmic(true).text("speed of the hit, m/s"));
+        ui.add(Slider::new(&mut self.pan, -1.0..=1.0).text("left \u{2026} right"));
+        let (speed, pan) = (self.speed, self.pan);
+        let mut play = |ui: &mut Ui, name: &str, tried: Tried| {
+            if ui.button(name).clicked() {
+                wishes.push(Wish::Try(Trial { tried, speed, pan }));
+            }
+        };
+        ui.separator();
+        ui.label(format!("Of {}", frame.exhibit.id));
+        ui.add_enabled_ui(may, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                for sound in &frame.exhibit.sounds {
+                    let timbre = &frame.exhibit.instruments[sound.instrument].timbre;
+                    // The wind plays the others.
+                    if self.timbres.contains(&timbre.as_str()) {
+                        play(ui, &format!("{} ({timbre})", sound.name), Tried::Own(sound.instrument));
+                    }
+                }
+            });
+            ui.separator();
+            ui.label("All timbres, on the body that each is tried on");
+            ui.horizontal_wrapped(|ui| {
+                for name in &self.timbres {
+                    play(ui, name, Tried::Timbre(name));
+                }
+            });
+        });
+    }
+}

@@ -1,0 +1,169 @@
+//! Is it well? Every number that says so, and what staff do every day.
+
+use egui::{Grid, Ui};
+
+use super::style::{BAD, ROW, row};
+use crate::staff::sight::Sight;
+use crate::staff::wish::Wish;
+use crate::venue::loudness::NightBy;
+use soffio_devices::audio::DeviceState;
+use soffio_devices::controllers::State;
+use soffio_simulation::MotionMode;
+
+/// The buttons of every day, then all numbers.
+pub fn show(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
+    buttons(ui, sight, may, wishes);
+    for says in sight.site_says {
+        ui.colored_label(BAD, format!("configuration: {says}"));
+    }
+    for remedy in sight.frame.load.microphone.remedies() {
+        ui.colored_label(BAD, format!("microphone: {remedy}"));
+    }
+    ui.separator();
+    Grid::new("numbers").num_columns(2).min_row_height(ROW).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, sight));
+}
+
+fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
+    let muted = sight.frame.load.loudness.muted;
+    let early = sight.house.is_early();
+    ui.add_enabled_ui(may, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            let mut all = vec![
+                ("Clean the glass, 60 s", Wish::Clean),
+                (if muted { "Sound on" } else { "Mute" }, Wish::Mute),
+                ("Night", Wish::Night),
+                ("Reset", Wish::Reset),
+                ("Reload exhibit", Wish::Reload),
+            ];
+            if early || !sight.house.is_open() {
+                all.push((if early { "Close the house again" } else { "Open now" }, Wish::Open));
+            }
+            if sight.site.visit.breath {
+                all.extend([
+                    ("Chirp", Wish::Chirp),
+                    ("New foam", Wish::FoamChanged),
+                    ("Listen anew", Wish::ListenAnew),
+                ]);
+            }
+            all.push(("End the kiosk", Wish::Close));
+            for (name, asked) in all {
+                if ui.button(name).clicked() {
+                    wishes.push(asked);
+                }
+            }
+        });
+    });
+}
+
+/// The numbers, one a row.
+fn numbers(ui: &mut Ui, sight: &Sight) {
+    house(ui, sight);
+    microphone(ui, sight);
+    motion(ui, sight);
+    picture(ui, sight);
+    loudspeaker(ui, sight);
+    loudness(ui, sight);
+}
+
+fn house(ui: &mut Ui, sight: &Sight) {
+    let house = match (sight.house.is_open(), sight.house.is_early()) {
+        (true, false) => "open",
+        (true, true) => "open, by staff, before its hours",
+        (false, _) => "closed",
+    };
+    row(ui, "house", house, false);
+    row(ui, "breath", if sight.site.visit.breath { "wanted" } else { "off: visitors press and hold" }, false);
+    row(ui, "exhibit", sight.frame.exhibit.id.clone(), false);
+}
+
+/// The microphone, its foam, and what is heard of a breath.
+fn microphone(ui: &mut Ui, sight: &Sight) {
+    let frame = sight.frame;
+    let breath = &frame.current.breath;
+    let heard = &breath.estimate;
+    let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
+    let capsules = if audio.capsules == 2 { ", two capsules" } else { "" };
+    let missing = !frame.hears && audio.input != DeviceState::Closed;
+    row(ui, "microphone", format!("{}{capsules}", audio.input), missing);
+    let level = if frame.hears {
+        format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs)
+    } else {
+        "nothing arrives".into()
+    };
+    row(ui, "level", level, heard.clipping);
+    let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
+    row(ui, "at full scale", clips, microphone.clips_lately());
+    let foam = sight.kept.care.foam(sight.kept.tally.breaths());
+    let lasts = u64::from(sight.site.care.foam_blows);
+    let said = if lasts > 0 { format!("{foam} breaths of {lasts}") } else { format!("{foam} breaths") };
+    row(ui, "foam", said, lasts > 0 && foam >= lasts);
+    match &sight.kept.care.last {
+        Some((verdict, when)) => row(ui, "chirp", format!("{verdict}; {when}"), verdict.is_bad()),
+        None => row(ui, "chirp", "none yet", false),
+    }
+    row(ui, "gain control", if heard.gain_control { "seen" } else { "none seen" }, heard.gain_control);
+    row(ui, "detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
+    row(ui, "breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
+}
+
+/// What moves, and how well the thread that moves it keeps up.
+fn motion(ui: &mut Ui, sight: &Sight) {
+    let (frame, load) = (sight.frame, &sight.frame.load);
+    let state = &frame.current.diagnostics;
+    row(ui, "wind force", format!("{:.4} N", state.wind_force.length()), false);
+    row(ui, "attract mode", if frame.attracts { "playing" } else { "waiting" }, false);
+    row(ui, "joint error", format!("{:.2e} m", state.joint_error), state.joint_error > 1e-3);
+    row(ui, "energy", format!("{:.4} J", state.energy), false);
+    row(ui, "substeps", state.substeps.to_string(), false);
+    row(ui, "impacts", state.impacts.to_string(), false);
+    row(ui, "faults", state.faults.to_string(), state.faults > 0);
+    row(ui, "step", format!("{:.3} ms of 4.167", 1e3 * load.step_s), load.step_s > 1.0 / 240.0);
+    let changes = load.mode_changes;
+    row(ui, "moved by", format!("{}, {changes} changes", state.mode.name()), state.mode != MotionMode::Dynamic);
+    row(ui, "hands", state.hands.to_string(), false);
+    row(ui, "steps dropped", load.dropped.to_string(), false);
+    row(ui, "commands dropped", load.commands_dropped.to_string(), load.commands_dropped > 0);
+}
+
+fn picture(ui: &mut Ui, sight: &Sight) {
+    let vitals = &sight.vitals;
+    let [width, height] = vitals.size;
+    row(ui, "picture", format!("{:.1} ms, {width}x{height}", 1e3 * vitals.frame_s), false);
+    row(ui, "wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);
+    row(ui, "graphics", vitals.adapter, false);
+    for (kind, state) in &sight.frame.load.controllers {
+        let (State::Listening(said) | State::Waiting(said)) = state;
+        row(ui, kind, said.clone(), false);
+    }
+}
+
+fn loudspeaker(ui: &mut Ui, sight: &Sight) {
+    let audio = &sight.frame.load.audio;
+    row(ui, "loudspeaker", audio.output.to_string(), false);
+    if let Some(state) = &audio.hearing_loop {
+        row(ui, "hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
+    }
+    row(ui, "late blocks", audio.xruns.to_string(), audio.xruns > 0);
+}
+
+fn loudness(ui: &mut Ui, sight: &Sight) {
+    let loud = &sight.frame.load.loudness;
+    let muted = if loud.muted { ", muted" } else { "" };
+    let eased = if loud.eased_db > 0.0 { format!(", {:.1} dB eased", loud.eased_db) } else { String::new() };
+    row(ui, "volume", format!("{:.1} dB, {:+} steps{eased}{muted}", loud.volume_db, loud.steps), loud.muted);
+    let by = match loud.by {
+        NightBy::Hours => "the hours",
+        NightBy::Night | NightBy::Day => "staff",
+    };
+    row(ui, "sound of the", format!("{}, by {by}", if loud.night { "night" } else { "day" }), false);
+    for (name, level, laeq) in
+        [("level, minute", loud.level_db[0], loud.laeq_db[0]), ("level, day", loud.level_db[1], loud.laeq_db[1])]
+    {
+        let value = match laeq {
+            Some(laeq) => format!("{laeq:.1} dB(A)"),
+            None if level.is_finite() => format!("{level:.1} dB(A) of full scale, not calibrated"),
+            None => "silent".into(),
+        };
+        row(ui, name, value, false);
+    }
+}

@@ -1,0 +1,83 @@
+//! What the window hands to the simulation: the newest [`Controls`], and a bounded queue of commands, each taken once.
+//!
+//! Both lie behind one lock, held for a copy, because they belong together: a press that is gone and the lift that ended it
+//! reach the same step. Nobody waits. The simulation empties the queue 240 times a second, so it is full only when the
+//! simulation hangs; then the oldest commands give way to the newest, which keep their order, and are counted.
+
+use std::collections::VecDeque;
+
+use crate::step::command::{Batch, KioskCommand};
+use crate::step::controls::Controls;
+
+/// Commands that can wait.
+pub const CAPACITY: usize = 256;
+
+/// What waits for the next step.
+#[derive(Debug)]
+pub struct Inbox {
+    /// The levels; write what has changed.
+    pub controls: Controls,
+    waiting: VecDeque<KioskCommand>,
+    dropped: u64,
+}
+
+impl Inbox {
+    /// Nothing waits.
+    pub fn new(controls: Controls) -> Self {
+        Self { controls, waiting: VecDeque::with_capacity(CAPACITY), dropped: 0 }
+    }
+
+    /// Adds a command for the next step. In a full queue the oldest one gives way.
+    pub fn send(&mut self, command: KioskCommand) {
+        if self.waiting.len() == CAPACITY {
+            self.waiting.pop_front();
+            self.dropped += 1;
+        }
+        self.waiting.push_back(command);
+    }
+
+    /// The levels as they are now, and all commands that wait, which wait no longer.
+    pub fn take(&mut self) -> (Controls, Batch) {
+        let mut batch = Batch::default();
+        self.waiting.drain(..).for_each(|command| batch.add(command));
+        (self.controls.clone(), batch)
+    }
+
+    /// Commands that gave way so far.
+    pub fn dropped(&self) -> u64 {
+        self.dropped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use soffio_simulation::Command;
+
+    #[test]
+    fn levels_stay_and_commands_are_taken_once() {
+        let mut inbox = Inbox::new(Controls::default());
+        inbox.controls.hold = true;
+        inbox.send(KioskCommand::Chirp);
+        inbox.send(KioskCommand::Simulation(Command::Reset));
+        let (controls, batch) = inbox.take();
+        assert!(controls.hold && batch.chirp && batch.commands == [Command::Reset]);
+        let (controls, batch) = inbox.take();
+        assert!(controls.hold, "nobody has let go");
+        assert!(!batch.chirp && batch.commands.is_empty(), "done is done");
+    }
+
+    #[test]
+    fn a_full_queue_keeps_the_newest_in_their_order_and_counts_the_rest() {
+        const MORE: usize = 3;
+        let mut inbox = Inbox::new(Controls::default());
+        for number in 0..CAPACITY + MORE {
+            inbox.send(KioskCommand::Simulation(Command::Gather(number as u64)));
+        }
+        assert_eq!(inbox.dropped(), MORE as u64);
+        let newest: Vec<Command> = (MORE..CAPACITY + MORE).map(|number| Command::Gather(number as u64)).collect();
+        assert_eq!(inbox.take().1.commands, newest);
+        inbox.send(KioskCommand::Chirp);
+        assert_eq!(inbox.dropped(), MORE as u64, "there is room again");
+    }
+}

@@ -1,0 +1,84 @@
+//! What lies over the picture: the overlay, the page behind "More", the buttons of both, the language, the voice that reads.
+
+use crate::pages::aloud::Aloud;
+use crate::pages::languages::{first, offered, unwritten};
+use crate::pages::menu::Menu;
+use crate::pages::overlay::Overlay;
+use crate::visitor::input::Request;
+use soffio_config::Config;
+use soffio_exhibit::Exhibit;
+
+/// While attract mode plays the invitation goes to the next language after so long, s: two readings of a short line.
+const INVITES_S: f64 = 6.0;
+
+/// The pages over the picture.
+#[derive(Default)]
+pub(crate) struct Overlaid {
+    pub overlay: Overlay,
+    pub menu: Menu,
+    pub aloud: Aloud,
+    pub languages: Languages,
+    /// Where a press is not a breath, in points.
+    pub buttons: Vec<(egui::Rect, Request)>,
+}
+
+impl Overlaid {
+    /// What a press at a point of the picture asks for, where it is not a breath.
+    pub fn button_at(&self, at: egui::Pos2) -> Option<Request> {
+        self.buttons.iter().find(|(rect, _)| rect.contains(at)).map(|&(_, request)| request)
+    }
+
+    /// What the button asks for that the keys have reached.
+    pub fn marked(&self) -> Option<Request> {
+        self.menu.marked(&self.buttons)
+    }
+
+    /// The keys go on to the next button that way.
+    pub fn look(&mut self, way: [i32; 2]) {
+        self.menu.look(way, &self.buttons);
+        self.aloud.reach(self.menu.marked(&self.buttons));
+    }
+}
+
+/// Languages a visitor can choose from, and the one chosen.
+pub(crate) struct Languages {
+    pub offered: Vec<String>,
+    /// Those that this system's fonts cannot write.
+    unwritten: Vec<&'static str>,
+    /// Empty: none yet.
+    pub shown: String,
+}
+
+impl Default for Languages {
+    fn default() -> Self {
+        Self { offered: Vec::new(), unwritten: unwritten(), shown: String::new() }
+    }
+}
+
+impl Languages {
+    /// Offers those of an exhibit; one that it does not have gives way to the first.
+    pub fn offer(&mut self, context: &egui::Context, exhibit: &Exhibit, config: &Config) {
+        self.offered = offered(context, &exhibit.labels, config, &self.unwritten);
+        if !self.offered.contains(&self.shown) {
+            self.shown = first(&self.offered, &exhibit.labels, config);
+        }
+    }
+
+    /// Shows the one at a place among those offered.
+    pub fn choose(&mut self, index: usize) {
+        self.shown = self.offered.get(index).cloned().unwrap_or_default();
+    }
+
+    /// Shows the next one.
+    pub fn next(&mut self) {
+        let shown = self.offered.iter().position(|code| *code == self.shown);
+        self.choose(shown.map_or(0, |shown| (shown + 1) % self.offered.len()));
+    }
+
+    /// The one to invite in: the one shown, or, while attract mode plays, one after another.
+    pub fn inviting(&self, attracts: bool, time: f64) -> &str {
+        let turn = (time / INVITES_S) as usize % self.offered.len().max(1);
+        let inviting = if attracts { self.offered.get(turn) } else { None };
+        inviting.unwrap_or(&self.shown)
+    }
+}
