@@ -172,8 +172,8 @@ impl Procedural {
     }
 
     /// Moves the figure for `dt` seconds under wrenches from outside (N and N m about each centre of mass), the first
-    /// [`MOST_GRIPS`] grips held. Hits are appended to `impacts`; returns the bodies that had to be restored from bad
-    /// numbers.
+    /// [`MOST_GRIPS`] grips held. Hits are appended to `impacts`; returns the first body with bad numbers, because of
+    /// which the figure was put back.
     pub fn step(
         &mut self,
         dynamics: &mut Dynamics,
@@ -181,7 +181,7 @@ impl Procedural {
         external: &[Vec6],
         grips: &[Grip],
         impacts: &mut Vec<Impact>,
-    ) -> usize {
+    ) -> Option<usize> {
         let grips = &grips[..grips.len().min(MOST_GRIPS)];
         let follows = dynamics.time() == self.ended;
         let restored = dynamics.step_by(dt, external, impacts, |moved| self.carry_out(moved, dt, grips, follows));

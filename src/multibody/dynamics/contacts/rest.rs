@@ -16,7 +16,7 @@ use super::twist::twist_rows;
 use super::{Contacts, Held, Lever, RELEASE_GAP, point_rows};
 use crate::articulation::System;
 use crate::collision::TOUCH;
-use crate::dynamics::least_inertia_across;
+use crate::dynamics::loads::least_inertia_across;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, angular, linear, vec6};
 use soffio_math::{DQuat, DVec3, rotation, rotation_vector, tangents};
