@@ -83,7 +83,13 @@ impl Run {
 
     /// Predicts the state after `h` seconds and finds the accelerations there, at the time `t + h`. Those of the present state
     /// are known.
-    pub fn predict(&self, equations: &mut Equations, bodies: &mut [RigidBody], courses: &mut [Course], (t, h): (f64, f64)) {
+    pub fn predict(
+        &self,
+        equations: &mut Equations,
+        bodies: &mut [RigidBody],
+        courses: &mut [Course],
+        (t, h): (f64, f64),
+    ) {
         by_quads(&mut equations.system, Predict { courses, h, slots: self.slots() });
         equations.accelerate(bodies, t + h);
     }

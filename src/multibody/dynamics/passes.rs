@@ -13,7 +13,7 @@ use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, Quad, State};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
-use soffio_math::lanes::{All, Four, Lanes, V3};
+use soffio_math::lanes::{All, Four, Lanes, Real, V3};
 use soffio_math::spatial::Vec6;
 
 /// Something that is done to every quad in which somebody is awake.

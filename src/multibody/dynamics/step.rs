@@ -23,7 +23,6 @@ const MOST_EDGES: f64 = 1024.0;
 const AIMS: usize = 3;
 const ON_TIME: f64 = 1e-6;
 
-
 /// A figure in motion. Nothing here allocates after [`Dynamics::new`].
 #[derive(Clone)]
 pub struct Dynamics {
