@@ -8,6 +8,7 @@ pub mod block;
 mod cholesky;
 mod dense;
 mod groups;
+mod hang;
 mod hung;
 mod loops;
 pub mod quads;

@@ -7,8 +7,9 @@ use fearless_simd::Simd;
 
 use super::ball::{Arms, Ball, Twist};
 use super::block::{MAX_ROWS, for_rows};
+use super::hang::Step;
 use super::quads::{Quad, Slot};
-use super::tree::{Form, Step, Tree};
+use super::tree::{Form, Tree};
 use soffio_math::lanes::{All, Four, Lanes, One, V3};
 use soffio_math::spatial::Articulated;
 use soffio_math::spatial::{Vec6, add_scaled, dot, inverse, mul};

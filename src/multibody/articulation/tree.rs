@@ -34,9 +34,10 @@ use fearless_simd::Level;
 use super::Groups;
 use super::ball::Ball;
 use super::block::{MAX_ROWS, RowBlock, RowSquare, for_rows, pseudo_inverse};
+use super::hang::{Hang, Hooks, Link, Step, by_quads, hangs, hooks};
 use super::quads::{Members, Slot};
 use soffio_math::DVec3;
-use soffio_math::lanes::{Four, One, WIDTH};
+use soffio_math::lanes::{Four, One};
 use soffio_math::spatial::NUMBERS;
 use soffio_math::spatial::{Mat6, add_scaled, dot, mul};
 
@@ -66,58 +67,6 @@ pub enum Form<'a> {
     Point(DVec3, DVec3),
     /// Any rows.
     Rows(&'a JointRows),
-}
-
-/// Which bodies a joint connects: the first is always a body, the second may be the world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Link {
-    /// First body.
-    pub a: usize,
-    /// Second body; `None` is the world.
-    pub b: Option<usize>,
-}
-
-/// How a body hangs in the tree.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Hang {
-    /// Parent body; `None`: the world, or nothing.
-    pub parent: Option<usize>,
-    /// Joint to the parent; `None` for the root of a piece that is not joined to the ground.
-    pub joint: Option<usize>,
-    /// Where the joint's numbers begin in `g` and `lambda`.
-    pub at: usize,
-    /// Is this body the joint's first one?
-    pub first: bool,
-    /// Was the joint a point at the last factorisation?
-    pub ball: bool,
-    /// Joints on the way from the root.
-    depth: usize,
-    /// Does nothing hang on it?
-    pub leaf: bool,
-}
-
-/// What the bodies of a quad hang on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Hooks {
-    /// Parents; where there is none, the index after the last body: the world's.
-    pub parents: [usize; WIDTH],
-    /// Their slots.
-    pub slots: [Slot; WIDTH],
-    /// Signs of the joints' rows as seen from these bodies.
-    pub signs: Four,
-    /// Where the joints' numbers begin.
-    pub at: [usize; WIDTH],
-}
-
-/// One step of the elimination.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Step {
-    /// The members of a quad, all of one depth, each by one point.
-    Quad(usize),
-    /// A body that hangs by one point, alone at its depth.
-    Point(Slot),
-    /// Any other body.
-    Body(usize),
 }
 
 /// What is kept of a body's general elimination, in the letters of the file's head; `k` holds K⁻¹.
@@ -170,96 +119,18 @@ impl Tree {
         groups: &Groups,
     ) -> Self {
         let bodies = driven.len();
-        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies];
-        for (joint, link) in links.iter().enumerate() {
-            beside[link.a].push(joint);
-            if let Some(b) = link.b {
-                beside[b].push(joint);
-            }
-        }
-        let root = |joint: Option<usize>| {
-            let at = joint.map_or(0, |j| at[j]);
-            Hang { parent: None, joint, at, first: true, ball: false, depth: 0, leaf: true }
-        };
-        let mut hang: Vec<Option<Hang>> = vec![None; bodies];
-        let mut in_tree = vec![false; links.len()];
-        let mut order = Vec::with_capacity(bodies);
-        for body in (0..bodies).filter(|&body| driven[body]) {
-            hang[body] = Some(root(None));
-            order.push(body);
-        }
-        for (joint, link) in links.iter().enumerate() {
-            if link.b.is_none() && hang[link.a].is_none() {
-                hang[link.a] = Some(root(Some(joint)));
-                in_tree[joint] = true;
-                order.push(link.a);
-            }
-        }
-        let mut head = 0;
-        for piece in 0..=bodies {
-            while head < order.len() {
-                let parent = order[head];
-                head += 1;
-                let depth = hang[parent].map_or(0, |hang| hang.depth) + 1;
-                for &joint in &beside[parent] {
-                    let link = links[joint];
-                    let child = if link.a == parent { link.b } else { Some(link.a) };
-                    let Some(child) = child.filter(|&child| hang[child].is_none()) else { continue };
-                    let (first, at) = (link.a == child, at[joint]);
-                    in_tree[joint] = true;
-                    let (parent, joint) = (Some(parent), Some(joint));
-                    hang[child] = Some(Hang { parent, joint, at, first, ball: false, depth, leaf: true });
-                    order.push(child);
-                }
-            }
-            if piece < bodies && hang[piece].is_none() {
-                hang[piece] = Some(root(None));
-                order.push(piece);
-            }
-        }
-        let mut hang: Vec<Hang> = hang.into_iter().flatten().collect();
-        for (hang, &driven) in hang.iter_mut().zip(driven) {
-            hang.ball = !driven && hang.joint.is_some_and(|joint| points[joint]);
-        }
-        for body in 0..bodies {
-            if let Some(parent) = hang[body].parent {
-                hang[parent].leaf = false;
-            }
-        }
+        let (hang, mut order, in_tree) = hangs(driven, links, (at, points));
         // What sleeps is left out quad by quad, so groups share as few as they can; sums come out the same.
         order.sort_by_key(|&body| (hang[body].depth, groups.first(body)));
-        let blank = || {
-            Box::new(General {
-                rows: 0,
-                inverse: [[0.0; 6]; 6],
-                jp: [[0.0; 6]; MAX_ROWS],
-                w: [[0.0; 6]; MAX_ROWS],
-                k: [[0.0; MAX_ROWS]; MAX_ROWS],
-                x: [[0.0; 6]; MAX_ROWS],
-                redundant: 0,
-            })
-        };
         let (steps, members) = by_quads(&order, &hang, driven);
-        let world = Slot { quad: members.len(), lane: 0 };
-        let mut slots = vec![world; bodies];
-        for (quad, four) in members.iter().enumerate() {
-            for lane in 0..four.count {
-                slots[four.bodies[lane]] = Slot { quad, lane };
-            }
-        }
-        let hooks = |four: &Members| Hooks {
-            parents: four.bodies.map(|body| hang[body].parent.unwrap_or(bodies)),
-            slots: four.bodies.map(|body| hang[body].parent.map_or(world, |parent| slots[parent])),
-            signs: Four(four.bodies.map(|body| hang[body].sign())),
-            at: four.bodies.map(|body| hang[body].at),
-        };
+        let (slots, hooks) = hooks(&hang, &members);
         let mut tree = Self {
             level,
             begun: Vec::with_capacity(members.len()),
-            general: hang.iter().map(|hang| (!hang.ball).then(blank)).collect(),
+            general: hang.iter().map(|hang| (!hang.ball).then(Box::default)).collect(),
             awake: steps.clone(),
             steps,
-            hooks: members.iter().map(hooks).collect(),
+            hooks,
             slots,
             articulated: vec![[0.0; NUMBERS]; bodies + 1],
             balls: vec![Ball::default(); members.len()],
@@ -364,50 +235,17 @@ impl Tree {
     }
 }
 
-/// Steps from the roots, and the quads that they go by: two to four bodies of one depth that hang by a point side by
-/// side, the others in the order in which they come. What is driven is in a quad, but nothing is to be found of it.
-fn by_quads(order: &[usize], hang: &[Hang], driven: &[bool]) -> (Vec<Step>, Vec<Members>) {
-    let (mut steps, mut members) = (Vec::new(), Vec::<Members>::new());
-    let mut open = None;
-    for level in order.chunk_by(|&a, &b| hang[a].depth == hang[b].depth) {
-        let (points, mut others): (Vec<usize>, Vec<usize>) = level.iter().partition(|&&body| hang[body].ball);
-        for four in points.chunks(WIDTH) {
-            let (&first, rest) = four.split_first().unwrap_or((&0, &[]));
-            if rest.is_empty() {
-                others.push(first);
-                continue;
-            }
-            steps.push(Step::Quad(members.len()));
-            let mut quad = Members::first(first);
-            rest.iter().for_each(|&body| quad.push(body));
-            members.push(quad);
+impl Default for General {
+    fn default() -> Self {
+        Self {
+            rows: 0,
+            inverse: [[0.0; 6]; 6],
+            jp: [[0.0; 6]; MAX_ROWS],
+            w: [[0.0; 6]; MAX_ROWS],
+            k: [[0.0; MAX_ROWS]; MAX_ROWS],
+            x: [[0.0; 6]; MAX_ROWS],
+            redundant: 0,
         }
-        for body in others {
-            let quad = match open.filter(|&quad: &usize| members[quad].count < WIDTH) {
-                Some(quad) => {
-                    members[quad].push(body);
-                    quad
-                }
-                None => {
-                    members.push(Members::first(body));
-                    members.len() - 1
-                }
-            };
-            open = Some(quad);
-            let slot = Slot { quad, lane: members[quad].count - 1 };
-            if !driven[body] {
-                steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
-            }
-        }
-    }
-    (steps, members)
-}
-
-impl Hang {
-    /// Rows are written for the joint's first body: their sign as seen from this one.
-    #[inline]
-    pub fn sign(&self) -> f64 {
-        if self.first { 1.0 } else { -1.0 }
     }
 }
 

@@ -12,7 +12,9 @@
 //! motion. A plane has no farthest point, but only what lies near the other body counts: for it R is how far the
 //! other can be from the plane's centre. At rest it adds nothing, and the bound is exact but for the other's turn.
 
-use super::{Collider, Corners, Proximity};
+use super::manifold::Corners;
+use super::proximity::Proximity;
+use super::shape::Collider;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, asin};
 

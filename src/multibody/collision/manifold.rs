@@ -6,9 +6,8 @@
 //! straight across, and a gap along n between. Four are kept of more: the deepest, the farthest from it, and the
 //! farthest off their line on either side.
 
-use super::proximity::of_placed;
+use super::proximity::{Proximity, of_placed};
 use super::shape::Collider;
-use super::{Manifold, ManifoldPoint, Proximity};
 use soffio_geometry::support::{Placed, RIM_CORNERS};
 use soffio_math::{DVec3, Pose};
 
@@ -20,6 +19,36 @@ const LEVEL: f64 = 1e-9;
 const MISSED: f64 = 1e-7;
 /// Points nearer to each other than this are one, m.
 const SAME: f64 = 1e-9;
+
+/// Most points of a [`Manifold`]: enough to hold a face on a face.
+pub const MANIFOLD_POINTS: usize = 4;
+
+/// One point of a manifold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ManifoldPoint {
+    /// World, midway between the two surfaces, m.
+    pub point: DVec3,
+    /// Distance of the two surfaces along the manifold's normal there, m; negative where they overlap.
+    pub gap: f64,
+}
+
+/// Where two colliders that lie on each other touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Manifold {
+    /// Unit, from the second to the first.
+    pub normal: DVec3,
+    /// The points; those from `count` on mean nothing.
+    pub points: [ManifoldPoint; MANIFOLD_POINTS],
+    /// How many there are: one at least.
+    pub count: usize,
+}
+
+impl Manifold {
+    /// The points there are, in an order that stays while the features that touch stay.
+    pub fn points(&self) -> &[ManifoldPoint] {
+        &self.points[..self.count]
+    }
+}
 
 /// Room for the features of two colliders and what is clipped of them, kept so that nothing allocates in the step.
 #[derive(Clone, Debug, Default)]

@@ -12,7 +12,6 @@
 //! | box – box or segment | GJK | separating axes (Gottschalk et al. 1996) |
 //! | all others | GJK | expanding polytope |
 
-use super::Proximity;
 use super::shape::Shape;
 use soffio_geometry::convex::{self, Closest};
 use soffio_geometry::penetration;
@@ -25,6 +24,17 @@ const COINCIDENT: f64 = 1e-9;
 const PARALLEL: f64 = 1e-9;
 /// An edge–edge axis must beat the face axes by this share of the overlap: faces carry more points.
 const FACE_PREFERENCE: f64 = 1e-6;
+
+/// How two colliders lie to each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proximity {
+    /// Distance of the two surfaces, m; negative where they overlap.
+    pub gap: f64,
+    /// Unit, from the second to the first.
+    pub normal: DVec3,
+    /// Between the two surfaces, world, m.
+    pub point: DVec3,
+}
 
 /// Signed distance of cores.
 #[derive(Clone, Copy, Debug)]

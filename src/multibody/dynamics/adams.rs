@@ -20,16 +20,15 @@
 //! once is in `a`, and no difference knows of it. Whatever changes the joints, a hit, and a step of another length end the smooth
 //! run; Runge–Kutta begins the next. What else may happen to bodies the error tells.
 
-use super::Dynamics;
-use super::course::Course;
-use super::passes::{Pass, SLOWEST, norm};
+use super::course::{Course, ENOUGH, KEPT, SLOWEST, less, norm};
+use super::equations::Equations;
+use super::passes::{Pass, accelerations, by_quads, put, quad};
+use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::State;
+use soffio_geometry::bodies::RigidBody;
 use soffio_math::lanes::{Lanes, Quat, Real, V3};
 
-/// Differences that a step goes on from, and room for the one of the present step.
-const ENOUGH: usize = 3;
-pub(super) const KEPT: usize = ENOUGH + 1;
 /// Largest error of a step that this method may do, as a share of the velocities: beyond, Runge–Kutta with its own bounds.
 const SMOOTH: f64 = 1e-7;
 /// ∇⁴'s share in the corrector's error.
@@ -72,38 +71,40 @@ impl Run {
         self.head
     }
 
+    /// Has motion been smooth for as long as a step of `h` seconds asks?
+    pub fn serves(&self, h: f64) -> bool {
+        self.count >= ENOUGH && self.h == h
+    }
+
+    /// The step has been this method's own.
+    pub fn go_on(&mut self) {
+        self.left = true;
+    }
+
+    /// Predicts the state after `h` seconds and finds the accelerations there, at the time `t + h`. Those of the present state
+    /// are known.
+    pub fn predict(
+        &self,
+        equations: &mut Equations,
+        bodies: &mut [RigidBody],
+        courses: &mut [Course],
+        (t, h): (f64, f64),
+    ) {
+        by_quads(&mut equations.system, Predict { courses, h, slots: self.slots() });
+        equations.accelerate(bodies, t + h);
+    }
+
+    /// Corrects the predicted state by the accelerations found there. Was the motion smooth enough for it?
+    pub fn correct(&self, system: &mut System, courses: &mut [Course], norms: &mut [[f64; 2]], h: f64) -> bool {
+        by_quads(system, Correct { courses, norms: &mut *norms, h, slots: self.slots(), slot: self.head });
+        let [error, scale] = norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
+        // What is no number is not small.
+        error <= SMOOTH * SMOOTH * scale
+    }
+
     /// The slots of the last differences, the newest first.
     fn slots(&self) -> [usize; ENOUGH] {
         [1, 2, 3].map(|ago| (self.head + KEPT - ago) % KEPT)
-    }
-}
-
-impl Dynamics {
-    /// Moves the bodies from the time `t` by `h`, if they have moved smoothly enough for it; else they stay where they were.
-    pub(super) fn adams(&mut self, t: f64, h: f64) -> bool {
-        if self.run.count < ENOUGH || self.run.h != h {
-            return false;
-        }
-        let slots = self.run.slots();
-        self.ensure_rates(t);
-        self.by_quads(Predict { h, slots });
-        self.accelerate(t + h);
-        self.contacts.weigh(&self.system);
-        self.by_quads(Correct { h, slots, slot: self.run.head });
-        let [error, scale] = self.norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
-        // What is no number is not small.
-        let smooth = error <= SMOOTH * SMOOTH * scale;
-        if smooth {
-            // The corrected state is the predicted one but for an error of fifth order: its factor serves.
-            self.close(t + h, false);
-            self.run.left = true;
-            // It is another method's estimate.
-            self.fourth_step = None;
-        } else {
-            self.run.end();
-            self.back_to_start();
-        }
-        smooth
     }
 }
 
@@ -114,11 +115,6 @@ fn differences<L: Lanes>(lanes: L, course: &Course, slots: [usize; ENOUGH]) -> [
     let (first, second, third) = (at(0), at(1), at(2));
     let (last, before) = (less(first, second), less(second, third));
     [first, last, less(last, before)]
-}
-
-#[inline(always)]
-pub(super) fn less<T: Real>(a: Twist<T>, b: Twist<T>) -> Twist<T> {
-    Twist { linear: a.linear - b.linear, angular: a.angular - b.angular }
 }
 
 /// Σ w_i of some vectors.
@@ -143,18 +139,18 @@ fn arrived<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, to: Twis
     }
 }
 
-#[derive(Clone, Copy)]
-struct Predict {
+struct Predict<'a> {
+    courses: &'a mut [Course],
     h: f64,
     slots: [usize; ENOUGH],
 }
 
-impl Pass for Predict {
+impl Pass for Predict<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, _) = dynamics.quad(index);
-        let a = dynamics.accelerations(lanes, &members);
-        let course = &mut dynamics.courses[index];
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, _) = quad(system, index);
+        let a = accelerations(lanes, system, &members);
+        let course = &mut self.courses[index];
         course.begun.put(lanes, &a);
         let (start, h) = (course.start.get(lanes), self.h);
         let [d, dd, ddd] = differences(lanes, course, self.slots);
@@ -172,25 +168,26 @@ impl Pass for Predict {
             angular: way(start.spin, a.angular, d.angular, dd.angular, ddd.angular),
         };
         let state = arrived(lanes, &start, h, to, way);
-        dynamics.put(lanes, index, &state);
+        put(lanes, system, index, &state);
     }
 }
 
-#[derive(Clone, Copy)]
-struct Correct {
+struct Correct<'a> {
+    courses: &'a mut [Course],
+    norms: &'a mut [[f64; 2]],
     h: f64,
     slots: [usize; ENOUGH],
     /// Where the step's own difference goes.
     slot: usize,
 }
 
-impl Pass for Correct {
+impl Pass for Correct<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let a = dynamics.accelerations(lanes, &members);
-        let course = &dynamics.courses[index];
+        let a = accelerations(lanes, system, &members);
+        let course = &self.courses[index];
         let (start, h) = (course.start.get(lanes), self.h);
         let [d, dd, ddd] = differences(lanes, course, self.slots);
         let first = less(a, course.begun.get(lanes));
@@ -212,9 +209,10 @@ impl Pass for Correct {
         let error = norm(mass, &inertia, &Twist { linear: fourth.linear * share, angular: fourth.angular * share });
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &to) + mass * slowest * slowest;
-        dynamics.courses[index].differences[self.slot].put(lanes, &first);
-        dynamics.put(lanes, index, &state);
-        lanes.scatter(members.count, &[error, scale], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
+        self.courses[index].differences[self.slot].put(lanes, &first);
+        put(lanes, system, index, &state);
+        let norms = &mut *self.norms;
+        lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
     }
 }
 
@@ -224,8 +222,8 @@ mod tests {
     use crate::articulation::{Anchor, Constraint, ConstraintKind};
     use crate::collision::{Collider, Reach, Shape, pairs};
     use crate::dynamics::forces::Damping;
-    use crate::dynamics::{Figure, Integrator, Resistance, Settings, Solver, SurfacePair};
-    use soffio_geometry::bodies::{MassProperties, RigidBody};
+    use crate::dynamics::{Dynamics, Figure, Integrator, Resistance, Settings, Solver, SurfacePair};
+    use soffio_geometry::bodies::MassProperties;
     use soffio_math::noise::Random;
     use soffio_math::{DMat3, DVec3, Pose, rotation};
 
@@ -268,7 +266,7 @@ mod tests {
         let mut own = 0;
         for _ in 0..steps {
             dynamics.step(dt, &[[0.0; 6]], &mut Vec::new());
-            own += usize::from(dynamics.fourth_step.is_none());
+            own += usize::from(dynamics.integration.fourth_step.is_none());
         }
         own
     }
@@ -333,7 +331,7 @@ mod tests {
         for _ in 0..100 {
             let push = random.signed();
             dynamics.step(DT, &[[push, 0.0, 0.0, 0.0, 0.0, 0.0]], &mut Vec::new());
-            own += usize::from(dynamics.fourth_step.is_none());
+            own += usize::from(dynamics.integration.fourth_step.is_none());
             place += DT * speed + 0.5 * DT * DT * push / 0.1;
             speed += DT * push / 0.1;
         }

@@ -8,11 +8,16 @@
 //! σ̇ = ω − ½ σ×ω + k σ×(σ×ω)          k = (1 − (θ/2) cot(θ/2))/θ² = 1/12 + θ²/720 + θ⁴/30240 + …,  θ = |σ|
 //! ```
 
-use super::adams::KEPT;
-use super::forces::Damping;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::State;
-use soffio_math::lanes::{Four, Lanes, Quat, Real, V3, WIDTH};
+use soffio_math::lanes::{Four, Lanes, Quat, Real, V3};
+use soffio_math::spatial::Sym3;
+
+/// Differences of accelerations that Adams' method goes on from, and room for the one of the present step.
+pub(super) const ENOUGH: usize = 3;
+pub(super) const KEPT: usize = ENOUGH + 1;
+/// Slower motion than this is followed no more closely than this one, m/s.
+pub(super) const SLOWEST: f64 = 1e-3;
 
 /// A state and `h` times a rate; also σ.
 #[inline(always)]
@@ -100,14 +105,16 @@ pub(super) struct Course {
     pub last: Twist<Four>,
     /// (k₅ − k₄)/h³ of the substep before.
     pub fourth: Twist<Four>,
-    /// Rates of damping, linear and angular, 1/s: they are the same all the time.
-    pub damping: [Four; 2],
 }
 
-impl Course {
-    /// Of bodies that are damped like this.
-    pub fn new(damping: [Damping; WIDTH]) -> Self {
-        let damping = [Four(damping.map(|rate| rate.linear)), Four(damping.map(|rate| rate.angular))];
-        Self { damping, ..Self::default() }
-    }
+/// a − b.
+#[inline(always)]
+pub(super) fn less<T: Real>(a: Twist<T>, b: Twist<T>) -> Twist<T> {
+    Twist { linear: a.linear - b.linear, angular: a.angular - b.angular }
+}
+
+/// v·M v.
+#[inline(always)]
+pub(super) fn norm<T: Real>(mass: T, inertia: &Sym3<T>, v: &Twist<T>) -> T {
+    mass * v.linear.dot(v.linear) + v.angular.dot(inertia.mul(v.angular))
 }

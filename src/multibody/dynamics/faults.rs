@@ -1,7 +1,6 @@
-//! Numbers that run away: found, told, and the figure put back.
+//! Numbers that run away: found, and the figure put back.
 
-use super::{Dynamics, Known};
-use crate::articulation::quads::Members;
+use crate::articulation::quads::{Members, State};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::lanes::One;
@@ -12,42 +11,52 @@ use soffio_math::lanes::One;
 const SPEED_LIMIT: f64 = 1_000.0;
 const SPIN_LIMIT: f64 = 100_000.0;
 
-impl Dynamics {
-    /// Puts the figure back to where the last step began if a body has bad numbers; says which one was the first. A step
-    /// begins with it: whoever looks at the bodies before that, and may have set them, calls it himself.
-    pub fn mend(&mut self) -> Option<usize> {
-        self.fault = None;
-        self.restore_bad_bodies();
-        self.fault
+/// What a figure is put back to.
+#[derive(Clone)]
+pub(super) struct Recovery {
+    /// Where the last step began.
+    before: Vec<State<f64>>,
+    /// Nothing has moved or set bodies since their numbers were looked at.
+    sane: bool,
+}
+
+impl Recovery {
+    /// For so many bodies.
+    pub fn new(bodies: usize) -> Self {
+        Self { before: vec![State::default(); bodies], sane: false }
     }
 
-    /// Puts bodies with bad numbers back to where the step began, at rest. Returns how many.
-    pub(super) fn restore_bad_bodies(&mut self) -> usize {
-        let sane = |body: &RigidBody| {
-            // What is no number is below nothing.
-            body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
-                && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT
-                && body.is_finite()
-        };
-        if std::mem::replace(&mut self.sane, true) {
-            return 0;
-        }
-        let bad = self.bodies.iter().filter(|body| !sane(body)).count();
-        if bad > 0 {
-            self.fault = self.fault.or(self.bodies.iter().position(|body| !sane(body)));
-            // One bad body has already pulled at its neighbours: the whole figure goes back.
-            for (body, before) in self.bodies.iter_mut().zip(&self.before_step) {
-                before.put(One(0), &Members::first(0), std::slice::from_mut(body));
-                (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-            }
-            self.loads.fill(0.0);
-            self.wake_all();
-            self.system.begin_trains(&self.bodies);
-            self.contacts.forget(&self.bodies);
-            self.run.end();
-            (self.fourth_step, self.stride) = (None, f64::INFINITY);
-            self.known = Known::Nothing;
-        }
-        bad
+    /// Bodies move or are set: their numbers are to be looked at again.
+    pub fn doubt(&mut self) {
+        self.sane = false;
     }
+
+    /// Notes where a step begins.
+    pub fn begin_step(&mut self, bodies: &[RigidBody]) {
+        self.sane = false;
+        for (before, body) in self.before.iter_mut().zip(bodies) {
+            *before = State::of(One(0), |_| body);
+        }
+    }
+
+    /// Puts all bodies back to where the step began, at rest, if one has bad numbers. Returns the first such body.
+    pub fn restore(&mut self, bodies: &mut [RigidBody]) -> Option<usize> {
+        if std::mem::replace(&mut self.sane, true) {
+            return None;
+        }
+        let fault = bodies.iter().position(|body| !is_sane(body))?;
+        // One bad body has already pulled at its neighbours: the whole figure goes back.
+        for (body, before) in bodies.iter_mut().zip(&self.before) {
+            before.put(One(0), &Members::first(0), std::slice::from_mut(body));
+            (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        Some(fault)
+    }
+}
+
+fn is_sane(body: &RigidBody) -> bool {
+    // What is no number is below nothing.
+    body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
+        && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT
+        && body.is_finite()
 }

@@ -37,6 +37,35 @@ pub fn on_body<T: Real>(
     Twist { linear: (gravity - velocity * linear) * mass, angular: -spin.cross(momentum) - momentum * angular }
 }
 
+/// Wrenches on the bodies of a figure, N and N m about each centre of mass. Nothing here allocates after [`Wrenches::new`].
+#[derive(Clone, Debug)]
+pub(super) struct Wrenches {
+    /// From outside, for the whole of a step.
+    pub given: Vec<Vec6>,
+    /// The same with those of resting contacts, or of springs where something else moves the figure.
+    pub total: Vec<Vec6>,
+    scratch: Vec<Vec6>,
+}
+
+impl Wrenches {
+    /// None on any of `bodies` bodies.
+    pub fn new(bodies: usize) -> Self {
+        let none = vec![[0.0; 6]; bodies];
+        Self { given: none.clone(), total: none.clone(), scratch: none }
+    }
+
+    /// Sums up those from outside and what `add` adds to them. Is the total another one now?
+    pub fn sum_up(&mut self, add: impl FnOnce(&mut [Vec6])) -> bool {
+        self.scratch.copy_from_slice(&self.given);
+        add(&mut self.scratch);
+        let changed = self.scratch != self.total;
+        if changed {
+            std::mem::swap(&mut self.scratch, &mut self.total);
+        }
+        changed
+    }
+}
+
 /// All springs of a figure.
 #[derive(Clone, Debug)]
 pub struct Springs {

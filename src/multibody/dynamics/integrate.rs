@@ -25,18 +25,23 @@
 //! solved by simple iteration from the rate at the start (Hairer, Lubich, Wanner, Geometric Numerical Integration,
 //! II.1.3). **Fast**: semi-implicit Euler.
 
-use super::passes::{Compare, Estimate, Guess, Last, Mean, Push, Show, Stage};
-use super::{Dynamics, Known};
-use soffio_math::spatial::{angular, linear, vec6};
+use super::Integrator;
+use super::adams::Run;
+use super::contacts::Contacts;
+use super::course::{Course, Rate, SLOWEST};
+use super::equations::{Equations, Known};
+use super::pace;
+use super::passes::{Begin, Compare, Estimate, Guess, Last, Mean, Return, Stage, Stages, by_quads};
+use soffio_geometry::bodies::RigidBody;
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
 const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
-pub(super) const WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+const WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
 /// √15.
 const R15: f64 = 3.872_983_346_207_417;
 /// Nodes, weights and coefficients of the Gauss–Legendre method.
-pub(super) const GAUSS_NODES: [f64; 3] = [0.5 - R15 / 10.0, 0.5, 0.5 + R15 / 10.0];
+const GAUSS_NODES: [f64; 3] = [0.5 - R15 / 10.0, 0.5, 0.5 + R15 / 10.0];
 const GAUSS_WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 const GAUSS: [[f64; 3]; 3] = [
     [5.0 / 36.0, 2.0 / 9.0 - R15 / 15.0, 5.0 / 36.0 - R15 / 30.0],
@@ -48,58 +53,192 @@ const SETTLED: f64 = 1e-15;
 /// Most iterations; what has not settled by then has not for want of digits, or the substep was too long.
 const MOST_ITERATIONS: usize = 16;
 
-impl Dynamics {
+/// Where no earlier substep tells how fast the estimate changes, this share of it is taken.
+const UNKNOWN: f64 = 0.1;
+/// Rates that still change by less than this share are good enough when iterations run out.
+const NEARLY: f64 = 1e-12;
+
+/// A figure as an integrator moves it.
+pub(super) struct Moving<'a> {
+    pub bodies: &'a mut [RigidBody],
+    pub equations: &'a mut Equations,
+    /// What rests stays as it is; it is told what the joints carry.
+    pub contacts: &'a mut Contacts,
+}
+
+/// State of the integrators. Nothing here allocates after [`Integration::new`].
+#[derive(Clone)]
+pub(super) struct Integration {
+    method: Integrator,
+    /// Is it the Gauss–Legendre method's figure?
+    precise: bool,
+    /// By quads of the joints' tree.
+    courses: Vec<Course>,
+    /// Rates of the Gauss–Legendre stages, by quads.
+    stages: Stages,
+    /// What a pass over the bodies found of each, for sums in their order.
+    norms: Vec<[f64; 2]>,
+    /// The steps that Adams' method goes on from.
+    run: Run,
+    /// h of the last substep; `None` where its error says nothing of the next.
+    pub fourth_step: Option<f64>,
+    /// Length of the present step, s.
+    dt: f64,
+    /// Substep that the error allows, s.
+    pub stride: f64,
+}
+
+impl Integration {
+    /// Of a figure of so many bodies in so many quads.
+    pub fn new(method: Integrator, precise: bool, bodies: usize, quads: usize) -> Self {
+        let stages = || vec![Rate::default(); if precise { quads } else { 0 }];
+        Self {
+            method,
+            precise,
+            courses: vec![Course::default(); quads],
+            stages: [stages(), stages(), stages()],
+            norms: vec![[0.0; 2]; bodies],
+            run: Run::default(),
+            fourth_step: None,
+            dt: 0.0,
+            stride: f64::INFINITY,
+        }
+    }
+
+    /// Begins a step of `dt` seconds.
+    pub fn begin_step(&mut self, dt: f64) {
+        self.dt = dt;
+    }
+
+    /// Begins a substep where the bodies are.
+    pub fn begin_substep(&mut self, moving: &mut Moving) {
+        by_quads(&mut moving.equations.system, Begin { bodies: moving.bodies, courses: &mut self.courses });
+        self.run.begin();
+    }
+
+    /// Puts the bodies back to where the substep began.
+    pub fn back_to_start(&self, moving: &mut Moving) {
+        by_quads(&mut moving.equations.system, Return { bodies: moving.bodies, courses: &self.courses });
+        moving.equations.known = Known::Nothing;
+    }
+
+    /// Something has happened: past accelerations say nothing of what comes.
+    pub fn interrupt(&mut self) {
+        self.run.end();
+    }
+
+    /// Forgets all that was learnt: the figure goes on from another state.
+    pub fn begin_anew(&mut self) {
+        self.run.end();
+        (self.fourth_step, self.stride) = (None, f64::INFINITY);
+    }
+
+    /// A body of this mass (kg) is put to rest: it has no error.
+    pub fn put_to_rest(&mut self, body: usize, mass: f64) {
+        self.norms[body] = [0.0, mass * SLOWEST * SLOWEST];
+    }
+
+    /// Integrates from the substep's start at the time `t` over `h`, or over less where the error asks for it, but
+    /// not less than `least`; returns the time used.
+    pub fn integrate(&mut self, moving: &mut Moving, t: f64, mut h: f64, least: f64) -> f64 {
+        let whole = h > 0.999 * self.dt;
+        if whole && !self.precise && self.method == Integrator::Auto && self.adams(moving, t, h) {
+            moving.equations.known = Known::Factor;
+            self.stride = f64::INFINITY;
+            return h;
+        }
+        loop {
+            let (good, wish) = if self.method == Integrator::Fast {
+                self.euler(moving, t, h);
+                (true, f64::INFINITY)
+            } else if self.precise {
+                let settled = self.gauss(moving, t, h);
+                (settled, if settled { f64::INFINITY } else { 0.5 * h })
+            } else {
+                let error = self.runge_kutta(moving, t, h);
+                pace::judge(h, self.dt, error)
+            };
+            moving.equations.known = Known::Rates;
+            self.stride = wish;
+            if good || h <= least {
+                return h;
+            }
+            self.back_to_start(moving);
+            self.fourth_step = None;
+            h = wish.min(0.5 * h).max(least);
+        }
+    }
+
     /// Moves the bodies from the time `t` by `h`, by the classical Runge–Kutta method; returns the estimated error.
-    pub(super) fn runge_kutta(&mut self, t: f64, h: f64) -> f64 {
-        self.ensure_rates(t);
+    fn runge_kutta(&mut self, moving: &mut Moving, t: f64, h: f64) -> f64 {
+        moving.equations.ensure_rates(moving.bodies, t);
         for stage in 1..4 {
             let (weight, share) = (WEIGHTS[stage - 1], NODES[stage]);
-            self.by_quads(Stage { first: stage == 1, weight, h: share * h });
-            self.accelerate(t + NODES[stage] * h);
+            let pass = Stage { courses: &mut self.courses, first: stage == 1, weight, h: share * h };
+            by_quads(&mut moving.equations.system, pass);
+            moving.equations.accelerate(moving.bodies, t + NODES[stage] * h);
         }
-        self.by_quads(Last { h });
-        self.arrive(t + h);
-        self.estimate(h)
+        by_quads(&mut moving.equations.system, Last { courses: &mut self.courses, h, weight: WEIGHTS[3] });
+        moving.arrive(t + h);
+        self.estimate(moving, h)
     }
 
     /// The error of a Runge–Kutta substep of `h` that has just arrived, as a share of the velocities.
-    fn estimate(&mut self, h: f64) -> f64 {
+    fn estimate(&mut self, moving: &mut Moving, h: f64) -> f64 {
         let cube = h * h * h;
         // h⁵/(6 h'), or a share of the estimate itself where there is no substep before.
         let spread = cube * self.fourth_step.map_or(h * UNKNOWN, |before| h * h / before) / 6.0;
-        let slot = self.run.goes_by(h);
-        self.by_quads(Estimate { per_cube: 1.0 / cube, spread, before: self.fourth_step.is_some(), slot });
+        let (per_cube, before, slot) = (1.0 / cube, self.fourth_step.is_some(), self.run.goes_by(h));
+        let (courses, norms) = (&mut self.courses, &mut self.norms);
+        by_quads(&mut moving.equations.system, Estimate { courses, norms, per_cube, spread, before, slot });
         self.fourth_step = Some(h);
         let [error, scale] = self.norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
         (error / scale).sqrt()
     }
 
     /// Moves the bodies by semi-implicit Euler.
-    pub(super) fn euler(&mut self, t: f64, h: f64) {
-        self.ensure_rates(t);
-        for (index, body) in self.bodies.iter_mut().enumerate() {
-            let a = &self.system.a[index];
-            body.velocity += h * linear(a);
-            body.angular_velocity += h * angular(a);
-            let (way, turn) = (h * body.velocity, h * body.angular_velocity);
-            body.displace(way, turn);
+    fn euler(&mut self, moving: &mut Moving, t: f64, h: f64) {
+        moving.equations.ensure_rates(moving.bodies, t);
+        moving.equations.move_on(moving.bodies, h);
+        moving.arrive(t + h);
+    }
+
+    /// Moves the bodies from the time `t` by `h` by Adams' method, if they have moved smoothly enough for it; else they stay
+    /// where they were.
+    fn adams(&mut self, moving: &mut Moving, t: f64, h: f64) -> bool {
+        if !self.run.serves(h) {
+            return false;
         }
-        self.system.quads_mut().look(&self.bodies);
-        self.arrive(t + h);
+        moving.equations.ensure_rates(moving.bodies, t);
+        self.run.predict(moving.equations, moving.bodies, &mut self.courses, (t, h));
+        moving.contacts.weigh(&moving.equations.system);
+        let smooth = self.run.correct(&mut moving.equations.system, &mut self.courses, &mut self.norms, h);
+        if smooth {
+            // The corrected state is the predicted one but for an error of fifth order: its factor serves.
+            moving.close(t + h, false);
+            self.run.go_on();
+            // It is another method's estimate.
+            self.fourth_step = None;
+        } else {
+            self.run.end();
+            self.back_to_start(moving);
+        }
+        smooth
     }
 
     /// Moves the bodies by the Gauss–Legendre method; false where the iteration did not settle.
-    pub(super) fn gauss(&mut self, t: f64, h: f64) -> bool {
-        self.ensure_rates(t);
-        self.by_quads(Guess { h });
+    fn gauss(&mut self, moving: &mut Moving, t: f64, h: f64) -> bool {
+        let Self { courses, stages, norms, .. } = self;
+        moving.equations.ensure_rates(moving.bodies, t);
+        by_quads(&mut moving.equations.system, Guess { courses, stages, h, nodes: GAUSS_NODES });
         let mut settled = false;
         for _ in 0..MOST_ITERATIONS {
             let (mut change, mut size) = (0.0, 0.0);
             for stage in 0..3 {
-                self.by_quads(Mean { weights: GAUSS[stage], h });
-                self.accelerate(t + GAUSS_NODES[stage] * h);
-                self.by_quads(Compare { stage });
-                for norm in &self.norms {
+                by_quads(&mut moving.equations.system, Mean { courses, stages, weights: GAUSS[stage], h });
+                moving.equations.accelerate(moving.bodies, t + GAUSS_NODES[stage] * h);
+                by_quads(&mut moving.equations.system, Compare { courses, stages, norms, stage });
+                for norm in &*norms {
                     change += norm[0];
                     size += norm[1];
                 }
@@ -114,139 +253,23 @@ impl Dynamics {
             }
             settled = change <= NEARLY * NEARLY * size;
         }
-        self.by_quads(Mean { weights: GAUSS_WEIGHTS, h });
-        self.arrive(t + h);
+        by_quads(&mut moving.equations.system, Mean { courses, stages, weights: GAUSS_WEIGHTS, h });
+        moving.arrive(t + h);
         settled
     }
+}
 
+impl Moving<'_> {
     /// Closes the joints at the new state, at the time `t`, and finds the rate there.
     fn arrive(&mut self, t: f64) {
         self.close(t, true);
-        self.solve_forces(t);
-        self.contacts.weigh(&self.system);
+        self.equations.solve_forces(self.bodies, t);
+        self.contacts.weigh(&self.equations.system);
     }
 
     /// Closes the joints at the new state, at the time `t`; in speed where what rests does not do so afterwards, with its impulses.
     /// Not `anew`, the factor is that of a state which differs by less than a step's error.
-    pub(super) fn close(&mut self, t: f64, anew: bool) {
-        self.carry_driven(t);
-        self.close_joints(anew, !self.contacts.anything_rests());
-    }
-
-    /// Accelerations of the present state into the system's `a`, as far as they are not there already.
-    pub(super) fn ensure_rates(&mut self, t: f64) {
-        if self.known == Known::Rates {
-            return;
-        }
-        self.carry_driven(t);
-        if self.known == Known::Nothing {
-            self.system.evaluate_lean(&self.bodies);
-            self.system.look_for_gaps();
-            self.system.factor();
-        }
-        self.solve_forces(t);
-        self.known = Known::Rates;
-    }
-
-    /// Accelerations at the quads' present state, rows and factor made anew.
-    pub(super) fn accelerate(&mut self, t: f64) {
-        self.carry_driven(t);
-        self.show_where_asked();
-        self.system.evaluate_motion(&self.bodies);
-        self.system.factor();
-        self.solve_forces(t);
-    }
-
-    /// Accelerations by the rows and the factor at hand.
-    fn solve_forces(&mut self, t: f64) {
-        self.by_quads(Push);
-        self.springs.push(&self.bodies, t, &mut self.system.b);
-        for (body, a) in &self.driven_accelerations {
-            self.system.a[*body] = *a;
-        }
-        self.system.solve_acceleration(&self.bodies, 1.0 / self.settings.stabilization_time);
-    }
-
-    /// Puts driven bodies where they belong at the time `t`.
-    pub(super) fn carry_driven(&mut self, t: f64) {
-        self.system.activity.set_time(t);
-        for (drive, (body, a)) in self.drives.iter().zip(&mut self.driven_accelerations) {
-            let (acceleration, turn) = drive.motion.at(t).carry(&mut self.bodies[*body]);
-            self.system.quads_mut().look_at(*body, &self.bodies[*body]);
-            *a = vec6(acceleration, turn);
-        }
-    }
-
-    /// Evaluates the rows at the quads' present state.
-    fn evaluate_quads(&mut self) {
-        self.show_where_asked();
-        self.system.evaluate_quads(&self.bodies);
-    }
-
-    fn show_where_asked(&mut self) {
-        if self.system.asks_bodies() || !self.springs.is_empty() {
-            self.by_quads(Show);
-        }
-    }
-
-    /// Closes the joints of the bodies in place and speed; leaves the system factored there.
-    pub(super) fn project(&mut self) {
-        self.system.quads_mut().look(&self.bodies);
-        self.close_joints(true, true);
-        self.known = Known::Factor;
-    }
-
-    /// Takes over the velocities of bodies whose joints are closed, and factored there.
-    pub(super) fn look_at_rates(&mut self) {
-        self.system.quads_mut().look(&self.bodies);
-        self.evaluate_quads();
-        self.system.look_for_gaps();
-        self.known = Known::Factor;
-    }
-
-    /// The same as [`Dynamics::project`] where the quads are, factored `anew` and `in_speed` too if asked; the bodies follow.
-    fn close_joints(&mut self, anew: bool, in_speed: bool) {
-        self.evaluate_quads();
-        if anew {
-            self.system.factor();
-        }
-        if self.system.states().is_empty() {
-            self.by_quads(Show);
-            return;
-        }
-        self.system.look_for_gaps();
-        let apart = self.system.largest_lean_error();
-        self.system.solve_displacement();
-        self.system.close_quads();
-        if apart > COARSE {
-            // Newton's error is the square of what was there.
-            self.system.quads_mut().turn();
-            self.evaluate_quads();
-            self.system.factor();
-            self.system.solve_displacement();
-            self.system.close_quads();
-        }
-        if in_speed {
-            self.system.solve_velocity_quads(&self.bodies);
-            self.system.apply_velocity_quads();
-        }
-        self.by_quads(Show);
-    }
-
-    /// Lets pivot friction act for `dt` seconds, the joints held.
-    pub(super) fn rub(&mut self, dt: f64) {
-        self.system.evaluate(&self.bodies);
-        self.system.add_friction(&self.bodies, &self.loads, dt);
-        self.system.factor();
-        self.system.solve_velocity(&self.bodies);
-        self.system.apply_velocity(&mut self.bodies);
-        self.known = Known::Nothing;
+    fn close(&mut self, t: f64, anew: bool) {
+        self.equations.close(self.bodies, t, (anew, !self.contacts.anything_rests()));
     }
 }
-
-/// Joints farther apart than this before projection are projected twice, m or rad: the second time from the square of it.
-const COARSE: f64 = 1e-7;
-/// Where no earlier substep tells how fast the estimate changes, this share of it is taken.
-const UNKNOWN: f64 = 0.1;
-/// Rates that still change by less than this share are good enough when iterations run out.
-const NEARLY: f64 = 1e-12;

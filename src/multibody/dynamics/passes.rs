@@ -1,116 +1,118 @@
 //! What the integrators do to every body, four at a time.
 //!
-//! Each pass goes through the quads in the tree's order. What it reads of the bodies is gathered into lanes, what it
-//! changes goes back body by body; sums over bodies are made afterwards in the bodies' own order ([`Dynamics::norms`]),
-//! so that they do not depend on who stands beside whom.
+//! Each pass goes through the quads in the tree's order and names the parts of a figure that it reads and writes. What it reads
+//! of the bodies is gathered into lanes, what it changes goes back body by body; sums over bodies are made afterwards in the
+//! bodies' own order (`norms`, by bodies), so that they do not depend on who stands beside whom.
 
 use fearless_simd::{Simd, dispatch};
 
-use super::adams::less;
-use super::course::{Rate, advance};
-use super::integrate::{GAUSS_NODES, WEIGHTS};
-use super::{Dynamics, forces};
+use super::course::{Course, Rate, SLOWEST, advance, less, norm};
+use super::forces;
+use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, Quad, State};
-use soffio_math::lanes::{All, Lanes, Real, V3};
-use soffio_math::spatial::Sym3;
-
-/// Slower motion than this is followed no more closely than this one, m/s.
-pub(super) const SLOWEST: f64 = 1e-3;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_math::lanes::{All, Four, Lanes, Real, V3};
+use soffio_math::spatial::Vec6;
 
 /// Something that is done to every quad in which somebody is awake.
-pub(super) trait Pass: Copy {
+pub(super) trait Pass {
     /// Does it to the `index`th.
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize);
 }
 
-impl Dynamics {
-    /// Does it to all quads.
-    pub(super) fn by_quads(&mut self, pass: impl Pass) {
-        dispatch!(self.system.quads().level(), simd => self.by_quads_in(simd, pass));
-    }
+/// Does it to all quads of a system.
+pub(super) fn by_quads(system: &mut System, mut pass: impl Pass) {
+    dispatch!(system.quads().level(), simd => by_quads_in(simd, system, &mut pass));
+}
 
-    #[inline(always)]
-    fn by_quads_in<S: Simd>(&mut self, simd: S, pass: impl Pass) {
-        for k in 0..self.system.quads().moving().len() {
-            let index = self.system.quads().moving()[k];
-            pass.go(All(simd), self, index);
-        }
+#[inline(always)]
+fn by_quads_in<S: Simd>(simd: S, system: &mut System, pass: &mut impl Pass) {
+    for k in 0..system.quads().moving().len() {
+        let index = system.quads().moving()[k];
+        pass.go(All(simd), system, index);
     }
+}
 
-    #[inline(always)]
-    pub(super) fn quad(&self, index: usize) -> (Members, &Quad) {
-        let quads = self.system.quads();
-        (quads.members()[index], &quads.all()[index])
-    }
+/// A quad, and who it is.
+#[inline(always)]
+pub(super) fn quad(system: &System, index: usize) -> (Members, &Quad) {
+    let quads = system.quads();
+    (quads.members()[index], &quads.all()[index])
+}
 
-    /// The accelerations found last.
-    #[inline(always)]
-    pub(super) fn accelerations<L: Lanes>(&self, lanes: L, members: &Members) -> Twist<L::T> {
-        Twist::gather(lanes, |k| &self.system.a[members.bodies[k]])
-    }
+/// The accelerations found last.
+#[inline(always)]
+pub(super) fn accelerations<L: Lanes>(lanes: L, system: &System, members: &Members) -> Twist<L::T> {
+    Twist::gather(lanes, |k| &system.a[members.bodies[k]])
+}
 
-    /// Puts bodies into this state.
-    #[inline(always)]
-    pub(super) fn put<L: Lanes>(&mut self, lanes: L, index: usize, state: &State<L::T>) {
-        self.system.quads_mut().all_mut()[index].put(lanes, state);
-    }
+/// Puts bodies into this state.
+#[inline(always)]
+pub(super) fn put<L: Lanes>(lanes: L, system: &mut System, index: usize, state: &State<L::T>) {
+    system.quads_mut().all_mut()[index].put(lanes, state);
 }
 
 /// Notes where the bodies are: a substep begins.
-#[derive(Clone, Copy)]
-pub(super) struct Begin;
+pub(super) struct Begin<'a> {
+    pub bodies: &'a [RigidBody],
+    pub courses: &'a mut [Course],
+}
 
-impl Pass for Begin {
+impl Pass for Begin<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, _) = dynamics.quad(index);
-        let state = State::of(lanes, |k| &dynamics.bodies[members.bodies[k]]);
-        dynamics.courses[index].start.set(lanes, &state);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, _) = quad(system, index);
+        let state = State::of(lanes, |k| &self.bodies[members.bodies[k]]);
+        self.courses[index].start.set(lanes, &state);
     }
 }
 
 /// Puts the bodies back to where the substep began.
-#[derive(Clone, Copy)]
-pub(super) struct Return;
+pub(super) struct Return<'a> {
+    pub bodies: &'a mut [RigidBody],
+    pub courses: &'a [Course],
+}
 
-impl Pass for Return {
+impl Pass for Return<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, _) = dynamics.quad(index);
-        let state = dynamics.courses[index].start.get(lanes);
-        state.put(lanes, &members, &mut dynamics.bodies);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, _) = quad(system, index);
+        let state = self.courses[index].start.get(lanes);
+        state.put(lanes, &members, self.bodies);
     }
 }
 
 /// Lets the bodies be where the quads are.
-#[derive(Clone, Copy)]
-pub(super) struct Show;
+pub(super) struct Show<'a> {
+    pub bodies: &'a mut [RigidBody],
+}
 
-impl Pass for Show {
+impl Pass for Show<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
         let state = quad.state.get(lanes);
-        state.put(lanes, &members, &mut dynamics.bodies);
+        state.put(lanes, &members, self.bodies);
     }
 }
 
 /// From one Runge–Kutta stage to the next: takes the rate at this one, of this weight, and goes on with it from the
 /// start over `h`.
-#[derive(Clone, Copy)]
-pub(super) struct Stage {
+pub(super) struct Stage<'a> {
+    pub courses: &'a mut [Course],
     pub first: bool,
     pub weight: f64,
     pub h: f64,
 }
 
-impl Pass for Stage {
+impl Pass for Stage<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
-        let a = dynamics.accelerations(lanes, &members);
-        let course = &dynamics.courses[index];
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
+        let a = accelerations(lanes, system, &members);
+        let course = &self.courses[index];
         let start = course.start.get(lanes);
         let (rate, mut mean) = if self.first {
             let zero = start.velocity.x.all(0.0);
@@ -123,40 +125,43 @@ impl Pass for Stage {
         };
         mean.add(self.weight, &rate);
         let (state, turned) = advance(lanes, &start, self.h, &rate);
-        let course = &mut dynamics.courses[index];
+        let course = &mut self.courses[index];
         if self.first {
             course.begun.put(lanes, &a);
         }
         course.mean.set(lanes, &mean);
         course.turned.put(lanes, turned);
-        dynamics.put(lanes, index, &state);
+        put(lanes, system, index, &state);
     }
 }
 
 /// From the last Runge–Kutta stage to the end of the substep of `h`.
-#[derive(Clone, Copy)]
-pub(super) struct Last {
+pub(super) struct Last<'a> {
+    pub courses: &'a mut [Course],
     pub h: f64,
+    /// Of the last rate.
+    pub weight: f64,
 }
 
-impl Pass for Last {
+impl Pass for Last<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
-        let a = dynamics.accelerations(lanes, &members);
-        let course = &dynamics.courses[index];
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
+        let a = accelerations(lanes, system, &members);
+        let course = &self.courses[index];
         let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), course.turned.get(lanes), a);
         let mut mean = course.mean.get(lanes);
-        mean.add(WEIGHTS[3], &rate);
+        mean.add(self.weight, &rate);
         let (state, _) = advance(lanes, &course.start.get(lanes), self.h, &mean);
-        dynamics.courses[index].last.put(lanes, &a);
-        dynamics.put(lanes, index, &state);
+        self.courses[index].last.put(lanes, &a);
+        put(lanes, system, index, &state);
     }
 }
 
 /// What the new rate says of the error (`integrate.rs`): each body's share of the two sums.
-#[derive(Clone, Copy)]
-pub(super) struct Estimate {
+pub(super) struct Estimate<'a> {
+    pub courses: &'a mut [Course],
+    pub norms: &'a mut [[f64; 2]],
     pub per_cube: f64,
     pub spread: f64,
     /// Was there a substep before?
@@ -165,13 +170,13 @@ pub(super) struct Estimate {
     pub slot: usize,
 }
 
-impl Pass for Estimate {
+impl Pass for Estimate<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let a = dynamics.accelerations(lanes, &members);
-        let course = &dynamics.courses[index];
+        let a = accelerations(lanes, system, &members);
+        let course = &self.courses[index];
         let (last, before) = (course.last.get(lanes), course.fourth.get(lanes));
         let (per_cube, spread) = (mass.all(self.per_cube), mass.all(self.spread));
         let fourth =
@@ -187,55 +192,58 @@ impl Pass for Estimate {
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
         let changed = less(a, course.begun.get(lanes));
-        let course = &mut dynamics.courses[index];
+        let course = &mut self.courses[index];
         course.differences[self.slot].put(lanes, &changed);
         course.fourth.put(lanes, &fourth);
-        lanes.scatter(members.count, &[error, scale], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
+        let norms = &mut *self.norms;
+        lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
     }
 }
 
-/// v·M v.
-#[inline(always)]
-pub(super) fn norm<T: Real>(mass: T, inertia: &Sym3<T>, v: &Twist<T>) -> T {
-    mass * v.linear.dot(v.linear) + v.angular.dot(inertia.mul(v.angular))
+/// Gravity, damping, the gyroscopic torque and what comes from outside.
+pub(super) struct Push<'a> {
+    pub external: &'a [Vec6],
+    pub damping: &'a [[Four; 2]],
+    pub gravity: DVec3,
 }
 
-/// Gravity, damping, the gyroscopic torque and what comes from outside.
-#[derive(Clone, Copy)]
-pub(super) struct Push;
-
-impl Pass for Push {
+impl Pass for Push<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
-        let gravity = dynamics.settings.gravity;
-        let external = Twist::gather(lanes, |k| &dynamics.external[members.bodies[k]]);
-        let [linear, angular] = dynamics.courses[index].damping.each_ref().map(|rate| lanes.get(rate));
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
+        let external = Twist::gather(lanes, |k| &self.external[members.bodies[k]]);
+        let [linear, angular] = self.damping[index].each_ref().map(|rate| lanes.get(rate));
         let motion = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let own = forces::on_body((mass, &inertia), motion, gravity, (linear, angular));
+        let own = forces::on_body((mass, &inertia), motion, self.gravity, (linear, angular));
         let push = Twist { linear: own.linear + external.linear, angular: own.angular + external.angular };
-        let b = &mut dynamics.system.b;
+        let b = &mut system.b;
         lanes.scatter(members.count, &push.numbers(), |lane, push| b[members.bodies[lane]] = *push);
     }
 }
 
+/// Rates of the Gauss–Legendre stages, by quads.
+pub(super) type Stages = [Vec<Rate<Four>>; 3];
+
 /// The first guess of the three Gauss rates of a substep of `h`.
-#[derive(Clone, Copy)]
-pub(super) struct Guess {
+pub(super) struct Guess<'a> {
+    pub courses: &'a [Course],
+    pub stages: &'a mut Stages,
     pub h: f64,
+    /// Shares of the substep at which the rates are taken.
+    pub nodes: [f64; 3],
 }
 
-impl Pass for Guess {
+impl Pass for Guess<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, _) = dynamics.quad(index);
-        let a = dynamics.accelerations(lanes, &members);
-        let start = dynamics.courses[index].start.get(lanes);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, _) = quad(system, index);
+        let a = accelerations(lanes, system, &members);
+        let start = self.courses[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let rate = Rate::of(start.velocity, start.spin, V3 { x: zero, y: zero, z: zero }, a);
         // A body's velocity changes as its acceleration says, which is the better first guess.
-        for (rates, node) in dynamics.stages.iter_mut().zip(GAUSS_NODES) {
+        for (rates, node) in self.stages.iter_mut().zip(self.nodes) {
             let ahead = zero.all(node * self.h);
             let mut guess = rate;
             guess.velocity += a.linear * ahead;
@@ -246,47 +254,51 @@ impl Pass for Guess {
 }
 
 /// From the start over `h` by these shares of the three Gauss rates.
-#[derive(Clone, Copy)]
-pub(super) struct Mean {
+pub(super) struct Mean<'a> {
+    pub courses: &'a mut [Course],
+    pub stages: &'a Stages,
     pub weights: [f64; 3],
     pub h: f64,
 }
 
-impl Pass for Mean {
+impl Pass for Mean<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let start = dynamics.courses[index].start.get(lanes);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let start = self.courses[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let none = V3 { x: zero, y: zero, z: zero };
         let mut mean = Rate { velocity: none, turn: none, acceleration: Twist { linear: none, angular: none } };
-        for (rates, weight) in dynamics.stages.iter().zip(self.weights) {
+        for (rates, weight) in self.stages.iter().zip(self.weights) {
             mean.add(weight, &rates[index].get(lanes));
         }
         let (state, turned) = advance(lanes, &start, self.h, &mean);
-        dynamics.courses[index].turned.put(lanes, turned);
-        dynamics.put(lanes, index, &state);
+        self.courses[index].turned.put(lanes, turned);
+        put(lanes, system, index, &state);
     }
 }
 
 /// Takes over the rate of a Gauss stage: by how much it changed and how large it is, in squares.
-#[derive(Clone, Copy)]
-pub(super) struct Compare {
+pub(super) struct Compare<'a> {
+    pub courses: &'a [Course],
+    pub stages: &'a mut Stages,
+    pub norms: &'a mut [[f64; 2]],
     pub stage: usize,
 }
 
-impl Pass for Compare {
+impl Pass for Compare<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(self, lanes: L, dynamics: &mut Dynamics, index: usize) {
-        let (members, quad) = dynamics.quad(index);
-        let a = dynamics.accelerations(lanes, &members);
-        let turned = dynamics.courses[index].turned.get(lanes);
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
+        let a = accelerations(lanes, system, &members);
+        let turned = self.courses[index].turned.get(lanes);
         let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), turned, a);
-        let old = dynamics.stages[self.stage][index].get(lanes);
+        let old = self.stages[self.stage][index].get(lanes);
         let (linear, angular) = (a.linear - old.acceleration.linear, a.angular - old.acceleration.angular);
         let turn = rate.turn - old.turn;
         let change = linear.dot(linear) + angular.dot(angular) + turn.dot(turn);
         let size = a.linear.dot(a.linear) + a.angular.dot(a.angular) + rate.turn.dot(rate.turn);
-        dynamics.stages[self.stage][index].set(lanes, &rate);
-        lanes.scatter(members.count, &[change, size], |lane, norm| dynamics.norms[members.bodies[lane]] = *norm);
+        self.stages[self.stage][index].set(lanes, &rate);
+        let norms = &mut *self.norms;
+        lanes.scatter(members.count, &[change, size], |lane, norm| norms[members.bodies[lane]] = *norm);
     }
 }

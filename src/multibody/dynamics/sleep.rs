@@ -20,12 +20,8 @@
 //! function of time acts on, or what is joined to a driven body or lies on one, never sleeps. Waking goes on to what leans on
 //! what wakes. What it had left of energy is entered with the work of its contacts.
 
-use super::contacts::Hit;
-use super::passes::SLOWEST;
-use super::{Dynamics, Known};
 use crate::articulation::{Constraint, ConstraintKind, Groups, Limit, Spring};
 use soffio_geometry::bodies::RigidBody;
-use soffio_math::DVec3;
 use soffio_math::Function;
 use soffio_math::spatial::{Vec6, angular, linear};
 
@@ -198,6 +194,14 @@ impl Sleep {
         std::mem::take(&mut self.count) > 0
     }
 
+    /// Puts back what sleeps to where it was before, to the bit: turning by nothing may round.
+    pub fn keep(&self, bodies: &mut [RigidBody], before: &[RigidBody]) {
+        if self.any() {
+            let all = bodies.iter_mut().zip(before).zip(&self.asleep);
+            all.filter(|(_, asleep)| **asleep).for_each(|((body, before), _)| *body = *before);
+        }
+    }
+
     /// Puts together what leans on each other; what lies on a driven body stays awake.
     fn look_for_islands(&mut self, leaning: impl Iterator<Item = [Option<usize>; 2]>) {
         self.islands.copy(&self.joined);
@@ -209,68 +213,6 @@ impl Sleep {
                 (true, _) => self.stays[b] = true,
                 (_, true) => self.stays[a] = true,
             }
-        }
-    }
-}
-
-impl Dynamics {
-    /// Does a body sleep: at rest, and left out until something touches or pushes it?
-    pub fn sleeps(&self, body: usize) -> bool {
-        self.sleep.asleep()[body]
-    }
-
-    /// Lets fall asleep what has rested for long enough; what it still had of speed is gone.
-    pub(super) fn fall_asleep(&mut self) {
-        self.sleep.watch(self.dt, &self.bodies, &self.given);
-        let waits = self.system.gathers() || self.contacts.clutches().slipping().next().is_some();
-        if waits || !self.sleep.fall(self.contacts.leaning()) {
-            return;
-        }
-        for (index, body) in self.bodies.iter_mut().enumerate().filter(|(index, _)| self.sleep.asleep()[*index]) {
-            self.contacts.lose(body.kinetic_energy());
-            (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-            self.before[index] = *body;
-            self.norms[index] = [0.0, body.properties.mass * SLOWEST * SLOWEST];
-        }
-        self.tell_who_sleeps();
-    }
-
-    /// Wakes a body with its island.
-    pub(super) fn wake(&mut self, body: usize) {
-        if self.sleep.wake(body, self.contacts.leaning()) {
-            self.tell_who_sleeps();
-        }
-    }
-
-    pub(super) fn wake_all(&mut self) {
-        if self.sleep.wake_all() {
-            self.tell_who_sleeps();
-        }
-    }
-
-    /// Wakes all that a hit will be felt by.
-    pub(super) fn wake_for(&mut self, hit: &Hit) {
-        while self.sleep.any()
-            && let Some(body) = self.contacts.shaken(hit, &self.bodies)
-        {
-            self.wake(body);
-        }
-    }
-
-    fn tell_who_sleeps(&mut self) {
-        let asleep = self.sleep.asleep();
-        self.system.let_sleep(asleep, &self.bodies);
-        self.springs.let_sleep(asleep);
-        self.contacts.let_sleep(asleep, &self.bodies);
-        self.run.end();
-        self.known = Known::Nothing;
-    }
-
-    /// What sleeps stays where it is to the bit: turning by nothing may round.
-    pub(super) fn keep_asleep(&mut self) {
-        if self.sleep.any() {
-            let all = self.bodies.iter_mut().zip(&self.before).zip(self.sleep.asleep());
-            all.filter(|(_, asleep)| **asleep).for_each(|((body, before), _)| *body = *before);
         }
     }
 }

@@ -1,35 +1,30 @@
 //! What a figure tells of its last step and of where it stands.
 
-use super::Dynamics;
 use super::contacts::{Contacts, Touching};
 use super::drive::Drive;
 use super::forces::{self, Damping};
+use super::step::Dynamics;
 use crate::articulation::{Break, System};
 
 impl Dynamics {
     /// Constraints that broke in the last step.
     pub fn breaks(&self) -> &[Break] {
-        &self.system.activity.breaks
+        &self.equations.system.activity.breaks
     }
 
     /// Springs that broke in the last step.
     pub fn spring_breaks(&self) -> &[Break] {
-        &self.springs.activity.breaks
+        &self.equations.springs.activity.breaks
     }
 
     /// Constraints whose triggers fired in the last step, and when (seconds since reset).
     pub fn fired(&self) -> &[(usize, f64)] {
-        &self.system.activity.fired
+        &self.equations.system.activity.fired
     }
 
     /// The same of springs.
     pub fn springs_fired(&self) -> &[(usize, f64)] {
-        &self.springs.activity.fired
-    }
-
-    /// The first body that had bad numbers in the last step, so that the figure was put back.
-    pub fn fault(&self) -> Option<usize> {
-        self.fault
+        &self.equations.springs.activity.fired
     }
 
     /// Seconds since reset.
@@ -39,14 +34,12 @@ impl Dynamics {
 
     /// Damping of a body.
     pub fn damping(&self, body: usize) -> Damping {
-        let slot = self.system.quads().slot(body);
-        let [linear, angular] = self.courses[slot.quad].damping.each_ref().map(|rate| rate.0[slot.lane]);
-        Damping { linear, angular }
+        self.equations.damping(body)
     }
 
     /// Bodies that follow a given motion.
     pub fn drives(&self) -> &[Drive] {
-        &self.drives
+        &self.equations.drives
     }
 
     /// What can touch, and the limits.
@@ -56,24 +49,24 @@ impl Dynamics {
 
     /// The joints' system, for reports.
     pub fn system(&self) -> &System {
-        &self.system
+        &self.equations.system
     }
 
     /// The same row by row: what a mover by places is given.
     pub fn plain_system(&self) -> &System {
-        self.plain.as_deref().unwrap_or(&self.system)
+        self.equations.plain.as_deref().unwrap_or(&self.equations.system)
     }
 
     /// Largest distance between the two points of any joint now, m.
     pub fn joint_error(&self) -> f64 {
-        self.system.largest_gap(&self.bodies)
+        self.equations.system.largest_gap(&self.bodies)
     }
 
     /// The force that the joint of each constraint carried when it was last asked, in the last substep, all lengths between its
     /// two bodies together, N; `None` for what no joint holds, such as couplings. Of joints of trains it is 0: nobody asks.
     pub fn loads(&self) -> Vec<Option<f64>> {
-        let mut loads = vec![None; self.system.constraints().len()];
-        for (joint, load) in self.system.joints().iter().zip(&self.loads) {
+        let mut loads = vec![None; self.equations.system.constraints().len()];
+        for (joint, load) in self.equations.system.joints().iter().zip(self.loads.all()) {
             joint.constraints.iter().for_each(|&constraint| loads[constraint] = Some(*load));
         }
         loads
@@ -81,7 +74,7 @@ impl Dynamics {
 
     /// Kinetic and potential energy, J.
     pub fn energy(&self) -> f64 {
-        forces::energy(&self.bodies, self.settings.gravity) + self.springs.energy(&self.bodies, self.time)
+        forces::energy(&self.bodies, self.settings.gravity) + self.equations.springs.energy(&self.bodies, self.time)
     }
 
     /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.

@@ -11,10 +11,10 @@
 //! impossible), or after [`MOST_ROUNDS`]; the last pass starts at the ground, so that what is nailed stays so and a
 //! grip out of reach is missed by the rest.
 
+use super::grip::{Grip, MOST_GRIPS, REACHED, Reach};
 use super::pair::Stage;
 use super::rule::{Turning, common_point};
 use super::walk::{Start, Walk, Walks};
-use super::{Grip, MOST_GRIPS, REACHED, Reach};
 use crate::articulation::{Joint, System};
 use crate::dynamics::{Contacts, Dynamics, Met, Moved};
 use soffio_geometry::bodies::RigidBody;

@@ -12,7 +12,6 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use super::{SPEED_KEPT, SPIN_KEPT};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, State, gather};
@@ -22,6 +21,10 @@ use soffio_math::lanes::{All, Four, Lanes, Quat, Real, V3, WIDTH};
 use soffio_math::spatial::{M3, Sym3};
 use soffio_math::{DQuat, DVec3, atan2};
 
+/// What a body may keep of the speed of its way, m/s: a hand can throw it across the room in one step.
+pub const SPEED_KEPT: f64 = 50.0;
+/// The same of its turn, rad/s.
+pub const SPIN_KEPT: f64 = 200.0;
 /// Squares of the sine of half a turn below which its series is used: the terms left out are under 10⁻¹⁴ of it.
 const SHORT: f64 = 0.01;
 

@@ -25,8 +25,10 @@
 
 mod compulsive;
 mod fours;
+mod grip;
 mod pair;
 pub mod rule;
+mod settings;
 mod sphere;
 mod touch;
 mod tree;
@@ -34,101 +36,22 @@ pub mod walk;
 
 use crate::dynamics::{Dynamics, Impact, Moved};
 use soffio_geometry::bodies::RigidBody;
-use soffio_math::DVec3;
 use soffio_math::spatial::Vec6;
 
 use compulsive::Compulsive;
 pub use compulsive::MOST_ROUNDS;
 use fours::Fours;
+pub use fours::{SPEED_KEPT, SPIN_KEPT};
+pub use grip::{Grip, MOST_GRIPS, REACHED, Reach};
+pub use settings::{CONTROL, Method, Settings};
 use touch::Touches;
 use tree::TreeSolve;
 pub use tree::{MOST_LED, MOST_PASSES};
 
-/// Grips at one time at most.
-pub const MOST_GRIPS: usize = 4;
-/// Joints and grips nearer than this are where they belong, m or rad.
-pub const REACHED: f64 = 1e-7;
 /// Passes that bring grips this near have done what tangents could not, m.
 const NEAR: f64 = 0.02;
 /// Rounds of moving out in one step at most.
 const MOST_PUSHES: usize = 6;
-/// What a body may keep of the speed of its way, m/s: a hand can throw it across the room in one step.
-pub const SPEED_KEPT: f64 = 50.0;
-/// The same of its turn, rad/s.
-pub const SPIN_KEPT: f64 = 200.0;
-
-/// c where nobody says otherwise: what falls for a step under a long chain turns none of its links, a hand that goes a
-/// metre a second does.
-pub const CONTROL: f64 = 10.0;
-
-/// How joints are closed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// The source's compulsive motion, joint by joint.
-    Compulsive,
-    /// All joints at once.
-    #[default]
-    TreeSolve,
-}
-
-/// What a user chooses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// How joints are closed.
-    pub method: Method,
-    /// c of the compulsive rotation: the greater, the less bodies turn when pulled (no unit, from 0).
-    pub control: f64,
-    /// Share of the velocity kept from step to step beside the bodies' own damping, 0 … 1.
-    pub retention: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { method: Method::default(), control: CONTROL, retention: 1.0 }
-    }
-}
-
-/// A hand on a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grip {
-    /// Index of the body.
-    pub body: usize,
-    /// Point that is held, node frame, m.
-    pub point: DVec3,
-    /// Where it is to be at the step's end, world, m.
-    pub place: DVec3,
-}
-
-impl Grip {
-    /// World place of the point that is held, m.
-    pub fn point_of(&self, bodies: &[RigidBody]) -> DVec3 {
-        bodies[self.body].pose().point(self.point)
-    }
-
-    /// How far it is from its place, m.
-    pub fn missed(&self, bodies: &[RigidBody]) -> f64 {
-        self.point_of(bodies).distance(self.place)
-    }
-}
-
-/// How an adjustment ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach {
-    /// Passes (rounds of passes by the source's method).
-    pub passes: u32,
-    /// How far the worst joint is open, m or rad.
-    pub residual: f64,
-    /// How far the farthest grip is from its place, m.
-    pub missed: f64,
-}
-
-impl Reach {
-    /// Was everything met that was asked?
-    pub fn reached(&self) -> bool {
-        self.residual <= REACHED && self.missed <= REACHED
-    }
-}
-
 /// Moves a figure by places. Nothing here allocates once the largest number of grips has been used.
 #[derive(Clone, Debug)]
 pub struct Procedural {
@@ -172,8 +95,8 @@ impl Procedural {
     }
 
     /// Moves the figure for `dt` seconds under wrenches from outside (N and N m about each centre of mass), the first
-    /// [`MOST_GRIPS`] grips held. Hits are appended to `impacts`; returns the bodies that had to be restored from bad
-    /// numbers.
+    /// [`MOST_GRIPS`] grips held. Hits are appended to `impacts`; returns the first body with bad numbers, because of
+    /// which the figure was put back.
     pub fn step(
         &mut self,
         dynamics: &mut Dynamics,
@@ -181,7 +104,7 @@ impl Procedural {
         external: &[Vec6],
         grips: &[Grip],
         impacts: &mut Vec<Impact>,
-    ) -> usize {
+    ) -> Option<usize> {
         let grips = &grips[..grips.len().min(MOST_GRIPS)];
         let follows = dynamics.time() == self.ended;
         let restored = dynamics.step_by(dt, external, impacts, |moved| self.carry_out(moved, dt, grips, follows));

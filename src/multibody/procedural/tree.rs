@@ -25,7 +25,7 @@
 
 use super::compulsive::farthest;
 use super::fours::Fours;
-use super::{Grip, MOST_GRIPS, REACHED, Reach};
+use super::grip::{Grip, MOST_GRIPS, REACHED, Reach};
 use crate::articulation::{Cholesky, System};
 use crate::dynamics::{Contacts, ENDS, Moved};
 use soffio_geometry::bodies::RigidBody;

@@ -9,7 +9,8 @@
 //! where C* is what a row may keep: nothing if it is a joint that was closed, and (a figure that gathers) a share
 //! exp(−Δt/τ) of what it was if it was far open.
 
-use super::{PROJECTION_REACH, System};
+use super::System;
+use super::joint::PROJECTION_REACH;
 use crate::articulation::trains::Asked;
 use soffio_math::exp;
 use soffio_math::spatial::Vec6;
@@ -17,9 +18,9 @@ use soffio_math::spatial::Vec6;
 impl System {
     /// Counts every acting row as one that projection closes, however far it is open; what acts in part stays loose.
     pub fn take_up(&mut self) {
-        self.tell_values();
-        self.gathering = false;
-        for state in &mut self.states {
+        self.rows.tell_values(&self.factor);
+        self.rows.gathering = false;
+        for state in &mut self.rows.states {
             state.gathers = state.share < 1.0;
         }
     }
@@ -32,10 +33,10 @@ impl System {
 
     /// The same where `b` pushes, kg m and kg m² rad.
     pub fn solve_closing_under(&mut self, left: &[f64]) {
-        self.asked = Asked::Place;
-        self.tell_values();
+        self.factor.asked = Asked::Place;
+        self.rows.tell_values(&self.factor);
         self.still();
-        for ((g, state), left) in self.g.iter_mut().zip(&self.states).zip(left) {
+        for ((g, state), left) in self.g.iter_mut().zip(&self.rows.states).zip(left) {
             *g = if state.gathers { 0.0 } else { left - state.value };
         }
         self.solve();
@@ -43,7 +44,7 @@ impl System {
 
     /// Answer to a push, joints held, in `a` of the bodies on these ways to their roots ([`System::ways`]) at least.
     pub fn respond(&mut self, ways: &[usize], push: impl Iterator<Item = (usize, Vec6)>) {
-        let alone = self.outside_rows().is_empty() && self.trains.is_empty() && self.dense.is_none();
+        let alone = self.factor.outside().is_empty() && self.factor.trains.is_empty() && self.factor.dense.is_none();
         if !alone {
             self.b.fill([0.0; 6]);
         }
@@ -57,25 +58,25 @@ impl System {
             return self.solve_impulse();
         }
         for &body in ways.iter().rev() {
-            self.tree.up(body, &mut self.b, None, &mut self.lambda);
+            self.factor.tree.up(body, &mut self.b, None, &mut self.lambda);
         }
         for &body in ways {
-            self.tree.down(body, &self.b, None, &mut self.lambda, &mut self.a);
+            self.factor.tree.down(body, &self.b, None, &mut self.lambda, &mut self.a);
         }
     }
 
     /// Bodies on the ways from these to their roots, roots first; `ways` has room for all.
     pub fn ways(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
-        self.tree.paths_into(from, on, ways);
+        self.factor.tree.paths_into(from, on, ways);
     }
 
     /// Largest |C − left| of the acting rows at the last evaluation, m or rad. What acts in part does not count.
     pub fn open_by(&mut self, left: &[f64]) -> f64 {
-        self.tell_values();
-        let joints = self.joints.iter().flat_map(|joint| joint.at..joint.at + joint.hard);
-        let couplings = self.couplings.iter().filter(|c| self.activity.share(c.constraint) > 0.0).map(|c| c.at);
+        self.rows.tell_values(&self.factor);
+        let joints = self.rows.joints.iter().flat_map(|joint| joint.at..joint.at + joint.hard);
+        let couplings = self.rows.couplings.iter().filter(|c| self.activity.share(c.constraint) > 0.0).map(|c| c.at);
         let open = |worst: f64, row: usize| {
-            let state = &self.states[row];
+            let state = &self.rows.states[row];
             if state.share < 1.0 { worst } else { worst.max((state.value - left[row]).abs()) }
         };
         joints.chain(couplings).fold(0.0, open)
@@ -84,9 +85,9 @@ impl System {
     /// What of each row is to be left open after `dt` seconds, m or rad: nothing of what is closed, and of what is far
     /// open (a figure that gathers) as much as a decay with its time constant leaves. From the last evaluation.
     pub fn leave_open(&mut self, dt: f64, time_constant: f64, left: &mut [f64]) {
-        self.tell_values();
-        for (left, state) in left.iter_mut().zip(&self.states) {
-            let own = self.constraints[state.constraint].stabilization_time.unwrap_or(time_constant);
+        self.rows.tell_values(&self.factor);
+        for (left, state) in left.iter_mut().zip(&self.rows.states) {
+            let own = self.rows.constraints[state.constraint].stabilization_time.unwrap_or(time_constant);
             let far = state.value.abs() > PROJECTION_REACH;
             *left = if far { state.value * exp(-dt / own) } else { 0.0 };
         }
@@ -94,8 +95,8 @@ impl System {
 
     /// C (m or rad) and the row of each coupling that acts, by the bodies it touches.
     pub fn coupled(&self) -> impl Iterator<Item = (f64, &[(usize, Vec6)])> {
-        let rows = self.outside_rows();
-        let acting = self.couplings.iter().filter(|c| self.activity.share(c.constraint) == 1.0);
-        acting.map(|c| (self.states[c.at].value, &rows[c.outside].parts[..]))
+        let rows = self.factor.outside();
+        let acting = self.rows.couplings.iter().filter(|c| self.activity.share(c.constraint) == 1.0);
+        acting.map(|c| (self.rows.states[c.at].value, &rows[c.outside].parts[..]))
     }
 }

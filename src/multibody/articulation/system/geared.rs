@@ -18,21 +18,21 @@ pub type Geared<const N: usize> = [Option<(usize, f64)>; N];
 impl System {
     /// What a row pushes of trains; `None` where it touches anything else that gives way.
     pub fn geared<const N: usize>(&self, ends: &[Option<(usize, Vec6)>; N]) -> Option<Geared<N>> {
-        let gives_way = |body: usize| !self.driven[body] && !self.trains.has(body);
-        if self.trains.is_empty() || ends.iter().flatten().any(|(body, _)| gives_way(*body)) {
+        let gives_way = |body: usize| !self.driven[body] && !self.factor.trains.has(body);
+        if self.factor.trains.is_empty() || ends.iter().flatten().any(|(body, _)| gives_way(*body)) {
             return None;
         }
-        Some(ends.each_ref().map(|end| end.as_ref().and_then(|part| self.trains.share(part))))
+        Some(ends.each_ref().map(|end| end.as_ref().and_then(|part| self.factor.trains.share(part))))
     }
 
     /// Finds the answer of all trains to a unit impulse of such a row, joints held, by the factor at hand.
     pub fn answer_geared<const N: usize>(&mut self, row: &Geared<N>) {
-        self.trains.answer(row.iter().flatten().copied());
-        self.loops.correct_trains(&mut self.trains);
+        self.factor.trains.answer(row.iter().flatten().copied());
+        self.factor.loops.correct_trains(&mut self.factor.trains);
     }
 
     /// The velocity of such a row by that answer.
     pub fn geared_rate<const N: usize>(&self, row: &Geared<N>) -> f64 {
-        row.iter().flatten().map(|(train, f)| f * self.trains.rate(*train)).sum()
+        row.iter().flatten().map(|(train, f)| f * self.factor.trains.rate(*train)).sum()
     }
 }

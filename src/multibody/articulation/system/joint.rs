@@ -4,14 +4,17 @@ use std::collections::BTreeMap;
 
 use crate::articulation::activity::Activity;
 use crate::articulation::block::MAX_ROWS;
+use crate::articulation::hang::Link;
 use crate::articulation::loops::LoopRow;
 use crate::articulation::rows::{Row, Scene, friction, orientation, plane, point};
-use crate::articulation::tree::{JointRows, Link};
+use crate::articulation::tree::JointRows;
 use crate::articulation::{Anchor, Constraint, ConstraintKind};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::spatial::vec6;
 
+/// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
+pub(in crate::articulation) const PROJECTION_REACH: f64 = 1e-4;
 /// Most held rows of a pair of bodies, twice over; three of friction may come after them.
 const HELD: usize = MAX_ROWS - 3;
 

@@ -1,6 +1,7 @@
 //! What a figure tells of itself: rows, errors, loads. For breaking, friction, tests and staff.
 
-use super::{Joint, PROJECTION_REACH, RowState, System};
+use super::System;
+use super::joint::{Joint, PROJECTION_REACH, RowState};
 use crate::articulation::rows::{Scene, coupling, orientation, plane};
 use crate::articulation::{Constraint, ConstraintKind};
 use soffio_geometry::bodies::RigidBody;
@@ -11,7 +12,12 @@ use soffio_math::{DMat3, DVec3};
 impl System {
     /// The joint that a row belongs to.
     fn joint_of(&self, row: usize) -> Option<&Joint> {
-        self.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&row))
+        self.rows.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&row))
+    }
+
+    /// World arms of a joint that is one point now.
+    fn arms_of(&self, joint: &Joint) -> Option<(DVec3, DVec3)> {
+        joint.hangs.map_or(joint.arms, |body| Some(self.factor.tree.arms(body)))
     }
 
     /// J of one row as blocks of the bodies it touches (for tests and reports).
@@ -23,60 +29,60 @@ impl System {
                     let e = DVec3::AXES[k];
                     (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)))
                 }
-                (None, Some(block)) => (self.blocks[block].a[k], self.blocks[block].b[k]),
+                (None, Some(block)) => (self.rows.blocks[block].a[k], self.rows.blocks[block].b[k]),
                 (None, None) => return Vec::new(),
             };
             return [Some((joint.link.a, a)), joint.link.b.map(|body| (body, b))].into_iter().flatten().collect();
         }
-        let coupling = self.couplings.iter().find(|coupling| coupling.at == row);
-        coupling.map_or(Vec::new(), |coupling| self.outside_rows()[coupling.outside].parts.clone())
+        let coupling = self.rows.couplings.iter().find(|coupling| coupling.at == row);
+        coupling.map_or(Vec::new(), |coupling| self.factor.outside()[coupling.outside].parts.clone())
     }
 
     /// Γ between two rows at the last factorisation.
     pub fn compliance(&self, row: usize, other: usize) -> f64 {
         let (low, high) = (row.min(other), row.max(other));
-        if let Some(joint) = self.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&low)) {
+        if let Some(joint) = self.rows.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&low)) {
             let inside = high < joint.at + joint.rows && joint.arms.is_none();
             let block = joint.block.filter(|_| inside);
-            return block.map_or(0.0, |block| self.blocks[block].compliance[high - joint.at][low - joint.at]);
+            return block.map_or(0.0, |block| self.rows.blocks[block].compliance[high - joint.at][low - joint.at]);
         }
-        let coupling = self.couplings.iter().find(|coupling| coupling.at == row && row == other);
-        coupling.map_or(0.0, |coupling| self.outside_rows()[coupling.outside].compliance[0])
+        let coupling = self.rows.couplings.iter().find(|coupling| coupling.at == row && row == other);
+        coupling.map_or(0.0, |coupling| self.factor.outside()[coupling.outside].compliance[0])
     }
 
     /// Rows that act now, as indices into `g` and `lambda`.
     pub fn acting_rows(&self) -> Vec<usize> {
-        let mut rows: Vec<usize> = self.joints.iter().flat_map(|joint| joint.at..joint.at + joint.rows).collect();
-        rows.extend(self.couplings.iter().filter(|c| self.activity.share(c.constraint) > 0.0).map(|c| c.at));
+        let mut rows: Vec<usize> = self.rows.joints.iter().flat_map(|joint| joint.at..joint.at + joint.rows).collect();
+        rows.extend(self.rows.couplings.iter().filter(|c| self.activity.share(c.constraint) > 0.0).map(|c| c.at));
         rows
     }
 
     /// Rows found to repeat others at the last factorisation: (constraint, row's index).
     pub fn redundant_rows(&self) -> Vec<(usize, usize)> {
         let mut out = Vec::new();
-        let outside = |index: usize| match &self.dense {
+        let outside = |index: usize| match &self.factor.dense {
             Some(dense) => dense.is_redundant(index),
-            None => self.loops.is_redundant(index),
+            None => self.factor.loops.is_redundant(index),
         };
-        let mut child_of = vec![None; self.joints.len()];
-        for &body in self.tree.order() {
-            if let Some(joint) = self.tree.joint_of(body) {
+        let mut child_of = vec![None; self.rows.joints.len()];
+        for &body in self.factor.tree.order() {
+            if let Some(joint) = self.factor.tree.joint_of(body) {
                 child_of[joint] = Some(body);
             }
         }
-        for (index, joint) in self.joints.iter().enumerate() {
+        for (index, joint) in self.rows.joints.iter().enumerate() {
             for k in 0..joint.rows {
                 let repeats = match (joint.outside, child_of[index]) {
                     (Some(first), _) => outside(first + k),
-                    (None, Some(body)) => self.tree.redundant(body) >> k & 1 == 1,
+                    (None, Some(body)) => self.factor.tree.redundant(body) >> k & 1 == 1,
                     (None, None) => false,
                 };
                 if repeats {
-                    out.push((self.states[joint.at + k].constraint, joint.at + k));
+                    out.push((self.rows.states[joint.at + k].constraint, joint.at + k));
                 }
             }
         }
-        for coupling in self.couplings.iter().filter(|coupling| outside(coupling.outside)) {
+        for coupling in self.rows.couplings.iter().filter(|coupling| outside(coupling.outside)) {
             out.push((coupling.constraint, coupling.at));
         }
         out
@@ -84,17 +90,17 @@ impl System {
 
     /// Largest |C| of any held row of the last evaluation (m or rad).
     pub fn largest_error(&self) -> f64 {
-        self.largest_of(self.joints.iter())
+        self.largest_of(self.rows.joints.iter())
     }
 
     /// The same without what trains hold of themselves, which the laws of motion do not evaluate.
     pub fn largest_lean_error(&self) -> f64 {
-        self.largest_of(self.joints.iter().filter(|joint| !joint.in_train))
+        self.largest_of(self.rows.joints.iter().filter(|joint| !joint.in_train))
     }
 
     fn largest_of<'a>(&'a self, joints: impl Iterator<Item = &'a Joint>) -> f64 {
         joints
-            .flat_map(|joint| &self.states[joint.at..joint.at + joint.hard])
+            .flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard])
             .fold(0.0, |worst, state| worst.max(state.value.abs()))
     }
 
@@ -102,18 +108,19 @@ impl System {
     /// slips of couplings.
     pub fn largest_gap(&self, bodies: &[RigidBody]) -> f64 {
         let mut frames = vec![DMat3::IDENTITY; bodies.len()];
-        self.largest_length(bodies, false, &mut frames).max(self.asleep_gap)
+        self.largest_length(bodies, false, &mut frames).max(self.sleepers.gap)
     }
 
     /// The same of what sleeps alone, or of all else; `frames` lends a matrix a body.
     pub(super) fn largest_length(&self, bodies: &[RigidBody], sleeps: bool, frames: &mut [DMat3]) -> f64 {
-        for (body, frame) in frames.iter_mut().enumerate().filter(|(body, _)| self.asleep[*body] == sleeps) {
+        for (body, frame) in frames.iter_mut().enumerate().filter(|(body, _)| self.sleepers.bodies[*body] == sleeps) {
             *frame = matrix(bodies[body].rotation);
         }
         let scene = Scene { bodies, frames, time: self.activity.time() };
         let is_length = |c: &Constraint| !matches!(c.kind, ConstraintKind::Orientation { .. });
-        let asked = |index: &usize| self.idle[*index] == sleeps && is_length(&self.constraints[*index]);
-        (0..self.constraints.len()).filter(asked).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)
+        let asked =
+            |index: &usize| self.sleepers.constraints[*index] == sleeps && is_length(&self.rows.constraints[*index]);
+        (0..self.rows.constraints.len()).filter(asked).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)
     }
 
     /// The error of each constraint at these bodies' state: m, of an orientation rad. What does not act, or is still being
@@ -121,21 +128,21 @@ impl System {
     pub fn gaps(&self, bodies: &[RigidBody]) -> Vec<f64> {
         let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
         let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
-        (0..self.constraints.len()).map(|index| self.gap(index, &scene)).collect()
+        (0..self.rows.constraints.len()).map(|index| self.gap(index, &scene)).collect()
     }
 
     fn gap(&self, index: usize, scene: &Scene) -> f64 {
         if self.activity.share(index) < 1.0 || self.activity.mends(index) {
             return 0.0;
         }
-        match &self.constraints[index].kind {
+        match &self.rows.constraints[index].kind {
             ConstraintKind::PointToPoint { a, b } => scene.place(a).distance(scene.place(b)),
             ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
                 plane::value(scene, point, plane, *normal, offset).abs()
             }
             ConstraintKind::Orientation { a, b, angle } => orientation::row(scene, a, b, angle, || None).value.abs(),
             ConstraintKind::Coupling { .. } => {
-                let own = self.couplings.iter().find(|coupling| coupling.constraint == index);
+                let own = self.rows.couplings.iter().find(|coupling| coupling.constraint == index);
                 own.map_or(0.0, |own| (coupling::value(scene, &own.terms) - own.offset).abs())
             }
         }
@@ -143,12 +150,12 @@ impl System {
 
     /// The force that a joint's length rows carried in the last solve of forces, N.
     pub fn load(&self, joint: usize) -> f64 {
-        let j = &self.joints[joint];
+        let j = &self.rows.joints[joint];
         if j.hangs.is_some() {
             return linear_length(&self.lambda[j.at..j.at + 3]);
         }
         let mut sum = 0.0;
-        for row in (j.at..j.at + j.hard).filter(|&row| self.states[row].length) {
+        for row in (j.at..j.at + j.hard).filter(|&row| self.rows.states[row].length) {
             sum += self.lambda[row] * self.lambda[row];
         }
         sum.sqrt()
@@ -156,16 +163,16 @@ impl System {
 
     /// World arms from a joint's bodies to its point at the last evaluation, for stiffness estimates, m.
     pub fn arms(&self, joint: usize) -> (DVec3, DVec3) {
-        let joint = &self.joints[joint];
+        let joint = &self.rows.joints[joint];
         if let Some(arms) = self.arms_of(joint) {
             return arms;
         }
         // The arm of a length row (e, r × e) is at least |r × e|: three rows of a point give r.
         let Some(block) = joint.block else { return (DVec3::ZERO, DVec3::ZERO) };
-        let rows = &self.blocks[block];
+        let rows = &self.rows.blocks[block];
         let longest = |blocks: &[Vec6]| {
             let mut best = DVec3::ZERO;
-            for k in (0..joint.hard).filter(|&k| self.states[joint.at + k].length) {
+            for k in (0..joint.hard).filter(|&k| self.rows.states[joint.at + k].length) {
                 let arm = linear(&blocks[k]).cross(angular(&blocks[k]));
                 if arm.length_squared() > best.length_squared() {
                     best = arm;
@@ -179,25 +186,25 @@ impl System {
     /// Is a constraint closed, or so nearly that projection keeps it so?
     pub fn is_together(&self, constraint: usize) -> bool {
         let apart = |state: &RowState| state.constraint == constraint && state.gathers;
-        let held = self.joints.iter().flat_map(|joint| &self.states[joint.at..joint.at + joint.hard]);
-        !held.chain(self.couplings.iter().map(|c| &self.states[c.at])).any(apart)
+        let held = self.rows.joints.iter().flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard]);
+        !held.chain(self.rows.couplings.iter().map(|c| &self.rows.states[c.at])).any(apart)
     }
 
     /// What a constraint carried in the last solve: of its lengths, of its angles. The stabiliser's pull on what is far
     /// apart is no load.
     pub fn carried(&self, constraint: usize) -> (f64, f64) {
         let (mut force, mut torque) = (0.0, 0.0);
-        let joints = self.joints.iter().filter(|joint| joint.constraints.contains(&constraint));
+        let joints = self.rows.joints.iter().filter(|joint| joint.constraints.contains(&constraint));
         let rows = joints.flat_map(|joint| joint.at..joint.at + joint.hard);
-        let couplings = self.couplings.iter().filter(|c| c.constraint == constraint).map(|c| c.at);
+        let couplings = self.rows.couplings.iter().filter(|c| c.constraint == constraint).map(|c| c.at);
         let couplings = couplings.filter(|_| self.activity.share(constraint) > 0.0);
         let own = |&row: &usize| {
-            let state = &self.states[row];
+            let state = &self.rows.states[row];
             state.constraint == constraint && state.value.abs() <= PROJECTION_REACH
         };
         for row in rows.chain(couplings).filter(own) {
             let square = self.lambda[row] * self.lambda[row];
-            if self.states[row].length { force += square } else { torque += square }
+            if self.rows.states[row].length { force += square } else { torque += square }
         }
         (force.sqrt(), torque.sqrt())
     }

@@ -12,15 +12,23 @@
 //!
 //! Hits travel: what approaches after one is hit next, in a fixed order, so that of a row of balls the last one leaves.
 
-use super::problem::{LOCKED, Problem, Source, Touch};
+use super::impact::{Impact, ImpactKind};
+use super::problem::{MOST_TOUCHES, Problem};
+use super::row::point_rows;
+use super::state::Contacts;
 use super::sweep::Hit;
-use super::{CHATTER_SPEED, CHATTER_TIME, Contacts, Impact, ImpactKind, REST_SPEED, point_rows};
+use super::touch::{LOCKED, Source, Touch};
 use crate::articulation::System;
 use crate::collision::{ManifoldPoint, TOUCH};
 use crate::dynamics::impulse::impulse;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DMat3, DVec3};
 
+/// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
+const REST_SPEED: f64 = 4e-3;
+/// Bounces nearer in time than this, and slower than that, are one contact: no ear tells them apart, s and m/s.
+const CHATTER_TIME: f64 = 5e-3;
+const CHATTER_SPEED: f64 = 0.03;
 /// Points of the same two bodies that meet within this time are hit together, s: one sample of sound.
 const ONE_TIME: f64 = 1.0 / 48_000.0;
 /// 1/ω₀ with which joints of a figure that is struck by hand gather, s: none of them is open.
@@ -99,7 +107,7 @@ impl Contacts {
         impacts: &mut Vec<Impact>,
     ) {
         // Hits change speeds, not places: what is near stays so.
-        self.find_near(bodies, bodies);
+        self.near.find(bodies, bodies, &self.sleepers.bodies);
         let mut next = Some(hit.source);
         for _ in 0..MOST_ROUNDS {
             let Some(source) = next else { break };
@@ -107,7 +115,7 @@ impl Contacts {
             self.collect(source, bodies);
             if self.problem.touches.is_empty() {
                 // It touches, but nothing approaches: what little there is belongs to rest.
-                self.set_rest(source, true);
+                self.resting.set_source(source, true, &mut self.limits);
                 self.collect_all(source, bodies);
                 self.problem.assemble(system, bodies);
                 let touches = self.problem.touches.len();
@@ -116,7 +124,7 @@ impl Contacts {
             }
             self.problem.assemble(system, bodies);
             self.bounce(time, impacts);
-            self.work += self.problem.work();
+            self.work.total += self.problem.work();
             self.problem.apply(system, bodies);
             next = self.approaching(bodies);
         }
@@ -134,10 +142,10 @@ impl Contacts {
                 (gap, -row.rate(bodies))
             }
             Source::Pair(pair) => {
-                let manifold = self.manifold(pair, bodies);
+                let manifold = self.surfaces.manifold(pair, bodies);
                 let nearest = |a: ManifoldPoint, b: &ManifoldPoint| if b.gap < a.gap { *b } else { a };
                 let at = manifold.points()[1..].iter().fold(manifold.points[0], nearest);
-                (at.gap, -self.velocity_at(pair, at.point, bodies).dot(manifold.normal))
+                (at.gap, -self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal))
             }
         };
         if speed > REST_SPEED { (gap - 0.5 * TOUCH) / speed } else { 0.0 }
@@ -150,12 +158,12 @@ impl Contacts {
             Source::Bound(bound) => self.push_bound(bound, bodies),
             Source::Pair(pair) => {
                 // Pairs of the same two bodies stand together.
-                let two = self.bodies_of(pair);
-                let same = |other: &usize| self.bodies_of(*other) == two;
+                let two = self.surfaces.bodies_of(pair);
+                let same = |other: &usize| self.surfaces.bodies_of(*other) == two;
                 let first = (0..pair).rev().take_while(same).last().unwrap_or(pair);
-                let end = (pair + 1..self.pairs.len()).take_while(same).last().unwrap_or(pair);
+                let end = (pair + 1..self.surfaces.pairs.len()).take_while(same).last().unwrap_or(pair);
                 for other in first..=end {
-                    if other == pair || self.may_touch(other, bodies) {
+                    if other == pair || self.surfaces.may_touch(other, bodies) {
                         self.collect_pair(other, other == pair, bodies);
                     }
                 }
@@ -168,9 +176,9 @@ impl Contacts {
         match source {
             Source::Bound(bound) => self.push_bound(bound, bodies),
             Source::Pair(pair) => {
-                let manifold = self.manifold(pair, bodies);
+                let manifold = self.surfaces.manifold(pair, bodies);
                 for at in manifold.points() {
-                    self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
+                    self.surfaces.push_point(&mut self.problem, pair, (at.point, manifold.normal, at.gap), bodies);
                 }
             }
         }
@@ -179,12 +187,12 @@ impl Contacts {
     /// Touches of a pair that approach and are closed, or will be within a sample. A pair that was found to hit has
     /// one at least.
     fn collect_pair(&mut self, pair: usize, hits: bool, bodies: &[RigidBody]) {
-        let manifold = self.manifold(pair, bodies);
+        let manifold = self.surfaces.manifold(pair, bodies);
         let nearest = manifold.points().iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
         for at in manifold.points() {
-            let speed = -self.velocity_at(pair, at.point, bodies).dot(manifold.normal);
+            let speed = -self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal);
             if speed > 0.0 && (at.gap <= TOUCH + ONE_TIME * speed || (hits && at.gap == nearest)) {
-                self.push_point(pair, at.point, manifold.normal, at.gap, bodies);
+                self.surfaces.push_point(&mut self.problem, pair, (at.point, manifold.normal, at.gap), bodies);
             }
         }
     }
@@ -220,7 +228,7 @@ impl Contacts {
         for impact in &mut impacts[began..] {
             let own = |touch: &&Touch| match touch.source {
                 Source::Pair(pair) => {
-                    let colliders = self.pairs[pair].pair;
+                    let colliders = self.surfaces.pairs[pair].pair;
                     impact.colliders == Some([colliders.a, colliders.b])
                 }
                 Source::Bound(_) => true,
@@ -234,17 +242,17 @@ impl Contacts {
     fn judge(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
         let now = self.clock + time;
         let last = match source {
-            Source::Pair(pair) => &mut self.last_hit[pair],
+            Source::Pair(pair) => &mut self.resting.last_hit[pair],
             Source::Bound(bound) => self.limits.last_hit(bound),
         };
         let chatters = now - *last < CHATTER_TIME && speed < CHATTER_SPEED;
         *last = now;
         let rests = speed < REST_SPEED || chatters || self.impacts_left == 0;
         let e = match source {
-            Source::Pair(pair) => self.pairs[pair].restitution,
+            Source::Pair(pair) => self.surfaces.pairs[pair].restitution,
             Source::Bound(bound) => self.limits.restitution(bound),
         };
-        self.set_rest(source, rests);
+        self.resting.set_source(source, rests, &mut self.limits);
         (if rests { 0.0 } else { e }, rests)
     }
 
@@ -254,8 +262,8 @@ impl Contacts {
         let middle = touches.iter().fold(DVec3::ZERO, |sum, t| sum + t.point) / touches.len() as f64;
         let (bodies, colliders, moving) = match source {
             Source::Pair(pair) => {
-                let at = self.pairs[pair].pair;
-                (self.bodies_of(pair), Some([at.a, at.b]), ImpactKind::Impact)
+                let at = self.surfaces.pairs[pair].pair;
+                (self.surfaces.bodies_of(pair), Some([at.a, at.b]), ImpactKind::Impact)
             }
             Source::Bound(bound) => (self.limits.bodies(bound), None, ImpactKind::Stop),
         };
@@ -274,14 +282,14 @@ impl Contacts {
 
     /// What touches now and approaches too fast to be taken out without bounce.
     fn approaching(&mut self, bodies: &[RigidBody]) -> Option<Source> {
-        for near in 0..self.near.len() {
-            let pair = self.near[near];
-            if !self.may_touch(pair, bodies) {
+        for near in 0..self.near.list.len() {
+            let pair = self.near.list[near];
+            if !self.surfaces.may_touch(pair, bodies) {
                 continue;
             }
-            let manifold = self.manifold(pair, bodies);
+            let manifold = self.surfaces.manifold(pair, bodies);
             let hits = |at: &ManifoldPoint| {
-                at.gap <= TOUCH && self.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
+                at.gap <= TOUCH && self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
             };
             if manifold.points().iter().any(hits) {
                 return Some(Source::Pair(pair));
@@ -298,7 +306,7 @@ fn bounce_together(problem: &mut Problem, least_e: f64) {
     let mut any = false;
     // Compression ends all approach.
     let count = problem.touches.len();
-    let mut es = [0.0; super::problem::MOST_TOUCHES];
+    let mut es = [0.0; MOST_TOUCHES];
     for (e, touch) in es.iter_mut().zip(&mut problem.touches) {
         *e = restitution(touch);
         any |= *e > 0.0;
@@ -309,7 +317,7 @@ fn bounce_together(problem: &mut Problem, least_e: f64) {
         return;
     }
     let compressed = problem.work();
-    let mut pressed = [DVec3::ZERO; super::problem::MOST_TOUCHES];
+    let mut pressed = [DVec3::ZERO; MOST_TOUCHES];
     for index in 0..count {
         pressed[index] = problem.touches[index].impulse;
         let mut impulse = pressed[index];

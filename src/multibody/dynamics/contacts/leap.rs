@@ -4,7 +4,8 @@
 //! it): a step of Newton's method on the contact laws (P. Alart and A. Curnier, A mixed formulation for frictional
 //! contact problems prone to Newton like solution methods, 1991), damped so that no touch leaves its cone.
 
-use super::problem::{PROXIMAL, Problem, ROUNDING, Touch};
+use super::problem::Problem;
+use super::touch::{Active, PROXIMAL, ROUNDING, Touch};
 use soffio_math::{DVec2, DVec3};
 
 /// A leap that changes an impulse by more than this times the velocities it is to correct leads nowhere.
@@ -12,18 +13,24 @@ const MOST_LEAP: f64 = 1e10;
 /// What presses less than this share of the largest impulse does not hinder a leap.
 const SLIGHT: f64 = 1e-3;
 
-/// One unknown of a leap: how its touch's impulse changes with it, and which of its velocities it is to correct.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Active {
-    touch: usize,
-    along: DVec3,
-    test: DVec3,
-}
-
 impl Problem {
     /// Solves at once for all touches that press, each taken to go on sticking, or sliding the way it does.
     pub(super) fn leap(&mut self) {
-        let n = self.rows.len();
+        self.find_active();
+        if !self.solve_active() {
+            return;
+        }
+        for touch in &mut self.touches {
+            touch.leap = DVec3::ZERO;
+        }
+        for (active, x) in self.active.iter().zip(&self.other) {
+            self.touches[active.touch].leap += active.along * x;
+        }
+        self.go_along();
+    }
+
+    /// Finds the unknowns: those of each touch that presses.
+    fn find_active(&mut self) {
         self.active.clear();
         for (index, touch) in self.touches.iter().enumerate() {
             if let Some(twist) = &touch.twist {
@@ -52,7 +59,11 @@ impl Problem {
                 self.active.push(Active { touch: index, along, test: DVec3::X });
             }
         }
-        let count = self.active.len();
+    }
+
+    /// Solves for the unknowns, into `other`. False where that leads nowhere.
+    fn solve_active(&mut self) -> bool {
+        let (n, count) = (self.rows.len(), self.active.len());
         for (i, at) in self.active.iter().enumerate() {
             let first = self.touches[at.touch].first + at.test.max_position();
             let line = &self.w[first * n..][..n];
@@ -68,20 +79,15 @@ impl Problem {
         }
         let wanted = self.other[..count].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
         if !eliminate(&mut self.matrix[..count * count], &mut self.other[..count]) {
-            return;
+            return false;
         }
         // What no impulse can do asks for endless ones.
         let sane = |(at, x): (&Active, &f64)| (x * self.touches[at.touch].k.x_axis.x).abs() < MOST_LEAP * wanted;
-        if !self.active.iter().zip(&self.other[..count]).all(sane) {
-            return;
-        }
-        for touch in &mut self.touches {
-            touch.leap = DVec3::ZERO;
-        }
-        for i in 0..count {
-            let Active { touch, along, .. } = self.active[i];
-            self.touches[touch].leap += along * self.other[i];
-        }
+        self.active.iter().zip(&self.other[..count]).all(sane)
+    }
+
+    /// Lets the touches go along their leaps.
+    fn go_along(&mut self) {
         // As far as all that press to speak of keep to the laws: what stops it opens or slides from there on.
         let points = || self.touches.iter().filter(|touch| touch.pushes());
         let largest = points().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));

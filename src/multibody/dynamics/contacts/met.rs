@@ -4,8 +4,10 @@
 //! its own depth. Where one has gone through the other (thin sheet, a long way) the end says nothing: the depth is then
 //! how far the points that met have gone past each other along the normal they met with.
 
-use super::twist::twist_rows;
-use super::{Contacts, Resistance, SurfacePair, point_rows};
+use super::impact::SurfacePair;
+use super::row::{ROW_ENDS, Row, point_rows, twist_rows};
+use super::state::Contacts;
+use super::touch::Resistance;
 use crate::collision::{Collider, Pair, Shape, TOUCH};
 use soffio_geometry::bodies::RigidBody;
 use soffio_geometry::support::Core;
@@ -16,7 +18,7 @@ use soffio_math::spatial::Vec6;
 const SAME_SIDE: f64 = 0.5;
 
 /// Bodies of a row at most.
-pub const ENDS: usize = super::row::ROW_ENDS;
+pub const ENDS: usize = ROW_ENDS;
 
 /// One point where two bodies met, or one bound that was passed.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +52,7 @@ pub struct Met {
 impl Met {
     /// J v: the rate at which they part, m/s (rad/s).
     pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
-        super::Row { ends: self.ends }.rate(bodies)
+        Row { ends: self.ends }.rate(bodies)
     }
 }
 
@@ -62,17 +64,17 @@ pub fn couple_rows(met: &Met) -> [[Option<(usize, Vec6)>; ENDS]; 3] {
 impl Contacts {
     /// How many pairs and bounds there are: sources of what meets.
     pub fn sources(&self) -> usize {
-        self.pairs.len() + self.limits.count()
+        self.surfaces.pairs.len() + self.limits.count()
     }
 
     /// Everything that met between two states of the bodies and still does at the second, by its source, into `out`, as
     /// far as that has room.
     pub fn meet_on_the_way(&mut self, before: &[RigidBody], after: &[RigidBody], out: &mut Vec<Met>) {
         out.clear();
-        if !self.pairs.is_empty() {
-            self.find_near(before, after);
-            for near in 0..self.near.len() {
-                self.look_at_pair(self.near[near], after, out);
+        if !self.surfaces.pairs.is_empty() {
+            self.near.find(before, after, &self.sleepers.bodies);
+            for near in 0..self.near.list.len() {
+                self.look_at_pair(self.near.list[near], after, out);
             }
         }
         for bound in 0..self.limits.count() {
@@ -82,7 +84,7 @@ impl Contacts {
             }
             let (_, row, point) = self.limits.row(bound, after);
             out.push(Met {
-                source: self.pairs.len() + bound,
+                source: self.surfaces.pairs.len() + bound,
                 s: 1.0,
                 bodies: self.limits.bodies(bound),
                 colliders: None,
@@ -99,20 +101,20 @@ impl Contacts {
     }
 
     fn look_at_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<Met>) {
-        let Pair { a, b } = self.pairs[pair].pair;
-        let ((sweep_a, sweep_b), toi) = self.sweep_pair(pair);
+        let Pair { a, b } = self.surfaces.pairs[pair].pair;
+        let ((sweep_a, sweep_b), toi) = self.near.sweep_pair(&mut self.surfaces, pair);
         let Some(toi) = toi else { return };
         let (s, normal) = (toi.s, toi.proximity.normal);
         let mut add = |point: DVec3, normal: DVec3, gap: f64| {
-            let bodies = [self.colliders[a].body, self.colliders[b].body];
+            let bodies = [self.surfaces.colliders[a].body, self.surfaces.colliders[b].body];
             if gap > TOUCH || out.len() == out.capacity() {
                 return;
             }
-            let surface = &self.pairs[pair];
+            let surface = &self.surfaces.pairs[pair];
             let [row, ..] = point_rows(point, normal, bodies, after);
             let SurfacePair { friction, restitution, resistance, .. } = *surface;
             let ball = |collider: usize| {
-                let Shape { core, radius, place } = &self.colliders[collider].shape;
+                let Shape { core, radius, place } = &self.surfaces.colliders[collider].shape;
                 (*core == Core::Point).then_some((place.position, *radius))
             };
             let balls = [ball(a), ball(b)];
@@ -134,8 +136,8 @@ impl Contacts {
             });
         };
         let pose = |collider: &Collider| collider.body.map_or(soffio_math::Pose::IDENTITY, |body| after[body].pose());
-        let (collider_a, collider_b) = (&self.colliders[a], &self.colliders[b]);
-        let manifold = self.corners.manifold(collider_a, &pose(collider_a), collider_b, &pose(collider_b));
+        let (collider_a, collider_b) = (&self.surfaces.colliders[a], &self.surfaces.colliders[b]);
+        let manifold = self.surfaces.corners.manifold(collider_a, &pose(collider_a), collider_b, &pose(collider_b));
         if manifold.normal.dot(normal) > SAME_SIDE {
             manifold.points().iter().for_each(|at| add(at.point, manifold.normal, at.gap));
         } else {

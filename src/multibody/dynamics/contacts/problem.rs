@@ -17,11 +17,9 @@
 //! to give. The velocities that come out are unique where friction is; the split among redundant feet is the one
 //! nearest to where the rounds began.
 
-use super::grip::Grip;
-use super::leap::Active;
 use super::open::Open;
 use super::row::{ROW_ENDS, Row};
-use super::twist::Twist;
+use super::touch::{Active, LOCKED, PROXIMAL, ROUNDING, Source, Touch};
 use crate::articulation::{Geared, System};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{angular, linear, vec6};
@@ -40,98 +38,9 @@ const CIRCLES: usize = 6;
 /// than this share of the velocities that the impulses make alone: heavy bodies on light ones leave no finer.
 const NEARLY: f64 = 1e-4;
 const NEARLY_SHARE: f64 = 1e-7;
-/// Share of the largest velocities that an impulse makes which is rounding.
-pub(super) const ROUNDING: f64 = 1e-13;
 /// Rounds end when none changes a velocity by more than this, m/s: a resting body creeps by less than a hundredth of
 /// a micrometre a minute.
 const SETTLED: f64 = 1e-11;
-/// ε of the proximal step.
-pub(super) const PROXIMAL: f64 = 1e-12;
-/// A touch whose effective inverse mass is below this (1/kg) is held by joints and cannot move.
-pub(super) const LOCKED: f64 = 1e-9;
-
-/// What a touch belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
-    /// A pair of colliders.
-    Pair(usize),
-    /// A bound of a limit; beyond all of these, a clutch that slips.
-    Bound(usize),
-}
-
-/// A touching point or a reached bound.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Touch {
-    pub source: Source,
-    /// World point, m.
-    pub point: DVec3,
-    /// Unit, from the second collider to the first.
-    pub normal: DVec3,
-    /// Distance, m; or what is left to the bound, rad or m.
-    pub gap: f64,
-    /// Coulomb coefficient; a bound has none.
-    pub friction: f64,
-    /// Least normal velocity t, m/s.
-    pub least: f64,
-    /// Impulse that has acted already, (n, t, b), N s.
-    pub before: DVec3,
-    /// Impulse, (n, t, b), N s.
-    pub impulse: DVec3,
-    /// Impulse that the rounds begin from.
-    pub begin: DVec3,
-    /// Of a couple: what it resists, and its point.
-    pub twist: Option<Twist>,
-    /// Of a clutch: what it may carry.
-    pub grip: Option<Grip>,
-    /// Where the force that it began from acted.
-    pub follows: Option<DVec3>,
-    /// Its rows in the problem: `first` up to `first + rows`.
-    pub first: usize,
-    pub rows: usize,
-    /// Diagonal block of W, inverse of the proximal block, largest tangential stiffness.
-    pub(super) k: DMat3,
-    pub(super) step: DMat3,
-    pub(super) tangential: f64,
-    /// Change that a leap asks for.
-    pub(super) leap: DVec3,
-}
-
-impl Touch {
-    /// A touch without impulse.
-    pub fn new(source: Source, point: DVec3, normal: DVec3, gap: f64, friction: f64) -> Self {
-        Self {
-            source,
-            point,
-            normal,
-            gap,
-            friction,
-            least: 0.0,
-            before: DVec3::ZERO,
-            impulse: DVec3::ZERO,
-            begin: DVec3::ZERO,
-            twist: None,
-            grip: None,
-            follows: None,
-            first: 0,
-            rows: 0,
-            k: DMat3::ZERO,
-            step: DMat3::ZERO,
-            tangential: 0.0,
-            leap: DVec3::ZERO,
-        }
-    }
-
-    /// Is it a point or a bound, which pushes and never pulls?
-    pub fn pushes(&self) -> bool {
-        self.twist.is_none() && self.grip.is_none()
-    }
-
-    /// Effective inverse mass block (n, t, b), 1/kg.
-    pub fn k(&self) -> &DMat3 {
-        &self.k
-    }
-}
-
 /// All touches of one moment.
 #[derive(Clone, Debug)]
 pub(super) struct Problem {

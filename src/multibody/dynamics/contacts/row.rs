@@ -2,6 +2,7 @@
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, dot, vec6};
+use soffio_math::{DVec3, tangents};
 
 /// Most bodies of a row: the two wheels of a gear and what carries their axles.
 pub(in crate::dynamics) const ROW_ENDS: usize = 3;
@@ -37,4 +38,25 @@ impl Row {
         };
         self.ends.iter().flatten().map(along).sum()
     }
+}
+
+/// Rows of a point contact: normal, then two tangents.
+pub(super) fn point_rows(point: DVec3, normal: DVec3, [a, b]: [Option<usize>; 2], bodies: &[RigidBody]) -> [Row; 3] {
+    let (t, u) = tangents(normal);
+    [normal, t, u].map(|axis| {
+        let end = |body: Option<usize>, sign: f64| {
+            let along = sign * axis;
+            body.map(|i| (i, vec6(along, (point - bodies[i].position).cross(along))))
+        };
+        Row { ends: [end(a, 1.0), end(b, -1.0), None] }
+    })
+}
+
+/// Rows of a couple between two bodies: about the normal, then about two tangents.
+pub(super) fn twist_rows(normal: DVec3, [a, b]: [Option<usize>; 2]) -> [Row; 3] {
+    let (t, u) = tangents(normal);
+    [normal, t, u].map(|axis| {
+        let end = |body: Option<usize>, sign: f64| body.map(|i| (i, vec6(DVec3::ZERO, sign * axis)));
+        Row { ends: [end(a, 1.0), end(b, -1.0), None] }
+    })
 }

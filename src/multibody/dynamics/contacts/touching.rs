@@ -1,7 +1,8 @@
 //! What presses on what at the end of a step, how hard, and how fast it slides: what scraping and rolling sound from.
 
-use super::problem::Source;
-use super::{Contacts, Held};
+use super::held::Held;
+use super::state::Contacts;
+use super::touch::Source;
 use crate::collision::Pair;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
@@ -29,15 +30,15 @@ pub struct Touching {
 impl Contacts {
     /// Every touch that the last substep ended with, in a fixed order.
     pub fn touching<'a>(&'a self, bodies: &'a [RigidBody]) -> impl Iterator<Item = Touching> + 'a {
-        self.held.iter().chain(&self.kept).filter_map(|held| match held.source {
+        self.forces.held.iter().chain(&self.forces.kept).filter_map(|held| match held.source {
             Source::Pair(pair) if !held.couple => Some(self.pressed_pair(pair, held, bodies)),
             _ => None,
         })
     }
 
     fn pressed_pair(&self, pair: usize, held: &Held, bodies: &[RigidBody]) -> Touching {
-        let Pair { a, b } = self.pairs[pair].pair;
-        let [first, second] = [a, b].map(|collider| self.colliders[collider].body);
+        let Pair { a, b } = self.surfaces.pairs[pair].pair;
+        let [first, second] = [a, b].map(|collider| self.surfaces.colliders[collider].body);
         let velocity = |body: Option<usize>| {
             body.map_or(DVec3::ZERO, |b| {
                 let body = &bodies[b];

@@ -16,43 +16,10 @@
 //!
 //! In the contact problem a couple is a touch of its own, slave to the normal impulse of its point.
 
-use super::problem::{LOCKED, Problem, ROUNDING, Touch};
-use super::row::Row;
-use soffio_math::spatial::vec6;
-use soffio_math::{DVec2, DVec3, tangents};
-
-/// Resistance of two surfaces to turning on each other, by the force that presses them together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Resistance {
-    /// b: couple against rolling, at most, over the normal force, m.
-    pub rolling: f64,
-    /// d: couple against spin about the normal, at most, over the normal force, m.
-    pub spinning: f64,
-}
-
-impl Resistance {
-    /// Do the surfaces turn freely on each other?
-    pub fn is_none(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
-/// The couple of a point.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Twist {
-    /// Index of the point's own touch.
-    of: usize,
-    resistance: Resistance,
-}
-
-/// Rows of a couple between two bodies: about the normal, then about two tangents.
-pub(super) fn twist_rows(normal: DVec3, [a, b]: [Option<usize>; 2]) -> [Row; 3] {
-    let (t, u) = tangents(normal);
-    [normal, t, u].map(|axis| {
-        let end = |body: Option<usize>, sign: f64| body.map(|i| (i, vec6(DVec3::ZERO, sign * axis)));
-        Row { ends: [end(a, 1.0), end(b, -1.0), None] }
-    })
-}
+use super::problem::Problem;
+use super::row::twist_rows;
+use super::touch::{LOCKED, ROUNDING, Resistance, Touch, Twist};
+use soffio_math::{DVec2, DVec3};
 
 impl Problem {
     /// Adds the couple of the touch at `of`, a point of a pair of these bodies.

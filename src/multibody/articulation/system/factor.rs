@@ -1,0 +1,85 @@
+//! The factor of a figure's rows, and what is solved by it: the tree, the rows outside it, the trains.
+
+use fearless_simd::Simd;
+
+use super::rows::Rows;
+use crate::articulation::dense::Dense;
+use crate::articulation::hung::Hung;
+use crate::articulation::loops::{LoopRow, Loops};
+use crate::articulation::quads::Quads;
+use crate::articulation::trains::{Asked, Trains};
+use crate::articulation::tree::{Form, Tree};
+use soffio_math::spatial::Vec6;
+
+/// Everything that a solve goes through.
+#[derive(Clone, Debug)]
+pub(super) struct Factor {
+    pub tree: Tree,
+    pub hung: Hung,
+    pub loops: Loops,
+    pub dense: Option<Dense>,
+    pub trains: Trains,
+    /// What is being solved for.
+    pub asked: Asked,
+}
+
+impl Factor {
+    /// Rows outside the tree.
+    pub fn outside(&self) -> &[LoopRow] {
+        self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    pub fn outside_mut(&mut self) -> &mut [LoopRow] {
+        self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows)
+    }
+
+    /// Leaves out what is joined to bodies that sleep.
+    pub fn let_sleep(&mut self, asleep: &[bool]) {
+        self.tree.let_sleep(asleep);
+        self.trains.let_sleep(asleep);
+        for row in self.outside_mut().iter_mut().filter(|row| row.sleeps(asleep)) {
+            row.active = false;
+        }
+    }
+
+    /// Factors rows as they are.
+    #[inline(always)]
+    pub fn make<S: Simd>(&mut self, simd: S, rows: &Rows, quads: &Quads) {
+        if let Some(dense) = &mut self.dense {
+            dense.factor(quads, rows.gathering);
+            return;
+        }
+        let (joints, blocks) = (&rows.joints, &rows.blocks);
+        self.tree.factor(simd, quads.all(), &|index| {
+            let joint = &joints[index];
+            match (joint.arms, joint.block) {
+                (Some((a, b)), _) => Form::Point(a, b),
+                (None, Some(block)) => Form::Rows(&blocks[block]),
+                (None, None) => unreachable!("a joint is a point or has a block"),
+            }
+        });
+        self.loops.factor((&self.tree, &self.trains), quads, (rows.gathering, rows.whole));
+    }
+
+    /// Solves for `a` and `lambda` from `b` and `g`, by the best instructions there are.
+    #[inline(always)]
+    pub fn solve<S: Simd>(
+        &mut self,
+        simd: S,
+        quads: &Quads,
+        (b, g): (&mut [Vec6], &[f64]),
+        (a, lambda): (&mut [Vec6], &mut [f64]),
+    ) {
+        if let Some(dense) = &mut self.dense {
+            dense.solve(b, g, a, lambda);
+            return;
+        }
+        self.trains.solve(self.asked, quads, b, a);
+        self.tree.sweep_up(simd, b, g, lambda);
+        self.loops.correct(&self.tree, b, g, a, lambda);
+        self.tree.sweep_down(simd, b, g, lambda, a);
+        self.trains.push(self.loops.pushes(), a);
+    }
+}

@@ -1,0 +1,64 @@
+//! A figure at its start.
+
+use super::contacts::Contacts;
+use super::equations::Equations;
+use super::faults::Recovery;
+use super::forces::{Damping, Springs};
+use super::integrate::Integration;
+use super::loads::JointLoads;
+use super::settings::{Figure, Integrator, Settings, Solver};
+use super::sleep::Sleep;
+use super::step::Dynamics;
+use crate::articulation::System;
+
+/// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
+/// it costs a microsecond or two.
+const FEW: usize = 8;
+
+impl Dynamics {
+    /// A figure at its start.
+    pub fn new(figure: Figure, settings: Settings) -> Self {
+        let n = figure.bodies.len();
+        let mut driven = vec![false; n];
+        for drive in figure.drives {
+            driven[drive.body] = true;
+        }
+        let mut bodies = figure.bodies;
+        for drive in figure.drives {
+            drive.motion.at(0.0).carry(&mut bodies[drive.body]);
+        }
+        let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
+        let plain = system
+            .has_trains()
+            .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
+        system.evaluate(&bodies);
+        let joints = (system.states().len(), settings.stabilization_time);
+        let contacts =
+            Contacts::new(figure.colliders, figure.pairs, (figure.limits, figure.constraints), &bodies, joints);
+        let precise = match settings.integrator {
+            Integrator::Auto => n <= FEW && contacts.is_empty(),
+            Integrator::Precise => true,
+            Integrator::Fast | Integrator::RungeKutta => false,
+        };
+        // The other methods are there to be measured by.
+        let sleeps = !precise && settings.integrator != Integrator::Fast && settings.solver == Solver::Sparse;
+        let ties = (figure.constraints, figure.limits, figure.springs);
+        let damping = if settings.friction { figure.damping } else { vec![Damping::default(); n] };
+        let springs = Springs::new(figure.springs, &bodies);
+        let laws = (settings.gravity, settings.stabilization_time);
+        Self {
+            loads: JointLoads::new(&system, &bodies, figure.constraints, settings.friction),
+            integration: Integration::new(settings.integrator, precise, n, system.quads().members().len()),
+            equations: Equations::new((system, plain), springs, figure.drives, &damping, laws),
+            contacts,
+            sleep: Sleep::new(&bodies, &driven, ties, sleeps),
+            before: bodies.clone(),
+            recovery: Recovery::new(n),
+            settings,
+            time: 0.0,
+            breath: [0.0; 2],
+            substeps: 0,
+            bodies,
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What the joints carry, and how fast what hangs on them can swing.
+
+use crate::articulation::{Constraint, System};
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::{DMat3, DVec3};
+
+/// Loads of the joints of a figure.
+#[derive(Clone)]
+pub(super) struct JointLoads {
+    /// Force that each joint carried when it was last asked, N.
+    loads: Vec<f64>,
+    /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
+    levers: Vec<f64>,
+    /// Is there friction in any pivot?
+    pub rubs: bool,
+    /// Does anything ask at a substep's end what the joints carry there: pivots that rub, or joints that break? Else the next
+    /// one's first stage tells, under its own forces.
+    pub weighs: bool,
+}
+
+impl JointLoads {
+    /// Of joints that carry nothing yet, evaluated at the figure's start; `friction` says whether pivots may rub.
+    pub fn new(system: &System, bodies: &[RigidBody], constraints: &[Constraint], friction: bool) -> Self {
+        let rubs = friction && constraints.iter().any(|constraint| constraint.friction.is_some());
+        Self {
+            loads: vec![0.0; system.joints().len()],
+            levers: levers(system, bodies),
+            rubs,
+            weighs: rubs || constraints.iter().any(|constraint| constraint.breaking.is_some()),
+        }
+    }
+
+    /// Notes what the joints carry by the last solve.
+    pub fn weigh(&mut self, system: &System) {
+        for (joint, load) in self.loads.iter_mut().enumerate() {
+            if system.is_weighed(joint) {
+                *load = system.load(joint);
+            }
+        }
+    }
+
+    /// Forgets it.
+    pub fn forget(&mut self) {
+        self.loads.fill(0.0);
+    }
+
+    /// By joints, N.
+    pub fn all(&self) -> &[f64] {
+        &self.loads
+    }
+
+    /// ω² of the stiffest tension mode, 1/s²: a body that hangs by the arm r under the load λ swings about it with
+    /// ω² = |λ| |r| / I⊥.
+    pub fn stiffest(&self) -> f64 {
+        self.loads.iter().zip(&self.levers).fold(0.0, |most: f64, (load, lever)| most.max(load * lever))
+    }
+}
+
+/// ω² per N of load of each joint's tension mode: the greatest |r| / I⊥ of its bodies at the start, 1/(kg m). Arms and
+/// inertias turn with their body, so it stays what it is.
+fn levers(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
+    let lever = |body: usize, arm: DVec3| arm.length() / least_inertia_across(&bodies[body].inertia_world(), arm);
+    let of_joint = |index: usize| {
+        let (arm_a, arm_b) = system.arms(index);
+        let link = system.joints()[index].link;
+        let own = |body: usize, arm| if system.driven()[body] { 0.0 } else { lever(body, arm) };
+        own(link.a, arm_a).max(link.b.map_or(0.0, |b| own(b, arm_b)))
+    };
+    (0..system.joints().len()).map(of_joint).collect()
+}
+
+/// Smallest moment of inertia about an axis across `arm`, kg m².
+pub(super) fn least_inertia_across(inertia: &DMat3, arm: DVec3) -> f64 {
+    let Some(n) = arm.try_normalize() else { return f64::INFINITY };
+    let (t, b) = soffio_math::tangents(n);
+    let (tt, bb, tb) = (t.dot(*inertia * t), b.dot(*inertia * b), t.dot(*inertia * b));
+    0.5 * (tt + bb) - (0.25 * (tt - bb) * (tt - bb) + tb * tb).sqrt()
+}
