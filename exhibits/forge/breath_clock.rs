@@ -16,9 +16,9 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
 use super::terry_clock as clock;
-use super::terry_clock::{
-    BACK, CANNON, CENTER, DRUM, ESCAPING, FRONT, GREAT, HOUR, MIDDLE, MINUTE, MODULE, MOTION, SWING, THIRD, TIP, TOOTH,
-    WHEEL, along_z, flat, piece, toward, wheel,
+use super::terry_clock::{CANNON, GREAT, HOUR, MINUTE, THIRD, TIP, TOOTH};
+use super::terry_layout::{
+    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, WHEEL, along_z, flat, piece, toward, wheel,
 };
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};

@@ -4,9 +4,9 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::ellipse;
-use soffio_authoring::piece::Piece;
+use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::stock::{
-    BRASS, LEAD, MM, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane, write,
+    BRASS, Finishes, LEAD, MM, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane, write,
 };
 
 /// Pitch diameter over number of teeth.
@@ -20,11 +20,8 @@ const FIRST: DVec3 = DVec3::new(-0.085, 0.25, 0.0);
 pub const DRUM: f64 = 6.0 * MM;
 const THICKNESS: f64 = 5.0 * MM;
 
-/// The model: all axles are z axes.
-pub fn glb() -> Vec<u8> {
-    let mut scene = Scene::default();
-    let finishes = finishes(&mut scene);
-    let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
+/// The wheels where they stand, and the pins that they turn on.
+fn wheels(finishes: &Finishes) -> (Vec<(Piece, DVec3)>, Vec<Part>) {
     let colors = [finishes.wood, finishes.brass, finishes.wood, finishes.brass];
     let mut pieces: Vec<(Piece, DVec3)> = Vec::new();
     let mut pins = Vec::new();
@@ -43,7 +40,7 @@ pub fn glb() -> Vec<u8> {
         pieces.push((
             Piece {
                 name,
-                parts: vec![part(name, wheel, none, along, density, colors[i])],
+                parts: vec![part(name, wheel, DVec3::ZERO, DQuat::IDENTITY, density, colors[i])],
                 bends: Vec::new(),
                 marks: Vec::new(),
             },
@@ -57,24 +54,17 @@ pub fn glb() -> Vec<u8> {
             center += apart * DVec3::new(cos(toward), sin(toward), 0.0);
         }
     }
-    let drum = part("Drum", rod(DRUM, 4.0 * MM, 20.0 * MM), none, facing(), WOOD, finishes.wood);
-    pieces[0].0.parts.push(drum);
-    for (k, name) in ["Fan1", "Fan2", "Fan3", "Fan4"].into_iter().enumerate() {
-        let size = [46.0 * MM, 18.0 * MM, 0.8 * MM];
-        let mut blade = vane(name, size, 28.0 * MM, 0.5 * PI * k as f64, 0.7, (WOOD, finishes.red));
-        blade.place.position.z += 22.0 * MM;
-        pieces[3].0.parts.push(blade);
-    }
-    pieces[3].0.parts.push(part("Arbor", rod(3.0 * MM, 3.0 * MM, 26.0 * MM), none, facing(), WOOD, finishes.wood));
-    // The weight slides on a rod under the left side of the drum.
-    let line = FIRST + DVec3::new(-DRUM, 0.0, 12.0 * MM);
-    let weight = Piece {
-        name: "Weight",
-        parts: vec![part("Weight", rod(9.0 * MM, -14.0 * MM, 14.0 * MM), none, along, LEAD, finishes.lead)],
-        bends: Vec::new(),
-        marks: Vec::new(),
-    };
-    pieces.push((weight, line - 45.0 * MM * DVec3::Y));
+    (pieces, pins)
+}
+
+/// The weight's line: under the left side of the drum.
+fn line() -> DVec3 {
+    FIRST + DVec3::new(-DRUM, 0.0, 12.0 * MM)
+}
+
+/// Plate, foot, legs, the rod on which the weight slides, and the wheels' pins.
+fn stand(finishes: &Finishes, pins: Vec<Part>) -> Piece {
+    let (along, line) = (DQuat::IDENTITY, line());
     let guide = rod(1.2 * MM, 8.0 * MM, line.y - 2.0 * MM);
     let mut parts = vec![
         part(
@@ -112,8 +102,32 @@ pub fn glb() -> Vec<u8> {
         part("Guide", guide, DVec3::new(line.x, 0.0, line.z), along, WOOD, finishes.steel),
     ];
     parts.extend(pins);
-    let stand = Piece { name: "Stand", parts, bends: Vec::new(), marks: Vec::new() };
-    pieces.insert(0, (stand, none));
+    Piece { name: "Stand", parts, bends: Vec::new(), marks: Vec::new() }
+}
+
+/// The model: all axles are z axes.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
+    let (mut pieces, pins) = wheels(&finishes);
+    let drum = part("Drum", rod(DRUM, 4.0 * MM, 20.0 * MM), none, facing(), WOOD, finishes.wood);
+    pieces[0].0.parts.push(drum);
+    for (k, name) in ["Fan1", "Fan2", "Fan3", "Fan4"].into_iter().enumerate() {
+        let size = [46.0 * MM, 18.0 * MM, 0.8 * MM];
+        let mut blade = vane(name, size, 28.0 * MM, 0.5 * PI * k as f64, 0.7, (WOOD, finishes.red));
+        blade.place.position.z += 22.0 * MM;
+        pieces[3].0.parts.push(blade);
+    }
+    pieces[3].0.parts.push(part("Arbor", rod(3.0 * MM, 3.0 * MM, 26.0 * MM), none, facing(), WOOD, finishes.wood));
+    let weight = Piece {
+        name: "Weight",
+        parts: vec![part("Weight", rod(9.0 * MM, -14.0 * MM, 14.0 * MM), none, along, LEAD, finishes.lead)],
+        bends: Vec::new(),
+        marks: Vec::new(),
+    };
+    pieces.push((weight, line() - 45.0 * MM * DVec3::Y));
+    pieces.insert(0, (stand(&finishes, pins), none));
     let (eye, target) = (DVec3::new(0.22, 0.30, 0.90), DVec3::new(0.0, 0.19, 0.0));
     write(scene, "Gear train", &pieces, eye, target)
 }

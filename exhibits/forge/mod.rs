@@ -28,6 +28,7 @@ pub mod steel_fish;
 pub mod strikers;
 pub mod terry_case;
 pub mod terry_clock;
+pub mod terry_layout;
 pub mod terry_strike;
 pub mod twelve_moons;
 pub mod universal_joint;

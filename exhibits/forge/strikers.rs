@@ -87,14 +87,16 @@ fn instruments(finishes: &Finishes) -> [Piece; 4] {
     ]
 }
 
-/// The model.
-pub fn glb() -> Vec<u8> {
-    let mut scene = Scene::default();
-    let finishes = finishes(&mut scene);
+/// Middle of the k-th instrument and mallet along the rail, m.
+fn at(k: usize) -> f64 {
+    (k as f64 - 1.5) * PITCH
+}
+
+/// The rail on its posts, the base, and a leg behind each instrument.
+fn stand(finishes: &Finishes) -> Piece {
     let along = DQuat::IDENTITY;
     let lay = rotation(0.5 * PI * DVec3::Z);
     let flat = rotation(0.5 * PI * DVec3::X);
-    let at = |k: usize| (k as f64 - 1.5) * PITCH;
     let half = 2.0 * PITCH;
     let back = FACE - 34.0 * MM;
     let mut parts = vec![
@@ -155,8 +157,15 @@ pub fn glb() -> Vec<u8> {
         STEEL,
         finishes.black,
     ));
-    let stand = Piece { name: "Stand", parts, bends: Vec::new(), marks: Vec::new() };
-    let mut pieces = vec![(stand, DVec3::ZERO)];
+    Piece { name: "Stand", parts, bends: Vec::new(), marks: Vec::new() }
+}
+
+/// The model.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let height = RAIL - HEAD;
+    let mut pieces = vec![(stand(&finishes), DVec3::ZERO)];
     let mallets = [
         ["MalletBell", "StickBell", "HeadBell", "SailBell"],
         ["MalletDrum", "StickDrum", "HeadDrum", "SailDrum"],

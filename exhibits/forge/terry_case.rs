@@ -3,7 +3,7 @@
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use super::terry_clock::{CENTER, piece};
+use super::terry_layout::{CENTER, piece};
 use soffio_authoring::glb::{Finish, Glass, Scene};
 use soffio_authoring::outline::{Polygon, ellipse, reversed};
 use soffio_authoring::piece::{Part, Piece};

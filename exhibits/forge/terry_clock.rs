@@ -27,6 +27,9 @@
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
+use super::terry_layout::{
+    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, WHEEL, along_z, flat, piece, toward, wheel,
+};
 use super::{terry_case, terry_strike};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};
@@ -36,8 +39,6 @@ use soffio_authoring::stock::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
 };
 
-/// Pitch diameter over number of teeth.
-pub const MODULE: f64 = 1.0 * MM;
 /// Teeth of the wheels and of the pinions that they drive.
 pub const GREAT: (usize, usize) = (64, 8);
 pub(crate) const MINUTE: (usize, usize) = (64, 8);
@@ -46,9 +47,6 @@ pub(crate) const ESCAPE: usize = 42;
 /// Motion work: cannon and minute wheel, its pinion and the hour wheel.
 pub const CANNON: (usize, usize) = (12, 36);
 pub(crate) const HOUR: (usize, usize) = (10, 40);
-/// Of the drum, to the middle of the cord.
-pub const DRUM: f64 = 20.0 * MM;
-
 /// R: where the teeth of the escape wheel end.
 pub const TIP: f64 = 22.5 * MM;
 /// Teeth that the anchor spans.
@@ -75,22 +73,9 @@ const BOB_RADIUS: f64 = 20.0 * MM;
 /// aside and takes the pendulum with it; the leaf is ours, not Terry's.
 const LEAF: f64 = 200.0 * MM;
 
-/// Layers: middles of wheels along z.
-pub const BACK: f64 = -36.0 * MM;
-pub(crate) const MIDDLE: f64 = -26.0 * MM;
-pub(crate) const FRONT: f64 = -16.0 * MM;
-pub(crate) const MOTION: f64 = 4.0 * MM;
-pub(crate) const ESCAPING: f64 = 8.0 * MM;
-/// The pendulum swings in front of the dial and the hands.
-pub const SWING: f64 = 30.0 * MM;
-pub(crate) const WHEEL: f64 = 4.0 * MM;
-
 /// The time that the hands show at the start.
 const HOURS: usize = 10;
 const MINUTES: f64 = 50.0;
-
-/// Middle of the dial.
-pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
 
 /// Where the arbors are, m, in the plane of the plates.
 pub fn places() -> [DVec3; 5] {
@@ -128,23 +113,6 @@ pub fn hour_hand() -> f64 {
 pub fn hand(name: &'static str, [length, width]: [f64; 2], out: f64, z: f64, angle: f64, finish: usize) -> Part {
     let place = out * direction(angle) + DVec3::Z * z;
     part(name, slab(length, width, 0.8 * MM), place, rotation(DVec3::Z * angle), LEAD, finish)
-}
-
-/// Direction from one place to another, rad.
-pub fn toward(from: DVec3, to: DVec3) -> f64 {
-    atan2(to.y - from.y, to.x - from.x)
-}
-
-/// A wheel of wood, crossed out.
-pub fn wheel(teeth: usize, phase: f64) -> Solid {
-    let radius = 0.5 * MODULE * teeth as f64;
-    let holes: Vec<Polygon> = (0..if teeth > 30 { 5 } else { 0 })
-        .map(|k| {
-            let angle = phase + 0.4 * PI * f64::from(k);
-            ellipse(0.58 * radius * DVec2::new(cos(angle), sin(angle)), DVec2::splat(0.22 * radius), 0.0, 24)
-        })
-        .collect();
-    spur(teeth, MODULE, WHEEL, phase, &holes)
 }
 
 /// The escape wheel: tooth 0 points along +y, its leading side (clockwise) is radial.
@@ -186,24 +154,6 @@ fn pallet(side: f64) -> Pose {
 /// How far the escape wheel is turned at the start: its teeth stand free of the anchor, swung by 4° to the left.
 pub fn escape_phase() -> f64 {
     half_span() + 1.8 * MM / TIP
-}
-
-/// A round bar along z.
-fn bar(radius: f64, low: f64, high: f64) -> Solid {
-    rod(radius, low, high)
-}
-
-pub(crate) fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
-    part(name, bar(radius, low, high), DVec3::ZERO, facing(), density, finish)
-}
-
-/// A piece with its own node's mesh first.
-pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
-    Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
-}
-
-pub(crate) fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
-    part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
 }
 
 /// The pendulum in its own frame, the pivot at the origin, that swings as a simple one of this length (m); with a leaf, where
@@ -275,47 +225,33 @@ pub fn anchor(finishes: &Finishes) -> Piece {
     piece
 }
 
-/// The model: all arbors are z axes.
-pub fn glb() -> Vec<u8> {
-    let mut scene = Scene::default();
-    let finishes = finishes(&mut scene);
-    let [great, minute, third, escape, arbor] = places();
-    let wood = finishes.wood;
-    let mut pieces: Vec<(Piece, Pose)> = Vec::new();
-    let at = |position: DVec3| Pose { rotation: DQuat::IDENTITY, position };
+/// A piece and where its frame is in the model.
+type Placed = (Piece, Pose);
 
-    let mut phase = 0.0;
+/// Upright at this place.
+fn at(position: DVec3) -> Pose {
+    Pose { rotation: DQuat::IDENTITY, position }
+}
+
+/// Great wheel with the drum, minute arbor, cannon, third wheel and escape wheel.
+fn going_train(finishes: &Finishes) -> [Placed; 5] {
+    let [great, minute, third, escape, _] = places();
+    let wood = finishes.wood;
     let great_wheel = piece(
         "GreatWheel",
         vec![
-            flat("GreatWheel", wheel(GREAT.0, phase), BACK, WOOD, wood),
+            flat("GreatWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
             along_z("Drum", DRUM - 0.5 * MM, (BACK + 4.0 * MM, BACK + 30.0 * MM), WOOD, wood),
             along_z("GreatArbor", 3.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
     );
-    pieces.push((great_wheel, at(great)));
-
-    phase = meshing_phase(GREAT.1, GREAT.0, phase, toward(great, minute));
+    let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(great, minute));
     let arbor_parts = vec![
         flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
         flat("MinutePinion", spur(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
     ];
-    pieces.push((piece("MinuteArbor", arbor_parts), at(minute)));
-    // The cannon sits tight on the arbor, and yet can be turned: with it go the hand, the motion work and the strike.
-    let cannon_parts = vec![
-        flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
-        hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
-        terry_strike::peg(
-            "LiftingPin",
-            terry_strike::LIFTING_PIN * direction(minute_hand() - 0.5 * PI + terry_strike::lifting_pin_at_the_hour()),
-            (-14.0 * MM, -6.0 * MM),
-            finishes.steel,
-        ),
-    ];
-    pieces.push((piece("Cannon", cannon_parts), at(minute)));
-
-    phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
+    let phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
     let pinion = spur(MINUTE.1, MODULE, 6.0 * MM, phase, &[]);
     let third_wheel = piece(
         "ThirdWheel",
@@ -325,37 +261,57 @@ pub fn glb() -> Vec<u8> {
             along_z("ThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
     );
-    pieces.push((third_wheel, at(third)));
-
     let turned_by = escape_phase();
-    phase = meshing_phase(THIRD.1, THIRD.0, 0.0, toward(third, escape)) - turned_by;
-    let escape_wheel = Piece {
-        marks: Vec::new(),
-        ..piece(
-            "EscapeWheel",
-            vec![
-                flat("EscapeWheel", escape_wheel(), ESCAPING, BRASS, finishes.brass),
-                flat("EscapePinion", spur(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
-                along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
-                part(
-                    "EscapeTooth",
-                    rod(TOOTH, -MM, 1.0 * MM),
-                    DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING),
-                    DQuat::IDENTITY,
-                    BRASS,
-                    finishes.brass,
-                ),
-            ],
-        )
-    };
-    pieces.push((escape_wheel, Pose { rotation: rotation(DVec3::Z * turned_by), position: escape }));
+    let phase = meshing_phase(THIRD.1, THIRD.0, 0.0, toward(third, escape)) - turned_by;
+    [
+        (great_wheel, at(great)),
+        (piece("MinuteArbor", arbor_parts), at(minute)),
+        (cannon(finishes), at(minute)),
+        (third_wheel, at(third)),
+        (escape_piece(finishes, phase), Pose { rotation: rotation(DVec3::Z * turned_by), position: escape }),
+    ]
+}
 
-    let pivot = arbor + DVec3::Z * SWING;
-    pieces.push((anchor(&finishes), at(pivot)));
-    pieces.push((pendulum(&finishes, LENGTH, true), at(pivot)));
+/// The cannon sits tight on the arbor, and yet can be turned: with it go the hand, the motion work and the strike.
+fn cannon(finishes: &Finishes) -> Piece {
+    let cannon_parts = vec![
+        flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, finishes.wood),
+        hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
+        terry_strike::peg(
+            "LiftingPin",
+            terry_strike::LIFTING_PIN * direction(minute_hand() - 0.5 * PI + terry_strike::lifting_pin_at_the_hour()),
+            (-14.0 * MM, -6.0 * MM),
+            finishes.steel,
+        ),
+    ];
+    piece("Cannon", cannon_parts)
+}
 
+/// The escape wheel with its pinion, whose teeth begin at `phase`, and one tooth as a part of its own.
+fn escape_piece(finishes: &Finishes, phase: f64) -> Piece {
+    piece(
+        "EscapeWheel",
+        vec![
+            flat("EscapeWheel", escape_wheel(), ESCAPING, BRASS, finishes.brass),
+            flat("EscapePinion", spur(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, finishes.wood),
+            along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, finishes.wood),
+            part(
+                "EscapeTooth",
+                rod(TOOTH, -MM, 1.0 * MM),
+                DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING),
+                DQuat::IDENTITY,
+                BRASS,
+                finishes.brass,
+            ),
+        ],
+    )
+}
+
+/// Minute wheel and hour wheel with its hand.
+fn motion_work(finishes: &Finishes) -> [Placed; 2] {
+    let wood = finishes.wood;
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-sin(0.9), -cos(0.9), 0.0);
-    phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
+    let phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
     let minute_wheel = piece(
         "MinuteWheel",
         vec![
@@ -363,8 +319,7 @@ pub fn glb() -> Vec<u8> {
             flat("HourPinion", spur(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
         ],
     );
-    pieces.push((minute_wheel, at(minute_wheel_at)));
-    phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
+    let phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
     let hour_wheel = piece(
         "HourWheel",
         vec![
@@ -378,9 +333,12 @@ pub fn glb() -> Vec<u8> {
             hand("HourHand", [54.0 * MM, 4.0 * MM], 31.0 * MM, MOTION + 8.0 * MM, hour_hand(), finishes.black),
         ],
     );
-    pieces.push((hour_wheel, at(CENTER)));
+    [(minute_wheel, at(minute_wheel_at)), (hour_wheel, at(CENTER))]
+}
 
-    let weight = piece(
+/// The weight of the going train.
+fn weight(finishes: &Finishes) -> Piece {
+    piece(
         "TimeWeight",
         vec![part(
             "TimeWeight",
@@ -390,31 +348,37 @@ pub fn glb() -> Vec<u8> {
             LEAD,
             finishes.lead,
         )],
-    );
-    let hangs = DVec3::new(-0.125, 0.36, -10.0 * MM);
-    pieces.push((weight, at(hangs)));
+    )
+}
 
-    let plate = |name, z: f64| {
-        part(
-            name,
-            slab(190.0 * MM, 159.0 * MM, 5.0 * MM),
-            CENTER + DVec3::Z * z,
-            rotation(DVec3::Z * (0.5 * PI)),
-            WOOD,
-            wood,
-        )
-    };
-    let stand = piece(
-        "Frame",
-        vec![
-            plate("BackPlate", -48.0 * MM),
-            part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass),
-        ],
+/// The back plate, and the cock that holds the anchor's arbor at `pivot`.
+fn frame(finishes: &Finishes, pivot: DVec3) -> Piece {
+    let back_plate = part(
+        "BackPlate",
+        slab(190.0 * MM, 159.0 * MM, 5.0 * MM),
+        CENTER + DVec3::Z * (-48.0 * MM),
+        rotation(DVec3::Z * (0.5 * PI)),
+        WOOD,
+        finishes.wood,
     );
-    pieces.insert(0, (stand, at(DVec3::ZERO)));
+    let cock = part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass);
+    piece("Frame", vec![back_plate, cock])
+}
+
+/// The model: all arbors are z axes.
+pub fn glb() -> Vec<u8> {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let [.., arbor] = places();
+    let pivot = arbor + DVec3::Z * SWING;
+    let hangs = DVec3::new(-0.125, 0.36, -10.0 * MM);
     let [case, dial] = terry_case::pieces(&mut scene, &finishes, [hangs, terry_strike::weight_at()]);
-    pieces.insert(1, (case, at(DVec3::ZERO)));
-    pieces.insert(2, (dial, at(DVec3::ZERO)));
+    let mut pieces: Vec<Placed> = [frame(&finishes, pivot), case, dial].map(|still| (still, at(DVec3::ZERO))).into();
+    pieces.extend(going_train(&finishes));
+    pieces.push((anchor(&finishes), at(pivot)));
+    pieces.push((pendulum(&finishes, LENGTH, true), at(pivot)));
+    pieces.extend(motion_work(&finishes));
+    pieces.push((weight(&finishes), at(hangs)));
     let bell = terry_strike::bell(&finishes);
     let hung = at(bell.place.position);
     let at_home =

@@ -16,7 +16,7 @@
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
-use super::terry_clock::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
+use super::terry_layout::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::solid::{Solid, sheet, turned};
@@ -165,12 +165,28 @@ const RISES: [&str; 11] =
 
 /// The moving pieces; the train last struck `hour`.
 pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
-    let p = places();
-    let (wood, steel) = (finishes.wood, finishes.steel);
+    let p = &places();
+    let weight =
+        part("StrikeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead);
+    let pieces = [
+        (great_wheel(finishes), p.great),
+        (pin_wheel(p, finishes), p.pin),
+        (lock_wheel(p, finishes), p.lock),
+        (fly(p, finishes), p.fly),
+        (count_wheel(p, finishes, hour), p.count),
+        (hammer(p, finishes), p.hammer),
+        (count_lever(p, finishes), p.lever),
+        (flirt(p, finishes), p.flirt),
+        (piece("StrikeWeight", vec![weight]), weight_at()),
+    ];
     let at = |position: DVec3| Pose { rotation: DQuat::IDENTITY, position };
-    let mut pieces = Vec::new();
+    pieces.map(|(piece, place)| (piece, at(place))).into()
+}
 
-    let great = piece(
+/// The great wheel with the drum, and the pinion that drives the count wheel.
+fn great_wheel(finishes: &Finishes) -> Piece {
+    let wood = finishes.wood;
+    piece(
         "StrikeWheel",
         vec![
             flat("StrikeWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
@@ -178,24 +194,36 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             along_z("StrikeArbor", 3.0 * MM, (-48.0 * MM, 7.0 * MM), WOOD, wood),
             flat("CountPinion", spur(COUNT.0, MM, WHEEL, 0.0, &[]), COUNT_LAYER, WOOD, wood),
         ],
-    );
-    pieces.push((great, at(p.great)));
+    )
+}
 
+/// Where on the pin wheel's circle a pin meets the hammer's tail, rad.
+fn hammer_met(p: &Places) -> f64 {
+    let (toward_hammer, half) = meeting(p.pin, HAMMER_PINS, p.hammer, TAIL);
+    toward_hammer - half + INSIDE
+}
+
+/// The pin wheel, whose pins lift the hammer.
+fn pin_wheel(p: &Places, finishes: &Finishes) -> Piece {
+    let (wood, steel) = (finishes.wood, finishes.steel);
     let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(p.great, p.pin));
     let mut parts = vec![
         flat("PinWheel", wheel(PIN.0, 0.0), PIN_LAYER, WOOD, wood),
         flat("PinPinion", spur(GREAT.1, MM, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("PinArbor", 2.2 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
-    let (toward_hammer, half) = meeting(p.pin, HAMMER_PINS, p.hammer, TAIL);
-    let met = toward_hammer - half + INSIDE;
+    let met = hammer_met(p);
     const LIFTS: [&str; PINS] = ["Lift1", "Lift2", "Lift3", "Lift4", "Lift5", "Lift6", "Lift7", "Lift8"];
     for (k, name) in LIFTS.into_iter().enumerate() {
         let angle = met - RUN_UP + 2.0 * PI * k as f64 / PINS as f64;
         parts.push(peg(name, polar(HAMMER_PINS, angle), (-29.0 * MM, -23.5 * MM), steel));
     }
-    pieces.push((piece("PinWheel", parts), at(p.pin)));
+    piece("PinWheel", parts)
+}
 
+/// The lock wheel with its pin.
+fn lock_wheel(p: &Places, finishes: &Finishes) -> Piece {
+    let (wood, steel) = (finishes.wood, finishes.steel);
     let phase = meshing_phase(PIN.1, PIN.0, 0.0, toward(p.pin, p.lock));
     let holes: Vec<Polygon> = (0..5)
         .map(|k| {
@@ -203,7 +231,7 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             ellipse(12.0 * MM * DVec2::new(cos(angle), sin(angle)), DVec2::splat(4.2 * MM), 0.0, 24)
         })
         .collect();
-    let lock = piece(
+    piece(
         "LockWheel",
         vec![
             flat("LockWheel", spur(LOCK.0, FINE, WHEEL, 0.0, &holes), LOCK_LAYER, WOOD, wood),
@@ -211,15 +239,18 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             along_z("LockArbor", 2.0 * MM, (-48.0 * MM, -12.0 * MM), WOOD, wood),
             peg("LockPin", polar(LOCK_PIN, LOCKED), (-20.0 * MM, -13.0 * MM), steel),
         ],
-    );
-    pieces.push((lock, at(p.lock)));
+    )
+}
 
+/// The fly: two vanes that the air brakes.
+fn fly(p: &Places, finishes: &Finishes) -> Piece {
+    let (wood, steel) = (finishes.wood, finishes.steel);
     let phase = meshing_phase(LOCK.1, LOCK.0, 0.0, toward(p.lock, p.fly));
     let vane = |name, side: f64| {
         let turn = rotation(0.5 * PI * DVec3::X);
         part(name, slab(36.0 * MM, 18.0 * MM, 0.8 * MM), DVec3::new(26.0 * side, 0.0, -3.0) * MM, turn, WOOD, wood)
     };
-    let fly = piece(
+    piece(
         "Fly",
         vec![
             flat("FlyPinion", spur(LOCK.1, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
@@ -235,9 +266,12 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             vane("Vane1", 1.0),
             vane("Vane2", -1.0),
         ],
-    );
-    pieces.push((fly, at(p.fly)));
+    )
+}
 
+/// The count wheel with the hours' raised rims, turned to where `hour` has been struck.
+fn count_wheel(p: &Places, finishes: &Finishes, hour: usize) -> Piece {
+    let wood = finishes.wood;
     let phase = meshing_phase(COUNT.1, COUNT.0, 0.0, toward(p.great, p.count));
     let disc = turned(
         &[(0.0, -2.0), (42.0, -2.0), (42.0, 2.0), (0.0, 2.0)].map(|(r, y)| DVec2::new(r, y) * MM),
@@ -252,10 +286,14 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
     for (k, name) in RISES.into_iter().enumerate() {
         parts.push(flat(name, rise(k + 2, now), COUNT_LAYER, WOOD, wood));
     }
-    pieces.push((piece("CountWheel", parts), at(p.count)));
+    piece("CountWheel", parts)
+}
 
-    let tail = met_arm(p.pin, met, HAMMER_PINS, p.hammer, -1.0);
-    let hammer = piece(
+/// The hammer; the next pin is just short of its tail.
+fn hammer(p: &Places, finishes: &Finishes) -> Piece {
+    let steel = finishes.steel;
+    let tail = met_arm(p.pin, hammer_met(p), HAMMER_PINS, p.hammer, -1.0);
+    piece(
         "Hammer",
         vec![
             along_z("HammerArbor", 1.5 * MM, (-64.0 * MM, -20.0 * MM), STEEL, steel),
@@ -270,14 +308,17 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
                 finishes.brass,
             ),
         ],
-    );
-    pieces.push((hammer, at(p.hammer)));
+    )
+}
 
+/// The count lever, its feeler in a notch and its arm under the lock pin.
+fn count_lever(p: &Places, finishes: &Finishes) -> Piece {
+    let steel = finishes.steel;
     // In the notch; the arm under the lock pin.
     let feeler = p.count + DVec3::Y * (RIM + FEELER - RISE) - p.lever;
     let lock_pin = p.lock + polar(LOCK_PIN, LOCKED) - p.lever;
     let stop = lock_pin + 2.0 * PEG * DVec3::new(-DRAW, -1.0, 0.0).normalize();
-    let lever = piece(
+    piece(
         "CountLever",
         vec![
             along_z("LeverArbor", 1.5 * MM, (-24.0 * MM, 8.0 * MM), STEEL, steel),
@@ -288,14 +329,17 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             arm("KickArm", DVec3::ZERO, DVec3::X * 14.0 * MM, FLIRT_LAYER + 4.0 * MM, steel),
             peg("Kick", DVec3::X * 14.0 * MM, (-11.0 * MM, -5.0 * MM), steel),
         ],
-    );
-    pieces.push((lever, at(p.lever)));
+    )
+}
 
+/// The flirt, just above the lever's arm.
+fn flirt(p: &Places, finishes: &Finishes) -> Piece {
+    let steel = finishes.steel;
     let (toward_flirt, half) = meeting(CENTER, LIFTING_PIN, p.flirt, REACH);
     let left = met_arm(CENTER, toward_flirt + half - INSIDE, LIFTING_PIN, p.flirt, 1.0);
     // Just above the lever's arm.
     let tip = p.lever + DVec3::new(14.0 * MM, 2.0 * PEG + 0.3 * MM, 0.0) - p.flirt;
-    let flirt = piece(
+    piece(
         "Flirt",
         vec![
             along_z("FlirtArbor", 1.5 * MM, (-13.0 * MM, -4.0 * MM), STEEL, steel),
@@ -304,13 +348,7 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
             arm("FlirtFront", DVec3::ZERO, tip, FLIRT_LAYER - 2.5 * MM, steel),
             peg("FlirtTip", tip, (-13.0 * MM, -5.0 * MM), steel),
         ],
-    );
-    pieces.push((flirt, at(p.flirt)));
-
-    let weight =
-        part("StrikeWeight", rod(22.0 * MM, -60.0 * MM, 60.0 * MM), DVec3::ZERO, DQuat::IDENTITY, LEAD, finishes.lead);
-    pieces.push((piece("StrikeWeight", vec![weight]), at(weight_at())));
-    pieces
+    )
 }
 
 /// Where the weight of the strike hangs, wound up.

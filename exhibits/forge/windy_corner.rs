@@ -8,7 +8,9 @@ use soffio_authoring::mobile::{Mobile, Wires, cascade};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{sheet, turned};
-use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane};
+use soffio_authoring::stock::{
+    BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane,
+};
 
 /// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
 const CARD: f64 = 750.0;
@@ -37,38 +39,42 @@ fn strip(names: [&'static str; 3], size: [f64; 2], stem: f64, finish: usize) -> 
     hung_plate(names, (sheet(&outline, &[hole], THICKNESS, 0.2 * THICKNESS), CARD, finish), stem)
 }
 
-/// Draws, balances and writes the model.
-pub fn glb() -> (Mobile, Vec<u8>) {
-    let mut scene = Scene::default();
-    let finishes = finishes(&mut scene);
-    let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
-
-    // ---- the pinwheel and its vent
+/// The post on which the pinwheel turns.
+fn post(finishes: &Finishes) -> Piece {
     let profile = [(0.0, 0.0), (46.0, 0.0), (48.0, 3.0), (16.0, 11.0), (6.0, 40.0), (4.0, 230.0), (4.0, 256.0)];
     let profile = profile.map(|(r, y)| DVec2::new(r, y) * MM).into_iter().chain([DVec2::new(0.0, 256.0 * MM)]);
-    let post = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
+    let pillar = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
     let behind = -34.0 * MM;
     let spindle = rod(1.5 * MM, behind - 6.0 * MM, -6.0 * MM);
     let at = DVec3::new(0.0, PINWHEEL.y, behind);
-    let post = Piece {
+    Piece {
         name: "Post",
         parts: vec![
-            part("Pillar", post, behind * DVec3::Z, upright, WOOD, finishes.wood),
+            part("Pillar", pillar, behind * DVec3::Z, DQuat::IDENTITY, WOOD, finishes.wood),
             part("Spindle", spindle, PINWHEEL.y * DVec3::Y, facing(), STEEL, finishes.steel),
         ],
         bends: Vec::new(),
         marks: vec![("SpindleEnd", at - behind * DVec3::Z)],
-    };
-    let mut parts = vec![part("Hub", rod(6.0 * MM, -5.0 * MM, 6.0 * MM), none, facing(), BRASS, finishes.brass)];
+    }
+}
+
+/// The pinwheel, its sails red and white in turn.
+fn pinwheel(finishes: &Finishes) -> Piece {
+    let mut parts = vec![part("Hub", rod(6.0 * MM, -5.0 * MM, 6.0 * MM), DVec3::ZERO, facing(), BRASS, finishes.brass)];
     parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
         let size = [44.0 * MM, 26.0 * MM, 1.0 * MM];
         let finish = if k % 2 == 0 { finishes.red } else { finishes.white };
         vane(name, size, 28.0 * MM, 2.0 * PI * k as f64 / VANES.len() as f64, 0.7, (WOOD, finish))
     }));
-    let pinwheel = Piece { name: "Pinwheel", parts, bends: Vec::new(), marks: Vec::new() };
+    Piece { name: "Pinwheel", parts, bends: Vec::new(), marks: Vec::new() }
+}
+
+/// The vent behind it, a ring on a leg.
+fn vent(finishes: &Finishes) -> Piece {
+    let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
     let height = PINWHEEL.y * DVec3::Y;
     let leg = rod(4.0 * MM, 6.0 * MM, PINWHEEL.y - 50.0 * MM);
-    let vent = Piece {
+    Piece {
         name: "Vent",
         parts: vec![
             part("VentRing", ring(46.0 * MM, 52.0 * MM, 36.0 * MM), height, facing(), STEEL, finishes.steel),
@@ -77,22 +83,26 @@ pub fn glb() -> (Mobile, Vec<u8>) {
         ],
         bends: Vec::new(),
         marks: vec![("VentMouth", height + 18.0 * MM * DVec3::Z)],
-    };
+    }
+}
 
-    // ---- the window: it faces the mobile
+/// The window, which faces the mobile.
+fn window(finishes: &Finishes) -> Piece {
     let way = DVec3::new(HOOK.x - WINDOW.x, 0.0, HOOK.z - WINDOW.z);
     let middle = WINDOW.y * DVec2::Y;
     let frame = rectangle(0.19 * DVec2::Y, DVec2::new(0.20, 0.38));
     let opening = rectangle(middle, DVec2::new(0.16, 0.24));
     let frame = sheet(&frame, &[opening], 10.0 * MM, 1.0 * MM);
-    let window = Piece {
+    Piece {
         name: "Window",
-        parts: vec![part("Frame", frame, none, rotation(atan2(way.x, way.z) * DVec3::Y), WOOD, finishes.white)],
+        parts: vec![part("Frame", frame, DVec3::ZERO, rotation(atan2(way.x, way.z) * DVec3::Y), WOOD, finishes.white)],
         bends: Vec::new(),
         marks: vec![("WindowMiddle", WINDOW.y * DVec3::Y)],
-    };
+    }
+}
 
-    // ---- the mobile
+/// The mobile of three strips on two branches, balanced.
+fn mobile(finishes: &Finishes) -> Mobile {
     let large = strip(["LargeStrip", "LargeHook", "LargeStem"], [30.0 * MM, 130.0 * MM], 40.0 * MM, finishes.blue);
     let middle = strip(["MiddleStrip", "MiddleHook", "MiddleStem"], [24.0 * MM, 100.0 * MM], 36.0 * MM, finishes.red);
     let small = strip(["SmallStrip", "SmallHook", "SmallStem"], [20.0 * MM, 80.0 * MM], 44.0 * MM, finishes.white);
@@ -103,15 +113,21 @@ pub fn glb() -> (Mobile, Vec<u8>) {
         droop: [8.0 * MM, 5.0 * MM],
         lower_yaw: LOWER_YAW,
     };
-    let work = cascade(HOOK, &wires, [large, middle, small], gallows(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black));
+    cascade(HOOK, &wires, [large, middle, small], gallows(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black))
+}
 
+/// Draws, balances and writes the model.
+pub fn glb() -> (Mobile, Vec<u8>) {
+    let mut scene = Scene::default();
+    let finishes = finishes(&mut scene);
+    let work = mobile(&finishes);
     let floor = |point: DVec3| DVec3::new(point.x, 0.0, point.z);
     let standing = [
-        (&work.stand, none),
-        (&post, floor(PINWHEEL)),
-        (&pinwheel, PINWHEEL),
-        (&vent, floor(PINWHEEL) - VENT * DVec3::Z),
-        (&window, floor(WINDOW)),
+        (&work.stand, DVec3::ZERO),
+        (&post(&finishes), floor(PINWHEEL)),
+        (&pinwheel(&finishes), PINWHEEL),
+        (&vent(&finishes), floor(PINWHEEL) - VENT * DVec3::Z),
+        (&window(&finishes), floor(WINDOW)),
     ];
     for (piece, position) in standing {
         piece.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position });

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
 use soffio_offline::feed::WavFeed;
 use soffio_offline::wav::{self, Recording};

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::Path;
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
 

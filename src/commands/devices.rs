@@ -1,6 +1,6 @@
 //! `soffio devices`.
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 
 /// Lists what the machine has: microphones, loudspeakers, GPUs.
 #[derive(clap::Args, Debug, Default)]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_exhibit::diagnostic::{near, quoted};
 use soffio_exhibit::{self as exhibit, Exhibit, Origin};
 use soffio_multibody::collision::{Collider, Reason};

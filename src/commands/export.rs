@@ -4,8 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::play::{parse_seconds, parse_size};
-use super::{Failure, Outcome};
+use super::arguments::{parse_seconds, parse_size};
+use super::failure::{Failure, Outcome};
+use super::setup;
 use soffio_offline::export::{key_frames::Bake, mjcf};
 use soffio_offline::feed::WavFeed;
 use soffio_offline::play::{self, OnFrame, Play, PlayError};
@@ -58,7 +59,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    let exhibit = super::open(&args.exhibit)?;
+    let exhibit = setup::open(&args.exhibit)?;
     if !exhibit.shapes.is_empty() {
         eprintln!(
             "left out: key frames of scales and morph weights ({}): shapes stay as they are at rest",
@@ -76,7 +77,7 @@ pub fn run(args: Args) -> Outcome {
         return Err(Failure { code: 2, message: format!("--seconds {seconds}: at most {LONGEST} can be exported") });
     }
     let play = Play {
-        settings: super::settings()?,
+        settings: setup::settings()?,
         breath: recording.as_ref().map(WavFeed::from),
         seconds,
         aspect: f64::from(args.size.0) / f64::from(args.size.1),
@@ -110,8 +111,8 @@ pub fn run(args: Args) -> Outcome {
 /// Runs the exhibit for its frames.
 fn perform(exhibit: &Arc<soffio_exhibit::Exhibit>, play: Play, on_frame: &mut OnFrame) -> Outcome {
     let stop = Arc::new(AtomicBool::new(false));
-    super::stop_on_ctrl_c(&stop);
-    let progress = super::play::progress_bar((play.seconds * STEPS_PER_SECOND as f64).round() as u64);
+    setup::stop_on_ctrl_c(&stop);
+    let progress = setup::progress_bar((play.seconds * STEPS_PER_SECOND as f64).round() as u64);
     let done = play::run(exhibit, play, &stop, |step| progress.set_position(step), Some(on_frame));
     progress.finish_and_clear();
     match done {

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::failure::{Failure, Outcome};
 use super::new::{place, tell, write};
-use super::{Failure, Outcome};
 use soffio_authoring::imported;
 use soffio_exhibit::{self as exhibit, SIDECAR};
 

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_exhibit::{self as exhibit, SIDECAR, labels};
 use soffio_offline::whole_file::WholeFile;
 

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
+use super::setup;
 use soffio_config as config;
 use soffio_exhibit as exhibit;
 use soffio_math::{PI, from_decibels, sin};
@@ -55,7 +56,7 @@ pub fn run(args: Args) -> Outcome {
             recording(&path, args.json)?;
             continue;
         }
-        let exhibit = super::open(&path)?;
+        let exhibit = setup::open(&path)?;
         let levelled = level(&exhibit, config.simulation_settings(1), room.as_ref()).map_err(Failure::input)?;
         print(&levelled, args.json)?;
         if args.write {

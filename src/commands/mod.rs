@@ -1,15 +1,14 @@
 //! The command line: one file per command, arguments and all.
 
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Parser, Subcommand};
 
-use soffio_config::Config;
-use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_simulation::Settings;
-use soffio_sound::RoomSpec;
+mod arguments;
+mod failure;
+mod setup;
+
+pub use failure::{Failure, Outcome};
 
 pub mod bench;
 pub mod breath;
@@ -34,56 +33,6 @@ pub mod render;
 pub mod replay;
 pub mod schema;
 pub mod sound;
-
-/// How a command ended when it did not succeed.
-#[derive(Debug)]
-pub struct Failure {
-    /// 1 bad input or problems found, 2 usage, 3 a device or driver is missing, 130 interrupted.
-    pub code: u8,
-    /// What, where, why, and what to do. Empty where everything is said already.
-    pub message: String,
-}
-
-impl Failure {
-    /// Bad input, or problems found.
-    pub fn input(message: impl std::fmt::Display) -> Self {
-        Self { code: 1, message: message.to_string() }
-    }
-
-    /// A device or driver is missing.
-    pub fn device(message: impl std::fmt::Display) -> Self {
-        Self { code: 3, message: message.to_string() }
-    }
-}
-
-/// Loads an exhibit by its id or folder; all its problems are told at once.
-fn open(id_or_folder: &str) -> Result<Arc<Exhibit>, Failure> {
-    let folder = exhibit::resolve(id_or_folder).map_err(Failure::input)?;
-    exhibit::load(&folder).map(Arc::new).map_err(Failure::input)
-}
-
-/// Constants of a run as the site's configuration has them.
-fn settings() -> Result<Settings, Failure> {
-    let (config, _) = Config::load(None).map_err(Failure::input)?;
-    Ok(config.simulation_settings(1))
-}
-
-/// The room of the site's configuration.
-fn room() -> Result<Option<RoomSpec>, Failure> {
-    let (config, _) = Config::load(None).map_err(Failure::input)?;
-    Ok(config.room.spec())
-}
-
-/// Raises `stop` at Ctrl-C, so that a run ends without half-written files.
-fn stop_on_ctrl_c(stop: &Arc<AtomicBool>) {
-    let stop = stop.clone();
-    if let Err(error) = ctrlc::set_handler(move || stop.store(true, Ordering::Relaxed)) {
-        tracing::warn!("Ctrl-C will not stop this cleanly: {error}");
-    }
-}
-
-/// What a command returns.
-pub type Outcome = Result<(), Failure>;
 
 /// Sculptures that hang in virtual air and answer a visitor's breath.
 #[derive(Parser, Debug)]

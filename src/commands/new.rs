@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
+use super::setup;
 use soffio_authoring::drawing::outlines;
 use soffio_authoring::given::{Metal, Outline, sized};
 use soffio_authoring::notes::{chime, note};
@@ -166,7 +167,7 @@ fn settle(made: &Made, folder: &Path, id: &str) -> Outcome {
 /// All files of a folder on its way; Ctrl-C leaves nothing of it.
 pub(super) fn write(made: &Made, folder: &Path) -> Result<WholeFolder, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
-    super::stop_on_ctrl_c(&stop);
+    setup::stop_on_ctrl_c(&stop);
     let whole = WholeFolder::create(folder).map_err(Failure::input)?;
     for (name, bytes) in &made.files {
         whole.write(name, bytes).map_err(Failure::input)?;

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, IsTerminal};
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_config::{DIGITS, Pin};
 
 /// Asks for the staff's PIN and prints the line that the configuration takes: its hash, never its digits.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_config::Config;
 
 /// Says what the kiosk keeps of its visitors, where and for how long, and what it does not keep.

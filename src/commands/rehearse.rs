@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::play::progress_bar;
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
+use super::setup::{progress_bar, stop_on_ctrl_c};
 use soffio_config::Config;
 use soffio_detector::BlowSettings;
 use soffio_kiosk::venue::site::Site;
@@ -73,7 +73,7 @@ pub fn run(args: Args) -> Outcome {
         return say(&heard, args.json);
     }
     let stop = Arc::new(AtomicBool::new(false));
-    super::stop_on_ctrl_c(&stop);
+    stop_on_ctrl_c(&stop);
     let progress = progress_bar((3600.0 * args.hours) as u64);
     let report = rehearse(rehearsal, &stop, |second| progress.set_position(second));
     progress.finish_and_clear();
@@ -89,7 +89,7 @@ pub fn run(args: Args) -> Outcome {
 
 fn failure(error: RehearsalError) -> Failure {
     match error {
-        RehearsalError::Pictures(error) => super::render::failure(error),
+        RehearsalError::Pictures(error) => Failure::of_picture(error),
         RehearsalError::Interrupted => Failure { code: 130, message: "interrupted; there is no report".into() },
         RehearsalError::Room { .. } => Failure { code: 2, message: error.to_string() },
     }

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_offline::pictures::{FINER, write_png};
 use soffio_render::scenario::Scenario;
-use soffio_render::{Frame, ImageRenderer, Options, RenderError, Shaders};
+use soffio_render::{Frame, ImageRenderer, Options, Shaders};
 use soffio_simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// Picture size without `--size` or a scenario's.
@@ -67,11 +67,11 @@ pub fn run(args: Args) -> Outcome {
         options.look = look;
         options.shaders = shaders.map_or(options.shaders.clone(), Arc::new);
     };
-    let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(failure)?.finer(FINER);
+    let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(Failure::of_picture)?.finer(FINER);
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame = Frame { poses: &snapshot.poses, motes: &snapshot.motes, view, size, exposure, time: snapshot.time };
-    let picture = renderer.draw(&frame).map_err(failure)?;
+    let picture = renderer.draw(&frame).map_err(Failure::of_picture)?;
     write_png(&picture, &args.output).map_err(Failure::input)
 }
 
@@ -107,12 +107,4 @@ fn subject(args: &Args, scenario: &Scenario) -> Result<Exhibit, Failure> {
     }
     let folder = exhibit::resolve(&name).map_err(Failure::input)?;
     exhibit::load(&folder).map_err(Failure::input)
-}
-
-/// A missing driver is not the visitor's input.
-pub(super) fn failure(error: RenderError) -> Failure {
-    match error {
-        RenderError::TooManyBodies { .. } | RenderError::Size { .. } => Failure::input(error),
-        _ => Failure::device(error),
-    }
 }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::failure::{Failure, Outcome};
 use super::play::outputs::Outputs;
-use super::play::progress_bar;
-use super::{Failure, Outcome};
+use super::setup::{open, progress_bar, room, stop_on_ctrl_c};
 use soffio_offline::play::{Play, Summary};
 use soffio_simulation::STEPS_PER_SECOND;
 use soffio_simulation::record::{self, Part};
@@ -43,7 +43,7 @@ pub fn run(args: Args) -> Outcome {
         return Err(Failure { code: 2, message });
     }
     let stop = Arc::new(AtomicBool::new(false));
-    super::stop_on_ctrl_c(&stop);
+    stop_on_ctrl_c(&stop);
     let mut differ = Vec::new();
     for (number, part) in (1..).zip(parts).filter(|(number, _)| wanted.is_none_or(|wanted| wanted == *number)) {
         let recorded = part.end.clone();
@@ -69,11 +69,11 @@ pub fn run(args: Args) -> Outcome {
 
 /// Runs a part again.
 fn again(outputs: &Outputs, part: Part, stop: &AtomicBool) -> Result<Summary, Failure> {
-    let exhibit = super::open(&part.begin.exhibit)?;
+    let exhibit = open(&part.begin.exhibit)?;
     let play = Play {
         settings: part.begin.settings,
         seconds: part.steps() as f64 / STEPS_PER_SECOND as f64,
-        room: super::room()?,
+        room: room()?,
         told: Some(part),
         ..Play::default()
     };

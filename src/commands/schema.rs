@@ -1,6 +1,6 @@
 //! `soffio schema`: the JSON Schema of a file format, for editors that complete and check while one types.
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_config as config;
 use soffio_exhibit as exhibit;
 use soffio_sound::timbre::Preset;

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use soffio_offline::audition::Audition;
 use soffio_offline::{sound_page, wav};
 use soffio_simulation::SAMPLE_RATE;

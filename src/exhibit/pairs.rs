@@ -1,6 +1,6 @@
 //! Which colliders of an exhibit can meet: its joints told to the bounds of `collision::reach`.
 
-use super::Exhibit;
+use super::exhibit::Exhibit;
 use soffio_math::Function;
 use soffio_math::{DVec3, Pose};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};

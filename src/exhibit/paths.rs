@@ -6,6 +6,9 @@ use std::path::{Component, Path, PathBuf};
 use super::codes;
 use super::diagnostic::{Diagnostic, Report, near, quoted};
 
+/// File name of the sidecar in an exhibit folder.
+pub const SIDECAR: &str = "exhibit.toml";
+
 /// Reads a file of at most `limit` bytes.
 pub fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, Diagnostic> {
     let unreadable = |error: std::io::Error| {
@@ -137,7 +140,7 @@ pub fn ids() -> Vec<String> {
         .iter()
         .filter_map(|shelf| std::fs::read_dir(shelf).ok())
         .flat_map(|entries| entries.flatten())
-        .filter(|entry| entry.path().join(super::SIDECAR).is_file())
+        .filter(|entry| entry.path().join(SIDECAR).is_file())
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
         .filter(|id| !id.starts_with('.'))
         .collect();
@@ -149,16 +152,16 @@ pub fn ids() -> Vec<String> {
 /// The folder of an exhibit: an id under `exhibits/`, or a folder.
 pub fn resolve(id_or_folder: &str) -> Result<PathBuf, Report> {
     let folder = PathBuf::from(id_or_folder);
-    if folder.join(super::SIDECAR).is_file() {
+    if folder.join(SIDECAR).is_file() {
         return Ok(folder);
     }
     let is_id = !id_or_folder.is_empty() && !id_or_folder.contains(['/', '\\', '.']);
-    let found = shelves().into_iter().map(|shelf| shelf.join(id_or_folder)).find(|f| f.join(super::SIDECAR).is_file());
+    let found = shelves().into_iter().map(|shelf| shelf.join(id_or_folder)).find(|f| f.join(SIDECAR).is_file());
     if let (true, Some(found)) = (is_id, found) {
         return Ok(found);
     }
     if folder.is_dir() {
-        let message = format!("the folder {id_or_folder} has no {}", super::SIDECAR);
+        let message = format!("the folder {id_or_folder} has no {}", SIDECAR);
         let help = "soffio new begins an exhibit, soffio import makes one of a model";
         return Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)));
     }

@@ -10,7 +10,7 @@
 //! [`View::project`] is the inverse. Invariant: whatever a camera shows in its own aspect is also in any narrower
 //! picture, since the vertical angle is widened until the horizontal one is the same.
 
-use super::Exhibit;
+use super::exhibit::Exhibit;
 use soffio_math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
 
 /// A perspective camera in the world.

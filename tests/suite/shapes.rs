@@ -1,7 +1,8 @@
 //! Key frames of morph weights and of scales: read, played at the time of the run, drawn, and refused where they are broken.
 
 use serde_json::json;
-use soffio_exhibit::shapes::{Growth, ShapeTrack};
+use soffio_exhibit::growth::Growth;
+use soffio_exhibit::shapes::ShapeTrack;
 use soffio_exhibit::{self as exhibit, Exhibit, model};
 use soffio_math::DVec3;
 

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
-use crate::commands::{Failure, Outcome, open};
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
 use soffio_simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_sound::{SoundCommand, Synth};

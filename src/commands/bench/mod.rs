@@ -12,10 +12,10 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::Outcome;
-use super::play::parse_seconds;
+use super::arguments::parse_seconds;
 #[cfg(feature = "kiosk")]
-use super::play::parse_size;
+use super::arguments::parse_size;
+use super::failure::Outcome;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::Limits;
 

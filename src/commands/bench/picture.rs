@@ -7,7 +7,8 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use serde::Serialize;
 
-use crate::commands::{Failure, Outcome, open, render};
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
 use soffio_render::{Frame, Gpu, Options, Quality, Renderer};
 use soffio_simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
@@ -45,10 +46,10 @@ pub fn run(names: &[String], size: (u32, u32), seconds: f64, json: bool) -> Outc
     if names.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
     }
-    let gpu = Gpu::headless().map_err(render::failure)?;
+    let gpu = Gpu::headless().map_err(Failure::of_picture)?;
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if size.0.max(size.1) > limit {
-        return Err(render::failure(soffio_render::RenderError::Size { width: size.0, height: size.1, limit }));
+        return Err(Failure::of_picture(soffio_render::RenderError::Size { width: size.0, height: size.1, limit }));
     }
     if !json {
         println!("{}, {}x{}, 4 samples a pixel", gpu.name(), size.0, size.1);
@@ -83,7 +84,7 @@ fn measure(gpu: &Gpu, exhibit: &Arc<Exhibit>, size: (u32, u32), seconds: f64) ->
         }
     }
     let [light, full] = [Quality::Light, Quality::Full]
-        .map(|quality| draw(gpu, exhibit, size, quality, &moments).map_err(render::failure));
+        .map(|quality| draw(gpu, exhibit, size, quality, &moments).map_err(Failure::of_picture));
     let ((light_cpu_ms, light_ms), (full_cpu_ms, full_ms)) = (light?, full?);
     Ok(Row {
         exhibit: exhibit.id.clone(),

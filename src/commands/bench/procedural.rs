@@ -7,7 +7,8 @@ use std::sync::Arc;
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
-use crate::commands::{Failure, Outcome, open};
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
 use soffio_math::{DVec3, sincos};
 use soffio_multibody::dynamics::{Dynamics, Integrator, Solver};

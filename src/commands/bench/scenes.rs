@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::commands::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::linear::{self, SIZES};
 use soffio_offline::scene::{Limits, Row, Scene, run};

@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16};
 use serde::Serialize;
 
-use crate::commands::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use soffio_math::noise::Random;
 use soffio_math::{PI, exp, ln, sin};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};

@@ -6,7 +6,7 @@ use std::hint::black_box;
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
-use crate::commands::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use soffio_geometry::TriangleMesh;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Finding, Health, judge_blow, judge_room};
+use super::finding::{Finding, Health};
+use super::microphone::{judge_blow, judge_room};
 use indicatif::{ProgressBar, ProgressStyle};
 use soffio_config::{Config, remedies};
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Reason};

@@ -1,6 +1,6 @@
 //! What is heard at a microphone, as findings: the room in silence, and a breath.
 
-use super::{Finding, Health};
+use super::finding::{Finding, Health};
 use soffio_config::remedies::{self, NORMAL_M_S};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
 use soffio_math::decibels;

@@ -8,8 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
 
-use super::play::SolverArg;
-use super::{Failure, Outcome};
+use super::arguments::SolverArg;
+use super::failure::{Failure, Outcome};
+use super::setup;
 use soffio_config::{Config, FILE};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::fleet::Fleet;
@@ -47,7 +48,7 @@ pub struct Args {
     #[arg(long, value_name = "WAV")]
     breath: Option<PathBuf>,
     /// End after so much time
-    #[arg(long = "for", value_name = "SECONDS", value_parser = super::play::parse_seconds, allow_negative_numbers = true)]
+    #[arg(long = "for", value_name = "SECONDS", value_parser = super::arguments::parse_seconds, allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Never play the attract script
     #[arg(long)]
@@ -117,7 +118,7 @@ pub fn run(args: Args) -> Outcome {
         mode: args.solver.mode(),
     };
     let stop = Arc::new(AtomicBool::new(false));
-    super::stop_on_ctrl_c(&stop);
+    setup::stop_on_ctrl_c(&stop);
 
     let fleet = Fleet::start(begun.keeper, begun.kept, begun.safe, &config);
     let (lose_device_at, shaders) = (args.lose_device_at, args.shaders.clone());
@@ -136,7 +137,7 @@ pub fn run(args: Args) -> Outcome {
 /// them the one that a run that died had on show. What does not load is said, and the next one tried.
 fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Arc<Exhibit>, Places), Failure> {
     if let Some(only) = only {
-        let exhibit = super::open(only)?;
+        let exhibit = setup::open(only)?;
         let places = Places::One(exhibit.folder.clone());
         return Ok((exhibit, places));
     }
@@ -145,7 +146,7 @@ fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Ar
     let mut folders = shelf::folders(&places);
     folders.sort_by_key(|folder| Some(shelf::id(folder).as_str()) != last);
     for folder in folders {
-        match super::open(&folder.to_string_lossy()) {
+        match setup::open(&folder.to_string_lossy()) {
             Ok(exhibit) => return Ok((exhibit, places)),
             Err(error) => {
                 tracing::error!("{}", error.message.trim_end());

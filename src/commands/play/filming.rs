@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::outputs::Outputs;
-use crate::commands::{Failure, render};
+use crate::commands::failure::Failure;
 use soffio_exhibit::Exhibit;
 use soffio_offline::pictures::{Pictures, write_png};
 use soffio_offline::video::{Plan, Video};
@@ -25,7 +25,7 @@ impl Filming {
         }
         let plan = wanted.video.as_deref().map(|path| Plan::new(path, wanted.size)).transpose();
         let plan = plan.map_err(|message| Failure { code: 2, message })?;
-        let pictures = Pictures::new(exhibit, wanted.size).map_err(render::failure)?;
+        let pictures = Pictures::new(exhibit, wanted.size).map_err(Failure::of_picture)?;
         if let Some(folder) = &wanted.frames {
             std::fs::create_dir_all(folder)
                 .map_err(|e| Failure::input(format!("cannot make the folder {}: {e}", folder.display())))?;

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, Outcome};
+use super::arguments::{SolverArg, parse_seconds};
+use super::failure::{Failure, Outcome};
+use super::setup;
 use soffio_exhibit::Exhibit;
 use soffio_offline::compare;
 use soffio_offline::feed::WavFeed;
@@ -88,32 +89,6 @@ enum ProfileArg {
     True,
 }
 
-/// Solver on the command line.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub(super) enum SolverArg {
-    /// Constrained dynamics.
-    Dynamics,
-    /// Procedural motion, joint by joint.
-    Procedural,
-    /// Places first, all joints at once.
-    PositionBased,
-    /// The exhibit's own choice.
-    #[default]
-    Auto,
-}
-
-impl SolverArg {
-    /// `None` is the exhibit's own choice.
-    pub fn mode(self) -> Option<MotionMode> {
-        match self {
-            Self::Auto => None,
-            Self::Dynamics => Some(MotionMode::Dynamic),
-            Self::Procedural => Some(MotionMode::Procedural),
-            Self::PositionBased => Some(MotionMode::PositionBased),
-        }
-    }
-}
-
 /// Reads `x,y`.
 pub fn parse_aim(text: &str) -> Result<[f64; 2], String> {
     let wrong = || format!("\"{text}\" is no aim; write two numbers from 0 to 1, as in 0.4,0.5");
@@ -122,23 +97,9 @@ pub fn parse_aim(text: &str) -> Result<[f64; 2], String> {
     Ok([read(x).ok_or_else(wrong)?, read(y).ok_or_else(wrong)?])
 }
 
-/// Reads a positive number of seconds.
-pub fn parse_seconds(text: &str) -> Result<f64, String> {
-    let seconds = text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0 && *s <= 1e6);
-    seconds.ok_or_else(|| format!("\"{text}\" is no length; write seconds, as in 12.5"))
-}
-
-/// Reads `WxH`.
-pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let wrong = || format!("\"{text}\" is no size; write pixels, as in 1280x720, at most 16384 a side");
-    let (w, h) = text.split_once('x').ok_or_else(wrong)?;
-    let read = |part: &str| part.parse::<u32>().ok().filter(|v| (1..=16384).contains(v));
-    Ok((read(w).ok_or_else(wrong)?, read(h).ok_or_else(wrong)?))
-}
-
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    let exhibit = super::open(&args.exhibit)?;
+    let exhibit = setup::open(&args.exhibit)?;
     let recording = args.breath.as_ref().map(wav::read).transpose().map_err(Failure::input)?;
     let script = args.script.as_ref().map(|path| read_script(path, &exhibit)).transpose()?;
     let heard = recording.as_ref().map_or(0.0, wav::Recording::duration);
@@ -152,7 +113,7 @@ pub fn run(args: Args) -> Outcome {
         seed: args.seed,
         wind: !args.no_wind,
         clock: args.clock,
-        ..super::settings()?
+        ..setup::settings()?
     };
     let mode = match (args.compare, args.solver) {
         (true, SolverArg::Auto) => Some(MotionMode::PositionBased),
@@ -170,13 +131,13 @@ pub fn run(args: Args) -> Outcome {
         script,
         seconds,
         aspect: args.outputs.aspect(),
-        room: super::room()?,
+        room: setup::room()?,
         fps: args.outputs.fps,
         ..Play::default()
     };
     let stop = Arc::new(AtomicBool::new(false));
-    super::stop_on_ctrl_c(&stop);
-    let progress = progress_bar((seconds * STEPS_PER_SECOND as f64).round() as u64);
+    setup::stop_on_ctrl_c(&stop);
+    let progress = setup::progress_bar((seconds * STEPS_PER_SECOND as f64).round() as u64);
     if args.compare {
         let compared = compare::run(&exhibit, play, &stop, |step| progress.set_position(step));
         progress.finish_and_clear();
@@ -190,29 +151,15 @@ pub fn run(args: Args) -> Outcome {
 
 /// Writes a comparison where it was asked for, and its numbers as one line.
 fn tell(compared: Result<compare::Comparison, PlayError>, args: &Args, exhibit: &Exhibit) -> Outcome {
-    let compared = compared.map_err(failed)?;
+    let compared = compared.map_err(Failure::of_run)?;
     if let Some(path) = &args.out {
         compared.write_rows(path).map_err(Failure::input)?;
     }
     if let Some(path) = &args.plot {
-        compared.write_picture(path, exhibit).map_err(failed)?;
+        compared.write_picture(path, exhibit).map_err(Failure::of_run)?;
     }
     println!("{}", serde_json::to_string(&compared.summary).map_err(Failure::input)?);
     Ok(())
-}
-
-pub(super) fn failed(error: PlayError) -> Failure {
-    match error {
-        PlayError::Interrupted => Failure { code: 130, message: "interrupted; nothing was written".into() },
-        error => Failure::input(error),
-    }
-}
-
-/// A bar on a terminal, nothing in a pipe.
-pub(super) fn progress_bar(steps: u64) -> ProgressBar {
-    let style =
-        ProgressStyle::with_template("{wide_bar} {percent}% {eta}").unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(steps).with_style(style)
 }
 
 fn read_script(path: &PathBuf, exhibit: &Exhibit) -> Result<Script, Failure> {

@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 
 use indicatif::ProgressBar;
 
-use super::{failed, parse_size};
-use crate::commands::Failure;
+use crate::commands::arguments::parse_size;
+use crate::commands::failure::Failure;
 use soffio_exhibit::Exhibit;
 use soffio_offline::play::{self, Play, Summary};
 use soffio_offline::trace::DEFAULT_FPS;
@@ -74,7 +74,7 @@ impl Outputs {
         stop: &AtomicBool,
         progress: &ProgressBar,
     ) -> Result<Summary, Failure> {
-        play::run(exhibit, self.of(play), stop, |step| progress.set_position(step), None).map_err(failed)
+        play::run(exhibit, self.of(play), stop, |step| progress.set_position(step), None).map_err(Failure::of_run)
     }
 
     /// Runs the exhibit, and films it where pictures are wanted.
@@ -89,7 +89,7 @@ impl Outputs {
         let mut play = self.of(play);
         let on_step = |step| progress.set_position(step);
         let Some(mut filming) = super::filming::Filming::new(self, exhibit, play.seconds)? else {
-            return play::run(exhibit, play, stop, on_step, None).map_err(failed);
+            return play::run(exhibit, play, stop, on_step, None).map_err(Failure::of_run);
         };
         play.audio = play.audio.or_else(|| filming.sound());
         let sound = play.audio.clone();
@@ -100,7 +100,7 @@ impl Outputs {
                 let message = format!("interrupted; the frames so far are in {}, nothing else is", folder.display());
                 Failure { code: 130, message }
             }
-            _ => failed(error),
+            _ => Failure::of_run(error),
         })?;
         filming.finish(sound.as_deref()).map_err(Failure::input)?;
         Ok(summary)

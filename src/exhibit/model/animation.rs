@@ -10,7 +10,9 @@
 use gltf::accessor::Dimensions;
 use gltf::animation::Property;
 
-use super::{Model, accessor};
+use super::accessor;
+use super::primitive::targets;
+use super::scene::Model;
 use soffio_math::{DMat4, DQuat, DVec3};
 
 /// Key frames that belong together.
@@ -82,7 +84,7 @@ pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) ->
         }
         Property::MorphTargetWeights => {
             let values = accessor::vectors::<1>(&output, buffers, &[Dimensions::Scalar], 0.0)?;
-            let targets = super::deform::targets(&target.node());
+            let targets = targets(&target.node());
             let name = target.node().name().map_or_else(|| format!("#{}", target.node().index()), str::to_owned);
             if targets == 0 {
                 return Err(format!("it morphs node \"{name}\", which has no morph targets"));

@@ -10,11 +10,10 @@ use gltf::Semantic;
 use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
 
 use super::accessor::{self, Broken};
-use super::{Influences, MorphTarget, Node, Primitive};
+use super::mesh::{Influences, MorphTarget, Primitive};
+use super::primitive::MAX_TARGETS;
+use super::scene::Node;
 use soffio_math::{DMat3, DMat4, DVec3};
-
-/// Most targets that one primitive morphs to.
-const MAX_TARGETS: usize = 256;
 
 /// Does this node show its mesh otherwise than the file stores it?
 pub fn deforms(node: &gltf::Node) -> bool {
@@ -26,12 +25,6 @@ pub fn deforms(node: &gltf::Node) -> bool {
 fn weights(node: &gltf::Node) -> Vec<f32> {
     let own = node.weights().filter(|w| !w.is_empty());
     own.or_else(|| node.mesh().and_then(|m| m.weights())).unwrap_or_default().to_vec()
-}
-
-/// Morph targets of the mesh of a node; those of its first primitive, as all have the same number.
-pub fn targets(node: &gltf::Node) -> usize {
-    let first = node.mesh().and_then(|mesh| mesh.primitives().next());
-    first.map_or(0, |primitive| primitive.morph_targets().take(MAX_TARGETS).count())
 }
 
 /// Deforms `out`, the primitive as stored and not yet flattened, for `node`.

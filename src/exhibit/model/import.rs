@@ -13,6 +13,7 @@ use super::super::paths;
 use super::primitive::{decode, is_drawn};
 use super::{
     Animation, Camera, Image, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, deform, look,
+    primitive,
 };
 use soffio_math::{DMat4, DQuat, DVec3};
 
@@ -298,7 +299,7 @@ impl Reader {
             if !keyed && !deform::deforms(&node) {
                 continue;
             }
-            if keyed && mesh.primitives().any(|p| p.morph_targets().count() != deform::targets(&node)) {
+            if keyed && mesh.primitives().any(|p| p.morph_targets().count() != primitive::targets(&node)) {
                 let what =
                     format!("node \"{}\": its primitives differ in their morph targets", nodes[node.index()].name);
                 return Err(self.broken(what));

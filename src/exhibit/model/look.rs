@@ -1,4 +1,4 @@
-//! Appearances of a glTF file, and flat normals where it has none.
+//! Appearances of a glTF file.
 //!
 //! Extensions are read as plain JSON, all in one way; a number that is missing or of the wrong type has its default.
 
@@ -6,8 +6,8 @@ use gltf::json::Value;
 use gltf::material::AlphaMode as GltfAlpha;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
-use super::{AlphaMode, Appearance, Details, Levels, Primitive, Sampler, TextureUse, Wrap};
-use soffio_math::{self as math, DVec3};
+use super::appearance::{AlphaMode, Appearance, Details, Levels, Sampler, TextureUse, Wrap};
+use soffio_math as math;
 
 /// Layers of a surface that are not drawn at all.
 const IGNORED: [&str; 4] = [
@@ -18,74 +18,27 @@ const IGNORED: [&str; 4] = [
 ];
 
 /// The metallic–roughness appearance of a glTF material of `document`; `note` is told what is not drawn.
-pub fn appearance(material: &gltf::Material, document: &gltf::Document, mut note: impl FnMut(String)) -> Appearance {
+pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: impl FnMut(String)) -> Appearance {
+    let name = material.name().unwrap_or_default().to_owned();
+    let mut textures = Textures { material, document, name: &name, note };
     let surface = material.pbr_metallic_roughness();
     let strength = material.emissive_strength().unwrap_or(1.0);
-    let name = material.name().unwrap_or_default().to_owned();
-    let mut texture = |texture: gltf::Texture, set: u32, transform: Option<&Value>| {
-        let set = transform.and_then(|t| t.get("texCoord")?.as_u64()).unwrap_or(u64::from(set));
-        if set > 1 {
-            note(format!("material \"{name}\" uses texture coordinates {set}; the second set is drawn instead"));
-        }
-        TextureUse {
-            image: texture.source().index(),
-            set: set.min(1) as usize,
-            transform: transform.map_or(TextureUse::of(0).transform, rows),
-            sampler: sampler(&texture.sampler()),
-        }
-    };
-    const MOVED: &str = "KHR_texture_transform";
-    let info = |i: gltf::texture::Info, texture: &mut dyn FnMut(gltf::Texture, u32, Option<&Value>) -> TextureUse| {
-        texture(i.texture(), i.tex_coord(), i.extension_value(MOVED))
-    };
-    let base_color_texture = surface.base_color_texture().map(|i| info(i, &mut texture));
-    let metallic_roughness_texture = surface.metallic_roughness_texture().map(|i| info(i, &mut texture));
-    let emissive_texture = material.emissive_texture().map(|i| info(i, &mut texture));
-    let normal_texture =
-        material.normal_texture().map(|t| (texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.scale()));
+    let base_color_texture = surface.base_color_texture().map(|i| textures.info(&i));
+    let metallic_roughness_texture = surface.metallic_roughness_texture().map(|i| textures.info(&i));
+    let emissive_texture = material.emissive_texture().map(|i| textures.info(&i));
+    let normal_texture = material
+        .normal_texture()
+        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.scale()));
     let occlusion_texture = material
         .occlusion_texture()
-        .map(|t| (texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.strength()));
-    // Textures of extensions are named by index: one that does not exist is none.
-    let mut detail = |extension: &str, key: &str| {
-        let info = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key))?;
-        let index = info.get("index")?.as_u64()? as usize;
-        let set = info.get("texCoord").and_then(Value::as_u64).unwrap_or(0) as u32;
-        let moved = info.get("extensions").and_then(|e| e.get(MOVED));
-        let scale = info.get("scale").and_then(Value::as_f64).unwrap_or(1.0) as f32;
-        Some((texture(document.textures().nth(index)?, set, moved), scale))
-    };
-    let coat_normal = detail("clearcoat", "clearcoatNormalTexture");
-    let mut detail = |extension: &str, key: &str| detail(extension, key).map(|(texture, _)| texture);
-    let details = Details {
-        transmission: detail("transmission", "transmissionTexture"),
-        thickness: detail("volume", "thicknessTexture"),
-        specular: detail("specular", "specularTexture"),
-        specular_color: detail("specular", "specularColorTexture"),
-        coat: detail("clearcoat", "clearcoatTexture"),
-        coat_roughness: detail("clearcoat", "clearcoatRoughnessTexture"),
-        coat_normal,
-        sheen: detail("sheen", "sheenColorTexture"),
-        sheen_roughness: detail("sheen", "sheenRoughnessTexture"),
-    };
-    let mut samplers = details.all().into_iter().flatten().map(|texture| texture.sampler);
-    if samplers.next().is_some_and(|first| samplers.any(|other| other != first)) {
-        note(format!(
-            "material \"{name}\": the textures of its extensions are all wrapped and filtered like the first"
-        ));
-    }
-    let number = |extension: &str, key: &str, default: f64| {
-        let value = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_f64());
-        value.filter(|v| v.is_finite()).unwrap_or(default) as f32
-    };
-    let color = |extension: &str, key: &str, default: f64| {
-        let list = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_array());
-        std::array::from_fn(|i| list.and_then(|l| l.get(i)?.as_f64()).unwrap_or(default) as f32)
-    };
-    let share = |x: f32| x.clamp(0.0, 1.0);
+        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.strength()));
+    let details = textures.details();
     for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
-        note(format!("material \"{name}\": {extension} is not drawn"));
+        (textures.note)(format!("material \"{name}\": {extension} is not drawn"));
     }
+    let share = |x: f32| x.clamp(0.0, 1.0);
+    let number = |extension: &str, key: &str, default: f64| number(material, extension, key, default);
+    let color = |extension: &str, key: &str, default: f64| color(material, extension, key, default);
     Appearance {
         base_color: surface.base_color_factor(),
         base_color_texture,
@@ -117,8 +70,87 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, mut note
         sheen: color("sheen", "sheenColorFactor", 0.0),
         sheen_roughness: share(number("sheen", "sheenRoughnessFactor", 0.0)),
         details,
-        name: name.clone(),
+        name,
     }
+}
+
+/// How KHR_texture_transform is named in a file.
+const MOVED: &str = "KHR_texture_transform";
+
+/// Reads the textures of a material, and notes what is not drawn as the file says.
+struct Textures<'a, N> {
+    material: &'a gltf::Material<'a>,
+    document: &'a gltf::Document,
+    name: &'a str,
+    note: N,
+}
+
+impl<N: FnMut(String)> Textures<'_, N> {
+    /// A texture on a set of coordinates, moved on them by `transform`.
+    fn texture(&mut self, texture: gltf::Texture, set: u32, transform: Option<&Value>) -> TextureUse {
+        let set = transform.and_then(|t| t.get("texCoord")?.as_u64()).unwrap_or(u64::from(set));
+        if set > 1 {
+            let name = self.name;
+            (self.note)(format!("material \"{name}\" uses texture coordinates {set}; the second set is drawn instead"));
+        }
+        TextureUse {
+            image: texture.source().index(),
+            set: set.min(1) as usize,
+            transform: transform.map_or(TextureUse::of(0).transform, rows),
+            sampler: sampler(&texture.sampler()),
+        }
+    }
+
+    fn info(&mut self, info: &gltf::texture::Info) -> TextureUse {
+        self.texture(info.texture(), info.tex_coord(), info.extension_value(MOVED))
+    }
+
+    /// A texture of an extension, with its scale. Such textures are named by index: one that does not exist is none.
+    fn detail(&mut self, extension: &str, key: &str) -> Option<(TextureUse, f32)> {
+        let info = self.material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key))?;
+        let index = info.get("index")?.as_u64()? as usize;
+        let set = info.get("texCoord").and_then(Value::as_u64).unwrap_or(0) as u32;
+        let moved = info.get("extensions").and_then(|e| e.get(MOVED));
+        let scale = info.get("scale").and_then(Value::as_f64).unwrap_or(1.0) as f32;
+        Some((self.texture(self.document.textures().nth(index)?, set, moved), scale))
+    }
+
+    /// The textures of all extensions.
+    fn details(&mut self) -> Details {
+        let coat_normal = self.detail("clearcoat", "clearcoatNormalTexture");
+        let mut detail = |extension: &str, key: &str| self.detail(extension, key).map(|(texture, _)| texture);
+        let details = Details {
+            transmission: detail("transmission", "transmissionTexture"),
+            thickness: detail("volume", "thicknessTexture"),
+            specular: detail("specular", "specularTexture"),
+            specular_color: detail("specular", "specularColorTexture"),
+            coat: detail("clearcoat", "clearcoatTexture"),
+            coat_roughness: detail("clearcoat", "clearcoatRoughnessTexture"),
+            coat_normal,
+            sheen: detail("sheen", "sheenColorTexture"),
+            sheen_roughness: detail("sheen", "sheenRoughnessTexture"),
+        };
+        let mut samplers = details.all().into_iter().flatten().map(|texture| texture.sampler);
+        if samplers.next().is_some_and(|first| samplers.any(|other| other != first)) {
+            let name = self.name;
+            (self.note)(format!(
+                "material \"{name}\": the textures of its extensions are all wrapped and filtered like the first"
+            ));
+        }
+        details
+    }
+}
+
+/// A finite number of an extension, or `default`.
+fn number(material: &gltf::Material, extension: &str, key: &str, default: f64) -> f32 {
+    let value = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_f64());
+    value.filter(|v| v.is_finite()).unwrap_or(default) as f32
+}
+
+/// A colour of an extension; what is missing of it is `default`.
+fn color(material: &gltf::Material, extension: &str, key: &str, default: f64) -> [f32; 3] {
+    let list = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_array());
+    std::array::from_fn(|i| list.and_then(|l| l.get(i)?.as_f64()).unwrap_or(default) as f32)
 }
 
 /// Translation · rotation · scale of KHR_texture_transform; it turns against the clock, v down.
@@ -151,41 +183,4 @@ fn sampler(source: &gltf::texture::Sampler) -> Sampler {
         smooth_far,
         levels,
     }
-}
-
-/// Gives a primitive without normals flat ones, as glTF 2.0 asks (3.7.2.1): each triangle gets corners of its own.
-pub fn flatten(primitive: &mut Primitive) {
-    let positions = std::mem::take(&mut primitive.positions);
-    let pick = |list: &mut Vec<[f32; 2]>, indices: &[u32]| {
-        *list = if list.is_empty() { Vec::new() } else { indices.iter().map(|&i| list[i as usize]).collect() };
-    };
-    let indices = std::mem::take(&mut primitive.indices);
-    pick(&mut primitive.uvs, &indices);
-    pick(&mut primitive.second_uvs, &indices);
-    let colors = std::mem::take(&mut primitive.colors);
-    if !colors.is_empty() {
-        primitive.colors = indices.iter().map(|&i| colors[i as usize]).collect();
-    }
-    let influences = std::mem::take(&mut primitive.influences);
-    if !influences.is_empty() {
-        primitive.influences = indices.iter().map(|&i| influences[i as usize]).collect();
-    }
-    for target in &mut primitive.targets {
-        (target.normals, target.tangents) = (Vec::new(), Vec::new());
-        target.positions = match target.positions.as_slice() {
-            [] => Vec::new(),
-            shared => indices.iter().map(|&i| shared[i as usize]).collect(),
-        };
-    }
-    primitive.flat = true;
-    // Tangents without normals mean nothing (3.7.2.1).
-    primitive.tangents.clear();
-    primitive.positions = indices.iter().map(|&i| positions[i as usize]).collect();
-    primitive.normals = Vec::with_capacity(primitive.positions.len());
-    for corner in primitive.positions.chunks_exact(3) {
-        let [a, b, c] = [corner[0], corner[1], corner[2]].map(|p| DVec3::from(p.map(f64::from)));
-        let normal = (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
-        primitive.normals.extend([normal; 3]);
-    }
-    primitive.indices = (0..primitive.positions.len() as u32).collect();
 }

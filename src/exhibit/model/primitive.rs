@@ -4,11 +4,21 @@ use gltf::Semantic;
 use gltf::accessor::Dimensions::{Vec2, Vec3, Vec4};
 use gltf::mesh::Mode;
 
-use super::{Primitive, accessor, look};
+use super::mesh::Primitive;
+use super::{accessor, flat};
+
+/// Most targets that one primitive morphs to.
+pub const MAX_TARGETS: usize = 256;
 
 /// Has it triangles?
 pub fn is_drawn(primitive: &gltf::Primitive) -> bool {
     !matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip)
+}
+
+/// Morph targets of the mesh of a node; those of its first primitive, as all have the same number.
+pub fn targets(node: &gltf::Node) -> usize {
+    let first = node.mesh().and_then(|mesh| mesh.primitives().next());
+    first.map_or(0, |primitive| primitive.morph_targets().take(MAX_TARGETS).count())
 }
 
 /// Decodes a primitive; `deform` may change it before flat normals are made.
@@ -56,7 +66,7 @@ pub fn decode(
         return Err("a skin or a morph target makes positions that are not finite".into());
     }
     if out.normals.is_empty() {
-        look::flatten(&mut out);
+        flat::flatten(&mut out);
     }
     Ok(out)
 }

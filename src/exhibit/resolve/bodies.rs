@@ -3,8 +3,9 @@
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Motion};
 use super::super::{Body, Wire, codes};
+use super::context::Context;
+use super::nail_paths::path_node;
 use super::nodes::rigid;
-use super::{Context, path_node};
 use soffio_geometry::Moments;
 use soffio_geometry::bodies::MassProperties;
 use soffio_geometry::mass::principal_axes;

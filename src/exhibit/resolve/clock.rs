@@ -4,7 +4,7 @@ use super::super::clock::{Clock, ROUND, Turning, time_of_day};
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar;
-use super::Context;
+use super::context::Context;
 use soffio_multibody::articulation::{Axis, Constraint};
 
 impl Context<'_> {

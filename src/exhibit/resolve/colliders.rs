@@ -5,13 +5,11 @@ use super::super::fit;
 use super::super::sidecar::{self, ConstrainedPairs, Fit};
 use super::super::source::join;
 use super::super::{Wire, codes};
-use super::{Context, joints};
+use super::context::Context;
+use super::joints::pairs::{Pair, pairs as joined_pairs};
 use soffio_math::{DMat3, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Constraint, Limit, LimitKind};
 use soffio_multibody::collision::{Collider, Excluded, Exclusion, Shape};
-
-/// Two bodies; `None` is the world.
-pub(super) type Pair = (Option<usize>, Option<usize>);
 
 impl Context<'_> {
     /// Collision shapes of nodes and of wires.
@@ -122,7 +120,7 @@ impl Context<'_> {
         let mut pairs: Vec<Exclusion> = Vec::new();
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
             let joined =
-                constraints.iter().flat_map(|c| joints::pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
+                constraints.iter().flat_map(|c| joined_pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
             // Wheels that mesh with some play.
             let meshed = limits.iter().filter_map(|limit| match limit.kind {
                 LimitKind::Play { terms: [a, b], .. } => {

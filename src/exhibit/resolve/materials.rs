@@ -4,7 +4,7 @@ use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::quantity::Length;
 use super::super::source::join;
 use super::super::{Material, MaterialPair, codes, materials};
-use super::Context;
+use super::context::Context;
 use soffio_multibody::dynamics::Resistance;
 
 impl Context<'_> {

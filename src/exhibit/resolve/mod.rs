@@ -7,9 +7,11 @@
 mod bodies;
 mod clock;
 mod colliders;
+mod context;
 mod joints;
 mod materials;
 mod motion;
+mod nail_paths;
 mod nodes;
 mod picture;
 mod surfaces;
@@ -19,14 +21,21 @@ mod words;
 
 use std::path::{Path, PathBuf};
 
+use super::behavior::{BreathTuning, Motion, Touch};
+use super::bodies::Body;
 use super::diagnostic::{Diagnostic, Report, quoted};
-use super::model::{Imported, Model, Node, import};
+use super::exhibit::Exhibit;
+use super::model::{Imported, Model, import};
+use super::paths::SIDECAR;
+use super::presentation::{Attract, Credit, Labels};
 use super::shapes::shapes;
-use super::sidecar::{self, Sidecar, Target};
+use super::sidecar::{self, Sidecar};
 use super::source::Source;
-use super::{Body, Exhibit, Material, Motion, Origin, SIDECAR, Touch, codes, paths, shape};
-use soffio_math::{DMat4, DVec3, Pose};
-use soffio_multibody::dynamics::{Drive, Integrator, Solver};
+use super::{codes, paths, shape};
+use context::Context;
+use nail_paths::add_path_nodes;
+use soffio_math::DVec3;
+use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_multibody::procedural::Method;
 
 /// Most bytes of a sidecar.
@@ -63,48 +72,6 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
         return Err(report);
     }
     Ok(Exhibit { warnings: report.diagnostics, ..exhibit })
-}
-
-/// Name of the node that carries the path of a nail.
-fn path_node(nail: &str) -> String {
-    format!("{nail}/path")
-}
-
-/// The paths that nails move on: each is an empty node of the model at its first point, made a kinematic body.
-fn add_path_nodes(model: &mut Model, sidecar: &Sidecar) {
-    for (name, path) in sidecar.constraint.paths() {
-        let [_, x, y, z] = path.points.first().copied().unwrap_or_default();
-        let place = DMat4::from_translation(DVec3::new(x, y, z));
-        model.roots.push(model.nodes.len());
-        model.nodes.push(Node {
-            name: path_node(name),
-            parent: None,
-            children: Vec::new(),
-            local: place,
-            world: place,
-            mesh: None,
-            camera: None,
-            light: None,
-        });
-    }
-}
-
-impl sidecar::Constraints {
-    /// Names and paths of the constraints that hold a body to a path.
-    fn paths(&self) -> Vec<(&str, &sidecar::Path)> {
-        let required = self.nail.iter().map(|c| (&c.name, Some(&c.to)));
-        let hinges = self.hinge.iter().chain(&self.windmill).map(|c| (&c.name, c.to.as_ref()));
-        let others = self.universal.iter().map(|c| (&c.name, c.to.as_ref()));
-        let sliders = self.slider.iter().map(|c| (&c.name, c.to.as_ref()));
-        let lines = self.line.iter().map(|c| (&c.name, c.to.as_ref()));
-        let welds = self.weld.iter().map(|c| (&c.name, c.to.as_ref()));
-        let all = required.chain(hinges).chain(others).chain(sliders).chain(lines).chain(welds);
-        all.filter_map(|(name, to)| match to {
-            Some(Target::Path { path }) => Some((name.as_str(), path)),
-            _ => None,
-        })
-        .collect()
-    }
 }
 
 /// A plain model as an exhibit in which nothing moves.
@@ -153,14 +120,14 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         wind_surfaces: Vec::new(),
         shelters: Vec::new(),
         winds: Vec::new(),
-        breath: super::BreathTuning::default(),
+        breath: BreathTuning::default(),
         calm: None,
         level_db: 0.0,
         instruments: Vec::new(),
         sounds: Vec::new(),
-        attract: super::Attract::default(),
-        labels: super::Labels::default(),
-        credit: super::Credit::default(),
+        attract: Attract::default(),
+        labels: Labels::default(),
+        credit: Credit::default(),
         warnings: Vec::new(),
         origins: Vec::new(),
     }
@@ -200,48 +167,7 @@ const STRENGTH: f64 = 2.0;
 /// m/s²: what weighs on Earth is as strong a pull where there is no gravity.
 const STANDARD_GRAVITY: f64 = 9.81;
 
-/// What all stages share.
-struct Context<'a> {
-    source: &'a Source,
-    sidecar: &'a Sidecar,
-    model: &'a Model,
-    folder: &'a Path,
-    problems: Vec<Diagnostic>,
-    origins: Vec<Origin>,
-    materials: Vec<Material>,
-    /// Node of each moving body.
-    body_nodes: Vec<usize>,
-    /// Pose of each moving body in the model.
-    poses: Vec<Pose>,
-    /// Pose of each moving body at the start: that of the model, or another that the sidecar or a path gives.
-    starts: Vec<Pose>,
-    /// Bodies that follow a given motion.
-    drives: Vec<Drive>,
-    /// Moving body, the model's animation that it follows, and whether over and over.
-    followed: Vec<(usize, usize, bool)>,
-    /// Moving body that each node belongs to.
-    owner: Vec<Option<usize>>,
-}
-
-impl<'a> Context<'a> {
-    fn new(source: &'a Source, sidecar: &'a Sidecar, model: &'a Model, folder: &'a Path) -> Self {
-        Self {
-            source,
-            sidecar,
-            model,
-            folder,
-            problems: Vec::new(),
-            origins: Vec::new(),
-            materials: Vec::new(),
-            body_nodes: Vec::new(),
-            poses: Vec::new(),
-            starts: Vec::new(),
-            drives: Vec::new(),
-            followed: Vec::new(),
-            owner: vec![None; model.nodes.len()],
-        }
-    }
-
+impl Context<'_> {
     fn resolve(&mut self) -> Exhibit {
         let scene = &self.sidecar.scene;
         let gravity = scene.gravity.map_or(GRAVITY, |g| DVec3::from(g.map(|a| a.0)));
@@ -381,20 +307,6 @@ impl<'a> Context<'a> {
     /// May constraints be open at the start?
     fn assembles(&self) -> bool {
         self.sidecar.solver.assemble
-    }
-
-    /// Adds a problem at a place of the sidecar.
-    fn report(&mut self, at: &str, mut problem: Diagnostic) {
-        problem.location = Some(self.source.locate(self.source.span(at)));
-        self.problems.push(problem);
-    }
-
-    /// Notes a value: from the sidecar where it stands there, else from `otherwise`.
-    fn trace(&mut self, of: &str, key: &str, value: String, at: &str, otherwise: &str) {
-        let given = self.source.value.pointer(at).is_some();
-        let file = SIDECAR;
-        let source = if given { format!("{file}:{}", self.source.line(at)) } else { otherwise.to_owned() };
-        self.origins.push(Origin { of: of.to_owned(), key: key.to_owned(), value, source });
     }
 
     fn camera(&mut self) -> Option<usize> {

@@ -4,7 +4,7 @@ use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::model::{Animation, Channel, Curve};
 use super::super::sidecar;
-use super::Context;
+use super::context::Context;
 use super::joints::interpolation;
 use super::nodes::rigid;
 use soffio_math::Interpolation;

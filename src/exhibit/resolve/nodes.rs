@@ -4,7 +4,7 @@ use super::super::codes;
 use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::sidecar::Point;
 use super::super::source::natural_key;
-use super::Context;
+use super::context::Context;
 use soffio_geometry::TriangleMesh;
 use soffio_math::{DMat3, DMat4, DQuat, DVec3, Pose};
 use soffio_multibody::articulation::{Anchor, Axis};

@@ -11,7 +11,7 @@
 //! A needle that follows heights h(s) feels their slope; a normal map holds it, −∂h/∂x = n_x/n_z, and the way decides its
 //! sign. How wide the picture is on the body its triangles say.
 
-use super::Context;
+use super::context::Context;
 use crate::model::{Image, Primitive};
 use soffio_math::{DMat4, DVec3};
 use soffio_sound::SurfaceLine;

@@ -3,7 +3,7 @@
 use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::sidecar::{self, Faces, Trigger};
 use super::super::{Body, SoundBinding, SoundTrigger, Wire, codes, fit};
-use super::Context;
+use super::context::Context;
 use soffio_geometry::{Extents, TriangleMesh};
 use soffio_math::from_decibels;
 use soffio_multibody::collision::Collider;
@@ -163,38 +163,20 @@ impl Context<'_> {
                     .help("add caption = \"key\" and label.*.caption.key"),
             );
         }
-        let mesh =
-            self.mesh_of(node, &format!("{at}/{}", if given.node.is_some() { "node" } else { "body" }), &used_for)?;
+        let place = format!("{at}/{}", if given.node.is_some() { "node" } else { "body" });
+        let mesh = self.mesh_of(node, &place, &used_for)?;
         let extents = mesh.extents()?;
         // A body of an unknown material was reported; there may be none at all.
         let material = self.materials.get(self.part_material(body, node).unwrap_or(bodies.get(body)?.material))?;
-        let params = given.params;
-        let closed = mesh.is_closed();
-        let measured = if extents.half.z > 0.0 { 2.0 * extents.half.z } else { NOMINAL_THICKNESS };
-        let thickness = params.thickness.map_or(measured, |t| t.0);
-        let volume = if closed { mesh.volume() } else { mesh.area() * thickness };
-        let size = SoundBody {
-            half_extents: [
-                params.half_length.map_or(extents.half.x, |l| l.0),
-                params.half_width.map_or(extents.half.y, |l| l.0),
-            ],
-            thickness,
-            area: if closed { volume / measured } else { mesh.area() },
-            mass: if given.node.is_some() { volume * material.density } else { bodies[body].properties.mass },
-        };
         let sound_material = SoundMaterial {
             youngs_modulus: material.youngs_modulus,
             poisson: material.poisson,
             density: material.density,
             loss_factor: material.loss_factor,
         };
-        for (key, value) in
-            [("half_length", size.half_extents[0]), ("half_width", size.half_extents[1]), ("thickness", thickness)]
-        {
-            let place = format!("{at}/params/{key}");
-            self.positive(value, &place);
-            self.trace(&used_for, key, format!("{:.3} mm", value * 1e3), &place, "derived: mesh");
-        }
+        let own_mass = (given.node.is_none()).then(|| bodies[body].properties.mass);
+        let size = sound_body(given.params, &mesh, &extents, own_mass, material.density);
+        self.trace_size(&size, at, &used_for);
         self.trace(&used_for, "timbre", given.timbre.clone(), &format!("{at}/timbre"), "");
         self.trace(&used_for, "gain", format!("{} dB", given.gain.0), &format!("{at}/gain"), "default");
         let spec = InstrumentSpec {
@@ -206,24 +188,30 @@ impl Context<'_> {
             gain: from_decibels(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };
-        let on = match given.on {
-            Trigger::Impact => SoundTrigger::Impact,
-            Trigger::Slide => SoundTrigger::Slide,
-            Trigger::Wind => SoundTrigger::Wind,
-        };
         let frame = (extents.axes.x_axis, extents.axes.y_axis, extents.center);
         Some((
             spec,
             SoundBinding {
                 name: given.name.clone(),
                 body,
-                on,
+                on: trigger(given.on),
                 instrument,
                 frame,
                 wire,
                 caption: given.caption.clone(),
             },
         ))
+    }
+
+    /// Checks the size of a sounding body and notes where it comes from.
+    fn trace_size(&mut self, size: &SoundBody, at: &str, used_for: &str) {
+        for (key, value) in
+            [("half_length", size.half_extents[0]), ("half_width", size.half_extents[1]), ("thickness", size.thickness)]
+        {
+            let place = format!("{at}/params/{key}");
+            self.positive(value, &place);
+            self.trace(used_for, key, format!("{:.3} mm", value * 1e3), &place, "derived: mesh");
+        }
     }
 
     /// Index of the wire that a sound names.
@@ -277,5 +265,38 @@ impl Context<'_> {
         let part =
             declared.part.iter().find(|part| self.nodes_named(&part.node).iter().any(|&p| self.is_below(node, p)))?;
         self.materials.iter().position(|m| m.name == part.material)
+    }
+}
+
+/// The sidecar's word for what sets a sound off.
+fn trigger(given: Trigger) -> SoundTrigger {
+    match given {
+        Trigger::Impact => SoundTrigger::Impact,
+        Trigger::Slide => SoundTrigger::Slide,
+        Trigger::Wind => SoundTrigger::Wind,
+    }
+}
+
+/// Size and mass of what sounds: those of the mesh where the sidecar gives none. `own_mass` is that of the whole body, kg, where
+/// it sounds as a whole; a part of it weighs what its material does.
+fn sound_body(
+    params: sidecar::SoundParams,
+    mesh: &TriangleMesh,
+    extents: &Extents,
+    own_mass: Option<f64>,
+    density: f64,
+) -> SoundBody {
+    let closed = mesh.is_closed();
+    let measured = if extents.half.z > 0.0 { 2.0 * extents.half.z } else { NOMINAL_THICKNESS };
+    let thickness = params.thickness.map_or(measured, |t| t.0);
+    let volume = if closed { mesh.volume() } else { mesh.area() * thickness };
+    SoundBody {
+        half_extents: [
+            params.half_length.map_or(extents.half.x, |l| l.0),
+            params.half_width.map_or(extents.half.y, |l| l.0),
+        ],
+        thickness,
+        area: if closed { volume / measured } else { mesh.area() },
+        mass: own_mass.unwrap_or(volume * density),
     }
 }

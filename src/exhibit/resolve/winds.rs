@@ -4,7 +4,7 @@ use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Gusts, Point};
 use super::super::{BreathTuning, Calm};
-use super::Context;
+use super::context::Context;
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 use soffio_math::Function;

@@ -3,7 +3,7 @@
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Color, Point, Points};
 use super::super::{Wire, codes};
-use super::Context;
+use super::context::Context;
 use soffio_math::{DVec3, pow};
 
 /// Segments that a smooth wire gets between two of its points.

@@ -8,7 +8,7 @@ use super::super::quantity::{Angle, Quantity};
 use super::super::source::join;
 use super::super::view::{ASIDE, DOWN, UP};
 use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
-use super::Context;
+use super::context::Context;
 use soffio_detector::generate::{self, BreathShape, HARDEST_M_S};
 
 /// Most bytes of a recorded breath.

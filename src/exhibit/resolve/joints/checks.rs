@@ -1,12 +1,13 @@
 //! Do the constraints hold where the bodies start, and can they be solved well?
 
+use super::super::super::bodies::Body;
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
-use super::super::super::{Body, Drive};
-use super::super::Context;
 use super::super::bodies::meters;
+use super::super::context::Context;
 use soffio_math::PI;
 use soffio_multibody::articulation::{Constraint, ConstraintKind};
+use soffio_multibody::dynamics::Drive;
 
 /// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
 pub(super) const APART: f64 = 1e-4;
@@ -81,7 +82,7 @@ impl Context<'_> {
         };
         let mut warned: Vec<String> = Vec::new();
         for constraint in constraints {
-            for (a, b) in super::pairs(&constraint.kind) {
+            for (a, b) in super::pairs::pairs(&constraint.kind) {
                 let (Some(x), Some(y)) = (mass(a), mass(b)) else { continue };
                 let ratio = (x / y).max(y / x);
                 let group = constraint.group().to_owned();

@@ -13,7 +13,7 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Point, Target};
-use super::super::Context;
+use super::super::context::Context;
 use super::{Header, Joints};
 use soffio_math::Function;
 use soffio_math::{DVec3, tangents};

@@ -8,7 +8,7 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Dof, Frame, FrameWord, Op};
-use super::super::Context;
+use super::super::context::Context;
 use super::{Header, Joints};
 use soffio_math::Function;
 use soffio_math::{DMat3, DVec3, tangents};

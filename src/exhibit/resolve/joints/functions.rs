@@ -4,12 +4,12 @@ use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::quantity::Quantity;
 use super::super::super::sidecar;
-use super::super::Context;
+use super::super::context::Context;
 use soffio_math::Function;
 use soffio_math::Interpolation;
 
 /// The sidecar's word for what happens between two keys.
-pub(in super::super) fn interpolation(given: sidecar::Interpolation) -> Interpolation {
+pub(crate) fn interpolation(given: sidecar::Interpolation) -> Interpolation {
     match given {
         sidecar::Interpolation::Step => Interpolation::Step,
         sidecar::Interpolation::Linear => Interpolation::Linear,
@@ -38,11 +38,7 @@ impl Context<'_> {
     }
 
     /// A function that must never be below zero.
-    pub(in super::super) fn function_from_zero<Q: Quantity>(
-        &mut self,
-        given: &sidecar::Function<Q>,
-        at: &str,
-    ) -> Function {
+    pub(crate) fn function_from_zero<Q: Quantity>(&mut self, given: &sidecar::Function<Q>, at: &str) -> Function {
         let function = self.function(given, at);
         let least = match &function {
             Function::Constant(value) => *value,
@@ -54,7 +50,7 @@ impl Context<'_> {
     }
 
     /// Reports times that do not rise, or begin before the start.
-    pub(in super::super) fn rising(&mut self, times: impl Iterator<Item = f64>, at: &str) {
+    pub(crate) fn rising(&mut self, times: impl Iterator<Item = f64>, at: &str) {
         let mut last = f64::NEG_INFINITY;
         for (i, time) in times.enumerate() {
             if time <= last || time < 0.0 {

@@ -7,7 +7,7 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Wheel};
-use super::super::Context;
+use super::super::context::Context;
 use super::{Header, Joints};
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};

@@ -3,7 +3,7 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Travel};
-use super::super::Context;
+use super::super::context::Context;
 use super::Joints;
 use soffio_math::{DVec3, PI, cos};
 use soffio_multibody::articulation::{Anchor, Axis, Limit, LimitKind, Measure};

@@ -10,6 +10,7 @@ mod elements;
 mod functions;
 mod gears;
 mod limits;
+pub(super) mod pairs;
 mod points;
 mod rank;
 mod schedule;
@@ -18,9 +19,8 @@ mod springs;
 use super::super::codes;
 use super::super::diagnostic::{Diagnostic, near, quoted};
 use super::super::sidecar::Friction;
-use super::Context;
 use super::bodies::meters;
-use super::colliders::Pair;
+use super::context::Context;
 pub(super) use functions::interpolation;
 
 use soffio_multibody::articulation::{
@@ -275,18 +275,5 @@ fn rows_of(kind: &ConstraintKind) -> usize {
     match kind {
         ConstraintKind::PointToPoint { .. } => 3,
         ConstraintKind::PointOnPlane { .. } | ConstraintKind::Orientation { .. } | ConstraintKind::Coupling { .. } => 1,
-    }
-}
-
-/// The pairs of bodies that a constraint joins.
-pub(super) fn pairs(kind: &ConstraintKind) -> Vec<Pair> {
-    match kind {
-        ConstraintKind::PointToPoint { a, b } => vec![(a.body, b.body)],
-        ConstraintKind::Orientation { a, b, .. } => vec![(a.body, b.body)],
-        ConstraintKind::PointOnPlane { point, plane, .. } => vec![(point.body, plane.body)],
-        ConstraintKind::Coupling { terms } => {
-            let measured: Vec<_> = terms.iter().map(|term| term.measure.bodies().0).collect();
-            measured.windows(2).map(|pair| (pair[0], pair[1])).collect()
-        }
     }
 }

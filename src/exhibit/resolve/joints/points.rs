@@ -3,7 +3,8 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Attachment, BodyAxis, Point, Target};
-use super::super::{Context, path_node};
+use super::super::context::Context;
+use super::super::nail_paths::path_node;
 use super::{Header, Joints};
 use soffio_math::DVec3;
 use soffio_math::Function;
@@ -89,7 +90,7 @@ impl Context<'_> {
         tilt: Option<&sidecar::Tilt>,
         first: &str,
     ) {
-        let Some(&(a, b)) = super::pairs(&kind).first() else { return };
+        let Some(&(a, b)) = super::pairs::pairs(&kind).first() else { return };
         if !self.joinable(a, b, header.name, header.at) {
             return;
         }

@@ -10,12 +10,12 @@
 //!
 //! Rows that act at different times are not asked together: the test is made anew for each set that acts at once.
 
-use super::super::super::Drive;
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
-use super::super::Context;
+use super::super::context::Context;
 use soffio_math::{DVec3, cos};
 use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind, Measure};
+use soffio_multibody::dynamics::Drive;
 
 /// Sine of the angle below which a row lies in the span of the others: single-precision files give 10⁻⁷.
 const DEPENDENT: f64 = 1e-6;

@@ -3,7 +3,7 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar::{self, Restore, Start, Timing, Windows};
-use super::super::Context;
+use super::super::context::Context;
 use super::{Header, Joints};
 use soffio_multibody::articulation::{Breaking, Constraint, Schedule, Spring, Trigger, Window};
 use soffio_multibody::collision::Collider;

@@ -3,7 +3,7 @@
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
 use super::super::super::sidecar;
-use super::super::Context;
+use super::super::context::Context;
 use super::{Header, Joints, functions};
 use soffio_math::Function;
 use soffio_multibody::articulation::{Spring, SpringKind};

@@ -1,0 +1,59 @@
+//! What the parts of Eli Terry's clock share: its layers, the place of its dial, its wheels, and how parts are placed.
+
+use soffio_math::{DQuat, DVec2, DVec3, PI, atan2, cos, sin};
+
+use soffio_authoring::outline::{Polygon, ellipse};
+use soffio_authoring::piece::{Part, Piece};
+use soffio_authoring::solid::Solid;
+use soffio_authoring::stock::{MM, facing, part, rod, spur};
+
+/// Pitch diameter over number of teeth.
+pub const MODULE: f64 = 1.0 * MM;
+/// Of the drum, to the middle of the cord.
+pub const DRUM: f64 = 20.0 * MM;
+
+/// Layers: middles of wheels along z, m.
+pub const BACK: f64 = -36.0 * MM;
+pub(crate) const MIDDLE: f64 = -26.0 * MM;
+pub(crate) const FRONT: f64 = -16.0 * MM;
+pub(crate) const MOTION: f64 = 4.0 * MM;
+pub(crate) const ESCAPING: f64 = 8.0 * MM;
+/// The pendulum swings in front of the dial and the hands.
+pub const SWING: f64 = 30.0 * MM;
+/// Thickness of a wheel.
+pub(crate) const WHEEL: f64 = 4.0 * MM;
+
+/// Middle of the dial.
+pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
+
+/// Direction from one place to another, rad.
+pub fn toward(from: DVec3, to: DVec3) -> f64 {
+    atan2(to.y - from.y, to.x - from.x)
+}
+
+/// A wheel of wood, crossed out.
+pub fn wheel(teeth: usize, phase: f64) -> Solid {
+    let radius = 0.5 * MODULE * teeth as f64;
+    let holes: Vec<Polygon> = (0..if teeth > 30 { 5 } else { 0 })
+        .map(|k| {
+            let angle = phase + 0.4 * PI * f64::from(k);
+            ellipse(0.58 * radius * DVec2::new(cos(angle), sin(angle)), DVec2::splat(0.22 * radius), 0.0, 24)
+        })
+        .collect();
+    spur(teeth, MODULE, WHEEL, phase, &holes)
+}
+
+/// A round bar along z, from `low` to `high`.
+pub(crate) fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
+    part(name, rod(radius, low, high), DVec3::ZERO, facing(), density, finish)
+}
+
+/// A piece with its own node's mesh first.
+pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
+    Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
+}
+
+/// A flat part at the height `z` of the piece.
+pub(crate) fn flat(name: &'static str, solid: Solid, z: f64, density: f64, finish: usize) -> Part {
+    part(name, solid, DVec3::Z * z, DQuat::IDENTITY, density, finish)
+}

@@ -1,0 +1,46 @@
+//! How a command ends.
+
+use soffio_offline::play::PlayError;
+#[cfg(feature = "kiosk")]
+use soffio_render::RenderError;
+
+/// What a command returns.
+pub type Outcome = Result<(), Failure>;
+
+/// How a command ended when it did not succeed.
+#[derive(Debug)]
+pub struct Failure {
+    /// 1 bad input or problems found, 2 usage, 3 a device or driver is missing, 130 interrupted.
+    pub code: u8,
+    /// What, where, why, and what to do. Empty where everything is said already.
+    pub message: String,
+}
+
+impl Failure {
+    /// Bad input, or problems found.
+    pub fn input(message: impl std::fmt::Display) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
+    /// A device or driver is missing.
+    pub fn device(message: impl std::fmt::Display) -> Self {
+        Self { code: 3, message: message.to_string() }
+    }
+
+    /// A run that ended early.
+    pub fn of_run(error: PlayError) -> Self {
+        match error {
+            PlayError::Interrupted => Self { code: 130, message: "interrupted; nothing was written".into() },
+            error => Self::input(error),
+        }
+    }
+
+    /// A picture that could not be drawn. A missing driver is not the visitor's input.
+    #[cfg(feature = "kiosk")]
+    pub fn of_picture(error: RenderError) -> Self {
+        match error {
+            RenderError::TooManyBodies { .. } | RenderError::Size { .. } => Self::input(error),
+            _ => Self::device(error),
+        }
+    }
+}

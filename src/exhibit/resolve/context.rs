@@ -1,0 +1,70 @@
+//! What all stages of resolving share.
+
+use std::path::Path;
+
+use super::super::bodies::Material;
+use super::super::diagnostic::Diagnostic;
+use super::super::exhibit::Origin;
+use super::super::model::Model;
+use super::super::paths::SIDECAR;
+use super::super::sidecar::Sidecar;
+use super::super::source::Source;
+use soffio_math::Pose;
+use soffio_multibody::dynamics::Drive;
+
+/// What all stages share.
+pub(super) struct Context<'a> {
+    pub(super) source: &'a Source,
+    pub(super) sidecar: &'a Sidecar,
+    pub(super) model: &'a Model,
+    pub(super) folder: &'a Path,
+    pub(super) problems: Vec<Diagnostic>,
+    pub(super) origins: Vec<Origin>,
+    pub(super) materials: Vec<Material>,
+    /// Node of each moving body.
+    pub(super) body_nodes: Vec<usize>,
+    /// Pose of each moving body in the model.
+    pub(super) poses: Vec<Pose>,
+    /// Pose of each moving body at the start: that of the model, or another that the sidecar or a path gives.
+    pub(super) starts: Vec<Pose>,
+    /// Bodies that follow a given motion.
+    pub(super) drives: Vec<Drive>,
+    /// Moving body, the model's animation that it follows, and whether over and over.
+    pub(super) followed: Vec<(usize, usize, bool)>,
+    /// Moving body that each node belongs to.
+    pub(super) owner: Vec<Option<usize>>,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(source: &'a Source, sidecar: &'a Sidecar, model: &'a Model, folder: &'a Path) -> Self {
+        Self {
+            source,
+            sidecar,
+            model,
+            folder,
+            problems: Vec::new(),
+            origins: Vec::new(),
+            materials: Vec::new(),
+            body_nodes: Vec::new(),
+            poses: Vec::new(),
+            starts: Vec::new(),
+            drives: Vec::new(),
+            followed: Vec::new(),
+            owner: vec![None; model.nodes.len()],
+        }
+    }
+
+    /// Adds a problem at a place of the sidecar.
+    pub(super) fn report(&mut self, at: &str, mut problem: Diagnostic) {
+        problem.location = Some(self.source.locate(self.source.span(at)));
+        self.problems.push(problem);
+    }
+
+    /// Notes a value: from the sidecar where it stands there, else from `otherwise`.
+    pub(super) fn trace(&mut self, of: &str, key: &str, value: String, at: &str, otherwise: &str) {
+        let given = self.source.value.pointer(at).is_some();
+        let file = SIDECAR;
+        let source = if given { format!("{file}:{}", self.source.line(at)) } else { otherwise.to_owned() };
+        self.origins.push(Origin { of: of.to_owned(), key: key.to_owned(), value, source });
+    }
+}
