@@ -104,7 +104,8 @@ fn module(path: &Path) -> Option<String> {
 
 /// The packages that a crate depends on, but for its tests.
 fn dependencies(own: &str) -> Vec<String> {
-    let file = if own == "commands" { root().join("Cargo.toml") } else { root().join("src").join(own).join("Cargo.toml") };
+    let file =
+        if own == "commands" { root().join("Cargo.toml") } else { root().join("src").join(own).join("Cargo.toml") };
     let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     let manifest: toml::Table = text.parse().expect("a manifest");
     let of = |table: &toml::Table| -> Vec<String> {
