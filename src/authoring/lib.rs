@@ -3,6 +3,29 @@
 //! The shipped exhibits (`exhibits/forge`) and those that a curator begins (`soffio new`) are made by the same code.
 //! Invariant: no clock, no randomness without a stated seed, software transcendentals: the same dimensions give the same
 //! bytes on any machine. Drawings alone ([`drawing`]) pass through arithmetic that is not ours.
+//!
+//! It never writes a file: it returns the bytes of a folder ([`Made`]), and the program writes them. It never simulates.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`starter`], [`template`], [`notes`] | the folders that `soffio new` begins: a mobile, a chime, a copy, an empty one |
+//! | [`imported`], [`khr`] | a sidecar for a glTF model from elsewhere |
+//! | [`drawing`], [`outline`] | outlines from an SVG, splines, rings |
+//! | [`solid`], [`piece`], [`stock`] | sheet metal, turned parts and wire, with their mass |
+//! | [`mobile`], [`hung`] | branches that balance, and what hangs on them |
+//! | [`glb`], [`model_writer`] | the glTF writer |
+//!
+//! ```
+//! use soffio_authoring::{id_problem, starter};
+//!
+//! assert!(id_problem("my-mobile").is_none());
+//! assert!(id_problem("My mobile!").is_some());
+//!
+//! let made = starter::empty("my-mobile");
+//! let names: Vec<&str> = made.files.iter().map(|(name, _)| name.as_str()).collect();
+//! assert!(names.contains(&"exhibit.toml"), "{names:?}");
+//! assert_eq!(made.files, starter::empty("my-mobile").files, "the same input gives the same bytes");
+//! ```
 
 use soffio_exhibit::diagnostic::Diagnostic;
 

@@ -5,6 +5,27 @@
 //! defaults are the only list of keys there is: a key they do not have is unknown (`config/diagnose.rs`).
 //!
 //! Invariant: a [`Config`] that came from [`Config::load`] or [`Config::parse`] is inside every range of [`LIMITS`].
+//!
+//! It reads one file, and writes none. It never applies a setting: the kiosk and the program do. A mistake in the file is a
+//! [`ConfigError`] that lists all problems with their lines and the nearest valid key.
+//!
+//! The main types are [`Config`] (one table per concern), [`OpenHours`] and [`Hours`] (when the house is open, quiet or
+//! dark), [`Pin`] (the staff's, as an Argon2 hash), [`Chord`] (keys pressed together) and [`remedies`] (what to tell staff
+//! when a device is missing).
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use soffio_config::Config;
+//!
+//! let file = Path::new("kiosk.toml");
+//! let config = Config::parse("[visit]\nbreath = false\n", file).expect("a good file");
+//! assert!(!config.visit.breath);
+//! assert_eq!(config.screen, Config::default().screen, "what is left out has its default");
+//!
+//! let error = Config::parse("[visit]\nbreth = false\n", file).expect_err("there is no such key");
+//! assert!(error.to_string().contains("breath"), "the nearest key is named");
+//! ```
 
 use std::path::{Path, PathBuf};
 

@@ -12,6 +12,30 @@
 //!
 //! Invariants: causal; no state depends on how samples were cut into blocks; the speed is exactly 0 unless the reason
 //! is [`Reason::Blow`].
+//!
+//! It never opens a device and reads no clock or file: samples come in, at any rate from 8 to 192 kHz, and an estimate comes
+//! out. It never keeps the samples either: what it holds is features of the last seconds, from which no speech can be
+//! restored. After its construction it never allocates.
+//!
+//! The main types are [`BlowDetector`] (one microphone, or one with two capsules), [`BlowEstimate`] (speed, confidence,
+//! [`Reason`], levels) and [`BlowSettings`] (sensitivity, model, rules). The module [`generate`] makes synthetic breaths and
+//! noises for tests.
+//!
+//! ```
+//! use soffio_detector::generate::{BreathShape, breath};
+//! use soffio_detector::{BlowDetector, Reason};
+//!
+//! let rate = 16_000;
+//! let samples = breath(rate, 1, &BreathShape { strength: 9.0, ..BreathShape::default() });
+//! let mut detector = BlowDetector::new(rate);
+//! let mut strongest: f64 = 0.0;
+//! for block in samples.chunks(80) {
+//!     detector.push(block, &[]); // the second slice is what the loudspeaker played meanwhile
+//!     strongest = strongest.max(detector.estimate().speed);
+//! }
+//! assert!(strongest > 1.0, "the breath is detected: {strongest} m/s");
+//! assert_ne!(detector.estimate().reason, Reason::Blow, "it is over");
+//! ```
 
 mod capsules;
 mod decision;

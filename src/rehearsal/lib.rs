@@ -11,6 +11,24 @@
 //!
 //! Speakers, rooms and breaths come from seeds that no training of the ear uses ([`EXAM`]). The same seed gives the same
 //! day and, on one machine, the same report; nothing here asks what time it is.
+//!
+//! It never opens a device: microphone and loudspeaker are computed, and so is the time of day. It writes no file; the
+//! program prints its [`report`]. It draws pictures, so it needs a Vulkan driver, software or not.
+//!
+//! The main types are [`Rehearsal`] (what is rehearsed), [`day::Day`] (who comes when, and what staff do),
+//! [`visitor::Visit`] (one visitor) and [`judge`] (whether a visitor was answered). [`run()`] rehearses with pictures;
+//! [`listen()`] lets the detector alone hear the same day.
+//!
+//! ```
+//! use soffio_rehearsal::day::Day;
+//!
+//! // The programme of one hour with three exhibits; attract mode begins after two minutes.
+//! let day = |seed| Day::new(seed, 3600.0, 3, Some(120.0));
+//! assert!(!day(1).entries.is_empty());
+//! let begins = |seed| day(seed).entries.iter().map(|entry| entry.visit.arrives).collect::<Vec<f64>>();
+//! assert_eq!(begins(1), begins(1), "the same seed gives the same day");
+//! assert_ne!(begins(1), begins(2));
+//! ```
 
 pub mod day;
 mod ears;

@@ -36,6 +36,23 @@
 //!
 //! Invariants: a frame allocates no GPU memory unless its size changed, none of ours before the device is asked, and
 //! depends on nothing but the exhibit, the options and the [`Frame`]. A change of work makes no pipeline that was there.
+//!
+//! It never moves anything, reads no clock, and opens no window: the kiosk owns the window, and files are drawn without one.
+//! A picture needs a Vulkan driver; software is enough. Where there is none, [`RenderError::NoAdapter`] says what to install.
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use soffio_render::{Frame, ImageRenderer};
+//!
+//! let exhibit = soffio_exhibit::load(Path::new("exhibits/pendulum")).expect("a shipped exhibit");
+//! let mut renderer = ImageRenderer::new(&exhibit, |_| {}).expect("a Vulkan driver");
+//! let poses: Vec<_> = exhibit.bodies.iter().map(|body| body.pose).collect();
+//! let size = (1280, 720);
+//! let view = exhibit.view(f64::from(size.0) / f64::from(size.1));
+//! let frame = Frame { poses: &poses, motes: &[], view, size, exposure: 1.0, time: 0.0 };
+//! renderer.draw(&frame).expect("a picture").save("pendulum.png").expect("a writable folder");
+//! ```
 
 use std::sync::Arc;
 

@@ -8,6 +8,30 @@
 //! modes (of all sources) ─↗  excitation (Hertz, radiation)   └─→ bodies ──────────┴─→ mix ─→ master ─→ out
 //!                                                    modal (banks of partials) ──↗
 //! ```
+//!
+//! It never reads a clock, a device or a file: timbres are compiled in, or parsed from a text that the caller has read. It
+//! never plays a sample; all sound is computed from modes, noise and excitation. It never exceeds the ceiling of its limiter.
+//!
+//! The main types are [`Synth`] (renders stereo frames), [`SoundCommand`] (strikes, slides, touches, wind), [`InstrumentSpec`]
+//! (timbre, body and material), [`Preset`] (a timbre), and [`Room`] (reverberation).
+//!
+//! ```
+//! use soffio_sound::{InstrumentSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth};
+//!
+//! // A steel disc of 12 cm and half a millimetre.
+//! let area = 0.0113;
+//! let body = SoundBody { half_extents: [0.06; 2], thickness: 5e-4, area, mass: area * 5e-4 * 7850.0 };
+//! let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
+//! let spec = InstrumentSpec { timbre: "plate".into(), body, material, surface: None, gain: 1.0, max_voices: 8 };
+//! let mut synth = Synth::new(48_000, &[spec], 1).expect("a shipped timbre");
+//! let strike = Strike { sample: 0, instrument: 0, impulse: 1e-3, speed: 0.3, mass: 0.003, position: [0.8, 0.1], pan: 0.0, distance: 0.7 };
+//! synth.command(SoundCommand::Strike(strike));
+//! let mut frames = vec![0.0_f32; 2 * 4800]; // a tenth of a second, left and right in turn
+//! synth.render(&mut frames);
+//! assert!(frames.iter().any(|x| x.abs() > 1e-4));
+//! ```
+//!
+//! `cargo run -p soffio-sound --example chime` rings a chime tube and prints its peak and its decay.
 
 mod body;
 mod excitation;

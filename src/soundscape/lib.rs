@@ -5,6 +5,25 @@
 //!                    recordings ─────┴→ Take → train → src/wind/blow/table.rs
 //!                                            → score → table with 95 % bounds
 //! ```
+//!
+//! A [`Take`] is a sound with its labels: when somebody blows, how strongly, and what else is to be heard. [`scenes::World`]
+//! draws takes from a seed: voices, noises, rooms, one microphone or two, the kiosk's own sound. Worlds from [`EXAM`] on are
+//! never learnt from, so they can be used to test.
+//!
+//! It never reads a file, a device or a clock, and never runs in the kiosk. The same seed gives the same samples.
+//!
+//! ```
+//! use soffio_soundscape::scenes::{Condition, Hearing, World};
+//! use soffio_soundscape::{EXAM, Kind};
+//!
+//! let one = Hearing { gain_db: 0.0, stereo: false };
+//! // A child's breath, straight at the microphone, from 10 cm.
+//! let take = World::new(EXAM + 1).take(Condition::Cell(0.1, 0.0, true), 0, one);
+//! assert_eq!(take.kind, Kind::Blow);
+//! assert!(take.breaths.iter().all(|breath| breath.onset < breath.offset));
+//! assert!(take.left.iter().all(|x| x.abs() <= 1.0));
+//! assert!(take.right.is_none(), "one capsule");
+//! ```
 
 pub mod noises;
 pub mod own;

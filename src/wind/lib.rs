@@ -1,4 +1,34 @@
 //! Breath and wind: from microphone samples to forces on plates.
+//!
+//! A breath is a round turbulent jet from the lips; draughts, fans and the room's own air are ambient winds. Surfaces are
+//! sampled by patches, and each patch that the lips see takes drag from the air that passes it. The result is one force and
+//! torque per body.
+//!
+//! It never detects a breath (that is `soffio-detector`), moves no body, and reads no clock, file or device: the time is an
+//! argument. The same input gives the same bits.
+//!
+//! | module or type | holds |
+//! |---|---|
+//! | [`breath`] | [`breath::Breath`]: lips, direction, speed, and the law by which the jet spreads |
+//! | [`front`] | the travelling front of the jet: air that has left the lips and not yet arrived |
+//! | [`weather`] | ambient winds: fans, draughts, turbulence |
+//! | [`Surface`], [`Shelter`] | what the wind meets, and what shelters from it |
+//! | [`patches`] | sample points of a surface |
+//! | [`force`] | [`force::WindField`]: from air to forces on bodies |
+//!
+//! ```
+//! use soffio_math::DVec3;
+//! use soffio_wind::breath::{Breath, Law};
+//!
+//! let mouth = Breath { mouth: DVec3::ZERO, direction: DVec3::X, lip_diameter: 0.01, speed: 10.0, law: Law::Jet };
+//! let at = |distance: f64| mouth.velocity(distance * DVec3::X).length();
+//! // At the lips the jet has its full speed; far away its speed falls as 1/x.
+//! assert!((at(0.01) - 10.0).abs() < 1e-9);
+//! assert!(at(0.3) > at(0.6) && at(0.6) > 0.0);
+//! assert_eq!(at(-0.1), 0.0, "there is no breath behind the lips");
+//! ```
+//!
+//! `cargo run -p soffio-wind --example breath_on_a_plate` prints the force of a breath on a plate over the distance.
 
 use soffio_geometry::TriangleMesh;
 

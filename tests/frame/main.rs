@@ -12,6 +12,11 @@ use soffio_math::{DQuat, Pose};
 use soffio_render::{Frame, Gpu, Options, RenderError, Renderer};
 use soffio_simulation::{Mote, Settings, Simulation, Snapshot, StepInput};
 
+#[path = "../suite/require.rs"]
+mod require;
+
+use require::require;
+
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
 
@@ -28,15 +33,11 @@ fn shipped(id: &str) -> Exhibit {
     soffio_exhibit::load(&folder).expect("shipped")
 }
 
-/// A device and a target, or a word on stderr where there is no driver at all.
+/// A device and a target; `None` where there is no driver at all.
 fn device() -> Option<(Gpu, wgpu::TextureView)> {
     let gpu = match Gpu::headless() {
-        Ok(gpu) => gpu,
-        Err(RenderError::NoAdapter(reason)) => {
-            eprintln!("skipped, no Vulkan driver: {reason}");
-            return None;
-        }
-        Err(error) => panic!("{error}"),
+        Err(error) if !matches!(error, RenderError::NoAdapter(_)) => panic!("{error}"),
+        found => require("Vulkan driver", found)?,
     };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,

@@ -1,34 +1,25 @@
 //! The test suite: one binary, one module per room.
 
 mod architecture;
-mod articulation;
-mod blow;
+mod breath_command;
 mod cabinet;
 mod chimes;
 mod cli;
 mod clock;
-mod collision;
-mod contacts;
 mod curator;
 #[cfg(feature = "kiosk")]
 mod details;
-mod dynamics;
-mod escapement;
 mod exhibit;
 mod exhibits_in_motion;
-mod expected;
 mod exports;
-mod forge;
 mod fuzz;
 mod gather;
+mod geared;
 mod hands;
-mod hits;
 mod kiosk;
 mod loudness;
 mod mobiles;
-mod modal;
 mod models;
-mod motion;
 #[cfg(feature = "kiosk")]
 mod penumbrae;
 #[cfg(feature = "kiosk")]
@@ -40,7 +31,7 @@ mod procedural;
 mod realtime;
 #[cfg(feature = "kiosk")]
 mod rehearsal;
-mod repeatable;
+mod require;
 mod robust;
 mod scene;
 #[cfg(feature = "kiosk")]
@@ -49,8 +40,6 @@ mod shapes;
 #[cfg(feature = "kiosk")]
 mod skins;
 mod sound;
-mod space;
-mod spheres;
 mod steel_fish;
 mod systems;
 mod wind;

@@ -12,6 +12,7 @@ use soffio_render::gallery::{Room, WALL_ALBEDO};
 use soffio_render::{Frame, Gpu, ImageRenderer, Look, Quality, Tonemap};
 
 use super::pictures::{ball, frame, linear, mobile, paint, renderer, still};
+use super::require::require;
 
 /// A picture that is a measurement: no curve, no dither, one colour behind, no light but that.
 fn bare(background: Vec3) -> Look {
@@ -282,10 +283,7 @@ fn vulkan_and_gl_draw_the_same_picture() {
     const ROUNDING: u8 = 1;
     let exhibit = mobile();
     let Some(mut vulkan) = renderer(&exhibit, |_| {}) else { return };
-    let gpu = match Gpu::headless_on(wgpu::Backends::GL) {
-        Ok(gpu) => gpu,
-        Err(error) => return eprintln!("skipped, no GL: {error}"),
-    };
+    let Some(gpu) = require("OpenGL driver", Gpu::headless_on(wgpu::Backends::GL)) else { return };
     println!("{} and {}", vulkan.gpu().name(), gpu.name());
     let software = gpu.is_software() && vulkan.gpu().is_software();
     let mut gl = ImageRenderer::on(gpu, &exhibit, |options| options.quality = Quality::Light).expect("a renderer");

@@ -7,6 +7,8 @@ use soffio_math::Pose;
 use soffio_render::{Frame, ImageRenderer, Look, Options, RenderError, Tonemap};
 use soffio_simulation::Mote;
 
+use crate::require::require;
+
 /// A plate: an outline in the plane z = 0, extruded by its thickness, fan from the centroid.
 pub(crate) fn plate(outline: &[[f32; 2]], thickness: f32, material: usize) -> Primitive {
     let mut p = Primitive { material: Some(material), ..Default::default() };
@@ -149,15 +151,11 @@ pub fn mobile() -> Exhibit {
     exhibit
 }
 
-/// The renderer, or a word on stderr where there is no driver at all.
+/// The renderer; `None` where there is no driver at all.
 pub(crate) fn renderer(exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Option<ImageRenderer> {
     match ImageRenderer::new(exhibit, adjust) {
-        Ok(renderer) => Some(renderer),
-        Err(RenderError::NoAdapter(reason)) => {
-            eprintln!("skipped, no Vulkan driver: {reason}");
-            None
-        }
-        Err(error) => panic!("{error}"),
+        Err(error) if !matches!(error, RenderError::NoAdapter(_)) => panic!("{error}"),
+        found => require("Vulkan driver", found),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Opens the devices, watches them, opens them again.
 //!
 //! Streams live and die on this thread alone. A device is given up when its error callback says so, or when it has not
-//! asked for a block for [`STALLED`]: some drivers die without a word. Then it is tried again after 1, 2, 4, 8, 10, 10, … s.
+//! asked for a block for [`STALLED`]: some drivers die without a word. Then it is tried again after 1, 2, 2, … s ([`BACK_OFF`]).
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};

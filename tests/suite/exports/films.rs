@@ -5,6 +5,8 @@ use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+use crate::require::require;
+
 /// The program in a folder of its own.
 fn soffio(folder: &TempDir, args: &[&str], path: Option<&str>) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_soffio"));
@@ -26,14 +28,15 @@ fn names(folder: &TempDir) -> Vec<String> {
     names
 }
 
+/// The exit code where there is no graphics driver.
+const NO_DRIVER: i32 = 3;
+
 /// Did it end well? `None` where there is no driver.
 #[track_caller]
 fn done(output: &Output) -> Option<()> {
     let told = String::from_utf8_lossy(&output.stderr);
-    if output.status.code() == Some(3) {
-        eprintln!("skipped, no Vulkan driver: {told}");
-        return None;
-    }
+    let found = if output.status.code() == Some(NO_DRIVER) { Err(&told) } else { Ok(()) };
+    require("Vulkan driver", found)?;
     assert_eq!(output.status.code(), Some(0), "{told}");
     Some(())
 }
@@ -90,8 +93,9 @@ fn a_film_has_all_frames_and_the_runs_sound() {
     let args = ["play", &exhibit, "--seconds", "0.4", "--fps", "25", "--size", "160x90", "--video", "a.mp4"];
     let run = soffio(&folder, &args, None);
     let Some(()) = done(&run) else { return };
-    if names(&folder) != ["a.mp4"] {
-        return eprintln!("skipped, no ffmpeg: {}", String::from_utf8_lossy(&run.stderr));
+    let found = if names(&folder) == ["a.mp4"] { Ok(()) } else { Err(String::from_utf8_lossy(&run.stderr)) };
+    if require("ffmpeg", found).is_none() {
+        return;
     }
     let probe = ["-v", "error", "-show_entries", "stream=codec_name,nb_frames,width", "-of", "csv=p=0", "a.mp4"];
     let probed = Command::new("ffprobe").args(probe).current_dir(folder.path()).output().expect("it comes with ffmpeg");
@@ -130,8 +134,9 @@ fn ctrl_c_leaves_neither_a_video_nor_its_makings() {
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(sent.is_ok_and(|status| status.success()) || child.try_wait().expect("a child").is_some());
     let code = child.wait().expect("it ends").code();
-    if code == Some(3) {
-        return eprintln!("skipped, no Vulkan driver");
+    let found = if code == Some(NO_DRIVER) { Err("exit code 3") } else { Ok(()) };
+    if require("Vulkan driver", found).is_none() {
+        return;
     }
     assert_eq!(code, Some(130));
     assert!(names(&folder).is_empty(), "{:?}", names(&folder));

@@ -10,7 +10,7 @@ use soffio_simulation::{
 };
 use soffio_sound::{Across, Preset, Slide, SoundCommand, Strike, Synth, Touch, WindSound};
 
-use super::{RATE, render, rms};
+use super::{RATE, render, rms, spec, spectrum};
 use crate::exhibit::glb::{Folder, Scene, cuboid, sheet};
 
 const G: f64 = 9.81;
@@ -346,52 +346,6 @@ fn a_reset_takes_away_what_lay_and_what_slid() {
     assert!(touched.iter().all(|r| *r > 1.0), "it lies at the end: {touched:?}");
 }
 
-#[test]
-fn the_place_of_a_contact_moves_on() {
-    // The first mode of a free bar stands still at 0.224 of its length: what is scraped there does not ring in it.
-    let text = "timbre = 1\nname = \"x\"\ndescription = \"\"\n[node.needle]\ntype = \"texture\"\nkind = \"rough\"\n\
-                gain = { input = \"normal_force\", scale = 0.1 }\n[node.out]\ntype = \"modal\"\nin = \"needle\"\nfrom = \"bar\"\n\
-                partials = 1\ncontact_radius = 0.002\n";
-    let preset = Preset::parse("x", text).unwrap_or_else(|e| panic!("{e}"));
-    let spec = soffio_sound::InstrumentSpec {
-        body: soffio_sound::SoundBody { half_extents: [0.2, 0.01], thickness: 0.01, area: 0.008, mass: 0.6 },
-        // 80 1/s at its 320 Hz: what rang elsewhere is over soon.
-        material: soffio_sound::SoundMaterial { loss_factor: 0.08, ..super::steel() },
-        ..super::spec("x")
-    };
-    let play = |block: usize| {
-        let mut synth = Synth::with_preset(RATE, &preset, &spec, 1).expect("compiles");
-        synth.set_dry(true);
-        for step in 0..480u64 {
-            // A second at the middle, then within a quarter of one to the node.
-            let x = (0.552 * (step as f32 - 240.0) / 60.0).clamp(0.0, 0.552);
-            let slide = Slide {
-                sample: step * SAMPLES_PER_STEP,
-                instrument: 0,
-                speed: 0.4,
-                force: 1.0,
-                position: [x, 0.0],
-                pan: -1.0,
-                distance: 1.0,
-            };
-            synth.command(SoundCommand::Slide(slide));
-        }
-        let mut out = Vec::new();
-        while out.len() < 4 * RATE as usize {
-            out.extend(render(&mut synth, block.min(2 * RATE as usize - out.len() / 2)));
-        }
-        out.chunks(2).map(|frame| frame[0]).collect::<Vec<_>>()
-    };
-    let out = play(RATE as usize);
-    let (middle, node) = (rms(&out[24_000..48_000]), rms(&out[78_000..96_000]));
-    println!("at the node {:.1} dB below the middle", decibels(middle / node));
-    assert!(decibels(middle / node) > 20.0, "{middle} and {node}");
-    // On the way there is no step: a click would be where the signal changes fastest.
-    let fastest = |part: &[f32]| part.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).abs()).fold(0.0, f32::max);
-    assert!(fastest(&out[48_000..61_000]) < 1.5 * fastest(&out[12_000..48_000]));
-    assert!(play(77) == out, "cut into blocks");
-}
-
 /// A board with a picture of stripes, 8 pixels each, on its 0.24 m.
 fn striped(texture: &str) -> Result<Arc<Exhibit>, String> {
     let mut scene = Scene::default();
@@ -518,13 +472,13 @@ fn wires_hear_what_blows_across_them() {
     // The tone of a wire follows what crosses it: half of the wind, half of the pitch.
     let tone = |share: f32| {
         let preset = Preset::shipped("wind-wire").expect("valid");
-        let mut synth = Synth::with_preset(RATE, &preset, &super::spec("x"), 1).expect("compiles");
+        let mut synth = Synth::with_preset(RATE, &preset, &spec("x"), 1).expect("compiles");
         synth.set_dry(true);
         synth.command(SoundCommand::Across(Across { sample: 0, instrument: 0, share }));
         synth.command(SoundCommand::Wind(WindSound { sample: 0, speed: 6.0, ..WindSound::default() }));
         render(&mut synth, RATE as usize / 2);
         let out: Vec<f64> = render(&mut synth, 10 * RATE as usize).chunks(2).map(|f| f64::from(f[0])).collect();
-        let power = super::winds::spectrum(&out, 1 << 14);
+        let power = spectrum(&out, 1 << 14);
         (0..power.len()).max_by(|a, b| power[*a].total_cmp(&power[*b])).expect("bins") as f64
     };
     let ratio = tone(0.5) / tone(1.0);

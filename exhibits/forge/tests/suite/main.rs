@@ -26,7 +26,7 @@ fn works() -> Vec<Mobile> {
 }
 
 fn exhibits() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 fn assert_close(what: &str, got: f64, expected: f64, tolerance: f64) {

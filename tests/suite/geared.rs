@@ -1,16 +1,20 @@
 //! What only trains feel: their answer in their own coordinates beside the dense solver's, which knows no trains.
 
 use soffio_exhibit as exhibit;
+use soffio_math::DVec3;
 use soffio_math::noise::Random;
-use soffio_math::spatial::{Vec6, dot};
+use soffio_math::spatial::{Vec6, dot, vec6};
 use soffio_multibody::articulation::{Method, System};
 use soffio_simulation::{Settings, start_dynamics};
-
-use super::figures::wrench;
 
 /// Of the larger of the two rows' answers to themselves: the dense solver goes through 150 rows.
 const SOLVED: f64 = 1e-9;
 const SEED: u64 = 8;
+
+fn wrench(random: &mut Random) -> Vec6 {
+    let mut vector = || DVec3::new(random.signed(), random.signed(), random.signed());
+    vec6(vector(), vector())
+}
 
 #[test]
 fn trains_answer_each_other_as_the_whole_figure_does() {

@@ -1,7 +1,6 @@
 //! Constraint rows against their own finite differences, and the solvers against an elimination of their own.
 
 mod figures;
-mod geared;
 mod kkt;
 mod lanes;
 mod rows;

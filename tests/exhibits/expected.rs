@@ -5,9 +5,11 @@ use std::process::Command;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_exhibit::Exhibit;
 use soffio_math::DVec3;
 use soffio_simulation::{STEPS_PER_SECOND, Settings, Simulation, StepInput};
+
+use crate::{load, note};
 
 /// Seconds of the run that is hashed: 10,000 steps.
 const SECONDS: &str = "41.6667";
@@ -38,10 +40,6 @@ struct Expected {
     moves: Option<String>,
 }
 
-fn case(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(name)
-}
-
 fn file(id: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id).join("expected.toml")
 }
@@ -55,7 +53,7 @@ fn stored(id: &str) -> Option<Expected> {
 fn played(id: &str) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_soffio"))
         .args(["play", id, "--seconds", SECONDS, "--script"])
-        .arg(case("gusts.jsonl"))
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/gusts.jsonl"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .expect("the program starts");
@@ -64,11 +62,6 @@ fn played(id: &str) -> String {
         .unwrap_or_else(|error| panic!("{id}: {error}: {text}{}", String::from_utf8_lossy(&output.stderr)));
     assert_eq!((summary["steps"].as_u64(), summary["faults"].as_u64()), (Some(STEPS), Some(0)), "{id}");
     summary["state_hash"].as_str().expect("a word").to_owned()
-}
-
-fn load(id: &str) -> Arc<Exhibit> {
-    let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
 }
 
 /// Largest angle between where a body's own upright points in the model and where it points once all has settled.
@@ -106,57 +99,43 @@ fn found(id: &str, moves: Option<String>) -> Expected {
     }
 }
 
-#[test]
-fn every_exhibit_is_as_its_folder_says() {
-    let mut wrong = Vec::new();
-    for id in exhibit::ids() {
-        let Some(stored) = stored(&id) else {
-            wrong.push(format!("{id}: no expected.toml"));
-            continue;
-        };
-        let found = found(&id, stored.moves.clone());
-        let tilts = match (stored.rest_tilt_deg, found.rest_tilt_deg) {
-            (Some(a), Some(b)) => (a - b).abs() <= ROUNDED_DEG && b <= UPRIGHT_DEG,
-            (a, b) => a.is_none() && b.is_none() && stored.moves.is_some(),
-        };
-        let mass = (found.moving_mass / stored.moving_mass - 1.0).abs() <= stored.mass_tolerance;
-        if stored.state != found.state || stored.moving_bodies != found.moving_bodies || !mass || !tilts {
-            wrong.push(format!("{id}: stored {stored:#?}\nfound {found:#?}"));
-        }
-    }
+pub fn is_as_its_folder_says(id: &str) {
+    let stored = stored(id).unwrap_or_else(|| panic!("{id}: no expected.toml"));
+    let found = found(id, stored.moves.clone());
+    let tilts = match (stored.rest_tilt_deg, found.rest_tilt_deg) {
+        (Some(a), Some(b)) => (a - b).abs() <= ROUNDED_DEG && b <= UPRIGHT_DEG,
+        (a, b) => a.is_none() && b.is_none() && stored.moves.is_some(),
+    };
+    let mass = (found.moving_mass / stored.moving_mass - 1.0).abs() <= stored.mass_tolerance;
+    let same = stored.state == found.state && stored.moving_bodies == found.moving_bodies;
     assert!(
-        wrong.is_empty(),
-        "{}\nA change must be meant; then write the files anew: \
-         cargo test --no-default-features --test suite write_what_is_expected -- --ignored",
-        wrong.join("\n")
+        same && mass && tilts,
+        "{id}: stored {stored:#?}\nfound {found:#?}\nA change must be meant; then write the files anew: \
+         cargo test --no-default-features --test exhibits write_what_is_expected -- --ignored"
     );
 }
 
-#[test]
-#[ignore = "writes the expected.toml of all exhibits"]
-fn write_what_is_expected_of_all_exhibits() {
-    for id in exhibit::ids() {
-        let moves = stored(&id).and_then(|expected| expected.moves);
-        let found = found(&id, moves);
-        let mut text = format!(
-            "# What the exhibit is known by. Written by a test where a change is meant:\n\
-             # cargo test --no-default-features --test suite write_what_is_expected -- --ignored\n\n\
-             # The state after 10,000 steps of tests/cases/gusts.jsonl: the same in every build.\n\
-             state = \"{}\"\n\n\
-             # Bodies that forces move, their mass (kg), and how far that may be off, as a share.\n\
-             moving_bodies = {}\nmoving_mass = {:.6}\nmass_tolerance = {}\n\n",
-            found.state, found.moving_bodies, found.moving_mass, found.mass_tolerance
-        );
-        text += &match (found.rest_tilt_deg, found.moves) {
-            (Some(tilt), _) => format!(
-                "# Largest tilt of a body off the model's pose after {SETTLED} s without wind, degrees; at most {UPRIGHT_DEG}.\n\
-                 rest_tilt_deg = {tilt:.2}\n"
-            ),
-            (None, moves) => {
-                format!("# Why it has no rest.\nmoves = {}\n", toml::Value::String(moves.expect("a reason")))
-            }
-        };
-        println!("{id}: {:?}°", found.rest_tilt_deg);
-        std::fs::write(file(&id), text).expect("a writable folder");
-    }
+pub fn write_what_is_expected(id: &str) {
+    let moves = stored(id).and_then(|expected| expected.moves);
+    let found = found(id, moves);
+    let mut text = format!(
+        "# What the exhibit is known by. Written by a test where a change is meant:\n\
+         # cargo test --no-default-features --test exhibits write_what_is_expected -- --ignored\n\n\
+         # The state after 10,000 steps of tests/cases/gusts.jsonl: the same in every build.\n\
+         state = \"{}\"\n\n\
+         # Bodies that forces move, their mass (kg), and how far that may be off, as a share.\n\
+         moving_bodies = {}\nmoving_mass = {:.6}\nmass_tolerance = {}\n\n",
+        found.state, found.moving_bodies, found.moving_mass, found.mass_tolerance
+    );
+    text += &match (found.rest_tilt_deg, found.moves) {
+        (Some(tilt), _) => format!(
+            "# Largest tilt of a body off the model's pose after {SETTLED} s without wind, degrees; at most {UPRIGHT_DEG}.\n\
+             rest_tilt_deg = {tilt:.2}\n"
+        ),
+        (None, moves) => {
+            format!("# Why it has no rest.\nmoves = {}\n", toml::Value::String(moves.expect("a reason")))
+        }
+    };
+    note!("{id}: {:?}°", found.rest_tilt_deg);
+    std::fs::write(file(id), text).expect("a writable folder");
 }

@@ -1,0 +1,50 @@
+//! A dragged chain by the source's rule: how much its links turn, and how far its end stays behind.
+
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::DVec3;
+use soffio_multibody::procedural::{Method, REACHED, Settings};
+
+use super::{Extras, Hand, chain, end_of};
+
+const LINKS: usize = 8;
+
+/// The source's own figures: the uppermost link is taken and dragged away, by its rule. The heavier shape, of three times the
+/// I/m, turns less for the same way of the hand, so that its chain keeps its form longer and hangs steeper.
+#[test]
+fn by_the_sources_rule_the_chain_of_more_inertia_turns_less() {
+    const PITCH: f64 = 0.044;
+    let turned = |factor: f64| {
+        let mut world = chain(&[0.01; LINKS], PITCH, false);
+        for body in &mut world.bodies {
+            body.properties.inertia *= factor;
+        }
+        let settings = Settings { method: Method::Compulsive, retention: 0.5, ..Settings::default() };
+        let mut hand = Hand::with(&world, &Extras::default(), settings);
+        let (mut turn, mut behind) = (0.0_f64, 0.0_f64);
+        for step in 1..=60 {
+            // Half a metre to the side and a little up, in a quarter of a second.
+            let t = f64::from(step) / 60.0;
+            let way = t * t * (3.0 - 2.0 * t);
+            let place = DVec3::new(0.5 * way, -PITCH + 0.1 * way, 0.0);
+            hand.step(1.0 / 240.0, &[end_of(&world, 0, PITCH, place)]);
+            let reach = hand.procedural.reach();
+            assert!(reach.residual <= REACHED, "step {step}: {reach:?}");
+            let links = hand.bodies()[1..].iter();
+            let leans = |b: &RigidBody| {
+                let angle = (b.rotation * DVec3::Y).angle_between(DVec3::Y);
+                angle * angle
+            };
+            turn += links.map(leans).sum::<f64>() / (LINKS - 1) as f64 / 60.0;
+            let end = hand.bodies()[LINKS - 1].position;
+            behind = behind.max(place.x - end.x);
+        }
+        (turn.sqrt(), behind)
+    };
+    let (light, heavy) = (turned(1.0), turned(3.0));
+    println!(
+        "light: links turned by {} rad rms, end {} m behind; heavy: {} rad, {} m",
+        light.0, light.1, heavy.0, heavy.1
+    );
+    assert!(light.0 > 0.05, "{} rad: the hand turns the light one", light.0);
+    assert!(heavy.0 < 0.8 * light.0, "{} and {} rad", heavy.0, light.0);
+}

@@ -1,0 +1,102 @@
+//! What must hold for every exhibit: one case per exhibit and property, found by the exhibit's folder. A folder that a
+//! curator adds is tested without a change here.
+//!
+//!     cargo test --no-default-features --test exhibits steel-fish         all properties of one exhibit
+//!     cargo test --no-default-features --test exhibits gathers_itself     one property of all exhibits
+//!     cargo test --no-default-features --test exhibits -- --nocapture     with what each case measures
+
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use assert_no_alloc::AllocDisabler;
+use libtest_mimic::{Arguments, Trial};
+use soffio_exhibit::{self as exhibit, Exhibit};
+
+mod expected;
+mod files;
+mod gather;
+mod hands;
+mod motion;
+mod repeatable;
+mod robust;
+mod tally;
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
+
+/// Whether cases print what they measure.
+static NOTES: AtomicBool = AtomicBool::new(false);
+
+/// Prints like `println!` where `--nocapture` is given.
+macro_rules! note {
+    ($($word:tt)*) => {
+        if $crate::NOTES.load(std::sync::atomic::Ordering::Relaxed) {
+            println!($($word)*);
+        }
+    };
+}
+pub(crate) use note;
+
+/// A property: its name, whether it runs only with `--ignored`, and the function that panics where it does not hold.
+type Property = (&'static str, bool, fn(&str));
+
+macro_rules! properties {
+    ($($module:ident::$name:ident $(($ignored:ident))?),* $(,)?) => {
+        [$((stringify!($name), properties!(@ $($ignored)?), $module::$name)),*]
+    };
+    (@) => { false };
+    (@ ignored) => { true };
+}
+
+const PROPERTIES: [Property; 20] = properties![
+    files::loads_without_a_warning,
+    files::has_its_picture_in_the_readme,
+    files::its_model_reads_back_as_it_was_written,
+    files::what_holds_it_stands_in_its_mujoco_model_or_is_named_as_left_out,
+    files::its_table_of_labels_reads_back,
+    expected::is_as_its_folder_says,
+    // Writes the file that the case above compares with.
+    expected::write_what_is_expected(ignored),
+    repeatable::a_run_repeats_itself_within_a_process,
+    repeatable::a_reset_gives_the_first_run_again,
+    repeatable::a_step_asks_for_no_memory_once_it_is_warm,
+    gather::gathers_itself_in_a_few_seconds,
+    motion::a_change_of_motion_moves_nothing_by_itself,
+    motion::a_change_of_motion_is_not_heard_as_a_click,
+    motion::the_mode_is_an_input_so_a_replay_repeats_it,
+    motion::does_not_fault_when_moved_by_places,
+    motion::a_step_by_places_asks_for_no_memory_once_it_is_warm,
+    robust::a_number_that_is_none_is_found_and_the_figure_put_back,
+    robust::a_hundred_times_the_gravity_is_borne,
+    hands::the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle,
+    hands::no_handling_breaks_anything,
+];
+
+/// Part `hands` of tests/check.sh --long.
+const LONG: [Property; 1] = properties![hands::no_handling_breaks_anything_in_twenty_seconds(ignored)];
+
+fn load(id: &str) -> Arc<Exhibit> {
+    let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    NOTES.store(arguments.nocapture, Ordering::Relaxed);
+    let ids = exhibit::ids();
+    let cases = ids.iter().flat_map(|id| {
+        PROPERTIES.iter().chain(&LONG).map(move |&(name, ignored, holds)| {
+            let own = id.clone();
+            let case = move || {
+                holds(&own);
+                Ok(())
+            };
+            Trial::test(format!("{id}::{name}"), case).with_ignored_flag(ignored)
+        })
+    });
+    let conclusion = libtest_mimic::run(&arguments, cases.collect());
+    let tallies = [&motion::QUIET_CHANGES, &motion::HEARD_CHANGES, &hands::RAYS];
+    let enough = tallies.map(|tally| tally.is_enough(ids.len())) == [true; 3];
+    if enough { conclusion.exit_code() } else { ExitCode::FAILURE }
+}
