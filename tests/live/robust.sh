@@ -229,7 +229,7 @@ disk_full() {
     start full.log cat "$room/full.pipe"
     # shellcheck disable=SC2016
     start full bash -c 'trap "" XFSZ; ulimit -f 0; exec "$@" >"$0" 2>&1' "$room/full.pipe" \
-        timeout --kill-after=5 60 "$soffio" kiosk --exhibit "$exhibit" --config "$room/full.toml" --no-attract --for 22
+        timeout --kill-after=20 60 "$soffio" kiosk --exhibit "$exhibit" --config "$room/full.toml" --no-attract --for 22
     kiosk=$last
     within 20 grep -q 'pixels on' "$room/full.log.out" || true
     sleep 4

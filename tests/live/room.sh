@@ -121,7 +121,7 @@ start_kiosk() {
     local name=$1
     shift
     [[ " $* " == *" --config "* ]] || set -- --config "$room/kiosk.toml" "$@"
-    start "$name" timeout --kill-after=5 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" "$@"
+    start "$name" timeout --kill-after=20 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" "$@"
     kiosk=$last
     within 20 grep -q 'pixels on' "$room/$name.err"
 }
