@@ -15,10 +15,11 @@ lints()    { cargo clippy --profile ci --workspace --locked --quiet --all-target
 # Without the kiosk: the two packages that have it as a feature.
 headless() { cargo clippy --profile ci -p soffio -p soffio-offline --locked --quiet --all-targets --no-default-features -- -D warnings; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --profile ci --workspace --locked --quiet --no-deps --document-private-items; }
-# All that is run later: the program, what looks for a recording, and the suites.
-build()    { cargo test --profile ci --workspace --locked --no-run; }
-# Of these only what a part needs that is run alone, with the same features of every dependency.
-program()  { cargo build --profile ci --workspace --locked --quiet --bins --example correlate; }
+# All that is run later: the suites, the program, and what looks for a recording.
+build()    { cargo test --profile ci --workspace --locked --no-run && program; }
+# What a part needs of this that is run alone, with the same features of every dependency. After the part `build` nobody asks
+# cargo again, which would wait for the lints that it works at.
+program()  { [ -n "${SOFFIO_BUILT:-}" ] || cargo build --profile ci --workspace --locked --quiet --bins --example correlate; }
 suite()    { cargo test --profile ci --workspace --locked --quiet; }
 exhibits() { program && "$built/soffio" check exhibits kiosk-config/kiosk.toml; }
 live()     { program && tests/live/lanes.sh "$built/soffio"; }
@@ -148,7 +149,7 @@ tell_end() { # tell_end PART: of one that has ended
 beside=
 finish_live() {
     [ -n "$beside" ] || return 0
-    echo "== live: waiting for the rest of it"
+    ! kill -0 "$beside" 2>/dev/null || echo "== live: waiting for the rest of it"
     wait "$beside" || true
     beside=
     sed 's/^/    /' "$marks/live.log"
@@ -193,8 +194,12 @@ run() {
         echo "== $part"
         run_part "$part" "${before[@]}" 2>&1 | tee "$marks/$part.log"
         tell_end "$part"
-        # Without the program there is nothing to run.
-        [ "$part" != build ] || [ "$(cut -d' ' -f1 "$marks/build")" = 0 ] || break
+        if [ "$part" = build ]; then
+            # Without the program there is nothing to run.
+            [ "$(cut -d' ' -f1 "$marks/build")" = 0 ] || break
+            export SOFFIO_BUILT=1
+        fi
+        kill -0 "${beside:-$$}" 2>/dev/null || finish_live
     done
     finish_live
     table "$@"

@@ -18,7 +18,7 @@ launch_kiosk() {
     [[ " $* " == *" --config "* ]] || set -- --config "$room/kiosk.toml" "$@"
     start "$name" "$root/kiosk-config/launch" "$soffio" kiosk "$@"
     kiosk=$last
-    within 30 grep -q 'pixels on' "$room/$name.err" || true
+    within 60 grep -q 'pixels on' "$room/$name.err" || true
 }
 
 # The program that the launcher runs now.
@@ -180,8 +180,8 @@ devices_out() {
     # By its name, or another loudspeaker takes its place.
     configured "$room/out.toml" '[audio]\nloudspeaker = "speakers"\n'
     start_kiosk out --no-attract --config "$room/out.toml" --trace "$room/out.csv" --for 28
-    within 10 grep -q 'supervisor: microphone: ' "$room/out.err" || true
-    within 10 grep -q 'supervisor: loudspeaker: ' "$room/out.err" || true
+    within 30 grep -q 'supervisor: microphone: ' "$room/out.err" || true
+    within 30 grep -q 'supervisor: loudspeaker: ' "$room/out.err" || true
     pull_microphone
     pull_loudspeaker
     # Longer than the growing pauses between two tries need to be at their longest.
@@ -222,25 +222,23 @@ devices() { # devices SUITE
 # ---- the disk is full: said once, and the kiosk goes on ----------------------------------------------------------------
 # No file may grow beyond nothing (RLIMIT_FSIZE), which is what a full disk does to a write; the log is a pipe.
 disk_full() {
-    local rows code=0 said
+    local seen code=0 said
     configured "$room/full.toml" '[staff]\nmetrics = "%s"\nstate = "%s"\n' "$room/full.prom" "$room/full"
     mkdir -p "$room/full"
     mkfifo "$room/full.pipe"
-    start full.log cat "$room/full.pipe"
     # shellcheck disable=SC2016
-    start full bash -c 'trap "" XFSZ; ulimit -f 0; exec "$@" >"$0" 2>&1' "$room/full.pipe" \
-        timeout --kill-after=5 60 "$soffio" kiosk --exhibit "$exhibit" --config "$room/full.toml" --no-attract --for 22
+    start full sh -c 'cat "$0" >&2' "$room/full.pipe"
+    # shellcheck disable=SC2016
+    start filled bash -c 'trap "" XFSZ; ulimit -f 0; exec "$@" >"$0" 2>&1' "$room/full.pipe" \
+        timeout --kill-after=20 60 "$soffio" kiosk --exhibit "$exhibit" --config "$room/full.toml" --no-attract --for 22
     kiosk=$last
-    within 20 grep -q 'pixels on' "$room/full.log.out" || true
+    within 60 grep -q 'pixels on' "$room/full.err" || true
     sleep 4
-    xdotool keydown space
-    sleep 2
-    picture && rows=1 || rows=0
-    xdotool keyup space
+    hold full 1
+    picture && seen=1 || seen=0
     wait "$kiosk" || code=$?
-    cp "$room/full.log.out" "$room/full.err"
     said=$(grep -c 'WARN.*cannot write' "$room/full.err" || true)
-    bar "disk full: goes on" "$code == 0 && $rows == 1 && $(breaths full hold begins | wc -l) == 1" \
+    bar "disk full: goes on" "$code == 0 && $seen == 1 && $(breaths full hold begins | wc -l) == 1" \
         "exit code $code, a picture, $(breaths full hold begins | wc -l) breath"
     # The start, the copy of the configuration, the state and the metrics: once each, however often they are tried.
     bar "disk full: said once" "$said == 4 && $(find "$room/full" -type f | wc -l) == 0" \

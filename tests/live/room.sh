@@ -68,12 +68,12 @@ PA
     start_server
     # The server finds a free number itself and says which.
     start xvfb Xvfb -displayfd 1 -screen 0 "${1:-1280x720}x24" -nolisten tcp
-    within 10 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
+    within 30 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
     DISPLAY=:$(cat "$room/xvfb.out")
     export DISPLAY
     # Without a window manager no window becomes fullscreen.
     start openbox openbox
-    within 10 xdotool get_desktop
+    within 30 xdotool get_desktop
 }
 
 # The sound server, with both plugs in. Its id is in $server.
@@ -81,7 +81,7 @@ start_server() {
     start pulse pulseaudio -n -F "$room/room.pa" --daemonize=no --exit-idle-time=-1 --use-pid-file=no --disallow-exit \
         --realtime=no --high-priority=no
     server=$last
-    within 10 pactl info || { cat "$room/pulse.err" >&2; return 1; }
+    within 30 pactl info || { cat "$room/pulse.err" >&2; return 1; }
     plug_microphone
     plug_loudspeaker
 }
@@ -121,9 +121,9 @@ start_kiosk() {
     local name=$1
     shift
     [[ " $* " == *" --config "* ]] || set -- --config "$room/kiosk.toml" "$@"
-    start "$name" timeout --kill-after=5 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" "$@"
+    start "$name" timeout --kill-after=20 "${limit:-120}" "$soffio" kiosk --exhibit "$exhibit" "$@"
     kiosk=$last
-    within 20 grep -q 'pixels on' "$room/$name.err"
+    within 60 grep -q 'pixels on' "$room/$name.err"
 }
 
 # Waits for the kiosk's own end; its exit code, or 0 for the one that is wanted: `end_kiosk NAME [CODE]`.
@@ -146,7 +146,7 @@ leave_kiosk() {
 # What the loudspeaker plays comes back to the microphone, 60 ms late and so much louder (dB).
 close_the_loop() {
     pactl load-module module-loopback source=speakers.monitor sink=mic_in latency_msec=60 >"$room/loop"
-    within 5 loopback
+    within 30 loopback
     pactl set-sink-input-volume "$(loopback | head -1)" "$1dB"
 }
 loopback() {
@@ -204,9 +204,9 @@ hold() { # hold KIOSK SECONDS
 }
 held_times() { [ "$(breaths "$1" hold "$2" | wc -l)" -ge "$3" ]; }
 
-# Level of a recording between two moments, dB of full scale (RMS over both channels); −140 for silence.
+# Level of a recording between two moments, dB of full scale (RMS over both channels); −140 for silence, or where it has ended.
 level() { # level RAW FROM SECONDS
-    sox -t raw -r 48000 -c 2 -e float -b 32 "$1" -n trim "$2" "$3" stats 2>&1 |
+    { sox -t raw -r 48000 -c 2 -e float -b 32 "$1" -n trim "$2" "$3" stats 2>&1 || true; } |
         awk '/^RMS lev dB/ { print ($4 == "-inf" || $4 < -140) ? -140 : $4; found = 1 } END { if (!found) print -140 }'
 }
 
