@@ -53,10 +53,10 @@ impl NightBy {
 pub struct Wishes {
     /// Steps louder.
     pub louder: i32,
-    /// Presses of the staff's mute.
-    pub mutes: u32,
     /// Muted, or not, as ordered from afar, whatever it was before.
     pub muted: Option<bool>,
+    /// Presses of the staff's mute, after that.
+    pub mutes: u32,
     /// Presses of the staff's night key.
     pub nights: u32,
     /// The last visitor has left, and takes those steps along.
@@ -67,8 +67,10 @@ impl Wishes {
     /// Adds what is asked for next.
     pub fn add(&mut self, next: Self) {
         self.louder += next.louder;
+        if next.muted.is_some() {
+            (self.muted, self.mutes) = (next.muted, 0);
+        }
         self.mutes += next.mutes;
-        self.muted = next.muted.or(self.muted);
         self.nights += next.nights;
         self.leaves |= next.leaves;
     }
@@ -146,7 +148,7 @@ impl Loudness {
         }
         self.volume.step(wishes.louder);
         let muted = self.volume.is_muted();
-        if wishes.muted.unwrap_or(muted != (wishes.mutes % 2 == 1)) != muted {
+        if (wishes.muted.unwrap_or(muted) != (wishes.mutes % 2 == 1)) != muted {
             self.volume.toggle_mute();
             tracing::info!("{}", if self.volume.is_muted() { "muted by staff" } else { "sounds again" });
         }
@@ -229,5 +231,28 @@ mod tests {
 
         tend(&mut loudness, Wishes { leaves: true, ..Wishes::default() });
         assert!(loudness.view().muted && loudness.view().steps == 0, "the next visitor finds the site's volume");
+    }
+
+    #[test]
+    fn the_last_word_on_the_sound_counts() {
+        let mut wishes = Wishes::default();
+        let order = |muted| Wishes { muted: Some(muted), ..Wishes::default() };
+        let press = Wishes { mutes: 1, louder: 1, ..Wishes::default() };
+        [press, order(true), order(true)].into_iter().for_each(|next| wishes.add(next));
+        assert_eq!(wishes, Wishes { muted: Some(true), louder: 1, ..Wishes::default() });
+        wishes.add(press);
+        assert_eq!(wishes, Wishes { muted: Some(true), mutes: 1, louder: 2, ..Wishes::default() });
+
+        let settings =
+            VolumeSettings { default_db: -6.0, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
+        let knobs = Knobs::new(1.0);
+        let mut loudness = Loudness::new(settings, Hours::default(), false);
+        let mut tend = |wishes| {
+            loudness.tend(wishes, (false, false), &knobs);
+            loudness.view().muted
+        };
+        assert!(tend(order(true)) && tend(order(true)), "ordered twice it stays muted");
+        assert!(!tend(wishes), "muted from afar, and sounds again by staff");
+        assert!(!tend(order(false)));
     }
 }
