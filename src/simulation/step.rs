@@ -81,9 +81,12 @@ impl Simulation {
 
     /// Advances by 1/240 s. The only way time moves.
     ///
-    /// A step allocates nothing once its lists are as long as the exhibit makes them, but for those in which the exhibit starts
-    /// anew: at [`Command::Reset`] and [`Command::Gather`], when the exhibit's duration is over, and when gathering parts have
-    /// come together. The figure is then built again, in new memory, and the old one freed.
+    /// A step allocates nothing, but for three kinds of steps:
+    ///
+    /// - Those in which the exhibit starts anew: at [`Command::Reset`] and [`Command::Gather`], when the exhibit's duration is
+    ///   over, and when gathering parts have come together. The figure is then built again in new memory, and the old one freed.
+    /// - The first that brings a microphone, or one of another sample rate: it builds the breath detector.
+    /// - Those in which more happens than ever before in the run: lists of events, sounds and impacts grow.
     pub fn step(&mut self, input: &StepInput) {
         self.emitter.clear();
         if self.clock.elapsed() >= self.exhibit.duration {

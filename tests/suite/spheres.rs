@@ -98,7 +98,7 @@ impl Table {
             Mover::Laws => dynamics.step(DT, still, impacts),
             _ => self.procedural.step(dynamics, DT, still, &[], impacts),
         };
-        assert_eq!(bad, 0, "bad numbers");
+        assert_eq!(bad, None, "bad numbers");
     }
 
     fn run(&mut self, steps: usize) {

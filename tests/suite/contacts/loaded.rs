@@ -49,7 +49,7 @@ fn of_many_chimes_only_neighbours_are_measured() {
     let mut impacts = Vec::new();
     let mut most = 0.0_f64;
     for _ in 0..60 {
-        assert_eq!(dynamics.step(DT, &still, &mut impacts), 0, "bad numbers");
+        assert_eq!(dynamics.step(DT, &still, &mut impacts), None, "bad numbers");
         // A cut substep looks twice.
         most = most.max(dynamics.measured_pairs() as f64 / f64::from(dynamics.substeps()));
     }
@@ -93,7 +93,7 @@ fn what_gathers_past_obstacles_neither_bursts_nor_passes_through() {
         let still = vec![[0.0; 6]; dynamics.bodies.len()];
         let mut fastest: f64 = 0.0;
         for step in 0..240 * 4 {
-            assert_eq!(dynamics.step(DT, &still, &mut Vec::new()), 0, "seed {seed}, step {step}: bad numbers");
+            assert_eq!(dynamics.step(DT, &still, &mut Vec::new()), None, "seed {seed}, step {step}: bad numbers");
             fastest = dynamics.bodies.iter().fold(fastest, |most, b| most.max(b.velocity.length()));
         }
         assert!(fastest < THROWN, "seed {seed}: {fastest} m/s");

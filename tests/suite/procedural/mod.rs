@@ -54,7 +54,7 @@ impl Hand {
     pub fn step(&mut self, dt: f64, grips: &[Grip]) {
         let still = vec![[0.0; 6]; self.dynamics.bodies.len()];
         let bad = self.procedural.step(&mut self.dynamics, dt, &still, grips, &mut self.impacts);
-        assert_eq!(bad, 0, "bad numbers");
+        assert_eq!(bad, None, "bad numbers");
     }
 
     pub fn bodies(&self) -> &[RigidBody] {
