@@ -85,7 +85,7 @@ impl Simulation {
     ///
     /// - Those in which the exhibit starts anew: at [`Command::Reset`] and [`Command::Gather`], when the exhibit's duration is
     ///   over, and when gathering parts have come together. The figure is then built again in new memory, and the old one freed.
-    /// - The first that brings a microphone, or one of another sample rate: it builds the breath detector.
+    /// - Those that bring a microphone after a step without, or one of another sample rate: the breath detector is built.
     /// - Those in which more happens than ever before in the run: lists of events, sounds and impacts grow.
     pub fn step(&mut self, input: &StepInput) {
         self.emitter.clear();
