@@ -1,6 +1,6 @@
 //! Events: what happened at a moment, for logs, sounds and triggers.
 
-use super::SAMPLE_RATE;
+use super::rate::SAMPLE_RATE;
 use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;

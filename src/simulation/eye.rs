@@ -2,8 +2,10 @@
 //!
 //! A breath is aimed and a hand takes along sight lines of this very eye, so that they hit what is seen there.
 
-use super::DEFAULT_ASPECT;
 use soffio_exhibit::{Exhibit, View};
+
+/// Width over height of a picture nobody described.
+pub(crate) const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
 /// The eye of the step.
 #[derive(Clone, Copy, Debug)]

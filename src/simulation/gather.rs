@@ -14,7 +14,7 @@
 //! Nothing else acts meanwhile: no weight or wind, no springs, stops, gears or touches, and drives stand where they start.
 //! After [`LASTS`] what is left of Δ is below a micrometre, and the exhibit begins.
 
-use super::Settings;
+use super::input::Settings;
 use super::start::start_bodies;
 use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;

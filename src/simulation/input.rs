@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Hand;
+use super::hands::Hand;
 use soffio_exhibit::{Exhibit, Motion};
 use soffio_multibody::procedural::Method;
 

@@ -1,7 +1,8 @@
 //! A closer look at one moment, for whoever mends an exhibit: each joint, each body, each patch that feels the wind.
 //! A step asks for none of it.
 
-use super::{Simulation, blown, breath};
+use super::air::Pointed;
+use super::step::Simulation;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::ConstraintKind;
 
@@ -69,7 +70,7 @@ pub struct WindSample {
 impl Simulation {
     /// Looks closer at the present moment. Changes nothing of the run.
     pub fn inspect(&mut self, look: Look) -> Inspection {
-        let seen = Inspection { step: self.step, ..Inspection::default() };
+        let seen = Inspection { step: self.clock.step, ..Inspection::default() };
         match look {
             Look::Nothing => seen,
             Look::Bodies => Inspection { joints: self.joint_states(), bodies: self.body_states(), ..seen },
@@ -78,8 +79,9 @@ impl Simulation {
     }
 
     fn joint_states(&self) -> Vec<JointState> {
-        let gaps = self.dynamics.system().gaps(&self.dynamics.bodies);
-        let states = self.dynamics.loads().into_iter().zip(gaps).zip(self.dynamics.system().constraints());
+        let gaps = self.motion.dynamics.system().gaps(&self.motion.dynamics.bodies);
+        let states =
+            self.motion.dynamics.loads().into_iter().zip(gaps).zip(self.motion.dynamics.system().constraints());
         states
             .map(|((load, error), constraint)| {
                 let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });
@@ -94,16 +96,18 @@ impl Simulation {
             spin: body.angular_velocity.length(),
             height: body.position.y,
         };
-        self.dynamics.bodies.iter().map(state).collect()
+        self.motion.dynamics.bodies.iter().map(state).collect()
     }
 
     fn wind_samples(&mut self) -> Vec<WindSample> {
-        let aimed = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
-        let samples = self.wind.samples(&self.dynamics.bodies, &aimed);
-        let blown = blown(&self.exhibit, &self.settings, &self.aim, &self.front, self.speed);
+        let Self { exhibit, settings, breathing, aiming, air, motion, .. } = self;
+        let pointed = Pointed { exhibit, settings, aim: &aiming.aim, speed: breathing.speed };
+        let aimed = pointed.breath();
+        let samples = air.wind.samples(&motion.dynamics.bodies, &aimed);
+        let blown = pointed.blown(&air.front);
         let sample = |sample: soffio_wind::force::Sample| {
             let reached = blown.as_ref().filter(|_| sample.seen);
-            let air = self.wind.streams(reached, sample.point) + self.wind.stirs(sample.point);
+            let air = air.wind.streams(reached, sample.point) + air.wind.stirs(sample.point);
             let hit = sample.seen && aimed.share(sample.point).is_some();
             WindSample { surface: sample.surface, point: sample.point, hit, speed: air.length() }
         };

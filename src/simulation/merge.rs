@@ -8,7 +8,7 @@
 //! So two that are far enough apart ring each on its own sample, a hit never waits longer than the window, and however
 //! fast surfaces chatter, what rings is once a window and as loud as all of it.
 
-use super::{SAMPLE_RATE, STEPS_PER_SECOND};
+use super::rate::{SAMPLE_RATE, STEPS_PER_SECOND};
 use soffio_math::DVec3;
 
 /// Hits of one pair within this are one, samples: 15 ms, in which real impacts have their micro-collisions (van den Doel,

@@ -4,7 +4,6 @@
 //! Their number is constant: a speck that has lived its life, or was carried too far, comes back elsewhere in the room,
 //! or in the breath where there is one. It fades out before and in after, and so is never seen to jump.
 
-use super::snapshot::Mote;
 use soffio_math::noise::{Random, perlin3_vector};
 use soffio_math::{DVec3, exp, tangents};
 use soffio_wind::breath::Breath;
@@ -31,6 +30,17 @@ const FAINT: f64 = 0.05;
 const LIT: f64 = 0.8;
 /// Share of the specks that a breath takes with it.
 const IN_BREATH: usize = COUNT * 4 / 5;
+
+/// A speck of dust that shows the wind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mote {
+    /// World, m.
+    pub position: [f32; 3],
+    /// World, m/s.
+    pub velocity: [f32; 3],
+    /// 0 invisible … 1 bright.
+    pub brightness: f32,
+}
 
 #[derive(Clone, Copy)]
 struct Speck {

@@ -18,7 +18,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CENTRE, Command, Hand, MotionMode, Settings, StepInput};
+use super::hands::Hand;
+use super::input::{CENTRE, Command, MotionMode, Settings, StepInput};
 
 /// Version of the format.
 const VERSION: u32 = 1;

@@ -18,7 +18,9 @@
 
 use serde::Deserialize;
 
-use super::{Command, Hand, MotionMode, Simulation};
+use super::hands::Hand;
+use super::input::{Command, MotionMode};
+use super::step::Simulation;
 use soffio_exhibit::Exhibit;
 
 /// Source speed of strength 1, m/s: a hard blow, 180 L/min through lips of 15 mm.

@@ -1,6 +1,8 @@
 //! What a picture, a trace and a panel need to know of one moment.
 
-use super::{MotionMode, Simulation, breath};
+use super::input::MotionMode;
+use super::motes::Mote;
+use super::step::Simulation;
 use soffio_detector::BlowEstimate;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, Pose};
@@ -9,17 +11,6 @@ use soffio_math::{DVec3, Pose};
 const HAND_RING: f64 = 0.04;
 /// Source speed that fills the breath meter, m/s: a strong breath.
 const FULL_METER: f64 = 16.0;
-
-/// A speck of dust that shows the wind.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mote {
-    /// World, m.
-    pub position: [f32; 3],
-    /// World, m/s.
-    pub velocity: [f32; 3],
-    /// 0 invisible … 1 bright.
-    pub brightness: f32,
-}
 
 /// The breath as it is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -128,29 +119,29 @@ impl Simulation {
     /// The present moment.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
-            step: self.step,
-            time: self.dynamics.time(),
-            poses: self.dynamics.bodies.iter().map(RigidBody::pose).collect(),
+            step: self.clock.step,
+            time: self.motion.dynamics.time(),
+            poses: self.motion.dynamics.bodies.iter().map(RigidBody::pose).collect(),
             breath: BreathView {
-                speed: self.speed,
-                estimate: self.estimate,
-                mouth: self.aim.mouth,
-                direction: self.aim.direction,
-                target: self.aim.target,
+                speed: self.breathing.speed,
+                estimate: self.breathing.estimate,
+                mouth: self.aiming.aim.mouth,
+                direction: self.aiming.aim.direction,
+                target: self.aiming.aim.target,
                 ring: self.aim_ring(),
-                meter: (self.speed / FULL_METER).clamp(0.0, 1.0),
+                meter: (self.breathing.speed / FULL_METER).clamp(0.0, 1.0),
             },
             motes: self.motes.view().collect(),
             turn: self.eye.turn,
             diagnostics: Diagnostics {
-                joint_error: self.dynamics.joint_error(),
-                energy: self.dynamics.energy(),
-                impacts: self.impact_count,
-                faults: self.fault_count,
-                substeps: self.dynamics.substeps(),
-                wind_force: self.report.force,
-                mode: self.mode,
-                hands: self.hands.count(),
+                joint_error: self.motion.dynamics.joint_error(),
+                energy: self.motion.dynamics.energy(),
+                impacts: self.emitter.impacts,
+                faults: self.emitter.faults,
+                substeps: self.motion.dynamics.substeps(),
+                wind_force: self.air.report.force,
+                mode: self.motion.mode,
+                hands: self.motion.hands.count(),
             },
         }
     }
@@ -158,13 +149,13 @@ impl Simulation {
     /// The breath's own width where it is aimed, or a fingertip where a hand holds.
     fn aim_ring(&self) -> AimRing {
         let view = &self.eye.view;
-        if let Some(center) = self.hands.first(&self.dynamics.bodies) {
+        if let Some(center) = self.motion.hands.first(&self.motion.dynamics.bodies) {
             let forward = view.axes().2;
             let radius = 0.5 * HAND_RING * view.height_at((center - view.eye).dot(forward));
             return AimRing { center, axis: forward, radius };
         }
-        let breath = breath(&self.exhibit, &self.settings, &self.aim, self.speed);
-        let radius = breath.half_width(self.aim.target.distance(self.aim.mouth));
-        AimRing { center: self.aim.target, axis: self.aim.direction, radius }
+        let breath = self.pointed().breath();
+        let radius = breath.half_width(self.aiming.aim.target.distance(self.aiming.aim.mouth));
+        AimRing { center: self.aiming.aim.target, axis: self.aiming.aim.direction, radius }
     }
 }

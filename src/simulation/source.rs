@@ -5,7 +5,9 @@
 //! fades as a breath does and ends when the lungs are empty; a controller that repeats the same strength for as long
 //! has been left lying, or its cable was pulled.
 
-use super::{Microphone, StepInput};
+use super::input::{Microphone, StepInput};
+use super::onset::Onset;
+use super::rate::DT;
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
 use soffio_math::exp;
 
@@ -115,6 +117,45 @@ impl BreathSource {
             heard.reach(detector);
             detector.estimate()
         })
+    }
+}
+
+/// The breath at the lips.
+#[derive(Clone)]
+pub(crate) struct Breathing {
+    source: BreathSource,
+    pub onset: Onset,
+    /// After all sources are joined, m/s; exactly 0 when nobody blows.
+    pub speed: f64,
+    /// What the detector says.
+    pub estimate: BlowEstimate,
+}
+
+impl Breathing {
+    /// Nobody blows; `sensitivity_db` is the detector's.
+    pub fn new(sensitivity_db: f64) -> Self {
+        Self {
+            source: BreathSource::new(sensitivity_db),
+            onset: Onset::default(),
+            speed: 0.0,
+            estimate: BlowEstimate::default(),
+        }
+    }
+
+    /// Goes on with the detector that has listened `before`.
+    pub fn listen_on(&mut self, before: &mut Self) {
+        self.source.listen_on(&mut before.source);
+    }
+
+    /// Blows at this speed (m/s) by command, until told otherwise.
+    pub fn command(&mut self, speed: Option<f64>) {
+        self.source.command(speed);
+    }
+
+    /// Joins the sources of a step.
+    pub fn advance(&mut self, input: &StepInput) {
+        (self.speed, self.estimate) = self.source.advance(input, DT);
+        self.onset.advance(self.speed, DT);
     }
 }
 

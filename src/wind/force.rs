@@ -31,23 +31,20 @@
 //! gain         F_i ← gain · F_i                     the profile's, after the bound
 //! ```
 
-use std::cell::Cell;
-use std::ops::Range;
-
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::breath::Breath;
-use super::drag::{Coefficients, Quad, all, by_lane, lane, sum};
+use super::drag::{all, by_lane, lane, sum};
+use super::feeler::{Feeler, Standing, open};
 use super::front::Front;
-use super::patches::{Face, Patch, split};
+use super::patches::Face;
 use super::weather::{Upwind, Weather, Wind};
 use super::{Shelter, Surface};
 use soffio_geometry::bodies::RigidBody;
-use soffio_geometry::rays::{Hint, Occluders};
+use soffio_geometry::rays::Occluders;
 use soffio_math::DVec3;
 use soffio_math::lanes::WIDTH;
 use soffio_math::noise::perlin3_vector;
-use soffio_math::spatial::matrix;
 use soffio_math::spatial::{Vec6, add_wrench, angular, linear, vec6};
 
 /// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
@@ -62,73 +59,8 @@ const EDDY_CHANGE: f64 = 0.37;
 const EDDY_STRENGTH: f64 = 2.0;
 /// Wind below this needs no ray, m/s.
 const STILL_AIR: f64 = 0.01;
-/// Rays start this far off their own face, m.
-const RAY_START: f64 = 1e-4;
 /// Patches that say how much of a surface is seen, at most.
 const LOOKED_AT: usize = 16;
-/// What stands farther off than this shelters from no wind, m.
-const FAR: f64 = 50.0;
-
-/// A surface's patches and coefficients.
-#[derive(Clone)]
-struct Feeler {
-    body: usize,
-    patches: Vec<Patch>,
-    /// The same by fours.
-    quads: Vec<Quad>,
-    /// What hid each patch the last time.
-    hints: Vec<Cell<Hint>>,
-    /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
-    groups: Vec<(DVec3, Range<usize>)>,
-    coefficients: Coefficients,
-}
-
-impl Feeler {
-    /// Patches within `alike` metres of each other's middle are one group.
-    fn new(surface: &Surface, alike: f64) -> Self {
-        let mut patches = split(surface);
-        let mut groups = Vec::new();
-        gather(&mut patches, 0, alike, &mut groups);
-        let coefficients =
-            Coefficients { normal: surface.drag_normal, tangential: surface.drag_tangential, gain: surface.gain };
-        Self {
-            body: surface.body,
-            hints: vec![Cell::default(); patches.len()],
-            groups,
-            quads: patches.chunks(WIDTH).map(|four| Quad::new(four, &coefficients)).collect(),
-            patches,
-            coefficients,
-        }
-    }
-
-    /// H g: what a patch takes of the turbulence `g` (in the body's frame), never more than all of it.
-    fn shaken(&self, patch: &Patch, g: DVec3) -> DVec3 {
-        let axis = patch.axis;
-        let (c_along, c_across) = self.coefficients.of(patch.face);
-        let most = c_along.max(c_across);
-        if most <= 0.0 {
-            return DVec3::ZERO;
-        }
-        let along = g.dot(axis) * axis;
-        (c_along * along + c_across * (g - along)) / most
-    }
-}
-
-/// Sorts patches, which begin at `start`, into groups of radius `alike` by halving them along their longest way.
-fn gather(patches: &mut [Patch], start: usize, alike: f64, groups: &mut Vec<(DVec3, Range<usize>)>) {
-    let Some(first) = patches.first().map(|patch| patch.point) else { return };
-    let (low, high) = patches.iter().fold((first, first), |(l, h), p| (l.min(p.point), h.max(p.point)));
-    if (high - low).length() <= 2.0 * alike || patches.len() == 1 {
-        groups.push((0.5 * (low + high), start..start + patches.len()));
-        return;
-    }
-    let longest = (high - low).max_position();
-    patches.sort_by(|a, b| a.point[longest].total_cmp(&b.point[longest]));
-    let (near, far) = patches.split_at_mut(patches.len() / 2);
-    gather(near, start, alike, groups);
-    gather(far, start + near.len(), alike, groups);
-}
-
 /// The breath of one step.
 pub struct Blown<'a> {
     /// At the source's present speed.
@@ -239,7 +171,7 @@ impl WindField {
     ) -> WindReport {
         let still = blown.is_none() && self.weather.is_empty();
         let mut report = WindReport::default();
-        let (mut total, mut fastest) = (0.0, 0.0);
+        let mut pushed = Pushed::default();
         let [mut winds, mut stirred] = [&mut self.winds, &mut self.stirred].map(std::mem::take);
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
@@ -248,60 +180,12 @@ impl WindField {
             if stands && still {
                 continue;
             }
-            // In the body's own frame, in which its patches lie still.
-            let frame = matrix(body.rotation);
-            let inward = frame.transpose();
-            let center = body.properties.center;
-            let spin = inward * body.angular_velocity;
-            let origin = inward * body.velocity - spin.cross(center);
-            let place = |patch: &Patch| (body.position + frame * (patch.point - center), frame * patch.axis);
-            let open = |index: usize, from: Upwind| {
-                let patch = &feeler.patches[index];
-                let (point, axis) = place(patch);
-                open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from)
-            };
+            let standing = Standing::new(feeler, body, &self.occluders);
             if !still {
-                self.feel(feeler, body, (&mut winds, &mut stirred), open);
+                self.feel(feeler, body, (&mut winds, &mut stirred), |index, from| standing.open(index, from));
             }
-            let solid = feeler.patches.first().is_some_and(|patch| patch.face == Face::Side);
-            let beside = blown.filter(|_| solid).map_or(1.0, |blown| 1.0 / blown.gain.max(1.0).sqrt());
-            let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
-            let mut sum_blown = [0.0; 6];
-            for (first, quad) in (0..).step_by(WIDTH).zip(&feeler.quads) {
-                let calm = -quad.velocities(simd, origin, spin);
-                let room = if still { calm } else { calm + by_lane(simd, |k| inward * winds[first + k]) };
-                let dragged = quad.drag(simd, room);
-                force += dragged;
-                moment += quad.moments(simd, dragged);
-                let Some(blown) = blown else { continue };
-                let airs: [(DVec3, f64); WIDTH] = std::array::from_fn(|k| {
-                    let Some(patch) = feeler.patches.get(first + k) else { return (DVec3::ZERO, 0.0) };
-                    let (air, source) = blown.air(place(patch).0);
-                    let arrives = source > 0.0 && open(first + k, Upwind::Place(blown.breath.origin(place(patch).0)));
-                    if arrives { (air, source) } else { (DVec3::ZERO, 0.0) }
-                });
-                if airs.iter().all(|(_, source)| *source == 0.0) {
-                    continue;
-                }
-                let (mut wind, mut before) = (room, dragged);
-                if beside < 1.0 && !still {
-                    wind -= by_lane(simd, |k| (1.0 - beside) * (inward * stirred[first + k]));
-                    before = quad.drag(simd, wind);
-                }
-                let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
-                for (k, (_, source)) in airs.iter().enumerate().filter(|(_, (_, source))| *source > 0.0) {
-                    let patch = &feeler.patches[first + k];
-                    let added = lane(&added, k);
-                    let shaken = feeler.shaken(patch, inward * self.eddy(&blown.breath, place(patch).0));
-                    let added = added + TURBULENCE * added.length() * shaken;
-                    total += added.length();
-                    fastest = source.max(fastest);
-                    add_wrench(&mut sum_blown, patch.point - center, added);
-                }
-            }
-            let force = sum(&force);
-            let own = vec6(frame * force, frame * (sum(&moment) - center.cross(force)));
-            let sum_blown = vec6(frame * linear(&sum_blown), frame * angular(&sum_blown));
+            let air = (!still).then_some((&winds[..], &stirred[..]));
+            let (own, sum_blown) = self.push_on(simd, &standing, air, blown, &mut pushed);
             for k in 0..6 {
                 out[feeler.body][k] += own[k];
                 self.blown[feeler.body][k] += sum_blown[k];
@@ -310,20 +194,79 @@ impl WindField {
         }
         (self.winds, self.stirred) = (winds, stirred);
         if let Some(blown) = blown {
-            let most = blown.breath.momentum_flow(fastest);
-            let share = blown.gain * if total > most { most / total } else { 1.0 };
-            for (out, wrench) in out.iter_mut().zip(&self.blown) {
-                for k in 0..6 {
-                    out[k] += share * wrench[k];
-                }
-                report.breath += share * linear(wrench);
-            }
-            report.force += report.breath;
-            report.bound = blown.gain * most;
-            let ahead = blown.breath.mouth + 0.5 * blown.breath.direction;
-            report.gust = self.eddy(&blown.breath, ahead).dot(blown.breath.direction);
+            self.push_breath(blown, &pushed, out, &mut report);
         }
         report
+    }
+
+    /// Wrenches about its body's centre of mass on the surface that stands like this: of all air but the breath (`None`: it is
+    /// still; else of each patch and the part from all sides), and of the breath without bound and gain.
+    #[inline(always)]
+    fn push_on<S: Simd>(
+        &self,
+        simd: S,
+        standing: &Standing,
+        air: Option<(&[DVec3], &[DVec3])>,
+        blown: Option<&Blown>,
+        pushed: &mut Pushed,
+    ) -> (Vec6, Vec6) {
+        let Standing { feeler, body, frame, inward, .. } = *standing;
+        let center = body.properties.center;
+        let spin = inward * body.angular_velocity;
+        let origin = inward * body.velocity - spin.cross(center);
+        let solid = feeler.patches.first().is_some_and(|patch| patch.face == Face::Side);
+        let beside = blown.filter(|_| solid).map_or(1.0, |blown| 1.0 / blown.gain.max(1.0).sqrt());
+        let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
+        let mut sum_blown = [0.0; 6];
+        for (first, quad) in (0..).step_by(WIDTH).zip(&feeler.quads) {
+            let calm = -quad.velocities(simd, origin, spin);
+            let room = match air {
+                None => calm,
+                Some((winds, _)) => calm + by_lane(simd, |k| inward * winds[first + k]),
+            };
+            let dragged = quad.drag(simd, room);
+            force += dragged;
+            moment += quad.moments(simd, dragged);
+            let Some(blown) = blown else { continue };
+            let airs = standing.airs(blown, first);
+            if airs.iter().all(|(_, source)| *source == 0.0) {
+                continue;
+            }
+            let (mut wind, mut before) = (room, dragged);
+            if let Some((_, stirred)) = air.filter(|_| beside < 1.0) {
+                wind -= by_lane(simd, |k| (1.0 - beside) * (inward * stirred[first + k]));
+                before = quad.drag(simd, wind);
+            }
+            let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
+            for (k, (_, source)) in airs.iter().enumerate().filter(|(_, (_, source))| *source > 0.0) {
+                let patch = &feeler.patches[first + k];
+                let added = lane(&added, k);
+                let shaken = feeler.shaken(patch, inward * self.eddy(&blown.breath, standing.place(patch).0));
+                let added = added + TURBULENCE * added.length() * shaken;
+                pushed.total += added.length();
+                pushed.fastest = source.max(pushed.fastest);
+                add_wrench(&mut sum_blown, patch.point - center, added);
+            }
+        }
+        let force = sum(&force);
+        let own = vec6(frame * force, frame * (sum(&moment) - center.cross(force)));
+        (own, vec6(frame * linear(&sum_blown), frame * angular(&sum_blown)))
+    }
+
+    /// Adds the breath's wrenches, bounded by its momentum.
+    fn push_breath(&self, blown: &Blown, pushed: &Pushed, out: &mut [Vec6], report: &mut WindReport) {
+        let most = blown.breath.momentum_flow(pushed.fastest);
+        let share = blown.gain * if pushed.total > most { most / pushed.total } else { 1.0 };
+        for (out, wrench) in out.iter_mut().zip(&self.blown) {
+            for k in 0..6 {
+                out[k] += share * wrench[k];
+            }
+            report.breath += share * linear(wrench);
+        }
+        report.force += report.breath;
+        report.bound = blown.gain * most;
+        let ahead = blown.breath.mouth + 0.5 * blown.breath.direction;
+        report.gust = self.eddy(&blown.breath, ahead).dot(blown.breath.direction);
     }
 
     /// The air of all winds but the breath at each patch of a surface, and what of it comes from all sides, world, m/s; nothing
@@ -441,27 +384,23 @@ impl WindField {
     }
 }
 
-/// Does a patch face and see where a wind comes from?
-fn open(occluders: &Occluders, hint: &Cell<Hint>, face: Face, point: DVec3, axis: DVec3, from: Upwind) -> bool {
-    let toward = match from {
-        Upwind::Place(place) => place - point,
-        Upwind::Afar(direction) => direction,
-        Upwind::Everywhere => return true,
-    };
-    let facing = axis.dot(toward);
-    let lift = match face {
-        Face::Side if facing <= 0.0 => return false,
-        Face::Side | Face::Sheet => axis * (RAY_START * facing.signum()),
-        Face::Wire => DVec3::ZERO,
-    };
-    let start = point + lift;
-    let (direction, far) = match from {
-        Upwind::Place(place) => {
-            let way = place - start;
-            let far = way.length();
-            (way / far, far)
-        }
-        _ => (toward, FAR),
-    };
-    !occluders.block(start, direction, far, hint)
+/// How hard the breath pushes without bound and gain: Σ |F_i|, N, and the fastest air that arrives, m/s.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pushed {
+    total: f64,
+    fastest: f64,
+}
+
+impl Standing<'_> {
+    /// Air of the breath at the patches of a quad, and the speed at which it left the lips, m/s; nothing where it does not arrive.
+    #[inline(always)]
+    fn airs(&self, blown: &Blown, first: usize) -> [(DVec3, f64); WIDTH] {
+        std::array::from_fn(|k| {
+            let Some(patch) = self.feeler.patches.get(first + k) else { return (DVec3::ZERO, 0.0) };
+            let (air, source) = blown.air(self.place(patch).0);
+            let origin = || Upwind::Place(blown.breath.origin(self.place(patch).0));
+            let arrives = source > 0.0 && self.open(first + k, origin());
+            if arrives { (air, source) } else { (DVec3::ZERO, 0.0) }
+        })
+    }
 }

@@ -34,6 +34,7 @@ use soffio_geometry::TriangleMesh;
 
 pub mod breath;
 mod drag;
+mod feeler;
 pub mod force;
 pub mod front;
 pub mod patches;

@@ -465,7 +465,7 @@ impl Wound {
             let before = wheels.map(|wheel| angle(&self.dynamics.bodies[wheel]));
             let (power, loss) = (self.power(), self.losses());
             hits.clear();
-            assert_eq!(self.dynamics.step(dt, &self.wrenches, &mut hits), 0, "bad numbers");
+            assert_eq!(self.dynamics.step(dt, &self.wrenches, &mut hits), None, "bad numbers");
             // The force is the same throughout a step, so its work is that of the mean speed to second order.
             self.given += 0.5 * dt * (power + self.power());
             self.damped += 0.5 * dt * (loss + self.losses());

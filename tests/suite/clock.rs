@@ -86,7 +86,7 @@ impl Clock {
             let before = wheels.map(|wheel| self.angle(wheel).0);
             let loss = self.loss(pendulum);
             hits.clear();
-            assert_eq!(self.dynamics.step(dt, &self.still, &mut hits), 0, "bad numbers");
+            assert_eq!(self.dynamics.step(dt, &self.still, &mut hits), None, "bad numbers");
             self.damped += 0.5 * dt * (loss + self.loss(pendulum));
             let after = wheels.map(|wheel| self.angle(wheel).0);
             for ((turn, before), after) in self.turns.iter_mut().zip(before).zip(after) {

@@ -48,7 +48,7 @@ impl Soffio {
 
 impl Engine for Soffio {
     fn step(&mut self) -> bool {
-        self.dynamics.step(self.dt, &self.still, &mut self.impacts) == 0
+        self.dynamics.step(self.dt, &self.still, &mut self.impacts).is_none()
     }
 
     fn substeps(&self) -> u32 {
