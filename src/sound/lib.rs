@@ -44,6 +44,7 @@ mod limiter;
 mod master;
 pub mod modal;
 pub mod modes;
+mod motion;
 mod night;
 mod room;
 mod synth;

@@ -17,12 +17,13 @@ use super::graph::{Block, CONTROL, Part};
 use super::habit::Habit;
 use super::instrument::Instrument;
 use super::master::Master;
+use super::motion::{Heard, Motion, NEAREST};
 use super::room::RoomSpec;
-use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
+use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{Across, InstrumentSpec, Slide, SoundCommand, Strike, Touch, WindSound};
+use super::{InstrumentSpec, SoundCommand, Strike, Touch};
 use soffio_math::noise::hash_words;
-use soffio_math::{PI, exp, sincos};
+use soffio_math::{PI, sincos};
 
 /// Partials that ring at once where nothing else is said: two and a half times the heaviest scene.
 pub const MOST_PARTIALS: usize = 16_384;
@@ -37,22 +38,9 @@ pub const MAX_COMMANDS: usize = 1024;
 const STEAL_FADE: f64 = 0.003;
 /// [`SoundCommand::Silence`] takes this long, s.
 const SILENCE_FADE: f64 = 0.04;
-/// Time constant with which the sound of the wind follows its commands, s.
-const WIND_GLIDE: f64 = 0.05;
-/// Time constant with which the sound of a slide follows its commands, s: one simulation step.
-const SLIDE_GLIDE: f64 = 0.004;
-/// Surfaces have parted below this, N.
-const PARTED: f64 = 1e-5;
-/// A wind that dies away is over below this, m/s.
-const CALM: f64 = 1e-3;
-/// Nobody's ear comes nearer than this, m.
-const NEAREST: f32 = 0.1;
-
 /// Plays the instruments of one exhibit.
 pub struct Synth {
     sample_rate: f64,
-    /// Of the way to what they glide to, wind and what slides go so much from one point of the control grid to the next.
-    shares: [f64; 2],
     seed: u64,
     instruments: Vec<Instrument>,
     bodies: Vec<Body>,
@@ -64,11 +52,7 @@ pub struct Synth {
     used: usize,
     /// Voices that go on as long as the wind or a slide plays them.
     lasting: Vec<Voice>,
-    wind: Wind,
-    /// One for each instrument.
-    sliders: Vec<Slider>,
-    /// Part of the wind that each instrument hears: commanded, and now.
-    across: Vec<[f64; 2]>,
+    motion: Motion,
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
     blocks: Box<[Block; MAX_NODES]>,
@@ -80,25 +64,6 @@ pub struct Synth {
     strikes: u64,
     faults: u64,
     lost: u64,
-}
-
-/// The wind as commanded, and as it sounds now.
-#[derive(Default)]
-struct Wind {
-    target: WindSound,
-    speed: f64,
-    gust: f64,
-    direction: f64,
-    pan: f64,
-}
-
-/// What slides over one instrument, as commanded and as it sounds now.
-#[derive(Clone, Copy, Default)]
-struct Slider {
-    target: Slide,
-    speed: f64,
-    force: f64,
-    position: [f64; 2],
 }
 
 impl Synth {
@@ -162,12 +127,10 @@ impl Synth {
             voices.iter_mut().for_each(|voice| instrument.graph.make_room(&mut voice.operators, sample_rate));
         }
         Self {
-            shares: [WIND_GLIDE, SLIDE_GLIDE].map(|glide| 1.0 - exp(-(CONTROL as f64) / (glide * sample_rate))),
+            motion: Motion::new(instruments.len(), sample_rate),
             sample_rate,
             seed,
-            sliders: vec![Slider::default(); instruments.len()],
             habits: vec![Habit::default(); instruments.len()],
-            across: vec![[1.0; 2]; instruments.len()],
             instruments,
             bodies,
             body_of,
@@ -175,7 +138,6 @@ impl Synth {
             voices,
             used: 0,
             lasting,
-            wind: Wind::default(),
             commands: VecDeque::with_capacity(MAX_COMMANDS),
             blocks: Box::new([[0.0; CONTROL]; MAX_NODES]),
             master: Master::new(sample_rate),
@@ -305,23 +267,16 @@ impl Synth {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
             SoundCommand::Touch(touch) => self.touch(&touch),
-            SoundCommand::Slide(slide) => match self.sliders.get_mut(usize::from(slide.instrument)) {
-                Some(slider) => slider.target = slide,
-                None => self.faults += 1,
-            },
-            SoundCommand::Wind(wind) => self.wind.target = wind,
-            SoundCommand::Across(Across { instrument, share, .. }) => {
-                match self.across.get_mut(usize::from(instrument)) {
-                    Some(across) => across[0] = f64::from(share).clamp(0.0, 1.0),
-                    None => self.faults += 1,
+            SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::Across(_) => {
+                if !self.motion.command(&command) {
+                    self.faults += 1;
                 }
             }
             SoundCommand::Silence { .. } => {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
                 self.bodies.iter_mut().for_each(|body| body.fade_out(samples));
-                self.wind.target.speed = 0.0;
-                self.sliders.iter_mut().for_each(|slider| slider.target.force = 0.0);
+                self.motion.silence();
             }
         }
     }
@@ -422,30 +377,11 @@ impl Synth {
             let graph = &self.instruments[voice.instrument].graph;
             graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
-        let [share, slides] = self.shares;
-        let calm_before = self.wind.speed == 0.0;
-        self.across.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
-        self.wind.glide(share);
-        let air = Inputs {
-            wind_speed: self.wind.speed,
-            wind_direction: self.wind.direction,
-            gust: self.wind.gust,
-            ..Inputs::default()
-        };
+        self.motion.glide();
         for voice in &mut self.lasting {
             let instrument = &self.instruments[voice.instrument];
-            let slider = &mut self.sliders[voice.instrument];
-            let (inputs, pan, distance, still_before, still) = if instrument.player == Player::Slide {
-                let parted = slider.force == 0.0;
-                slider.glide(slides);
-                let slide = slider.target;
-                let inputs =
-                    Inputs { slip_speed: slider.speed, normal_force: slider.force, position: slider.position, ..air };
-                (inputs, f64::from(slide.pan), slide.distance.max(NEAREST), parted, slider.force == 0.0)
-            } else {
-                let air = Inputs { wind_speed: self.wind.speed * self.across[voice.instrument][1], ..air };
-                (air, self.wind.pan, 1.0, calm_before, self.wind.speed == 0.0)
-            };
+            let Heard { inputs, pan, distance, still_before, still } =
+                self.motion.heard(voice.instrument, instrument.player);
             let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
             let drives = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
             match (voice.state, still) {
@@ -504,42 +440,6 @@ impl Synth {
         }
         for body in self.bodies.iter_mut().filter(|body| body.sounds()) {
             body.mix(&self.instruments[body.instrument], &mut self.blocks, at, left, right);
-        }
-    }
-}
-
-impl Wind {
-    /// One step of a one-pole glide towards the commanded wind.
-    fn glide(&mut self, share: f64) {
-        let target = f64::from(self.target.speed).max(0.0);
-        self.speed += (target - self.speed) * share;
-        self.gust += (f64::from(self.target.gust) - self.gust) * share;
-        self.pan += (f64::from(self.target.pan) - self.pan) * share;
-        if target > 0.0 {
-            // The shorter way round; what dies away keeps its direction.
-            let turn = f64::from(self.target.direction) - self.direction;
-            self.direction += (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) * share;
-        }
-        if target == 0.0 && self.speed < CALM {
-            self.speed = 0.0;
-        }
-    }
-}
-
-impl Slider {
-    /// One step of a one-pole glide towards the commanded slide.
-    fn glide(&mut self, share: f64) {
-        let target = f64::from(self.target.force).max(0.0);
-        let position = self.target.position.map(|p| f64::from(p).clamp(-1.0, 1.0));
-        if self.force == 0.0 {
-            // What begins to slide begins where it is.
-            self.position = position;
-        }
-        (0..2).for_each(|k| self.position[k] += (position[k] - self.position[k]) * share);
-        self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
-        self.force += (target - self.force) * share;
-        if target == 0.0 && self.force < PARTED {
-            self.force = 0.0;
         }
     }
 }

@@ -7,21 +7,20 @@
 //!
 //! Real-time: delays need room, which [`Graph::make_room`] makes before the first sound; nothing else allocates.
 
+mod block;
+mod delay;
+mod filter;
 mod noises;
 mod operator;
 mod state;
 mod surface;
 
+use super::InstrumentSpec;
 use super::timbre::{Inputs, MAX_NODES, Number, Preset, TimbreError};
-use super::{InstrumentSpec, SurfaceLine};
+pub(super) use block::{Block, CONTROL};
 use operator::Kind;
 use soffio_math::noise::hash_words;
 pub(super) use state::State;
-
-/// Samples between two readings of bound numbers.
-pub(super) const CONTROL: usize = 64;
-/// One operator's block.
-pub(super) type Block = [f32; CONTROL];
 
 /// Whose sound is rendered: what rings belongs to the body and adds up there, the rest to each hit by itself. A sum of
 /// both is taken apart; everything else that takes what rings is the body's.

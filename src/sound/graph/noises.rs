@@ -7,7 +7,7 @@
 //! **Slow** noise is a function of time, so that all voices feel the same gust. Where all its octaves are below a quarter
 //! of the control rate it is read on the grid and glides; otherwise it is read at each sample, up to fs/8.
 
-use super::CONTROL;
+use super::block::CONTROL;
 use super::state::{PINK, State};
 use crate::gusts::multifractal;
 use crate::timbre::{Noise, NoiseKind};

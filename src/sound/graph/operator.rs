@@ -2,17 +2,16 @@
 
 use std::sync::Arc;
 
+use super::block::{Block, CONTROL};
 use super::noises::{Pink, Slow};
 use super::state::State;
 use super::surface::Pyramid;
-use super::{Block, CONTROL, SurfaceLine};
+use crate::SurfaceLine;
 use crate::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
-use soffio_math::{PI, exp};
+use soffio_math::exp;
 
 /// An envelope below this is over: −120 dB.
 const OVER: f64 = 1e-6;
-/// What is below this on a delay's line is not waited for: −100 dB.
-const INAUDIBLE: f32 = 1e-5;
 /// Shortest time constant of an envelope, s.
 const SHORTEST: f64 = 1e-5;
 
@@ -101,9 +100,7 @@ impl Kind {
                 state.level[0] = line.level(state.value);
             }
             Self::Delay { time, .. } => {
-                let samples = (time.at(inputs).max(0.0) * sample_rate) as usize;
-                state.used = samples.min(state.line.len());
-                state.line[..state.used].fill(0.0);
+                state.delay.begin((time.at(inputs).max(0.0) * sample_rate) as usize);
             }
             _ => {}
         }
@@ -126,15 +123,7 @@ impl Kind {
     pub fn tune(&self, state: &mut State, inputs: &Inputs, sample_rate: f64) {
         if let Self::Filter { cutoff, q, .. } = self {
             let hz = cutoff.at(inputs).clamp(5.0, 0.45 * sample_rate);
-            state.g = libm::tan(PI * hz / sample_rate);
-            state.damping = 1.0 / q.at(inputs).clamp(0.1, 100.0);
-            state.shrink = 1.0 / (1.0 + state.g * (state.damping + state.g));
-            // Ringing below −400 dB is not worth the slow arithmetic of denormal numbers.
-            for integrator in &mut state.integrators {
-                if integrator.abs() < 1e-20 {
-                    *integrator = 0.0;
-                }
-            }
+            state.filter.tune(hz, q.at(inputs).clamp(0.1, 100.0), sample_rate);
         }
     }
 
@@ -149,7 +138,7 @@ impl Kind {
             (Self::Value, _) => out.fill(1.0),
             (Self::Filter { kind, .. }, Some(input)) => {
                 for (y, x) in out.iter_mut().zip(input) {
-                    *y = state.filter(f64::from(*x), *kind) as f32;
+                    *y = state.filter.next(f64::from(*x), *kind) as f32;
                 }
             }
             (Self::Env { .. }, Some(_)) if state.value == 0.0 => out.fill(0.0),
@@ -174,17 +163,7 @@ impl Kind {
                     *y = curve(points, f64::from(*x)) as f32;
                 }
             }
-            (Self::Delay { .. }, Some(input)) if state.used == 0 => out.copy_from_slice(input),
-            (Self::Delay { feedback, .. }, Some(input)) => {
-                for (y, x) in out.iter_mut().zip(input) {
-                    *y = state.line[state.at];
-                    let again = x + feedback * *y;
-                    // Denormal numbers are slow and not heard.
-                    state.line[state.at] = if again.abs() < 1e-20 { 0.0 } else { again };
-                    state.held = if again.abs() > INAUDIBLE { state.used } else { state.held.saturating_sub(1) };
-                    state.at = if state.at + 1 == state.used { 0 } else { state.at + 1 };
-                }
-            }
+            (Self::Delay { feedback, .. }, Some(input)) => state.delay.render(*feedback, input, out),
             (Self::Product, Some(input)) => {
                 out.copy_from_slice(input);
                 for &other in &inputs[1..] {

@@ -1,6 +1,8 @@
 //! What one operator of one voice remembers.
 
-use crate::timbre::{FilterKind, LONGEST_DELAY};
+use super::delay::DelayLine;
+use super::filter::StateVariable;
+use crate::timbre::LONGEST_DELAY;
 use soffio_math::noise::Random;
 
 /// Sections of the pink filter.
@@ -30,19 +32,10 @@ pub(crate) struct State {
     pub(super) level: [f64; 2],
     pub(super) left: f64,
     pub(super) next: Option<f64>,
-    /// Filter: the two integrators, and the coefficients.
-    pub(super) integrators: [f64; 2],
-    pub(super) g: f64,
-    pub(super) damping: f64,
-    pub(super) shrink: f64,
+    pub(super) filter: StateVariable,
     /// Pink noise: memories of its sections.
     pub(super) pink: [f64; PINK],
-    /// Delay: the line, how much of it is in use, and the sample that comes out next.
-    pub(super) line: Vec<f32>,
-    pub(super) used: usize,
-    pub(super) at: usize,
-    /// Samples until what is on the line has come out.
-    pub(super) held: usize,
+    pub(super) delay: DelayLine,
 }
 
 impl State {
@@ -63,57 +56,25 @@ impl State {
             level: [0.0; 2],
             left: f64::INFINITY,
             next: None,
-            integrators: [0.0; 2],
-            g: 0.0,
-            damping: 1.0,
-            shrink: 1.0,
+            filter: StateVariable::default(),
             pink: [0.0; PINK],
-            line: Vec::new(),
-            used: 0,
-            at: 0,
-            held: 0,
+            delay: DelayLine::default(),
         }
     }
 
     /// Whether something is still to come out that went in.
     pub fn holds(&self) -> bool {
-        self.held > 0
+        self.delay.holds()
     }
 
     /// At rest again; the room of a delay stays. Real-time.
     pub fn reset(&mut self, seed: u64) {
-        let line = std::mem::take(&mut self.line);
-        *self = Self { line, ..Self::new(seed) };
+        let delay = std::mem::take(&mut self.delay).emptied();
+        *self = Self { delay, ..Self::new(seed) };
     }
 
     /// Room for the longest delay. Allocates.
     pub(super) fn make_room(&mut self, sample_rate: f64) {
-        let longest = (LONGEST_DELAY * sample_rate) as usize + 1;
-        if self.line.len() < longest {
-            self.line.resize(longest, 0.0);
-        }
-    }
-
-    /// One sample of the state-variable filter by trapezoidal integration (Zavalishin, "The Art of VA Filter Design",
-    /// 2018, 4.1): stable under any change of its coefficients. g = tan(π f/fs), damping = 1/Q,
-    /// shrink = 1/(1 + g (damping + g)). The one-pole is the same with one integrator.
-    pub(super) fn filter(&mut self, x: f64, kind: FilterKind) -> f64 {
-        let [s1, s2] = self.integrators;
-        let (g, damping) = (self.g, self.damping);
-        if kind == FilterKind::OnePole {
-            let v = (x - s1) * g / (1.0 + g);
-            let low = v + s1;
-            self.integrators[0] = low + v;
-            return low;
-        }
-        let high = (x - (damping + g) * s1 - s2) * self.shrink;
-        let band = g * high + s1;
-        let low = g * band + s2;
-        self.integrators = [2.0 * band - s1, 2.0 * low - s2];
-        match kind {
-            FilterKind::LowPass | FilterKind::OnePole => low,
-            FilterKind::BandPass => damping * band,
-            FilterKind::HighPass => high,
-        }
+        self.delay.make_room((LONGEST_DELAY * sample_rate) as usize + 1);
     }
 }

@@ -5,7 +5,9 @@
 //! Rayleigh's, as the sum of many shapes has them; their squares sum to 1. The shape of each is a wave of the
 //! direction and phase of chance, with as many half waves along the body as its frequency over the lowest allows.
 
-use super::{Mode, Shape, T60_DECAYS};
+use super::limits::T60_DECAYS;
+use super::mode::Mode;
+use super::shape::Shape;
 use crate::timbre::{Drawn, Modal, Spacing};
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{PI, exp, ln, pow, sincos};

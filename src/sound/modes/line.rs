@@ -6,7 +6,9 @@
 //!
 //! **Spring**: f = √(k/m) / 2π.
 
-use super::{HIGHEST, Matter, Mode, ModeError, Shape, T60_DECAYS};
+use super::limits::{HIGHEST, T60_DECAYS};
+use super::mode::{Matter, Mode, ModeError};
+use super::shape::Shape;
 use crate::SoundBody;
 use crate::timbre::{MassSpring, Modal, Strung};
 use soffio_math::PI;

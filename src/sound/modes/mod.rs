@@ -7,83 +7,34 @@
 //! **Decay**: c = π η f of the material and its mounting (T60 = 6.908/c = 2.2/(η f)), what the support takes, and what
 //! the sound itself takes away.
 
+mod bars;
 mod beam;
 mod drawn;
 mod eigen;
+mod limits;
 mod line;
+mod mode;
 mod plate;
 mod shape;
 
 pub use beam::{BeamMode, Section, beam_modes};
+pub use limits::{HIGHEST, T60_DECAYS};
+pub use mode::Mode;
+pub(super) use mode::ModeError;
 pub use plate::{PlateMode, free_plate_modes};
 pub(super) use shape::Place;
 pub use shape::Shape;
 
+use super::InstrumentSpec;
 use super::excitation::Radiator;
-use super::timbre::{MaterialOverride, Modal, Source, Table};
-use super::{InstrumentSpec, SoundBody, SoundMaterial};
+use super::timbre::{Modal, Source, Table};
+use mode::Matter;
 use plate::outline_exponent;
-use soffio_math::PI;
 
-/// T60 · c: a fall by 60 dB is e^(−6.908).
-pub const T60_DECAYS: f64 = 6.907_755_278_982_137;
-/// Nothing above is heard, Hz.
-pub const HIGHEST: f64 = 20_000.0;
 /// A body this many times as long as it is wide, and not a sheet, is a bar or a tube.
 const SLENDER: f64 = 4.0;
 /// A body thinner than this share of its width is a sheet.
 const SHEET: f64 = 0.3;
-
-/// One partial of a body.
-#[derive(Clone, Debug)]
-pub struct Mode {
-    /// Hz.
-    pub frequency: f64,
-    /// c, 1/s.
-    pub decay: f64,
-    /// Full scale at 1 m, per N s and per unit of shape.
-    pub amplitude: f64,
-    /// Where it moves.
-    pub shape: Shape,
-}
-
-/// What is wrong with a body or a source: the key below the node, and the words.
-pub(super) type ModeError = (&'static str, String);
-
-/// The body with what the preset says instead of the exhibit.
-#[derive(Clone, Copy, Debug)]
-struct Matter {
-    material: SoundMaterial,
-    /// G, Pa.
-    shear_modulus: f64,
-    body: SoundBody,
-    /// m³.
-    volume: f64,
-}
-
-impl Matter {
-    fn new(spec: &InstrumentSpec, given: &MaterialOverride) -> Self {
-        let own = spec.material;
-        let material = SoundMaterial {
-            youngs_modulus: given.youngs_modulus.unwrap_or(own.youngs_modulus),
-            poisson: given.poisson.unwrap_or(own.poisson),
-            density: given.density.unwrap_or(own.density),
-            loss_factor: given.loss_factor.unwrap_or(own.loss_factor),
-        };
-        let volume = spec.body.mass / own.density;
-        let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson));
-        let mut body = spec.body;
-        if given.density.is_some() {
-            body.mass = volume * material.density;
-        }
-        Self { material, shear_modulus: given.shear_modulus.unwrap_or(shear), body, volume }
-    }
-
-    /// c of the material, 1/s.
-    fn loss(&self, frequency: f64) -> f64 {
-        PI * self.material.loss_factor * frequency
-    }
-}
 
 /// The partials of a modal node on a body, in ascending order, and the exponent of the outline that plates have.
 pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec) -> Result<(Vec<Mode>, f64), ModeError> {
@@ -91,8 +42,8 @@ pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec) -> Result<(Vec<Mode>, 
         Source::Plate(plate) => plate_partials(&Matter::new(spec, &plate.material), modal)?,
         Source::Mesh(mesh) => mesh_partials(&Matter::new(spec, &mesh.material), modal)?,
         Source::Table(table) => tabled(table, modal.support_loss),
-        Source::Tube(tube) => beam::tube(tube, &Matter::new(spec, &tube.material), modal)?,
-        Source::Bar(bar) => beam::bar(bar, &Matter::new(spec, &bar.material), modal)?,
+        Source::Tube(tube) => bars::tube(tube, &Matter::new(spec, &tube.material), modal)?,
+        Source::Bar(bar) => bars::bar(bar, &Matter::new(spec, &bar.material), modal)?,
         Source::String(string) => line::string(string, &Matter::new(spec, &string.material), modal)?,
         Source::MassSpring(spring) => line::mass_spring(spring, &spec.body, modal.support_loss)?,
         Source::Random(drawn) => drawn::partials(drawn, modal),
@@ -133,9 +84,9 @@ fn mesh_partials(matter: &Matter, modal: &Modal) -> Result<Vec<Mode>, ModeError>
     const ROUND: f64 = 0.8;
     let filled = matter.volume / (2.0 * long) / (4.0 * wide * wide);
     if filled <= ROUND && matter.body.thickness > 0.9 * 2.0 * wide {
-        beam::tube(&beam::BODYS_TUBE, matter, modal)
+        bars::tube(&bars::BODYS_TUBE, matter, modal)
     } else {
-        beam::bar(&beam::BODYS_BAR, matter, modal)
+        bars::bar(&bars::BODYS_BAR, matter, modal)
     }
 }
 

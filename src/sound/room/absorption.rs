@@ -24,7 +24,7 @@
 //! | G(f) | `wanted` | dB |
 //! | h | `rise`, in dB | 1 |
 
-use super::{BANDS, LINES};
+use super::lines::{BANDS, LINES};
 use soffio_math::{PI, decibels, from_decibels, sincos, sqrt};
 
 /// Shelves of a line: one between two octaves.

@@ -25,20 +25,20 @@
 //! something to be heard, which spares work and keeps numbers out of the range where processors are slow.
 
 mod absorption;
+mod lines;
 mod network;
+
+pub use lines::BANDS;
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 
 use absorption::{Absorption, Absorptions};
+use lines::LINES;
 use network::{CHUNK, Delay, Network};
 
 use soffio_math::{decibels, from_decibels, pow, sqrt};
 
-/// Delay lines.
-pub(super) const LINES: usize = 16;
-/// Octaves at which a room's decay is given, Hz.
-pub const BANDS: [f64; 7] = [125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0];
 /// Shortest and longest decay that a room may have, s.
 pub const T60_RANGE: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// Most that decays of neighbouring octaves may differ, as a ratio: what the shelves of `absorption` can follow.
@@ -48,8 +48,6 @@ pub const STEEPEST: f64 = 1.6;
 const LENGTHS: (f64, f64) = (0.021, 0.079);
 /// Allpasses of the left and of the right channel, s.
 const DIFFUSERS: [[f64; 3]; 2] = [[0.0017, 0.0041, 0.0089], [0.0019, 0.0045, 0.0083]];
-/// What is below this becomes 0: −240 dB.
-const FLOOR: f32 = 1e-12;
 /// Louder than any sound; a number beyond it is a fault that must not live on in the lines.
 const LOUDEST: f32 = 1e3;
 /// Band whose decay sets the level: 1 kHz.

@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, u32x16};
 
 use super::absorption::{Absorptions, SHELVES};
-use super::{FLOOR, LINES};
+use super::lines::{FLOOR, LINES};
 
 /// Most frames of a chunk, as many as lines.
 pub(super) const CHUNK: usize = LINES;

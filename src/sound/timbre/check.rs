@@ -1,10 +1,12 @@
 //! What a preset must be beyond its shape: ranges, names that exist, limits that real-time sets.
 
+use super::error::TimbreError;
+use super::limits::{LONGEST_DELAY, MAX_NODES, MAX_PARTIALS, VERSION};
 use super::node::{Delay, Map, Mix, Node, Noise, Texture};
 use super::number::Number;
+use super::preset::Preset;
 use super::read::hint;
 use super::source::{Drawn, MaterialOverride, Modal, Source, TablePartial};
-use super::{LONGEST_DELAY, MAX_NODES, MAX_PARTIALS, Preset, TimbreError, VERSION};
 
 /// Most points of a curve.
 const MOST_POINTS: usize = 64;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::number::{Input, Number};
+use super::number::{Input, Number, one};
 use super::source::Modal;
 
 /// One operator of a timbre.
@@ -214,9 +214,6 @@ pub struct Mix {
     pub gain: Number,
 }
 
-pub(super) fn one() -> Number {
-    Number::Fixed(1.0)
-}
 fn zero() -> Number {
     Number::Fixed(0.0)
 }

@@ -318,3 +318,8 @@ impl Input {
         }
     }
 }
+
+/// A factor that leaves what it multiplies.
+pub(super) fn one() -> Number {
+    Number::Fixed(1.0)
+}

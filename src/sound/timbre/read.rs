@@ -3,9 +3,11 @@
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
+use super::error::TimbreError;
 use super::node::{Node, TYPES};
+use super::preset::Preset;
 use super::source::{COMMON, Common, Modal, SOURCES, Source};
-use super::{Preset, TimbreError};
+use super::specimen::Specimen;
 
 /// Likeness (Jaro–Winkler) below which two names have nothing to do with each other.
 const LIKENESS: f64 = 0.75;
@@ -87,7 +89,7 @@ struct Head {
     name: String,
     description: String,
     #[serde(default)]
-    specimen: super::Specimen,
+    specimen: Specimen,
     #[serde(rename = "node")]
     _node: Table,
 }

@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::MAX_PARTIALS;
-use super::node::one;
-use super::number::Number;
+use super::limits::MAX_PARTIALS;
+use super::number::{Number, one};
 
 /// Decaying partials.
 #[derive(Clone, Debug, JsonSchema, PartialEq)]
