@@ -74,5 +74,8 @@ pub fn a_hundred_times_the_gravity_is_borne(id: &str) {
     let blow = [Command::Blow(Some(17.0))];
     simulation.step(&StepInput { commands: &blow, ..StepInput::default() });
     let events = play(&mut simulation, 300);
-    note!("{id}: {} faults, {} events", faults(&events).len(), events.len());
+    let (open, bad) = (simulation.joint_error(), faults(&events).len());
+    note!("{id}: {bad} faults, {} events, joints open by {open:.1e} m", events.len());
+    assert!(bad <= MOST_FAULTS, "{id}: {bad} faults");
+    assert!(open < OPEN, "{id}: joints open by {open} m");
 }
