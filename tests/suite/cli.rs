@@ -8,8 +8,6 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::require::require;
-
 /// A folder of its own for one test.
 pub(super) struct Desk(tempfile::TempDir);
 
@@ -544,7 +542,7 @@ fn pictures_are_measured_by_the_processor_time_of_all_threads() {
     // With a driver, where the machine has one.
     let run = Command::new(env!("CARGO_BIN_EXE_soffio")).args(args).output().expect("the program starts");
     let found = if run.status.code() == NO_DRIVER { Err(String::from_utf8_lossy(&run.stderr)) } else { Ok(()) };
-    if require("Vulkan driver", found).is_none() {
+    if crate::require::require("Vulkan driver", found).is_none() {
         return;
     }
     let row: Value = serde_json::from_slice(&run.stdout).expect("JSON");

@@ -221,11 +221,13 @@ const STRIKING: [&str; 7] = ["StrikeWheel", "StrikeDrum", "StrikeWeight", "PinWh
 
 #[test]
 fn it_beats_and_strikes_as_if_its_strike_never_slept() {
-    /// s, of any of 1120 beats. What is left out touches nothing that goes, but the forces of fewer touches round otherwise, each
-    /// hit is aimed at to a microsecond, and the step itself moves beats by 2 ms in ten seconds. Of seven pairs whose pendulums
-    /// began a rounding apart, beats came 0.2 to 6.3 ms apart, five within 4 ms: so the nearest of some pairs counts, as a strike
-    /// that moved the beats would move those of all.
-    const BEAT: f64 = 5e-3;
+    /// s, of any of 1120 beats, for each pair. What is left out touches nothing that goes, but the forces of fewer touches round
+    /// otherwise, and from then on the two runs differ by what a step does to a beat: 2.1 ms in ten seconds
+    /// (`beats_fall_where_a_finer_step_has_them`). Over 615 s such differences add up as a random walk: 2.1 ms · √61.5 = 16.5 ms.
+    const BEAT: f64 = 16.5e-3;
+    /// s, the same for the median of the pairs. Of seven pairs whose pendulums began a rounding apart, beats came 0.2 to 6.3 ms
+    /// apart, five within 4 ms; a strike that moved the beats would move those of all pairs.
+    const MEDIAN_BEAT: f64 = 5e-3;
     /// s, of any of eleven blows; reached: 15 ms. The minute hand's pin lets the flirt fall so much sooner or later.
     const BLOW: f64 = 5e-2;
     /// Of the time: all but the strike itself, and what it takes the hammer to come to rest.
@@ -233,17 +235,24 @@ fn it_beats_and_strikes_as_if_its_strike_never_slept() {
     /// rad/s that the pendulum begins with, of each pair: roundings of its speed.
     const ROUNDINGS: [f64; 4] = [0.0, 1e-12, 2e-12, 3e-12];
     let steps = 615.0 * STEPS_PER_SECOND as f64;
-    let alike = ROUNDINGS.into_iter().any(|push| {
+    let run = |push: f64| {
         let Kept { blows, beats, slept, .. } = in_the_room(615.0, push, false);
         let Kept { blows: other_blows, beats: other_beats, slept: never, .. } = in_the_room(615.0, push, true);
         assert!(never == 0 && slept as f64 > SLEEPS * steps, "slept in {slept} steps of {steps}");
         assert_eq!((blows.len(), beats.len()), (other_blows.len(), other_beats.len()));
         let apart = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let (blow, beat) = (apart(&blows, &other_blows), apart(&beats, &other_beats));
-        println!("slept in {slept} of {steps} steps; blows {blow:.1e} s apart, beats {beat:.1e} s");
-        blow < BLOW && beat < BEAT
+        println!("{push:.0e} rad/s: slept in {slept} of {steps} steps; blows {blow:.1e} s apart, beats {beat:.1e} s");
+        assert!(blow < BLOW && beat < BEAT, "blows {blow} s apart, beats {beat} s");
+        beat
+    };
+    let mut beats: Vec<f64> = std::thread::scope(|scope| {
+        let runs = ROUNDINGS.map(|push| scope.spawn(move || run(push)));
+        runs.into_iter().map(|run| run.join().expect("a pair that is alike")).collect()
     });
-    assert!(alike, "its strike moves the beats");
+    beats.sort_by(f64::total_cmp);
+    let median = 0.5 * (beats[1] + beats[2]);
+    assert!(median < MEDIAN_BEAT, "its strike moves the beats: {beats:?} s");
 }
 
 /// What was kept of a run.
@@ -521,9 +530,19 @@ fn against_fine_steps(seconds: f64, finer: f64) -> f64 {
 
 #[test]
 fn beats_fall_where_a_finer_step_has_them() {
-    /// s, over ten seconds. Reached, not derived: 2.1 ms at steps of 1/240 s, as the forces that hold teeth stand still for a
-    /// substep; 1 µs in two minutes is what is wanted.
-    const APART: f64 = 4e-3;
+    /// s, over ten seconds: one step of 1/240 s. The forces that hold teeth stand still for a substep, so
+    /// a tooth is let go a part of a substep too early or too late. Measured: 2.1 ms. The bar that is not met is
+    /// `beats_fall_within_50_microseconds_of_a_finer_step`.
+    const APART: f64 = DT;
+    let worst = against_fine_steps(10.0, 8.0);
+    assert!(worst < APART, "{worst} s apart");
+}
+
+#[test]
+#[ignore = "not met: measured 2.1 ms over ten seconds, bar 0.05 ms"]
+fn beats_fall_within_50_microseconds_of_a_finer_step() {
+    /// s: the bar of the clock without its strike; with teeth that are held by forces it is missed.
+    const APART: f64 = 5e-5;
     let worst = against_fine_steps(10.0, 8.0);
     assert!(worst < APART, "{worst} s apart");
 }
@@ -532,8 +551,17 @@ fn beats_fall_where_a_finer_step_has_them() {
 #[test]
 #[ignore = "two minutes at a sixteenth of the step: a minute of the machine"]
 fn two_minutes_of_beats_fall_where_a_finer_step_has_them() {
-    /// s, reached, as above.
-    const APART: f64 = 5e-2;
+    /// s: a step for each ten seconds, which add up at worst.
+    const APART: f64 = 12.0 * DT;
+    let worst = against_fine_steps(120.0, 16.0);
+    assert!(worst < APART, "{worst} s apart");
+}
+
+#[test]
+#[ignore = "not met: tens of milliseconds over two minutes, bar 1 ms"]
+fn two_minutes_of_beats_fall_within_a_millisecond_of_a_finer_step() {
+    /// s: the bar of the clock without its strike.
+    const APART: f64 = 1e-3;
     let worst = against_fine_steps(120.0, 16.0);
     assert!(worst < APART, "{worst} s apart");
 }

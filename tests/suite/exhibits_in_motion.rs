@@ -319,7 +319,7 @@ fn a_breath_on_the_fan_holds_the_weight_back() {
     };
     let (alone, blown) = (fallen(0.0), fallen(0.5));
     println!("{:.1} mm alone, {:.1} mm under a breath", 1e3 * alone, 1e3 * blown);
-    assert!((blown / alone - 1.0).abs() > 0.1, "{blown} m, {alone} m alone");
+    assert!(blown < 0.9 * alone, "{blown} m, {alone} m alone");
 }
 
 #[test]

@@ -5,10 +5,8 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_geometry::rays::Occluders;
-use soffio_math::noise::Random;
 use soffio_math::{DVec3, rotation};
-use soffio_simulation::{Command, Hand, MotionMode, Script, Settings, Simulation, StepInput};
+use soffio_simulation::{Hand, MotionMode, Script, Settings, Simulation, StepInput};
 
 const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
 const ASPECT: f64 = 16.0 / 9.0;

@@ -31,6 +31,7 @@ mod procedural;
 mod realtime;
 #[cfg(feature = "kiosk")]
 mod rehearsal;
+#[cfg(feature = "kiosk")]
 mod require;
 mod robust;
 mod scene;

@@ -11,7 +11,7 @@ use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{self, Drive, Dynamics, Figure, Integrator, Motion, Solver};
 use soffio_offline::scene::make;
 use soffio_offline::scene::run::{self, Limits, watch};
-use soffio_simulation::{Command, Event, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 use super::exhibit::glb::{Folder, Scene, cuboid};
 
@@ -55,11 +55,6 @@ fn survive(dynamics: &mut Dynamics, seconds: f64) -> usize {
         assert!(dynamics.bodies.iter().all(RigidBody::is_finite), "bad numbers after step {step}");
     }
     faults
-}
-
-fn shipped(id: &str) -> Exhibit {
-    let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false)))
 }
 
 /// A box that nothing holds but what `text` says.
@@ -131,24 +126,6 @@ fn a_million_times_the_mass_hangs_on_a_chain() {
         assert!(report.max_energy_drift_rel < DRIFT, "seed {seed}: energy drifts by {}", report.max_energy_drift_rel);
         assert!(report.max_joint_err_m < JOINT_ERROR, "seed {seed}: joints by {} m", report.max_joint_err_m);
     }
-}
-
-/// Steps an exhibit and returns its events; every pose is finite.
-fn play(simulation: &mut Simulation, steps: usize) -> Vec<Event> {
-    let mut events = Vec::new();
-    for _ in 0..steps {
-        simulation.step(&StepInput::default());
-        assert!(simulation.bodies().iter().all(RigidBody::is_finite), "bad numbers at step {}", simulation.steps());
-        let snapshot = simulation.snapshot();
-        assert!(snapshot.motes.iter().all(|mote| mote.position.iter().all(|x| x.is_finite())), "the dust is lost");
-        assert!(snapshot.breath.target.is_finite() && snapshot.diagnostics.wind_force.is_finite());
-        events.extend_from_slice(simulation.events());
-    }
-    events
-}
-
-fn faults(events: &[Event]) -> Vec<&Event> {
-    events.iter().filter(|event| event.kind == EventKind::Fault).collect()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Label texts as a table and back: nothing is lost, nothing else is touched, and what is missing or unknown is said.
 
+use soffio_exhibit::Report;
 use soffio_exhibit::labels::{Taken, from_csv, to_csv};
-use soffio_exhibit::{self as exhibit, Report};
 
 const SIDECAR: &str = r#"schema = "exhibit/1"
 model = "m.glb"   # the model

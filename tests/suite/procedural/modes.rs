@@ -3,15 +3,11 @@
 
 use std::sync::Arc;
 
-use assert_no_alloc::assert_no_alloc;
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_math::{DVec3, decibels};
-use soffio_simulation::{
-    Command, EventKind, MotionMode, SAMPLE_RATE, SAMPLES_PER_STEP, Settings, Simulation, StepInput,
-};
-use soffio_sound::{SoundCommand, Synth};
+use soffio_math::DVec3;
+use soffio_simulation::{Command, EventKind, MotionMode, Settings, Simulation, StepInput};
+use soffio_sound::SoundCommand;
 
-const DT: f64 = 1.0 / 240.0;
 const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
 /// A breath that moves everything, m/s at the lips.
 const BREATH: f64 = 12.0;

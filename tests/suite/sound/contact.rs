@@ -432,9 +432,10 @@ fn a_timbre_that_the_motion_does_not_play_is_refused() {
 
 #[test]
 fn wires_hear_what_blows_across_them() {
-    // Three wires at right angles: the squares of their sines with any wind are 2 together.
-    // Each is told of changes of a hundredth.
-    const TOLD: f64 = 0.06;
+    // Three wires at right angles: the squares of their sines with any wind are 2 together. Each wire is told of changes
+    // above 0.01 of the wind, so a share s that it was told is off by δ ≤ 0.01, and its square by 2 s δ + δ². With Σ s² = 2
+    // the sum of three shares is √6 at most: 2·√6·0.01 + 3·0.01² = 0.0493.
+    const TOLD: f64 = 0.0493;
     let mut scene = Scene::default();
     scene.node("Post", [0.0; 3], Some(&cuboid([0.1; 3])), &[]);
     let mut sidecar = hard(0.5, 0.5) + &body("Post", "{ box = { size = [0.1, 0.1, 0.1] } }", "");

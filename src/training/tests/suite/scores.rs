@@ -1,10 +1,10 @@
-//! The trained detector against labelled recordings, where they are present, and against made scenes, with the bars it
-//! must keep.
+//! The trained detector against labelled recordings and against made scenes, with the bars it must keep.
 //!
-//! The bars on recordings guard what is reached on a set that the model has learnt from; what it reaches on groups that it has
+//! The recordings are those of the folder that the environment variable `SOFFIO_BREATH_DATA` names, else the small set in
+//! `tests/cases/breath`. The bars on the whole set guard what is reached on a set that the model has learnt from; what it reaches on groups that it has
 //! not met, `soffio-training train --cross-validate` prints. The made scenes are of worlds that it has not met.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use soffio_detector::BlowSettings;
 use soffio_math::noise::Random;
@@ -17,14 +17,17 @@ use soffio_training::descent::{self, Example};
 use soffio_training::recordings;
 use soffio_training::score::{Marks, Table, judge};
 
+use super::small_set;
+
 /// Part of the isolated blows that must be heard: the goal.
 const DETECTION: f64 = 0.95;
 /// Of the blows 5 dB and more above a noise: the goal, 22 of 24.
 const DETECTION_5_DB: f64 = 22.0 / 24.0;
-/// Of made breaths in a museum as loud as they are: what is reached, less what two dozen may scatter by (two standard
-/// deviations). The goal is 0.75, on recordings; the set has four of these, of which three are heard, too few to hold anything
-/// to.
-const DETECTION_0_DB: f64 = 0.4;
+/// Of made breaths in a museum as loud as they are: the share from which [`at_least`] derives the bar, 0.42 of 31 breaths. In
+/// the world of these tests 23 of 31 are heard. The goal is [`GOAL_0_DB`].
+const DETECTION_0_DB: f64 = 0.6;
+/// Of the same: the goal. It is not met: `three_quarters_of_the_breaths_as_loud_as_the_museum_are_heard`.
+const GOAL_0_DB: f64 = 0.75;
 /// The same with two capsules: 0.94 of a hundred, less two deviations.
 const DETECTION_0_DB_TWO: f64 = 0.84;
 /// Of breaths of which two capsules have 15 dB between them, and each of them next to nothing: 398 of 417 in 18 worlds (of the lessons
@@ -32,9 +35,9 @@ const DETECTION_0_DB_TWO: f64 = 0.84;
 /// been learnt from.
 const DETECTION_BETWEEN: f64 = 0.87;
 const BETWEEN_S: f64 = 0.19;
-/// Of made breaths that the kiosk answers, as loudly as it can, half of them while it rings from before: 0.85 is reached over
-/// hours, less what three dozen may scatter by.
-const DETECTION_ANSWERED: f64 = 0.72;
+/// Of made breaths that the kiosk answers, as loudly as it can, half of them while it rings from before: the goal. It is
+/// reached over hours; of a few breaths [`at_least`] so many must be.
+const DETECTION_ANSWERED: f64 = 0.85;
 /// Of made breaths by who has just talked at the kiosk: 0.97 of eight hundred, less two deviations of two dozen; and their
 /// median, s: 0.2.
 const SPOKEN: f64 = 0.88;
@@ -52,15 +55,18 @@ const ORDER: f64 = 0.95;
 /// Detection may change by this much at ±12 dB: the goal.
 const GAIN_DETECTION: f64 = 0.03;
 
-/// `shared/breath` beside the repository, or where `SOFFIO_BREATH_DATA` says.
-fn recorded() -> Option<Vec<Take>> {
-    let given = std::env::var_os("SOFFIO_BREATH_DATA").map(PathBuf::from);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/breath");
-    let folder = [given, Some(beside)].into_iter().flatten().find(|folder| folder.join("labels.csv").is_file());
-    if folder.is_none() {
-        println!("no labelled recordings beside the repository: nothing to score");
-    }
-    folder.map(|folder| recordings::read(&folder).expect("a readable set"))
+/// The bar for a share that is reached in the long run, where only `count` breaths are judged: two standard deviations
+/// of the binomial distribution below it. One run of 44 falls below by chance.
+fn at_least(share: f64, count: usize) -> f64 {
+    share - 2.0 * (share * (1.0 - share) / count as f64).sqrt()
+}
+
+/// Is the whole set of recordings here, that is where `SOFFIO_BREATH_DATA` says? Else the takes are those of the small set in
+/// the repository.
+fn recorded() -> (bool, Vec<Take>) {
+    let whole = std::env::var_os("SOFFIO_BREATH_DATA").map(PathBuf::from);
+    let folder = whole.clone().unwrap_or_else(small_set::folder);
+    (whole.is_some(), recordings::read(&folder).unwrap_or_else(|error| panic!("{error}")))
 }
 
 fn marked(takes: &[Take]) -> (Table, Vec<String>) {
@@ -71,8 +77,12 @@ fn marked(takes: &[Take]) -> (Table, Vec<String>) {
 
 #[test]
 fn labelled_recordings_are_told_apart() {
-    let Some(takes) = recorded() else { return };
+    let (whole, takes) = recorded();
     let (table, remarks) = marked(&takes);
+    if !whole {
+        println!("{table}{remarks:#?}");
+        return told_apart_in_the_small_set(&takes);
+    }
     let row = |first: char| -> &Marks { table.0.iter().find(|(name, _)| name.starts_with(first)).expect("a row").1 };
     let isolated = row('1');
     println!("{table}{remarks:#?}");
@@ -95,9 +105,35 @@ fn labelled_recordings_are_told_apart() {
     }
 }
 
+/// The bars above are shares of the whole set. The small set is counted: when it was made the detector heard all 14 isolated
+/// breaths and all 4 in a crowd, nothing else, at any of three gains, with a median latency of 0.138 s. At least so much must
+/// hold: one breath of each kind may be lost by another table (the goals of 95 % and 22 of 24 allow no more of so few), no
+/// trigger in half a minute without breath, and two frames of 8 ms more of latency.
+fn told_apart_in_the_small_set(takes: &[Take]) {
+    const ISOLATED: (usize, usize) = (13, 14);
+    const IN_A_CROWD: (usize, usize) = (3, 4);
+    const MEDIAN_S: f64 = 0.154;
+    for gain in [-12.0, 0.0, 12.0] {
+        let (mut isolated, mut crowd, mut rest) = (Marks::default(), Marks::default(), Marks::default());
+        for take in takes {
+            let marks = match take.breaths.first() {
+                Some(breath) if breath.snr_db.is_some() => &mut crowd,
+                Some(_) => &mut isolated,
+                None => &mut rest,
+            };
+            marks.add(take, &judge(&BlowSettings::default(), &take.with_gain(gain)));
+        }
+        println!("{gain:+} dB: alone {isolated}; in a crowd {crowd}; no breath {rest}");
+        assert_eq!((isolated.heard.1, crowd.heard.1), (ISOLATED.1, IN_A_CROWD.1));
+        assert!(isolated.heard.0 >= ISOLATED.0 && crowd.heard.0 >= IN_A_CROWD.0, "{gain:+} dB: {isolated}; {crowd}");
+        assert_eq!(isolated.ghosts + crowd.ghosts + rest.ghosts, 0, "{gain:+} dB: wind without breath");
+        assert!(quantile(&isolated.latency, 0.5) <= MEDIAN_S, "{gain:+} dB: {isolated}");
+    }
+}
+
 #[test]
 fn a_stronger_blow_is_a_stronger_wind() {
-    let Some(takes) = recorded() else { return };
+    let (_, takes) = recorded();
     let mut ladders: Vec<&str> = takes.iter().map(|t| t.group.as_str()).filter(|g| g.starts_with("ladder")).collect();
     ladders.sort_unstable();
     ladders.dedup();
@@ -139,7 +175,7 @@ fn a_made_breath_is_heard_and_a_made_museum_is_not() {
     let spoken = scenes(Condition::Spoken, 16, PLAIN);
     assert!(spoken.share() >= SPOKEN && quantile(&spoken.latency, 0.5) <= SPOKEN_S, "by who has just talked: {spoken}");
     let drowned = scenes(Condition::Noisy(0.0), 24, PLAIN);
-    assert!(drowned.share() >= DETECTION_0_DB, "{drowned}");
+    assert!(drowned.share() >= at_least(DETECTION_0_DB, drowned.heard.1), "{drowned}");
     assert!(scenes(Condition::Museum, 3, PLAIN).ghosts <= MUSEUM_GHOSTS);
     assert_eq!(scenes(Condition::Impulses, 6, PLAIN).ghosts, 0, "knocks, claps, pops, doors");
     let (mut heard, mut blown) = (0, 0);
@@ -149,7 +185,14 @@ fn a_made_breath_is_heard_and_a_made_museum_is_not() {
         (heard, blown) = (heard + answered.heard.0, blown + answered.heard.1);
     }
     let share = heard as f64 / blown as f64;
-    assert!(share >= DETECTION_ANSWERED, "{heard} of {blown} that the kiosk answers");
+    assert!(share >= at_least(DETECTION_ANSWERED, blown), "{heard} of {blown} that the kiosk answers");
+}
+
+#[test]
+#[ignore = "not met: measured 0.742 (23 of 31), bar 0.75"]
+fn three_quarters_of_the_breaths_as_loud_as_the_museum_are_heard() {
+    let drowned = scenes(Condition::Noisy(0.0), 24, PLAIN);
+    assert!(drowned.share() >= GOAL_0_DB, "{drowned}");
 }
 
 #[test]
