@@ -197,10 +197,10 @@ hold() { # hold KIOSK SECONDS
     local held
     held=$(breaths "$1" hold begins | wc -l)
     xdotool keydown space
-    within 10 held_times "$1" begins $((held + 1)) || true
+    within 20 held_times "$1" begins $((held + 1)) || true
     sleep "$2"
     xdotool keyup space
-    within 10 held_times "$1" ends $((held + 1)) || true
+    within 20 held_times "$1" ends $((held + 1)) || true
 }
 held_times() { [ "$(breaths "$1" hold "$2" | wc -l)" -ge "$3" ]; }
 

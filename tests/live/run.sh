@@ -440,7 +440,7 @@ speaker_replugged() {
     # the work swings just then.
     # Its last seconds: when the key is heard hangs on the picture that is drawn meanwhile.
     local loud
-    loud=$(level "$room/back.out" "$(awk -v bytes="$(stat -c %s "$room/back.out")" 'BEGIN { t = bytes / 384000 - 2.5; print t > 0 ? t : 0 }')" 2)
+    loud=$(level "$room/back.out" "$(awk -v bytes="$(stat -c %s "$room/back.out")" 'BEGIN { t = bytes / 384000 - 2.5; print (t > 0 ? t : 0) }')" 2)
     bar "back: it sounds" "$loud > -60" "$loud dBFS"
     # A row 60 times a second, whatever the loudspeaker does.
     read -r rows gaps < <(awk -F, 'FNR > 2 && $1 - t > 0.018 { gaps++ } FNR > 1 { t = $1; times[$1] } END { print length(times), gaps + 0 }' "$room/mute.csv")
@@ -494,6 +494,7 @@ no_devices() {
     # Beyond the time that devices may take to open.
     within 12 grep -q 'no microphone' "$room/deaf.err" || true
     xdotool mousemove 880 300 mousedown 1
+    within 10 held_times deaf begins 1 || true
     sleep 2
     import -window root "$room/hold.png"
     xdotool mouseup 1
