@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::hours::{self, TimeOfDay};
 
 /// When it listens to its own chirp, and how long a foam lasts.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Care {
     /// Local time, `03:30`, at which the loudspeaker chirps and the microphone hears it, once a day, when the house is
@@ -15,10 +15,15 @@ pub struct Care {
     pub chirp_at: Option<TimeOfDay>,
     /// Breaths at the microphone after which its foam is to be changed; 0 for never.
     pub foam_blows: u32,
+    /// Time for which all input is off while the glass is cleaned, s.
+    pub cleaning_s: f64,
 }
+
+/// Default of [`Care::cleaning_s`], s: enough to wipe a large screen.
+pub const CLEANING_S: f64 = 60.0;
 
 impl Default for Care {
     fn default() -> Self {
-        Self { chirp_at: None, foam_blows: 5000 }
+        Self { chirp_at: None, foam_blows: 5000, cleaning_s: CLEANING_S }
     }
 }

@@ -44,7 +44,7 @@ mod opening;
 mod pin;
 pub mod remedies;
 
-pub use care::Care;
+pub use care::{CLEANING_S, Care};
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
 pub use groups::Group;
@@ -374,12 +374,17 @@ pub struct Visit {
     pub dwell: bool,
     /// How long it rests, s.
     pub dwell_s: f64,
+    /// Time without a touch after which the page behind "More" closes, s.
+    pub page_closes_s: f64,
     /// Less motion: a work is there at once instead of gathering its parts, no dust in the air, gentler attract mode;
     /// visitors can choose it too.
     pub calm: bool,
     /// Program that reads aloud: `espeak-ng`, or one that takes its arguments; empty: nothing is read.
     pub reads_aloud: String,
 }
+
+/// Default of [`Visit::page_closes_s`], s: 30 s or more, with a countdown (Natural History Museum, London).
+pub const PAGE_CLOSES_S: f64 = 30.0;
 
 impl Default for Visit {
     fn default() -> Self {
@@ -388,6 +393,7 @@ impl Default for Visit {
             press_once: false,
             dwell: false,
             dwell_s: 1.2,
+            page_closes_s: PAGE_CLOSES_S,
             calm: false,
             reads_aloud: "espeak-ng".into(),
         }
@@ -478,7 +484,9 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "controllers.midi_controller", low: 0.0, high: 127.0, unit: "1" },
     Limit { key: "controllers.serial_baud", low: 300.0, high: 4e6, unit: "1/s" },
     Limit { key: "care.foam_blows", low: 0.0, high: 1e6, unit: "1" },
+    Limit { key: "care.cleaning_s", low: 5.0, high: 600.0, unit: "s" },
     Limit { key: "visit.dwell_s", low: 0.3, high: 5.0, unit: "s" },
+    Limit { key: "visit.page_closes_s", low: 10.0, high: 600.0, unit: "s" },
     Limit { key: "attract.idle_s", low: 1.0, high: 3600.0, unit: "s" },
     Limit { key: "staff.closes_s", low: 10.0, high: 3600.0, unit: "s" },
 ];

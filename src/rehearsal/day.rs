@@ -1,7 +1,7 @@
 //! The programme of a day: visits one after another, staff between them, works in turn.
 
 use super::visitor::{Press, Pressed, Visit, Way};
-use soffio_kiosk::venue::house::CLEANING_S;
+use soffio_config::CLEANING_S;
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{PI, sin};
 

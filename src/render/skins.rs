@@ -17,8 +17,8 @@ use glam::{Mat3, Mat4, Vec3, Vec4};
 
 use super::scene::Vertex;
 use soffio_exhibit::Exhibit;
-use soffio_exhibit::model::{Influences, MorphTarget, Primitive, Track};
 use soffio_exhibit::growth::Growth;
+use soffio_exhibit::model::{Influences, MorphTarget, Primitive, Track};
 use soffio_exhibit::shapes::ShapeTrack;
 use soffio_math::DMat4;
 

@@ -15,10 +15,9 @@ use crate::pages::page::{INK, PAPER, Page, SMALL, SOFT_INK, VERMILION};
 use crate::pages::words::{language_name, words};
 use crate::venue::shelf::Work;
 use crate::visitor::input::Request;
+use soffio_config::PAGE_CLOSES_S;
 
-/// Without a touch for so long it closes, s (NHM London: 30 s or more, with a countdown).
-const CLOSES: f64 = 30.0;
-/// So long before that it shows it, s.
+/// So long before it closes it shows that, s.
 const COUNTDOWN: f64 = 10.0;
 /// Columns of tiles on a wide page and on a tall one.
 const COLUMNS: (usize, usize) = (3, 2);
@@ -42,10 +41,12 @@ pub struct Tile {
 }
 
 /// What the page remembers.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Menu {
     /// Is it open?
     pub open: bool,
+    /// Time without a touch after which it closes, s.
+    pub closes_s: f64,
     leaf: usize,
     leaves: usize,
     focus: Option<usize>,
@@ -54,10 +55,22 @@ pub struct Menu {
     touched: f64,
 }
 
+impl Default for Menu {
+    fn default() -> Self {
+        Self { open: false, closes_s: PAGE_CLOSES_S, leaf: 0, leaves: 0, focus: None, activity: 0, touched: 0.0 }
+    }
+}
+
 impl Menu {
     /// Opens it, or closes it.
     pub fn toggle(&mut self) {
-        *self = Self { open: !self.open, touched: f64::NEG_INFINITY, ..Self::default() };
+        let (open, closes_s) = (!self.open, self.closes_s);
+        *self = Self { open, closes_s, touched: f64::NEG_INFINITY, ..Self::default() };
+    }
+
+    /// Closes it, and forgets where it was opened.
+    pub fn close(&mut self) {
+        *self = Self { closes_s: self.closes_s, ..Self::default() };
     }
 
     /// Turns to another leaf of works.
@@ -72,14 +85,14 @@ impl Menu {
         if self.touched == f64::NEG_INFINITY || activity != self.activity {
             (self.touched, self.activity) = (time, activity);
         }
-        if self.open && (blown || time - self.touched > CLOSES) {
+        if self.open && (blown || time - self.touched > self.closes_s) {
             self.toggle();
         }
     }
 
     /// Does its arc close?
     pub fn closes(&self, time: f64) -> bool {
-        self.open && time - self.touched > CLOSES - COUNTDOWN
+        self.open && time - self.touched > self.closes_s - COUNTDOWN
     }
 
     /// Moves the mark of the keys to the next button that way (right and down); the first key shows it.
@@ -134,7 +147,7 @@ impl Menu {
     fn back(&self, page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> Rect {
         let corner = page.picture.right_top() + vec2(0.0, page.button);
         let sign = page.sign(corner, "\u{00d7}");
-        let left = (CLOSES - (scene.time - self.touched)) / COUNTDOWN;
+        let left = (self.closes_s - (scene.time - self.touched)) / COUNTDOWN;
         if left < 1.0 {
             page.arc(sign.center(), 0.42 * page.button, left.clamp(0.0, 1.0) as f32, VERMILION);
         }

@@ -1,13 +1,10 @@
-//! Whether anybody may use the kiosk now: the house's opening hours, and a minute in which the glass is cleaned.
+//! Whether anybody may use the kiosk now: the house's opening hours, and the time in which the glass is cleaned.
 //!
 //! While the house is closed the picture is black, nothing sounds and the microphone is closed; only the staff's chords
 //! are heard. While the glass is cleaned nothing at all is heard, whoever presses.
 
 use crate::visitor::input::{Keys, Phase, Request, Signal, Visitor};
 use soffio_config::{Day, Opening, TimeOfDay};
-
-/// How long all input is off for whoever cleans, s.
-pub const CLEANING_S: f64 = 60.0;
 
 /// What a panel above the work takes for itself.
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,9 +67,9 @@ impl House {
         self.early
     }
 
-    /// Cleaning begins, at `time`, s.
-    pub fn clean(&mut self, time: f64) {
-        self.cleaned_until = time + CLEANING_S;
+    /// Cleaning begins, at `time`, and lasts for `seconds`, s.
+    pub fn clean(&mut self, time: f64, seconds: f64) {
+        self.cleaned_until = time + seconds;
     }
 
     /// What is left of it, s.

@@ -48,7 +48,7 @@ impl App<'_> {
         let open = self.house.is_open();
         if open != was_open {
             self.visit.visitor.let_go();
-            self.overlaid.menu = Default::default();
+            self.overlaid.menu.close();
             self.say(
                 if open { "the house is open" } else { "the house is closed: black, mute, the microphone closed" }
                     .into(),
@@ -102,9 +102,9 @@ impl App<'_> {
             Wish::Open => self.open_early(),
             Wish::Clean => {
                 self.desk.panel.toggle();
-                self.overlaid.menu = Default::default();
+                self.overlaid.menu.close();
                 self.visit.visitor.let_go();
-                self.house.clean(self.pacing.time());
+                self.house.clean(self.pacing.time(), self.setup.config.care.cleaning_s);
                 tracing::info!("all input is off: the glass is cleaned");
                 self.tell();
             }

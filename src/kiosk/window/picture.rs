@@ -118,6 +118,7 @@ impl App<'_> {
         };
         let (visitor, config) = (&self.visit.visitor, &self.setup.config);
         let breathes = frame.current.breath.estimate.speed > 0.0;
+        self.overlaid.menu.closes_s = config.visit.page_closes_s;
         self.overlaid.menu.tend(vitals.time, visitor.activity(), breathes);
         let works: Vec<String> = self.works.offer.works().iter().map(|work| work.id.clone()).collect();
         let works: Vec<&str> = works.iter().map(String::as_str).collect();

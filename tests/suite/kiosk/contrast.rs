@@ -185,7 +185,7 @@ fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast
                 (visitor.hears, visitor.silent, visitor.leaves_in) = (false, true, Some(3.0));
                 visitor.house = House::default();
                 if cleaned {
-                    visitor.house.clean(visitor.time);
+                    visitor.house.clean(visitor.time, soffio_config::CLEANING_S);
                 }
                 let (lines, with, without) = seen(&mut visitor, &mut glass, &picture);
                 let own = words(&language);

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use soffio_config::CLEANING_S;
 use soffio_config::{Chord, Day, Opening};
 use soffio_detector::generate::{self, BreathShape};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
-use soffio_kiosk::venue::house::{Above, CLEANING_S, House};
+use soffio_kiosk::venue::house::{Above, House};
 use soffio_kiosk::visitor::gesture::Press;
 use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
 use soffio_simulation::{Microphone, Settings};
@@ -58,7 +59,7 @@ fn closed() -> House {
 #[test]
 fn while_the_glass_is_cleaned_no_input_does_anything_and_then_all_do_again() {
     let (chords, mut house) = (Chords::new(), House::default());
-    house.clean(100.0);
+    house.clean(100.0, CLEANING_S);
     let mut visitor = Visitor::default();
     for time in [100.0, 130.0, 100.0 + CLEANING_S - 0.01] {
         for signal in signals() {

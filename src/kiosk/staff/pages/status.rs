@@ -29,7 +29,7 @@ fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
     ui.add_enabled_ui(may, |ui| {
         ui.horizontal_wrapped(|ui| {
             let mut all = vec![
-                ("Clean the glass, 60 s", Wish::Clean),
+                ("Clean the glass", Wish::Clean),
                 (if muted { "Sound on" } else { "Mute" }, Wish::Mute),
                 ("Night", Wish::Night),
                 ("Reset", Wish::Reset),
