@@ -43,6 +43,7 @@ mod mqtt;
 mod opening;
 mod pin;
 pub mod remedies;
+mod time_text;
 
 pub use care::{CLEANING_S, Care};
 pub use chord::Chord;

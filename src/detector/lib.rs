@@ -37,6 +37,7 @@
 //! assert_ne!(detector.estimate().reason, Reason::Blow, "it is over");
 //! ```
 
+mod bands;
 mod capsules;
 mod decision;
 pub mod features;
