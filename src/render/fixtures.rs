@@ -6,11 +6,11 @@
 use std::collections::BTreeMap;
 
 use super::environment::{TABLE_SIZE, split_sum_table};
+use super::frames::MAX_FRAMES;
 use super::globals::Globals;
 use super::passes::Plan;
 use super::pipelines::{Layouts, Pipelines};
 use super::resources::{attachment, half4, light_texture, sampler};
-use super::scene::MAX_FRAMES;
 use super::shadows::MapCamera;
 use super::textures;
 use super::{Gpu, Options, details};

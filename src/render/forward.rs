@@ -8,8 +8,9 @@ use super::fixtures::{Fixtures, MAX_MOTES};
 use super::passes::{Pass, Plan};
 use super::pipelines::Pipelines;
 use super::resources::attachment;
-use super::scene::{Part, Surface, Vertex};
+use super::scene::{Part, Surface};
 use super::shadows::MapCamera;
+use super::vertex::Vertex;
 use super::work::Work;
 use super::{Finish, Frame, Gpu, Options, RenderError, Shaders};
 use soffio_exhibit::Exhibit;
@@ -135,7 +136,7 @@ impl Renderer {
             target: size,
             samples: self.options.msaa,
             format: self.options.format,
-            planes: self.options.look.background.is_none().then_some(self.work.planes),
+            planes: self.options.look.background.is_none().then_some(self.work.planes.texels),
             plane_draws: [self.work.plane_draws(); 2],
             map: MapCamera::size(self.options.quality),
             mesh_draws: self.work.parts.iter().map(draws).sum::<u32>() + self.work.outlines.most_draws(),
@@ -147,9 +148,9 @@ impl Renderer {
         let write = |buffer, bytes: &[u8]| gpu.queue.write_buffer(buffer, 0, bytes);
         write(&self.fixtures.globals_buffer, bytemuck::bytes_of(&self.work.globals));
         write(&self.fixtures.frames_buffer, bytemuck::cast_slice(&self.work.frames));
-        write(&self.work.segments_buffer, bytemuck::cast_slice(&self.work.segments));
-        write(&self.work.ribbons_buffer, bytemuck::cast_slice(&self.work.outlines.ribbons));
-        write(&self.work.shades_buffer, bytemuck::cast_slice(&self.work.sheets.shades));
+        write(&self.work.buffers.segments, bytemuck::cast_slice(&self.work.segments));
+        write(&self.work.buffers.ribbons, bytemuck::cast_slice(&self.work.outlines.ribbons));
+        write(&self.work.buffers.shades, bytemuck::cast_slice(&self.work.sheets.shades));
         let write_rows = |texture: &wgpu::Texture, rows: &[Vec4]| {
             let width = texture.width();
             let size = wgpu::Extent3d { width, height: rows.len() as u32 / width, depth_or_array_layers: 1 };
@@ -157,12 +158,12 @@ impl Renderer {
                 wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * width), rows_per_image: None };
             gpu.queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(rows), layout, size);
         };
-        write_rows(&self.work.contours, &self.work.outlines.contours);
-        write_rows(&self.work.rims, &self.work.sheets.points);
+        write_rows(&self.work.bindings.contours, &self.work.outlines.contours);
+        write_rows(&self.work.bindings.rims, &self.work.sheets.points);
         if self.work.moves() {
             for skin in &self.work.skins {
                 let place = u64::from(skin.first) * size_of::<Vertex>() as u64;
-                gpu.queue.write_buffer(&self.work.vertices, place, bytemuck::cast_slice(&skin.vertices));
+                gpu.queue.write_buffer(&self.work.buffers.vertices, place, bytemuck::cast_slice(&skin.vertices));
             }
         }
         write(&self.fixtures.motes_buffer, bytemuck::cast_slice(&self.motes));
@@ -210,25 +211,25 @@ impl Renderer {
             }
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("plane shadow"),
-                color_attachments: &[Some(color(&self.work.plane_views[plane], None, wgpu::Color::TRANSPARENT))],
-                depth_stencil_attachment: Some(depth(&self.work.order_views[plane], 1.0, wgpu::StoreOp::Discard)),
+                color_attachments: &[Some(color(&self.work.planes.views[plane], None, wgpu::Color::TRANSPARENT))],
+                depth_stencil_attachment: Some(depth(&self.work.planes.orders[plane], 1.0, wgpu::StoreOp::Discard)),
                 ..Default::default()
             });
             pass.set_bind_group(0, &self.fixtures.frame_group, &[]);
             if !self.work.casters.is_empty() {
                 pass.set_pipeline(&self.fixtures.pipelines.plane_meshes[plane]);
-                pass.set_vertex_buffer(0, self.work.vertices.slice(..));
-                pass.set_index_buffer(self.work.indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.set_vertex_buffer(0, self.work.buffers.vertices.slice(..));
+                pass.set_index_buffer(self.work.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
                 pass.draw_indexed(self.work.casters.clone(), 0, 0..2 * self.work.lamp_samples);
             }
             pass.set_pipeline(&self.fixtures.pipelines.plane_wires[plane]);
-            pass.set_vertex_buffer(0, self.work.segments_buffer.slice(..));
+            pass.set_vertex_buffer(0, self.work.buffers.segments.slice(..));
             pass.draw(0..12, 0..self.work.segments.len() as u32);
             let shades = self.work.sheets.on(plane);
             if !shades.is_empty() {
                 pass.set_pipeline(&self.fixtures.pipelines.plane_sheets[plane]);
-                pass.set_bind_group(1, &self.work.rims_group, &[]);
-                pass.set_vertex_buffer(0, self.work.shades_buffer.slice(..));
+                pass.set_bind_group(1, &self.work.bindings.rims_group, &[]);
+                pass.set_vertex_buffer(0, self.work.buffers.shades.slice(..));
                 pass.draw(0..6, shades);
             }
         }
@@ -240,8 +241,8 @@ impl Renderer {
         });
         pass.set_bind_group(0, &self.fixtures.frame_group, &[]);
         pass.set_pipeline(&self.fixtures.pipelines.shadow_map);
-        pass.set_vertex_buffer(0, self.work.vertices.slice(..));
-        pass.set_index_buffer(self.work.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_vertex_buffer(0, self.work.buffers.vertices.slice(..));
+        pass.set_index_buffer(self.work.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..self.work.opaque, 0, 0..1);
     }
 
@@ -264,9 +265,9 @@ impl Renderer {
             ..Default::default()
         });
         pass.set_bind_group(0, &self.fixtures.frame_group, &[]);
-        pass.set_bind_group(1, &self.work.light_group, &[]);
-        pass.set_vertex_buffer(0, self.work.vertices.slice(..));
-        pass.set_index_buffer(self.work.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_bind_group(1, &self.work.bindings.light_group, &[]);
+        pass.set_vertex_buffer(0, self.work.buffers.vertices.slice(..));
+        pass.set_index_buffer(self.work.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
         self.draw_parts(&mut pass, Surface::Opaque);
         if self.options.look.background.is_some() {
             pass.set_pipeline(&self.fixtures.pipelines.backdrop);
@@ -275,20 +276,20 @@ impl Renderer {
             pass.set_pipeline(&self.fixtures.pipelines.room);
             pass.draw(0..36, 0..1);
         }
-        pass.set_vertex_buffer(0, self.work.ribbons_buffer.slice(..));
+        pass.set_vertex_buffer(0, self.work.buffers.ribbons.slice(..));
         for (part, ribbons) in &self.work.outlines.draws {
             let part = &self.work.parts[*part];
             let Some(pipeline) = self.fixtures.pipelines.ribbons(&part.state) else { continue };
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(2, &self.work.materials[part.material], &[]);
+            pass.set_bind_group(2, &self.work.bindings.materials[part.material], &[]);
             pass.draw(0..6, ribbons.clone());
         }
-        pass.set_vertex_buffer(0, self.work.vertices.slice(..));
+        pass.set_vertex_buffer(0, self.work.buffers.vertices.slice(..));
         self.draw_parts(&mut pass, Surface::Glass);
         pass.set_pipeline(&self.fixtures.pipelines.wires);
-        pass.set_vertex_buffer(0, self.work.segments_buffer.slice(..));
+        pass.set_vertex_buffer(0, self.work.buffers.segments.slice(..));
         pass.draw(0..6, 0..self.work.segments.len() as u32);
-        pass.set_vertex_buffer(0, self.work.vertices.slice(..));
+        pass.set_vertex_buffer(0, self.work.buffers.vertices.slice(..));
         for &(_, index) in &self.work.blended {
             self.draw_part(&mut pass, &self.work.parts[index]);
         }
@@ -327,7 +328,7 @@ impl Renderer {
     fn draw_part(&self, pass: &mut wgpu::RenderPass, part: &Part) {
         for pipeline in self.fixtures.pipelines.forward(&part.state) {
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(2, &self.work.materials[part.material], &[]);
+            pass.set_bind_group(2, &self.work.bindings.materials[part.material], &[]);
             pass.draw_indexed(part.indices.clone(), 0, 0..1);
         }
     }

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 
 use super::gallery::{FLOOR_ALBEDO, Room, WALL_ALBEDO};
-use super::scene::{MAX_PUNCTUAL, Punctual};
+use super::punctual::{MAX_PUNCTUAL, Punctual, PunctualUniform};
 use super::shadows::{MapCamera, ReceivingPlane};
 use super::{Frame, Look, Quality, Tonemap};
 use soffio_exhibit::View;
@@ -38,20 +38,7 @@ struct PlaneUniform {
     spare2: f32,
 }
 
-/// A punctual light.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(super) struct PunctualUniform {
-    pub position: Vec3,
-    pub kind: f32,
-    pub color: Vec3,
-    pub range: f32,
-    pub axis: Vec3,
-    pub spare: f32,
-    pub cone: Vec4,
-}
-
-/// `Globals` of `common.wgsl`, field by field.
+/// `Globals` of `common.wgsl`, field by field. It has 36 fields, because it is the layout of the shaders' uniform block.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Globals {

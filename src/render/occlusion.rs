@@ -166,7 +166,7 @@ pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane;
 /// World places and normals of all corners, with the bodies where they begin.
 pub(super) fn at_rest(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
     let frames: Vec<_> = exhibit.bodies.iter().map(|body| body.pose.matrix().as_mat4()).collect();
-    let place = |v: &super::scene::Vertex| match v.frame() {
+    let place = |v: &super::vertex::Vertex| match v.frame() {
         0 => (v.position, v.normal),
         body => (frames[body - 1].transform_point3(v.position), frames[body - 1].transform_vector3(v.normal)),
     };

@@ -16,7 +16,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
 use super::globals::Globals;
-use super::scene::Vertex;
+use super::vertex::Vertex;
 
 /// Texels along a row of the texture that holds the silhouettes.
 pub(super) const CONTOUR_ROW: u32 = 256;

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::outlines::Ribbon;
-use super::scene::{State, Surface, Vertex};
+use super::scene::{State, Surface};
 use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
 use super::sheets::Shade;
+use super::vertex::Vertex;
 use super::wires::Segment;
 use super::{Gpu, Options, Tonemap};
 
@@ -223,6 +224,56 @@ fn constants(options: &Options) -> [(&'static str, f64); 3] {
     [("TONEMAP", tonemap), ("AREA_LIGHT", area_light), ("GALLERY", if gallery { 1.0 } else { 0.0 })]
 }
 
+/// The layout of a pipeline that binds these groups.
+fn pipeline_layout(device: &wgpu::Device, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    })
+}
+
+/// Shadows of meshes, wires and sheets, each on the wall and on the floor.
+fn plane_pipelines(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    layouts: &Layouts,
+) -> [[wgpu::RenderPipeline; 2]; 3] {
+    let sheet_layout = pipeline_layout(device, "sheets", &[&layouts.frame, &layouts.rims]);
+    let plane = |label, entries, buffer: wgpu::VertexBufferLayout<'static>, layout, how: (_, bool), blend| {
+        [0.0, 1.0].map(|plane| {
+            pipeline(
+                device,
+                Fixed {
+                    label,
+                    module,
+                    layout,
+                    entries,
+                    buffer: Some(buffer.clone()),
+                    constants: &[("PLANE", plane)],
+                    cull: None,
+                    depth: Some((ORDER_FORMAT, how.1, how.0)),
+                    color: Some((PLANE_FORMAT, blend)),
+                    samples: 1,
+                },
+            )
+        })
+    };
+    let (once, always) = ((wgpu::CompareFunction::Less, true), (wgpu::CompareFunction::Always, false));
+    let adding = blend(wgpu::BlendFactor::One, wgpu::BlendFactor::One);
+    let covering = blend(wgpu::BlendFactor::OneMinusDst, wgpu::BlendFactor::One);
+    let mesh = ("mesh_vertex", Some("mesh_fragment"));
+    let wire = ("wire_vertex", Some("wire_fragment"));
+    let sheet = ("sheet_vertex", Some("sheet_fragment"));
+    [
+        plane("plane meshes", mesh, VERTEX, layout, once, adding),
+        plane("plane wires", wire, SEGMENT, layout, always, adding),
+        plane("plane sheets", sheet, SHADE, &sheet_layout, always, covering),
+    ]
+}
+
 impl Pipelines {
     /// All but those of the meshes.
     pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options) -> Self {
@@ -231,16 +282,8 @@ impl Pipelines {
             let source = wgpu::ShaderSource::Wgsl(options.shaders.source(label));
             device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
         };
-        let layout = |label, groups: &[&wgpu::BindGroupLayout]| {
-            let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
-            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(label),
-                bind_group_layouts: &groups,
-                immediate_size: 0,
-            })
-        };
+        let layout = |label, groups: &[_]| pipeline_layout(device, label, groups);
         let shadow_layout = layout("shadow", &[&layouts.frame]);
-        let sheet_layout = layout("sheets", &[&layouts.frame, &layouts.rims]);
         let light_layout = layout("light", &[&layouts.frame, &layouts.light]);
         let resolve_layout = layout("resolve", &[&layouts.resolve]);
         let stretch_layout = layout("stretch", &[&layouts.stretch]);
@@ -266,31 +309,7 @@ impl Pipelines {
             let color = Some((options.format, blend));
             pipeline(device, Fixed { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
         };
-        // For the wall and the floor.
-        let plane = |label, entries, buffer: wgpu::VertexBufferLayout<'static>, layout, how: (_, bool), blend| {
-            [0.0, 1.0].map(|plane| {
-                pipeline(
-                    device,
-                    Fixed {
-                        label,
-                        module: &shadows,
-                        layout,
-                        entries,
-                        buffer: Some(buffer.clone()),
-                        constants: &[("PLANE", plane)],
-                        cull: None,
-                        depth: Some((ORDER_FORMAT, how.1, how.0)),
-                        color: Some((PLANE_FORMAT, blend)),
-                        samples: 1,
-                    },
-                )
-            })
-        };
-        let (once, always) = ((wgpu::CompareFunction::Less, true), (wgpu::CompareFunction::Always, false));
-        let mesh = ("mesh_vertex", Some("mesh_fragment"));
-        let wire = ("wire_vertex", Some("wire_fragment"));
-        let sheet = ("sheet_vertex", Some("sheet_fragment"));
-        let covering = blend(wgpu::BlendFactor::OneMinusDst, wgpu::BlendFactor::One);
+        let [plane_meshes, plane_wires, plane_sheets] = plane_pipelines(device, &shadows, &shadow_layout, layouts);
         // A pass over the whole target.
         let whole = |label, module, layout| {
             pipeline(device, Fixed { label, module, layout, constants: &[], depth: None, samples: 1, ..base() })
@@ -312,9 +331,9 @@ impl Pipelines {
             ),
             wires: overlay("wires", &wires, SEGMENT, &constants, Some(wgpu::BlendState::ALPHA_BLENDING)),
             motes: overlay("motes", &motes, MOTE, &[], adding),
-            plane_meshes: plane("plane meshes", mesh, VERTEX, &shadow_layout, once, adding),
-            plane_wires: plane("plane wires", wire, SEGMENT, &shadow_layout, always, adding),
-            plane_sheets: plane("plane sheets", sheet, SHADE, &sheet_layout, always, covering),
+            plane_meshes,
+            plane_wires,
+            plane_sheets,
             shadow_map: pipeline(
                 device,
                 Fixed {

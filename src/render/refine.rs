@@ -7,7 +7,8 @@ use std::collections::HashMap;
 
 use glam::Vec4;
 
-use super::scene::{Scene, Vertex};
+use super::scene::Scene;
+use super::vertex::Vertex;
 
 /// Halvings at most: an edge then is a 64th of what it was.
 const MOST_ROUNDS: u32 = 6;

@@ -4,53 +4,17 @@
 //! graph applied, with the index of that frame (0 is the world). A pose is then one 3×4 matrix a body, and a whole
 //! exhibit one draw for each material and state.
 
-use bytemuck::{Pod, Zeroable};
-use glam::{DMat4, Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec3};
 
 use super::RenderError;
-use super::globals::PunctualUniform;
+use super::frames::{MAX_FRAMES, rigid_of};
 use super::outlines::Plate;
+use super::punctual::{MAX_PUNCTUAL, Punctual};
 use super::sheets::Sheet;
 use super::skins::{Bound, Skinned};
+use super::vertex::Vertex;
 use soffio_exhibit::Exhibit;
-use soffio_exhibit::model::{AlphaMode, Appearance, LightKind, Model, Primitive};
-use soffio_math::Pose;
-
-/// Frames the uniform buffer holds: 48 KiB, below the 64 every adapter has. The first is the world.
-pub(super) const MAX_FRAMES: usize = 1024;
-/// Punctual lights of a model that are lit; the rest stay dark.
-pub(super) const MAX_PUNCTUAL: usize = 8;
-
-/// One corner, in the frame of its body.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(super) struct Vertex {
-    pub position: Vec3,
-    pub normal: Vec3,
-    pub tangent: [f32; 4],
-    /// Both sets of texture coordinates.
-    pub uv: [f32; 4],
-    pub color: [f32; 4],
-    /// Frame in the low 16 bits, then ambient visibility, then opacity to lamps.
-    pub tag: u32,
-    /// Irradiance from other surfaces of a still scene.
-    pub bounce: Vec3,
-    /// Index of the plate, where the part is outlined.
-    pub outline: u32,
-}
-
-impl Vertex {
-    /// Index of the frame that carries it.
-    pub fn frame(&self) -> usize {
-        (self.tag & 0xffff) as usize
-    }
-
-    /// Sets what part of the sky it sees.
-    pub fn set_visibility(&mut self, visibility: f32) {
-        let byte = (visibility.clamp(0.0, 1.0) * 255.0 + 0.5) as u32;
-        self.tag = (self.tag & 0xff00_ffff) | (byte << 16);
-    }
-}
+use soffio_exhibit::model::{AlphaMode, Appearance, Model, Primitive};
 
 /// How triangles are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,17 +51,6 @@ pub(super) struct Part {
     /// Middle of the triangles in their frame, to sort what is blended.
     pub center: Vec3,
     pub frame: usize,
-}
-
-/// A punctual light in the frame of its body.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Punctual {
-    pub frame: usize,
-    position: Vec3,
-    axis: Vec3,
-    color: Vec3,
-    range: f32,
-    kind: LightKind,
 }
 
 /// All meshes and lights of an exhibit.
@@ -156,15 +109,7 @@ impl Scene {
             if let Some(light) = node.light.and_then(|l| model.lights.get(l))
                 && lights.len() < MAX_PUNCTUAL
             {
-                let m = frame_from_node.as_mat4();
-                lights.push(Punctual {
-                    frame,
-                    position: m.w_axis.truncate(),
-                    axis: -m.z_axis.truncate().normalize_or(Vec3::Z),
-                    color: (light.color * light.intensity).as_vec3(),
-                    range: if light.range.is_finite() { light.range as f32 } else { 0.0 },
-                    kind: light.kind,
-                });
+                lights.push(Punctual::new(light, frame, frame_from_node.as_mat4()));
             }
         }
         let state = |p: &Primitive, plate: &Option<Plate>| {
@@ -176,11 +121,7 @@ impl Scene {
         let mut scene = Self { lights, ..Self::default() };
         for (primitive, frame, matrix, (plate, sheet), bound) in pieces {
             let (state, material) = state(primitive, &plate);
-            let opacity = match state.surface {
-                Surface::Opaque => 1.0,
-                Surface::Glass => primitive.material.map_or(1.0, |m| shade_of(&model.materials[m])),
-                Surface::Blend => 0.0,
-            };
+            let opacity = opacity(model, primitive, state.surface);
             let start = scene.indices.len() as u32;
             let base = scene.vertices.len() as u32;
             let center = scene.append(primitive, tag(frame, opacity), matrix);
@@ -303,6 +244,15 @@ fn uv(primitive: &Primitive, i: usize) -> [f32; 4] {
     [first[0], first[1], second[0], second[1]]
 }
 
+/// How dark the shadow of a primitive is, 0 … 1.
+fn opacity(model: &Model, primitive: &Primitive, surface: Surface) -> f32 {
+    match surface {
+        Surface::Opaque => 1.0,
+        Surface::Glass => primitive.material.map_or(1.0, |m| shade_of(&model.materials[m])),
+        Surface::Blend => 0.0,
+    }
+}
+
 /// How dark the shadow of a pane of glass is: what two crossings at normal incidence take of white light.
 fn shade_of(look: &Appearance) -> f32 {
     let reflected = (look.ior - 1.0) / (look.ior + 1.0);
@@ -322,46 +272,10 @@ fn shown(model: &Model) -> Vec<bool> {
     shown
 }
 
-impl Punctual {
-    /// The light where its frame is now.
-    pub fn uniform(&self, world_from_frame: Mat4) -> PunctualUniform {
-        let (kind, cone) = match self.kind {
-            LightKind::Directional => (0.0, Vec4::ZERO),
-            LightKind::Point => (1.0, Vec4::ZERO),
-            LightKind::Spot(inner, outer) => (2.0, Vec4::new((inner as f32).cos(), (outer as f32).cos(), 0.0, 0.0)),
-        };
-        PunctualUniform {
-            position: world_from_frame.transform_point3(self.position),
-            kind,
-            color: self.color,
-            range: self.range,
-            axis: world_from_frame.transform_vector3(self.axis),
-            spare: 0.0,
-            cone,
-        }
-    }
-}
-
-/// Where the frame of a body is at rest.
-pub(super) fn rigid_of(exhibit: &Exhibit, body: usize) -> DMat4 {
-    rigid(exhibit.model.nodes[exhibit.bodies[body].node].world)
-}
-
-/// The rotation and translation of a node's world matrix, its scale left out.
-fn rigid(world: DMat4) -> DMat4 {
-    let (_, rotation, translation) = world.to_scale_rotation_translation();
-    DMat4::from_rotation_translation(rotation, translation)
-}
-
-/// A pose as the three rows of its 3×4 matrix, as `mat3x4f` columns.
-pub(super) fn rows(pose: &Pose) -> [Vec4; 3] {
-    let m = pose.matrix().as_mat4();
-    [m.row(0), m.row(1), m.row(2)]
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use glam::DMat4;
     use soffio_exhibit::model::{Mesh, Node};
 
     /// An exhibit of one mesh, and its scene.

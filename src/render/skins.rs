@@ -15,10 +15,11 @@
 
 use glam::{Mat3, Mat4, Vec3, Vec4};
 
-use super::scene::Vertex;
+use super::frames::rigid_of;
+use super::vertex::Vertex;
 use soffio_exhibit::Exhibit;
-use soffio_exhibit::model::{Influences, MorphTarget, Primitive, Track};
 use soffio_exhibit::growth::Growth;
+use soffio_exhibit::model::{Influences, MorphTarget, Primitive, Track};
 use soffio_exhibit::shapes::ShapeTrack;
 use soffio_math::DMat4;
 
@@ -176,7 +177,7 @@ impl Skinned {
     ) -> Self {
         let joints = bound.joints.iter().map(|&(node, inverse_bind)| {
             let carrier = carriers[node];
-            let rest = carrier.map_or(DMat4::IDENTITY, |b| super::scene::rigid_of(exhibit, b));
+            let rest = carrier.map_or(DMat4::IDENTITY, |b| rigid_of(exhibit, b));
             let frame_from_bound = (rest.inverse() * exhibit.model.nodes[node].world * inverse_bind).as_mat4();
             let own = Growth::of(exhibit, node);
             let grows = own.grows().then(|| {
@@ -258,7 +259,8 @@ impl Skinned {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scene::{Scene, rows};
+    use super::super::frames::rows;
+    use super::super::scene::Scene;
     use super::*;
     use soffio_exhibit::model::{Animation, Channel, Curve, Mesh, Model, Morph as Morphing, Node};
     use soffio_math::{DQuat, DVec3, Pose};

@@ -8,17 +8,20 @@ use super::bounce;
 use super::casters::casters;
 use super::environment::Environment;
 use super::fixtures::Fixtures;
+use super::frames::rows;
 use super::gallery::Room;
 use super::globals::Globals;
+use super::light::{Light, light_group};
 use super::outlines::{CONTOUR_ROW, Outlines, Ribbon};
 use super::passes::Plan;
-use super::resources::{Light, attachment, light_group, numbers, single};
-use super::scene::{Part, Punctual, Scene, Surface, rows};
+use super::punctual::Punctual;
+use super::resources::{attachment, numbers, single};
+use super::scene::{Part, Scene, Surface};
 use super::shadows::{MapCamera, ReceivingPlane};
 use super::sheets::{RIM_ROW, Shade, Sheets};
 use super::skins::Skinned;
 use super::wires::{self, Segment};
-use super::{Frame, Gpu, Options, Quality, RenderError, occlusion, textures};
+use super::{Frame, Gpu, Look, Options, Quality, RenderError, materials, occlusion};
 use soffio_exhibit::{Exhibit, Wire};
 use soffio_math::Pose;
 
@@ -29,20 +32,9 @@ const LAMP_SAMPLES: [u32; 2] = [28, 56];
 pub struct Work {
     pub(super) parts: Vec<Part>,
     pub(super) globals: Globals,
-    pub(super) vertices: wgpu::Buffer,
-    pub(super) indices: wgpu::Buffer,
-    pub(super) segments_buffer: wgpu::Buffer,
-    pub(super) ribbons_buffer: wgpu::Buffer,
-    pub(super) contours: wgpu::Texture,
-    pub(super) shades_buffer: wgpu::Buffer,
-    pub(super) rims: wgpu::Texture,
-    pub(super) rims_group: wgpu::BindGroup,
-    pub(super) light_group: wgpu::BindGroup,
-    pub(super) materials: Vec<wgpu::BindGroup>,
-    pub(super) plane_views: [wgpu::TextureView; 2],
-    pub(super) order_views: [wgpu::TextureView; 2],
-    /// Texels of the shadows on wall and floor.
-    pub(super) planes: [(u32, u32); 2],
+    pub(super) buffers: Buffers,
+    pub(super) bindings: Bindings,
+    pub(super) planes: PlaneTargets,
     /// So many indices, from the first, are opaque.
     pub(super) opaque: u32,
     /// Those that throw shadows on the planes as triangles.
@@ -61,11 +53,86 @@ pub struct Work {
     pub(super) skins: Vec<Skinned>,
     /// Squared distance and index of each blended part, the farthest first.
     pub(super) blended: Vec<(f32, usize)>,
-    drawn_frames: Vec<[Vec4; 3]>,
-    /// Do key frames change shapes? Then the times shown, s, and drawn.
-    keyed: bool,
+    drawn: Drawn,
+}
+
+/// Its meshes, wires, silhouettes and shadows on the device.
+pub(super) struct Buffers {
+    pub vertices: wgpu::Buffer,
+    pub indices: wgpu::Buffer,
+    pub segments: wgpu::Buffer,
+    pub ribbons: wgpu::Buffer,
+    pub shades: wgpu::Buffer,
+}
+
+/// Textures that each frame fills, and what its draws are bound to.
+pub(super) struct Bindings {
+    pub contours: wgpu::Texture,
+    pub rims: wgpu::Texture,
+    pub rims_group: wgpu::BindGroup,
+    pub light_group: wgpu::BindGroup,
+    pub materials: Vec<wgpu::BindGroup>,
+}
+
+/// What the shadows on wall and floor are drawn into.
+pub(super) struct PlaneTargets {
+    pub views: [wgpu::TextureView; 2],
+    pub orders: [wgpu::TextureView; 2],
+    /// Texels of either.
+    pub texels: [(u32, u32); 2],
+}
+
+/// What the last frame with shadows of its own showed, to know when they still hold.
+struct Drawn {
+    frames: Vec<[Vec4; 3]>,
+    /// s.
     time: f64,
-    drawn_time: f64,
+    /// Do key frames change shapes? Then the time shown, s, counts too.
+    keyed: bool,
+    shown: f64,
+}
+
+impl Buffers {
+    /// Vertices and indices as they are; memory for so many wire segments and for the most of the others.
+    fn new(device: &wgpu::Device, scene: &Scene, segments: usize, outlines: &Outlines, sheets: &Sheets) -> Self {
+        let filled = |label, contents: &[u8], usage| {
+            // An exhibit of wires alone has no vertices; an empty buffer could not be bound.
+            let contents = if contents.is_empty() { &[0; 16] } else { contents };
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        let filled_later = |label, size: usize| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: size as u64,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let vertex_usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
+        Self {
+            vertices: filled("vertices", bytemuck::cast_slice(&scene.vertices), vertex_usage),
+            indices: filled("indices", bytemuck::cast_slice(&scene.indices), wgpu::BufferUsages::INDEX),
+            segments: filled_later("segments", segments.max(1) * size_of::<Segment>()),
+            ribbons: filled_later("ribbons", outlines.most().max(1) * size_of::<Ribbon>()),
+            shades: filled_later("shades", sheets.most().max(1) * size_of::<Shade>()),
+        }
+    }
+}
+
+/// Measures the light that the corners of a scene get from each other, or else what they see of the sky.
+fn light_corners(
+    scene: &mut Scene,
+    exhibit: &Exhibit,
+    radius: f32,
+    (look, environment): (&Look, &Environment),
+    still: bool,
+) {
+    if still {
+        let light = bounce::Light { environment, env_intensity: look.env_intensity, area: look.area_light };
+        bounce::corners(scene, exhibit, radius, &light);
+    } else {
+        occlusion::corners(scene, exhibit, radius);
+    }
 }
 
 impl Work {
@@ -87,13 +154,7 @@ impl Work {
         };
         // What moves takes its corners along, and the light on them would be wrong.
         let still = exhibit.bodies.is_empty() && exhibit.shapes.is_empty() && look.background.is_some();
-        if still {
-            let (env_intensity, area) = (look.env_intensity, look.area_light);
-            let light = bounce::Light { environment: &environment, env_intensity, area };
-            bounce::corners(&mut scene, exhibit, room.radius, &light);
-        } else {
-            occlusion::corners(&mut scene, exhibit, room.radius);
-        }
+        light_corners(&mut scene, exhibit, room.radius, (look, &environment), still);
         let lamp_samples = LAMP_SAMPLES[(options.quality == Quality::Full) as usize];
         let planes = ReceivingPlane::of_room(&room, exhibit, options.quality);
         let map = MapCamera::new(&room, look, options.quality, |eye| {
@@ -121,38 +182,19 @@ impl Work {
             contours: &contours.create_view(&Default::default()),
         };
         let light_group = light_group(gpu, fixtures, light);
-        let filled = |label, contents: &[u8], usage| {
-            // An exhibit of wires alone has no vertices; an empty buffer could not be bound.
-            let contents = if contents.is_empty() { &[0; 16] } else { contents };
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
-        };
-        let filled_later = |label, size: usize| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: size as u64,
-                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
-        let segment_count = wires::count(&exhibit.wires);
         let blended = scene.parts.iter().filter(|part| part.state.surface == Surface::Blend).count();
-        let frame_count = exhibit.bodies.len() + 1;
-        let vertex_usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
+        let (frame_count, segment_count) = (exhibit.bodies.len() + 1, wires::count(&exhibit.wires));
         Ok(Self {
-            vertices: filled("vertices", bytemuck::cast_slice(&scene.vertices), vertex_usage),
-            indices: filled("indices", bytemuck::cast_slice(&scene.indices), wgpu::BufferUsages::INDEX),
-            segments_buffer: filled_later("segments", segment_count.max(1) * size_of::<Segment>()),
-            ribbons_buffer: filled_later("ribbons", outlines.most().max(1) * size_of::<Ribbon>()),
-            contours,
-            shades_buffer: filled_later("shades", sheets.most().max(1) * size_of::<Shade>()),
-            rims_group: single(device, &fixtures.layouts.rims, &rims),
-            rims,
-            materials: textures::materials(gpu, &exhibit.model, fixtures),
+            buffers: Buffers::new(device, &scene, segment_count, &outlines, &sheets),
+            bindings: Bindings {
+                contours,
+                rims_group: single(device, &fixtures.layouts.rims, &rims),
+                rims,
+                materials: materials::materials(gpu, &exhibit.model, fixtures),
+                light_group,
+            },
+            planes: PlaneTargets { views: plane_views, orders: order_views, texels: planes.map(|plane| plane.texels) },
             globals,
-            light_group,
-            plane_views,
-            order_views,
-            planes: planes.map(|plane| plane.texels),
             opaque: scene.opaque,
             casters: scene.flat..scene.casters,
             lamp_samples,
@@ -165,12 +207,14 @@ impl Work {
             segments: Vec::with_capacity(segment_count),
             outlines,
             sheets,
-            keyed: skins.iter().any(Skinned::is_keyed),
-            time: 0.0,
-            drawn_time: f64::NEG_INFINITY,
+            drawn: Drawn {
+                frames: Vec::with_capacity(frame_count),
+                time: f64::NEG_INFINITY,
+                keyed: skins.iter().any(Skinned::is_keyed),
+                shown: 0.0,
+            },
             skins,
             blended: Vec::with_capacity(blended),
-            drawn_frames: Vec::with_capacity(frame_count),
         })
     }
 
@@ -181,7 +225,7 @@ impl Work {
         for (index, rest) in self.rest.iter().enumerate() {
             self.frames.push(rows(frame.poses.get(index).unwrap_or(rest)));
         }
-        self.time = frame.time;
+        self.drawn.shown = frame.time;
         self.globals.set_frame(frame, self.radius);
         let frames = &self.frames;
         self.globals.set_lights(&self.lights, |i| {
@@ -198,14 +242,14 @@ impl Work {
 
     /// Has something moved since the last frame was drawn?
     pub(super) fn moves(&self) -> bool {
-        self.frames != self.drawn_frames || (self.keyed && self.time != self.drawn_time)
+        self.frames != self.drawn.frames || (self.drawn.keyed && self.drawn.shown != self.drawn.time)
     }
 
     /// Has nothing moved since this was last asked, so that the shadows still hold? After [`Self::forget`] they do not.
     pub(super) fn rests(&mut self) -> bool {
         let rests = !self.moves();
-        self.drawn_frames.clone_from(&self.frames);
-        self.drawn_time = self.time;
+        self.drawn.frames.clone_from(&self.frames);
+        self.drawn.time = self.drawn.shown;
         rests
     }
 
@@ -216,7 +260,7 @@ impl Work {
 
     /// Has the shadows drawn with the next frame.
     pub(super) fn forget(&mut self) {
-        self.drawn_frames.clear();
+        self.drawn.frames.clear();
     }
 
     /// Blended parts, the farthest first.

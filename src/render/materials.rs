@@ -1,0 +1,188 @@
+//! Materials: uniforms, and the textures and samplers that they are bound with.
+
+use std::collections::BTreeMap;
+
+use bytemuck::{Pod, Zeroable};
+use wgpu::util::DeviceExt;
+
+use super::fixtures::Fixtures;
+use super::textures::upload;
+use super::{Gpu, details};
+use soffio_exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
+
+/// `Material` of `forward.wgsl`. It has 21 fields, because it is the layout of the shader's uniform block.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct MaterialUniform {
+    base_color: [f32; 4],
+    emissive: [f32; 3],
+    metallic: f32,
+    roughness: f32,
+    normal_scale: f32,
+    occlusion: f32,
+    cutoff: f32,
+    f0: [f32; 3],
+    f90: f32,
+    absorption: [f32; 3],
+    thickness: f32,
+    sheen: [f32; 3],
+    sheen_roughness: f32,
+    transmission: f32,
+    ior: f32,
+    coat: f32,
+    coat_roughness: f32,
+    unlit: f32,
+    coat_normal_scale: f32,
+    spare: [f32; 2],
+    uv: [[f32; 4]; 2 * PLACES],
+}
+
+/// Textures that have a place of their own on a surface.
+const PLACES: usize = 5 + 9;
+
+/// Bind groups of all appearances of a model, and last of the default one.
+pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Vec<wgpu::BindGroup> {
+    let Fixtures { layouts, white, no_details, samplers, .. } = fixtures;
+    let mut textures = Textures { gpu, images: &model.images, made: BTreeMap::new(), samplers };
+    let default = Appearance { metallic: 0.0, roughness: 0.6, ..Appearance::default() };
+    model
+        .materials
+        .iter()
+        .chain([&default])
+        .map(|look| {
+            let uses = uses(look);
+            let color = [true, false, false, false, true];
+            let views: Vec<_> =
+                uses.iter().zip(color).map(|(t, srgb)| textures.view(t.map(|t| t.image), srgb, white)).collect();
+            let samplers: Vec<_> =
+                uses.iter().map(|t| textures.sampler(t.map_or(Sampler::default(), |t| t.sampler))).collect();
+            let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(&look.name),
+                contents: bytemuck::bytes_of(&uniform(look)),
+                usage: wgpu::BufferUsages::UNIFORM,
+            });
+            let detail_views = details::views(gpu, &model.images, &look.details, no_details);
+            let first = look.details.all().into_iter().flatten().next();
+            let detail_sampler = textures.sampler(first.map_or(Sampler::default(), |texture| texture.sampler));
+            let entries: Vec<_> = std::iter::once(uniform.as_entire_binding())
+                .chain(views.iter().map(wgpu::BindingResource::TextureView))
+                .chain(samplers.iter().map(wgpu::BindingResource::Sampler))
+                .chain(detail_views.iter().map(wgpu::BindingResource::TextureView))
+                .chain([wgpu::BindingResource::Sampler(&detail_sampler)])
+                .zip(0..)
+                .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
+                .collect();
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(&look.name),
+                layout: &layouts.material,
+                entries: &entries,
+            })
+        })
+        .collect()
+}
+
+/// The images of an appearance in the order of the bindings.
+fn uses(look: &Appearance) -> [Option<TextureUse>; 5] {
+    [
+        look.base_color_texture,
+        look.metallic_roughness_texture,
+        look.normal_texture.map(|t| t.0),
+        look.occlusion_texture.map(|t| t.0),
+        look.emissive_texture,
+    ]
+}
+
+fn uniform(look: &Appearance) -> MaterialUniform {
+    let mut base_color = look.base_color;
+    if look.alpha == AlphaMode::Opaque {
+        // Coverage is the affair of the other modes.
+        base_color[3] = 1.0;
+    }
+    // Schlick's F0 of a boundary to air, and KHR_materials_specular's tint of it.
+    let mirror = (look.ior - 1.0) / (look.ior + 1.0);
+    let f0 = look.specular_color.map(|c| (mirror * mirror * c).min(1.0) * look.specular);
+    let absorption = look.attenuation_color.map(|c| -c.clamp(1e-4, 1.0).ln() / look.attenuation_distance);
+    let mut uv = [[0.0; 4]; 2 * PLACES];
+    for (i, texture) in uses(look).iter().chain(&look.details.all()).enumerate() {
+        let TextureUse { transform: [u, v], set, .. } = texture.unwrap_or(TextureUse::of(0));
+        uv[2 * i] = [u[0], u[1], u[2], set as f32];
+        uv[2 * i + 1] = [v[0], v[1], v[2], 0.0];
+    }
+    MaterialUniform {
+        base_color,
+        emissive: look.emissive,
+        metallic: look.metallic,
+        roughness: look.roughness,
+        normal_scale: look.normal_texture.map_or(0.0, |t| t.1),
+        occlusion: look.occlusion_texture.map_or(0.0, |t| t.1),
+        cutoff: if let AlphaMode::Mask(cutoff) = look.alpha { cutoff.max(1e-6) } else { 0.0 },
+        f0,
+        f90: look.specular,
+        absorption,
+        thickness: look.thickness,
+        sheen: look.sheen,
+        sheen_roughness: look.sheen_roughness,
+        transmission: look.transmission,
+        ior: look.ior,
+        coat: look.coat,
+        coat_roughness: look.coat_roughness,
+        unlit: if look.unlit { 1.0 } else { 0.0 },
+        coat_normal_scale: look.details.coat_normal.map_or(0.0, |(_, scale)| scale),
+        spare: [0.0; 2],
+        uv,
+    }
+}
+
+/// Uploads each image once for each use.
+struct Textures<'a> {
+    gpu: &'a Gpu,
+    images: &'a [Image],
+    made: BTreeMap<(usize, bool), wgpu::TextureView>,
+    samplers: &'a mut BTreeMap<Sampler, wgpu::Sampler>,
+}
+
+impl Textures<'_> {
+    fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
+        let wrap = |mode| match mode {
+            Wrap::Repeat => wgpu::AddressMode::Repeat,
+            Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+            Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+        };
+        let filter = |smooth| if smooth { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest };
+        let smooth = sampler.smooth_near && sampler.smooth_far && sampler.levels == Levels::Blended;
+        let make = || {
+            self.gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("material"),
+                address_mode_u: wrap(sampler.wrap[0]),
+                address_mode_v: wrap(sampler.wrap[1]),
+                mag_filter: filter(sampler.smooth_near),
+                min_filter: filter(sampler.smooth_far),
+                mipmap_filter: match sampler.levels {
+                    Levels::Blended => wgpu::MipmapFilterMode::Linear,
+                    Levels::Nearest | Levels::None => wgpu::MipmapFilterMode::Nearest,
+                },
+                lod_max_clamp: if sampler.levels == Levels::None { 0.0 } else { 32.0 },
+                // Painted sheets are often seen edge on.
+                anisotropy_clamp: if smooth && !self.gpu.is_software() { 8 } else { 1 },
+                ..Default::default()
+            })
+        };
+        self.samplers.entry(sampler).or_insert_with(make).clone()
+    }
+
+    fn view(&mut self, image: Option<usize>, srgb: bool, white: &wgpu::TextureView) -> wgpu::TextureView {
+        let Some((index, image)) = image.and_then(|i| Some((i, self.images.get(i)?))) else { return white.clone() };
+        // An image that no adapter could hold is shown as white rather than not at all.
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
+        if image.width == 0 || image.height == 0 || image.width.max(image.height) > limit {
+            tracing::warn!("image {index} is {}x{}, beyond 1 to {limit}: left white", image.width, image.height);
+            return white.clone();
+        }
+        if let Some(view) = self.made.get(&(index, srgb)) {
+            return view.clone();
+        }
+        let view = upload(self.gpu, image, srgb);
+        self.made.insert((index, srgb), view.clone());
+        view
+    }
+}
