@@ -71,7 +71,7 @@ pub struct FirstDifference {
     pub other: Option<Told>,
 }
 
-/// A comparison as numbers.
+/// A comparison as numbers. It has 21 fields, because it is the command's output, field by field.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     /// What stands beside the laws.
@@ -138,36 +138,16 @@ pub fn run(
     let Play { settings, mut breath, aim, mut script, mode, seconds, aspect, fps, .. } = play;
     let mut laws = Simulation::new(exhibit.clone(), settings);
     let mut other = Simulation::new(exhibit.clone(), settings);
-    let moving: Vec<usize> =
-        (0..exhibit.bodies.len()).filter(|body| exhibit.drives.iter().all(|drive| drive.body != *body)).collect();
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
+    let mut apart = Apart::new(exhibit, steps);
     let (mut rows, mut commands, mut hands) = (Vec::new(), Vec::new(), Vec::new());
     let mut told = [Vec::new(), Vec::new()];
     let mut joints = [0.0_f64; 2];
-    let mut sums = [0.0; 3];
-    let (mut farthest, mut turned, mut energy_max) = ((0.0, 0, 0.0), 0.0_f64, 0.0_f64);
-    let (mut apart, mut frame) = (None, 0);
+    let mut frame = 0;
     let mut now = Row::default();
     for step in 0..=steps {
         let t = step as f64 / STEPS_PER_SECOND as f64;
-        let energy = [laws.energy(), other.energy()];
-        now = Row { t, energy, events: [told[0].len() as u64, told[1].len() as u64], ..Row::default() };
-        for &body in &moving {
-            let (d, turn) = difference(&laws.bodies()[body], &other.bodies()[body]);
-            let n = moving.len() as f64;
-            now.place = [now.place[0] + d * d / n, now.place[1].max(d)];
-            now.turn = [now.turn[0] + turn * turn / n, now.turn[1].max(turn)];
-            if d > farthest.0 {
-                farthest = (d, body, t);
-            }
-        }
-        let gap = energy[0] - energy[1];
-        for (sum, square) in sums.iter_mut().zip([now.place[0], now.turn[0], gap * gap]) {
-            *sum += square / (steps + 1) as f64;
-        }
-        (now.place[0], now.turn[0]) = (now.place[0].sqrt(), now.turn[0].sqrt());
-        (turned, energy_max) = (turned.max(now.turn[1]), energy_max.max(gap.abs()));
-        apart = apart.or((now.place[1] > APART).then_some(t));
+        now = apart.measure(t, [&laws, &other], [told[0].len() as u64, told[1].len() as u64]);
         while frame * STEPS_PER_SECOND <= step * u64::from(fps.max(1)) {
             rows.push(now);
             frame += 1;
@@ -198,23 +178,23 @@ pub fn run(
         }
     }
     let faults = [&laws, &other].map(|run| run.snapshot().diagnostics.faults);
-    let [rms_m, rms_deg, energy_rms_j] = sums.map(f64::sqrt);
+    let [rms_m, rms_deg, energy_rms_j] = apart.sums.map(f64::sqrt);
     let summary = Summary {
         solver: mode.unwrap_or_default().name(),
         steps,
-        bodies: moving.len(),
+        bodies: apart.moving.len(),
         rms_m,
-        max_m: farthest.0,
-        max_m_body: exhibit.bodies.get(farthest.1).map(|body| body.name.clone()).unwrap_or_default(),
-        max_m_at_s: farthest.2,
+        max_m: apart.farthest.0,
+        max_m_body: exhibit.bodies.get(apart.farthest.1).map(|body| body.name.clone()).unwrap_or_default(),
+        max_m_at_s: apart.farthest.2,
         rms_deg,
-        max_deg: turned,
+        max_deg: apart.turned,
         end_rms_m: now.place[0],
-        apart_1mm_s: apart,
+        apart_1mm_s: apart.since,
         energy_dynamics_j: now.energy[0],
         energy_other_j: now.energy[1],
         energy_rms_j,
-        energy_max_j: energy_max,
+        energy_max_j: apart.energy_max,
         max_joint_error_m: joints,
         events_dynamics: told[0].len() as u64,
         events_other: told[1].len() as u64,
@@ -223,6 +203,54 @@ pub fn run(
         seed: settings.seed,
     };
     Ok(Comparison { summary, rows })
+}
+
+/// How far two runs have been apart so far.
+struct Apart {
+    /// Bodies that nothing drives.
+    moving: Vec<usize>,
+    steps: u64,
+    /// Mean squares over all steps: places, turns, energies.
+    sums: [f64; 3],
+    /// Of the farthest body: distance, m, its index, and when, s.
+    farthest: (f64, usize, f64),
+    /// Largest turn, degrees.
+    turned: f64,
+    /// Largest difference of energies, J.
+    energy_max: f64,
+    /// When a body was first farther apart than [`APART`], s.
+    since: Option<f64>,
+}
+
+impl Apart {
+    fn new(exhibit: &Exhibit, steps: u64) -> Self {
+        let moving =
+            (0..exhibit.bodies.len()).filter(|body| exhibit.drives.iter().all(|drive| drive.body != *body)).collect();
+        Self { moving, steps, sums: [0.0; 3], farthest: (0.0, 0, 0.0), turned: 0.0, energy_max: 0.0, since: None }
+    }
+
+    /// Takes in the runs at `t` seconds, which have had so many events; how far they are apart now.
+    fn measure(&mut self, t: f64, [laws, other]: [&Simulation; 2], events: [u64; 2]) -> Row {
+        let energy = [laws.energy(), other.energy()];
+        let mut now = Row { t, energy, events, ..Row::default() };
+        for &body in &self.moving {
+            let (d, turn) = difference(&laws.bodies()[body], &other.bodies()[body]);
+            let n = self.moving.len() as f64;
+            now.place = [now.place[0] + d * d / n, now.place[1].max(d)];
+            now.turn = [now.turn[0] + turn * turn / n, now.turn[1].max(turn)];
+            if d > self.farthest.0 {
+                self.farthest = (d, body, t);
+            }
+        }
+        let gap = energy[0] - energy[1];
+        for (sum, square) in self.sums.iter_mut().zip([now.place[0], now.turn[0], gap * gap]) {
+            *sum += square / (self.steps + 1) as f64;
+        }
+        (now.place[0], now.turn[0]) = (now.place[0].sqrt(), now.turn[0].sqrt());
+        (self.turned, self.energy_max) = (self.turned.max(now.turn[1]), self.energy_max.max(gap.abs()));
+        self.since = self.since.or((now.place[1] > APART).then_some(t));
+        now
+    }
 }
 
 /// Distance of two states of a body (its node's), m, and the turn between them, degrees.

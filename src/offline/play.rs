@@ -15,7 +15,9 @@ use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
 use soffio_exhibit::Exhibit;
 use soffio_simulation::record::Part;
-use soffio_simulation::{MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput};
+use soffio_simulation::{
+    Command, Hand, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput,
+};
 use soffio_sound::RoomSpec;
 
 /// Steps between two looks at the joints' error, which costs a thirtieth of a clock's step.
@@ -110,41 +112,25 @@ pub type OnFrame<'a> = dyn FnMut(u64, &Snapshot) -> Result<(), String> + 'a;
 /// Runs an exhibit. `on_step` hears the number of each step done (progress); `on_frame` sees each frame.
 pub fn run(
     exhibit: &Arc<Exhibit>,
-    play: Play,
+    mut play: Play,
     stop: &AtomicBool,
     mut on_step: impl FnMut(u64),
     mut on_frame: Option<&mut OnFrame>,
 ) -> Result<Summary, PlayError> {
-    let Play {
-        settings,
-        mut breath,
-        aim,
-        mut script,
-        mut told,
-        mode,
-        seconds,
-        aspect,
-        audio,
-        room,
-        dry,
-        trace,
-        events,
-        fps,
-    } = play;
     let (wall, cpu) = (Instant::now(), ProcessTime::now());
+    let (settings, seconds) = (play.settings, play.seconds);
     let mut simulation = Simulation::new(exhibit.clone(), settings);
     if on_frame.is_none() {
         simulation.leave_dust_out();
     }
-    let mut soundtrack =
-        Soundtrack::new(exhibit, settings.seed, room.as_ref(), dry, audio.as_deref()).map_err(PlayError::Output)?;
-    let mut trace = trace.map(|path| TraceWriter::create(&path, exhibit, fps)).transpose()?;
-    let mut events = events.map(|path| EventWriter::create(&path, exhibit)).transpose()?;
-    let steps = told.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, Part::steps);
-    let (mut commands, mut hands) = (Vec::new(), Vec::new());
+    let mut soundtrack = Soundtrack::new(exhibit, settings.seed, play.room.as_ref(), play.dry, play.audio.as_deref())
+        .map_err(PlayError::Output)?;
+    let mut trace = play.trace.as_ref().map(|path| TraceWriter::create(path, exhibit, play.fps)).transpose()?;
+    let mut events = play.events.as_ref().map(|path| EventWriter::create(path, exhibit)).transpose()?;
+    let steps = play.told.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, Part::steps);
     let mut worst: f64 = 0.0;
-    let mut frames = Frames::new(fps);
-    let (mut before, mut switches) = (mode, 0);
+    let mut frames = Frames::new(play.fps);
+    let mut inputs = Inputs::new(&mut play);
     for step in 0..=steps {
         if let Some(trace) = &mut trace {
             trace.push_simulation(&simulation)?;
@@ -157,25 +143,7 @@ pub fn run(
         if step == steps {
             break;
         }
-        commands.clear();
-        if let Some(script) = &mut script {
-            script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
-            script.hands(&simulation, aspect, &mut hands);
-        }
-        let input = match &mut told {
-            Some(told) => told.input(step),
-            None => StepInput {
-                mode: script.as_ref().and_then(Script::mode).or(mode),
-                hands: &hands,
-                microphone: breath.as_mut().map(WavFeed::microphone),
-                pointer: script.as_ref().and_then(Script::aim).or(aim),
-                aspect,
-                commands: &commands,
-                ..StepInput::default()
-            },
-        };
-        switches += u64::from(step > 0 && input.mode != before);
-        before = input.mode;
+        let input = inputs.next(step, &simulation);
         simulation.step(&input);
         soundtrack.step(simulation.sounds()).map_err(PlayError::Output)?;
         if let Some(events) = &mut events {
@@ -203,7 +171,7 @@ pub fn run(
         max_joint_error_m: worst,
         energy_j: diagnostics.energy,
         impacts: diagnostics.impacts,
-        solver_switches: switches,
+        solver_switches: inputs.switches,
         peak_dbfs: finite(levels.peak_dbfs),
         lufs: finite(levels.lufs),
         profile: settings.profile.name(),
@@ -211,4 +179,61 @@ pub fn run(
         faults: diagnostics.faults,
         state_hash: format!("{:016x}", simulation.state_hash()),
     })
+}
+
+/// What the simulation is told from step to step.
+struct Inputs {
+    breath: Option<WavFeed>,
+    aim: Option<[f64; 2]>,
+    script: Option<Script>,
+    told: Option<Part>,
+    mode: Option<MotionMode>,
+    aspect: f64,
+    commands: Vec<Command>,
+    hands: Vec<Hand>,
+    /// What moved the figure in the last step, and how often that has changed.
+    before: Option<MotionMode>,
+    switches: u64,
+}
+
+impl Inputs {
+    /// Takes breath, script and record out of what is to be run.
+    fn new(play: &mut Play) -> Self {
+        Self {
+            breath: play.breath.take(),
+            aim: play.aim,
+            script: play.script.take(),
+            told: play.told.take(),
+            mode: play.mode,
+            aspect: play.aspect,
+            commands: Vec::new(),
+            hands: Vec::new(),
+            before: play.mode,
+            switches: 0,
+        }
+    }
+
+    /// The input of a step.
+    fn next(&mut self, step: u64, simulation: &Simulation) -> StepInput<'_> {
+        self.commands.clear();
+        if let Some(script) = &mut self.script {
+            script.due(step as f64 / STEPS_PER_SECOND as f64, &mut self.commands);
+            script.hands(simulation, self.aspect, &mut self.hands);
+        }
+        let input = match &mut self.told {
+            Some(told) => told.input(step),
+            None => StepInput {
+                mode: self.script.as_ref().and_then(Script::mode).or(self.mode),
+                hands: &self.hands,
+                microphone: self.breath.as_mut().map(WavFeed::microphone),
+                pointer: self.script.as_ref().and_then(Script::aim).or(self.aim),
+                aspect: self.aspect,
+                commands: &self.commands,
+                ..StepInput::default()
+            },
+        };
+        self.switches += u64::from(step > 0 && input.mode != self.before);
+        self.before = input.mode;
+        input
+    }
 }

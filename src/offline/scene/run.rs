@@ -186,7 +186,7 @@ impl Best {
     }
 }
 
-/// One line of a benchmark.
+/// One line of a benchmark. It has 22 fields, because it is the table that is written, column by column.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Who ran it.
