@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use realfft::{RealFftPlanner, RealToComplex};
 
-use super::SAMPLE_RATE_HZ;
+use super::blocks::SAMPLE_RATE_HZ;
 use soffio_math::{PI, cos, from_decibels};
 
 /// Samples of a frame, and how many are new.

@@ -12,12 +12,13 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::BLOCK;
+use super::blocks::BLOCK;
 use super::day::busyness;
+use super::loudness::{loud, scaled};
 use super::rate::Finer;
 use super::room::Echo;
 use super::standing::{Above, Standing};
-use soffio_detector::generate::filter::{parted, power, white};
+use soffio_detector::generate::filter::{parted, white};
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{PI, exp, from_decibels};
 use soffio_offline::wav::Recording;
@@ -31,8 +32,6 @@ pub const PIECE_S: f64 = 60.0;
 const FADE_S: f64 = 2.0;
 /// A recording must be so long, s: the fades at its ends and as much between them.
 const SHORTEST_S: f64 = 3.0 * FADE_S;
-/// Sound pressure level of full scale, dB.
-const FULL_SCALE_DB: f64 = 117.0;
 /// Mean level of an empty house, and what a full one has more: 66 dB in all, and 80 dB with a school class in it; each minute
 /// is louder or quieter by up to 4 dB.
 const HOUSE_DB: (f64, f64) = (48.0, 18.0);
@@ -43,18 +42,6 @@ const AIR_DBFS: (f64, f64) = (-62.0, -50.0);
 const HISS_DBFS: f64 = -76.0;
 /// Corners of a bare capsule, a gooseneck on a sound card, a cheap one, Hz.
 const CORNERS_HZ: [f64; 3] = [20.0, 60.0, 80.0];
-
-/// Amplitude of a sound of so many dB at the microphone, full scale 1.
-pub fn loud(db: f64) -> f64 {
-    from_decibels(db - FULL_SCALE_DB)
-}
-
-/// What each capsule hears of something, with this RMS at the first.
-pub fn scaled(mut channels: Vec<Vec<f64>>, rms: f64) -> Vec<Vec<f64>> {
-    let scale = rms / power(&channels[0]).sqrt().max(1e-12);
-    channels.iter_mut().flatten().for_each(|x| *x *= scale);
-    channels
-}
 
 /// Where the crowd comes from.
 pub enum Crowd {

@@ -9,10 +9,11 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::blocks::{FRAMES, SAMPLE_RATE_HZ};
 use super::day::{Day, Entry};
 use super::house::{House, PIECE_S};
+use super::rehearsal::{Rehearsal, RehearsalError, open_house};
 use super::run::{AFTERMATH_S, EARLY_S};
-use super::{FRAMES, Rehearsal, RehearsalError, SAMPLE_RATE_HZ, open_house};
 use soffio_detector::{BlowDetector, BlowSettings};
 use soffio_soundscape::parallel::parallel;
 use soffio_soundscape::statistics::quantile;

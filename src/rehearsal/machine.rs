@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::{FRAMES, SAMPLE_RATE_HZ};
+use super::blocks::{FRAMES, SAMPLE_RATE_HZ};
 use soffio_devices::audio::output::{self, Engine, Player, Workshop};
 use soffio_devices::audio::{Heard, Knobs, ReferenceTap, input};
 use soffio_exhibit::Exhibit;

@@ -131,7 +131,7 @@ pub struct Bar {
     pub met: Option<bool>,
 }
 
-/// The report.
+/// The report. It has 25 fields, because it is the command's output, field by field.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Of the day.

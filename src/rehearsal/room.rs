@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex, num_traits::Zero};
 
-use super::BLOCK;
+use super::blocks::BLOCK;
 use super::rate::Coarser;
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI, exp, from_decibels, tanh};

@@ -3,17 +3,18 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::blocks::FRAMES;
 use super::day::{Day, Duty, Task};
 use super::ears::Ears;
 use super::eyes::{Eyes, Seen, picture_at};
 use super::house::House;
 use super::judge::{self, Answer, FPS};
 use super::machine::Machine;
+use super::rehearsal::{Rehearsal, RehearsalError, open_house};
 use super::report::{Judged, Nobody, Report, Share, StaffCheck};
 use super::standing::Above;
 use super::twin::left_alone;
 use super::visitor::Press;
-use super::{FRAMES, Rehearsal, RehearsalError, open_house};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::gesture;
 use soffio_kiosk::stage::Controls;
@@ -95,6 +96,15 @@ struct Course<'a> {
     /// What is being pulled: the press's beginning and where it took.
     pulled: Option<(f64, [f64; 2])>,
     waiting: Vec<Moment>,
+    notes: Notes,
+    /// When attract mode last played, and when the kiosk last blew for somebody, s.
+    attracted: f64,
+    blew: f64,
+    duties: Vec<(Duty, bool)>,
+}
+
+/// What is noted of the day for its report.
+struct Notes {
     /// Did the entry's onset end attract mode?
     woke: Vec<usize>,
     /// Entries whose doing made wind, and after how long, s.
@@ -104,10 +114,24 @@ struct Course<'a> {
     /// What the ear said in the second after each entry's onset, and how often.
     ear: Vec<BTreeMap<String, u32>>,
     phantoms: Vec<Nobody>,
-    /// When attract mode last played, and when the kiosk last blew for somebody, s.
-    attracted: f64,
-    blew: f64,
-    duties: Vec<(Duty, bool)>,
+}
+
+impl Notes {
+    fn new(entries: usize) -> Self {
+        Self {
+            woke: Vec::new(),
+            heard: Vec::new(),
+            above: vec![None; entries],
+            ear: vec![BTreeMap::new(); entries],
+            phantoms: Vec::new(),
+        }
+    }
+
+    /// Answers to nobody in the time before a visitor's doing.
+    fn phantoms_before(&self, onset: f64) -> usize {
+        let before = onset - UNTOUCHED_S..onset;
+        self.phantoms.iter().filter(|nobody| before.contains(&nobody.at_s)).count()
+    }
 }
 
 impl<'a> Course<'a> {
@@ -133,11 +157,7 @@ impl<'a> Course<'a> {
             returned: 0,
             pulled: None,
             waiting: Vec::new(),
-            woke: Vec::new(),
-            heard: Vec::new(),
-            above: vec![None; entries],
-            ear: vec![BTreeMap::new(); entries],
-            phantoms: Vec::new(),
+            notes: Notes::new(entries),
             attracted: f64::NEG_INFINITY,
             blew: f64::NEG_INFINITY,
         })
@@ -222,7 +242,7 @@ impl<'a> Course<'a> {
         let Some(entry) = self.day.entries.get(self.current).filter(|entry| entry.visit.arrives <= now) else { return };
         let visit = &entry.visit;
         if entry.answered() && visit.onset().is_some_and(|onset| begins(onset, now)) && self.machine.stage.attracts() {
-            self.woke.push(self.current);
+            self.notes.woke.push(self.current);
         }
         if let Some(breath) = visit.breaths.first().filter(|breath| begins(breath.onset, now)) {
             self.house.look_at(breath.onset);
@@ -285,14 +305,14 @@ impl<'a> Course<'a> {
         let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
         let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now)) else { return };
         let blows = self.blows();
-        let above = &mut self.above[self.current];
+        let above = &mut self.notes.above[self.current];
         if above.is_none() && !self.day.entries[self.current].visit.breaths.is_empty() {
             *above = self.house.above_db();
         }
         let reason = self.machine.stage.snapshot().breath.estimate.reason;
-        *self.ear[self.current].entry(format!("{reason:?}")).or_default() += 1;
-        if blows && self.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
-            self.heard.push((self.current, now - onset));
+        *self.notes.ear[self.current].entry(format!("{reason:?}")).or_default() += 1;
+        if blows && self.notes.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
+            self.notes.heard.push((self.current, now - onset));
         }
     }
 
@@ -319,10 +339,8 @@ impl<'a> Course<'a> {
             });
         let shown = began < self.attracted + AFTERMATH_S;
         if !answered && !shown {
-            let acts = self.day.entries.iter().flat_map(|entry| entry.visit.acts());
-            let last = acts.map(|(_, until)| until).filter(|until| *until < began).fold(f64::NEG_INFINITY, f64::max);
-            let (since_s, blew) = (last.is_finite().then_some(began - last), self.blew > began - EARLY_S);
-            self.phantoms.push(Nobody { at_s: began, since_s, blew });
+            let (since_s, blew) = (since_last_act(&self.day, began), self.blew > began - EARLY_S);
+            self.notes.phantoms.push(Nobody { at_s: began, since_s, blew });
         }
     }
 
@@ -346,12 +364,8 @@ impl<'a> Course<'a> {
         let judged = firsts.filter_map(|((index, _), answer)| {
             let entry = &self.day.entries[*index];
             let onset = entry.visit.onset()?;
-            let phantoms = |onset: f64| {
-                let before = onset - UNTOUCHED_S..onset;
-                self.phantoms.iter().filter(|nobody| before.contains(&nobody.at_s)).count()
-            };
             let answered = |onset: f64, answer: &Option<Answer>| {
-                answer.is_some_and(|answer| answer.is_answer()) && phantoms(onset) == 0
+                answer.is_some_and(|answer| answer.is_answer()) && self.notes.phantoms_before(onset) == 0
             };
             let at_once = answered(onset, answer);
             let later = answers.iter().filter(|((entry, _), _)| entry == index).any(|((_, doing), answer)| {
@@ -359,23 +373,21 @@ impl<'a> Course<'a> {
             });
             let mut groups = entry.visit.groups();
             groups.extend(entry.after.map(Task::after));
-            groups.extend(self.woke.contains(index).then_some("wakes it from attract mode"));
+            groups.extend(self.notes.woke.contains(index).then_some("wakes it from attract mode"));
             let middle = picture_at(onset) as f64;
             let after = |picture: usize| (middle + picture as f64) / FPS as f64 - onset;
-            let acts = self.day.entries.iter().flat_map(|entry| entry.visit.acts());
-            let last = acts.map(|(_, until)| until).filter(|until| *until < onset).fold(f64::NEG_INFINITY, f64::max);
             let judged = Judged {
                 onset_s: onset,
-                since_s: last.is_finite().then_some(onset - last),
+                since_s: since_last_act(&self.day, onset),
                 work: rehearsal.works[entry.work].id.clone(),
-                above_db: self.above[*index],
-                ear: most_frequent(&self.ear[*index]),
-                heard_after_s: self.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
+                above_db: self.notes.above[*index],
+                ear: most_frequent(&self.notes.ear[*index]),
+                heard_after_s: self.notes.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
                 changed_after_s: answer.and_then(|a| a.changed).map(after),
                 seen_after_s: answer.and_then(|a| a.seen).map(after),
                 energy: answer.map(|answer| answer.energy),
                 contingency: answer.map(|answer| answer.contingency),
-                phantoms: phantoms(onset),
+                phantoms: self.notes.phantoms_before(onset),
                 breaths: entry.visit.breaths.len(),
                 at_once,
                 good: at_once || later,
@@ -414,10 +426,17 @@ impl<'a> Course<'a> {
             bars: Vec::new(),
             failures: Vec::new(),
             visits: judged.collect(),
-            phantoms: self.phantoms.clone(),
+            phantoms: self.notes.phantoms.clone(),
         }
         .conclude(&shuffled))
     }
+}
+
+/// How long before `at` somebody last did something, s.
+fn since_last_act(day: &Day, at: f64) -> Option<f64> {
+    let acts = day.entries.iter().flat_map(|entry| entry.visit.acts());
+    let last = acts.map(|(_, until)| until).filter(|until| *until < at).fold(f64::NEG_INFINITY, f64::max);
+    last.is_finite().then_some(at - last)
 }
 
 /// The most frequent first.

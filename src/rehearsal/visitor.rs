@@ -3,7 +3,7 @@
 //! Distances, angles and strengths are those of people before a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s,
 //! an adult 6 to 17 m/s, soft as often as hard; most blow at the microphone, some past it.
 
-use super::house::{loud, scaled};
+use super::loudness::{loud, scaled};
 use soffio_detector::generate::filter::peaked;
 use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::{Random, hash_words};
