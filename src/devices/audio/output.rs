@@ -66,12 +66,7 @@ pub struct Player {
     retired: Producer<Engine>,
     mouth: Mouth,
     reference: Producer<f32>,
-    /// To a second output, where there is one; others wait, and those that are over go back.
-    tail: Option<Tail>,
-    tails: Consumer<Tail>,
-    spent_tails: Producer<Tail>,
-    /// Follows whether anything is to be heard at all.
-    sounds: f32,
+    second: SecondOutput,
     shared: Arc<Shared>,
     knobs: Arc<Knobs>,
     channels: usize,
@@ -81,6 +76,42 @@ pub struct Player {
     seconds: f64,
     farewell: usize,
     frame: u64,
+}
+
+/// The way to a second output, where there is one.
+struct SecondOutput {
+    tail: Option<Tail>,
+    /// Others wait here, and those that are over go back.
+    tails: Consumer<Tail>,
+    spent_tails: Producer<Tail>,
+    /// Follows whether anything is to be heard at all.
+    sounds: f32,
+}
+
+impl SecondOutput {
+    /// Takes a new way where one waits. Frees nothing.
+    fn change(&mut self) {
+        while self.spent_tails.slots() > 0
+            && let Ok(tail) = self.tails.pop()
+        {
+            if let Some(old) = self.tail.replace(tail) {
+                // There is room: only this end pushes.
+                let _ = self.spent_tails.push(old);
+            }
+        }
+    }
+
+    /// Passes on what is played; whether it is `audible` glides by `glide` a frame.
+    fn feed(&mut self, stereo: &[f32], audible: bool, glide: f32) {
+        if let Some(Tail(tail)) = &mut self.tail {
+            let target = if audible { 1.0 } else { 0.0 };
+            for [left, right] in stereo.as_chunks::<2>().0 {
+                self.sounds += (target - self.sounds) * glide;
+                // A full ring means that the second output stands still.
+                let _ = tail.push(0.5 * (left + right) * self.sounds);
+            }
+        }
+    }
 }
 
 /// The kiosk's end.
@@ -120,10 +151,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         retired,
         mouth,
         reference,
-        tail: None,
-        tails,
-        spent_tails,
-        sounds: 0.0,
+        second: SecondOutput { tail: None, tails, spent_tails, sounds: 0.0 },
         shared: shared.clone(),
         channels: channels.max(1),
         // From silence: a loudspeaker that comes back in the middle of a sound does not bang.
@@ -145,7 +173,7 @@ impl Player {
     pub fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
         let frames = data.len() / self.channels;
         self.change_engine();
-        self.change_tail();
+        self.second.change();
         let night = self.knobs.night();
         for engine in self.engine.iter_mut().chain(self.leaving.iter_mut().map(|(engine, _)| engine)) {
             engine.synth.set_night(night);
@@ -194,18 +222,6 @@ impl Player {
         }
     }
 
-    /// Frees nothing either.
-    fn change_tail(&mut self) {
-        while self.spent_tails.slots() > 0
-            && let Ok(tail) = self.tails.pop()
-        {
-            if let Some(old) = self.tail.replace(tail) {
-                // There is room: only this end pushes.
-                let _ = self.spent_tails.push(old);
-            }
-        }
-    }
-
     fn render(&mut self, stereo: &mut [f32]) {
         match &mut self.engine {
             Some(engine) => engine.synth.render(stereo),
@@ -221,14 +237,7 @@ impl Player {
         }
         self.mouth.speak(stereo);
         let volume = self.knobs.volume();
-        if let Some(Tail(tail)) = &mut self.tail {
-            let target = if volume > 0.0 { 1.0 } else { 0.0 };
-            for [left, right] in stereo.as_chunks::<2>().0 {
-                self.sounds += (target - self.sounds) * self.glide;
-                // A full ring means that the second output stands still.
-                let _ = tail.push(0.5 * (left + right) * self.sounds);
-            }
-        }
+        self.second.feed(stereo, volume > 0.0, self.glide);
         for frame in stereo.as_chunks_mut::<2>().0 {
             let off = volume - self.gain;
             self.gain = if off.abs() < THERE { volume } else { self.gain + off * self.glide };

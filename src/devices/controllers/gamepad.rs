@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use gilrs::{Axis, Button, EventType, Gilrs};
 
-use super::{Driver, Reading, Slot};
+use super::driver::{Driver, Reading, Slot};
 
 /// A stick rests within this.
 const DEAD_ZONE: f32 = 0.15;

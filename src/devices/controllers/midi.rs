@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use midir::{Ignore, MidiInput, MidiInputConnection};
 
-use super::{Driver, Slot};
+use super::driver::{Driver, Slot};
 
 /// Client name that others see.
 const CLIENT: &str = "soffio";

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use rosc::{OscMessage, OscPacket, OscType};
 
-use super::{Driver, Reading, Slot};
+use super::driver::{Driver, Reading, Slot};
 
 /// Longest packet: more than any message of ours.
 const PACKET: usize = 1536;

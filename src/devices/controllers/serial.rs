@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serialport::SerialPort;
 
-use super::{Driver, Slot};
+use super::driver::{Driver, Slot};
 
 /// Longest line; what is longer is no number.
 const LINE: usize = 32;
