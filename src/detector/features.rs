@@ -11,6 +11,9 @@
 //! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, over the
 //! bands 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz. *Low* are the first two, *middle* the last three.
 
+use super::bands::{BANDS, NOTHING};
+pub use super::bands::{EDGES, LOW, MIDDLE, QUIETEST_DIFFERENCE, blend, decibels};
+pub(super) use super::bands::{QUIETEST, RISEN_DB};
 use super::means::{self, Means, TOLD};
 use super::past::{Past, Present};
 use super::room::Weight;
@@ -79,13 +82,6 @@ pub const PERIODICITY: usize = 15;
 /// Index of the falls of low and middle.
 pub const FALL: [usize; 2] = [22, 23];
 
-/// Limits of the bands, bins.
-pub const EDGES: [usize; BANDS + 1] = [2, 6, 13, 26, 52, 104, 218];
-const BANDS: usize = 6;
-/// Bins of the low band, 31–203 Hz.
-pub const LOW: (usize, usize) = (EDGES[0], EDGES[2]);
-/// Bins of the middle, 406–3400 Hz.
-pub const MIDDLE: (usize, usize) = (EDGES[3], EDGES[6]);
 /// Bins whose flatness shows a tone, 406–1625 Hz.
 const TONES: (usize, usize) = (EDGES[3], EDGES[5]);
 /// Bins that may carry harmonics of a voice, 94–1000 Hz.
@@ -94,22 +90,12 @@ const HARMONICS: (usize, usize) = (6, 64);
 const PITCH_LAGS: (usize, usize) = (20, 100);
 /// Smoothing of the powers, s: longer would make a pop look like a breath.
 const SMOOTHING_S: f64 = 0.008;
-/// A room is never taken to be quieter than this in a band, power (−75 dBFS): below it lies a converter's own noise.
-pub(super) const QUIETEST: f64 = 3.2e-8;
-/// Nor is what differs between two capsules below 406 Hz (−90 dBFS): a house lies 20 to 30 dB lower there than it is, and so does
-/// the breath of who blows past them.
-pub const QUIETEST_DIFFERENCE: f64 = 1e-9;
 /// Below the room by more than this, it is the room that has become quieter, dB.
 const SUNK_DB: f64 = -6.0;
 /// Unrest of a steady noise, dB: what its frames scatter by.
 const CALM_DB: f64 = 2.0;
 /// Part of the predicted own sound that may remain after it is taken away.
 pub(super) const RESIDUE: f64 = 0.03;
-/// Keeps logarithms finite; far below [`QUIETEST`].
-const NOTHING: f64 = 1e-14;
-/// Below this rise nothing has risen, dB.
-pub(super) const RISEN_DB: f64 = 5.0;
-
 /// The room, and what rises above it.
 #[derive(Clone, Debug)]
 pub(super) struct Listener {
@@ -273,8 +259,7 @@ impl Listener {
         let rise = |(from, to)| decibels(cleaned(from, to) / floor(from, to)).clamp(-5.0, 50.0);
         let excess = |(from, to)| band(&self.excess, from, to) + 0.03 * floor(from, to);
         let bands: [(usize, usize); BANDS] = std::array::from_fn(|b| (EDGES[b], EDGES[b + 1]));
-        let rises = bands.map(rise);
-        let parts = bands.map(excess);
+        let (rises, parts) = (bands.map(rise), bands.map(excess));
         let (low_rise, middle_rise) = (rise(LOW), rise(MIDDLE));
         let total: f64 = parts.iter().sum();
         let share = decibels((parts[0] + parts[1]) / total);
@@ -292,13 +277,8 @@ impl Listener {
         };
 
         let periodicity = self.periodicity();
-        self.periodicity += blend(0.08) * (periodicity - self.periodicity);
-        self.low_share += blend(0.16) * (share - self.low_share);
         let shape = [decibels(parts[3] / parts[4]), decibels(parts[4] / parts[5])];
-        let change = (shape[0] - self.shape[0]).abs() + (shape[1] - self.shape[1]).abs();
-        self.flux += blend(0.08) * (change - self.flux);
-        self.shape = shape;
-        self.risen_for = if low_rise.max(middle_rise) > RISEN_DB { self.risen_for + FRAME_S } else { 0.0 };
+        self.follow(periodicity, share, shape, low_rise.max(middle_rise));
         let present =
             Present { level, rises: [low_rise, middle_rise], periodicity: self.periodicity, power: &self.smooth };
         let past = self.past.push(&present, still.past);
@@ -349,6 +329,16 @@ impl Listener {
         (measured, levels)
     }
 
+    /// Lets the means of a frame follow its periodicity, share of low, shape of the middle and highest rise (dB).
+    fn follow(&mut self, periodicity: f64, share: f64, shape: [f64; 2], rise: f64) {
+        self.periodicity += blend(0.08) * (periodicity - self.periodicity);
+        self.low_share += blend(0.16) * (share - self.low_share);
+        let change = (shape[0] - self.shape[0]).abs() + (shape[1] - self.shape[1]).abs();
+        self.flux += blend(0.08) * (change - self.flux);
+        self.shape = shape;
+        self.risen_for = if rise > RISEN_DB { self.risen_for + FRAME_S } else { 0.0 };
+    }
+
     /// Highest peak of the autocorrelation between the lags of 400 and 80 Hz, 0 … 1, of the excess between 94 and
     /// 1000 Hz. The spectrum is compressed to its square root first, which whitens it, so that the colour of the noise does
     /// not look like a pitch (Tolonen and Karjalainen 2000). r(τ) = Σ_k √E_k cos(2π k τ / N) (Wiener–Khinchin).
@@ -365,16 +355,6 @@ impl Listener {
         let peak = (PITCH_LAGS.0..PITCH_LAGS.1).map(correlation).fold(0.0, f64::max);
         (peak / total).clamp(0.0, 1.0)
     }
-}
-
-/// Weight of a new frame in an exponential mean with this time constant, s.
-pub fn blend(time_constant: f64) -> f64 {
-    1.0 - exp(-FRAME_S / time_constant)
-}
-
-/// Decibels of a power.
-pub fn decibels(power: f64) -> f64 {
-    10.0 * log10(power.max(NOTHING))
 }
 
 /// Spectral flatness, dB: geometric over arithmetic mean, 0 for white noise.

@@ -13,6 +13,7 @@
 //! Invariants: causal; no state depends on how samples were cut into blocks; the speed is exactly 0 unless the reason
 //! is [`Reason::Blow`].
 
+mod bands;
 mod capsules;
 mod decision;
 pub mod features;

@@ -1,6 +1,6 @@
 //! What frames were like lately: a frame alone is doubtful, its means over a tenth and a half of a second make it clear.
 
-use super::features::blend;
+use super::bands::blend;
 
 /// Time constants of the means, s.
 pub const MEANS_S: [f64; 2] = [0.1, 0.5];

@@ -6,7 +6,7 @@
 //! they stand still, as the room does: a breath is compared with what came before it, however long it lasts, and a second
 //! one is not busier than the first.
 
-use super::features::{LOW, RISEN_DB, blend};
+use super::bands::{LOW, RISEN_DB, blend};
 use super::spectrum::{FRAME_S, Power};
 
 /// Frames that are remembered, 0.24 s.

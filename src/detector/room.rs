@@ -9,7 +9,7 @@
 //! in means over 0.4 and 1.5 s. So a door that falls shut raises F by 9 dB a second at the most, and F comes down at once when a
 //! crowd leaves: who blows then is told from the room as it is.
 
-use super::features::blend;
+use super::bands::blend;
 
 /// Time constants of both ways, s.
 const DOWN_S: f64 = 0.4;
@@ -50,7 +50,7 @@ impl Weight {
 
 #[cfg(test)]
 mod tests {
-    use super::super::features::decibels;
+    use super::super::bands::decibels;
     use super::super::spectrum::FRAME_S;
     use super::*;
 
