@@ -9,14 +9,15 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::khr::{self, called, written};
+use super::khr;
+use super::nodes::{called, fit, meshes, solid, written};
 use super::words::{attract, labels, quoted, three};
 use super::{File, Made};
 use soffio_exhibit::diagnostic::{Diagnostic, Report};
 use soffio_exhibit::model::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, Model, import};
-use soffio_exhibit::{SIDECAR, codes, fit as shapes, materials, paths};
+use soffio_exhibit::{SIDECAR, codes, materials, paths};
 use soffio_geometry::TriangleMesh;
-use soffio_math::{DMat3, DVec3};
+use soffio_math::DVec3;
 
 /// Words of names of what stands still.
 const STILL: [&str; 14] = [
@@ -146,53 +147,6 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
         out = out.replace("\"REPLACE by the maker's name\"", &quoted(copyright));
     }
     out
-}
-
-/// Nodes at and below one that have a mesh.
-fn meshes(model: &Model, root: usize) -> Vec<usize> {
-    let mut found = Vec::new();
-    let mut open = vec![root];
-    while let Some(node) = open.pop() {
-        found.extend(model.nodes[node].mesh.map(|_| node));
-        open.extend(&model.nodes[node].children);
-    }
-    found.sort_unstable();
-    found
-}
-
-/// The meshes at and below a node, in the world.
-fn solid(model: &Model, root: usize) -> Vec<TriangleMesh> {
-    let mut solids = Vec::new();
-    for node in meshes(model, root) {
-        let world = model.nodes[node].world;
-        let Some(mesh) = model.nodes[node].mesh.and_then(|mesh| model.meshes.get(mesh)) else { continue };
-        let mut out = TriangleMesh::default();
-        for primitive in &mesh.primitives {
-            let base = out.positions.len() as u32;
-            out.positions.extend(primitive.positions.iter().map(|p| DVec3::from(p.map(f64::from))));
-            out.triangles.extend(primitive.indices.chunks_exact(3).map(|t| [base + t[0], base + t[1], base + t[2]]));
-        }
-        let mut out = out.welded();
-        out.positions.iter_mut().for_each(|p| *p = world.transform_point3(*p));
-        if DMat3::from_mat4(world).determinant() < 0.0 {
-            out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-        }
-        solids.push(out);
-    }
-    solids
-}
-
-/// What can be fitted to the meshes at and below a node, as the sidecar calls it.
-pub(super) fn fit(model: &Model, node: usize) -> Option<&'static str> {
-    let mut whole = TriangleMesh::default();
-    solid(model, node).iter().for_each(|mesh| whole.append(mesh));
-    let extents = whole.extents()?;
-    // Sheet: twenty times as wide as thick.
-    let flat = extents.half.z < 0.05 * extents.half.y;
-    if flat && shapes::plate(&whole, &extents).is_some() {
-        return Some("plate");
-    }
-    shapes::convex(&whole).map(|_| "convex")
 }
 
 /// Bodies for what has no physics of its own; those that move.

@@ -10,6 +10,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use super::khr_joint;
+use super::nodes::{called, fit, written};
 use super::piece::NOTHING;
 use super::words::quoted;
 use soffio_exhibit::model::Model;
@@ -55,19 +56,6 @@ pub fn physics(model: &Model, json: &Value) -> Option<Physics> {
 pub(super) fn vector(value: &Value) -> Option<DVec3> {
     let numbers: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_f64).collect();
     <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
-}
-
-/// A vector in TOML.
-pub(super) fn written(v: DVec3) -> String {
-    // Debug writes what no integer holds with an exponent: 1e30 is TOML, its digits are not.
-    format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
-}
-
-/// How the sidecar calls a node: by its name, or by its number where the name is not unique.
-pub(super) fn called(model: &Model, node: usize) -> String {
-    let name = &model.nodes[node].name;
-    let alone = model.nodes.iter().filter(|other| other.name == *name).count() == 1;
-    if alone && !name.is_empty() && !name.starts_with('#') { name.clone() } else { format!("#{node}") }
 }
 
 /// A shape of stated size, in a frame of its own.
@@ -425,7 +413,7 @@ impl Reader<'_> {
             self.say(node, "collides as nothing that is known here: not taken over");
             return None;
         }
-        let Some(fit) = super::imported::fit(self.model, node) else {
+        let Some(fit) = fit(self.model, node) else {
             self.say(node, "nothing can be fitted to its mesh: it has no collider");
             return None;
         };

@@ -16,7 +16,8 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::khr::{Reader, called, rotation_of, written};
+use super::khr::{Reader, rotation_of};
+use super::nodes::{called, written};
 use super::words::quoted;
 use soffio_math::{DVec3, PI, acos};
 

@@ -16,6 +16,7 @@ pub mod khr;
 mod khr_joint;
 pub mod mobile;
 pub mod model_writer;
+mod nodes;
 pub mod notes;
 pub mod outline;
 pub mod piece;
