@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::hours::{self, TimeOfDay};
+use super::hours::TimeOfDay;
+use super::time_text;
 
 /// When it listens to its own chirp, and how long a foam lasts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -10,7 +11,7 @@ use super::hours::{self, TimeOfDay};
 pub struct Care {
     /// Local time, `03:30`, at which the loudspeaker chirps and the microphone hears it, once a day, when the house is
     /// closed or nobody is there; empty leaves it to staff.
-    #[serde(with = "hours::text")]
+    #[serde(with = "time_text")]
     #[schemars(with = "String")]
     pub chirp_at: Option<TimeOfDay>,
     /// Breaths at the microphone after which its foam is to be changed; 0 for never.

@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use super::time_text;
+
 /// Minutes of a day.
 const DAY: u16 = 24 * 60;
 
@@ -50,11 +52,11 @@ impl fmt::Display for TimeOfDay {
 #[serde(deny_unknown_fields, default)]
 pub struct Hours {
     /// Local time at which the night's sound begins, `22:00`; empty leaves it to staff.
-    #[serde(with = "text")]
+    #[serde(with = "time_text")]
     #[schemars(with = "String")]
     pub from: Option<TimeOfDay>,
     /// Local time at which the day's begins.
-    #[serde(with = "text")]
+    #[serde(with = "time_text")]
     #[schemars(with = "String")]
     pub to: Option<TimeOfDay>,
 }
@@ -64,21 +66,5 @@ impl Hours {
     pub fn contain(&self, time: TimeOfDay) -> bool {
         let (Some(from), Some(to)) = (self.from, self.to) else { return false };
         time.since(from) < to.since(from)
-    }
-}
-
-/// An empty text is no time.
-pub(super) mod text {
-    use serde::{Deserialize, Deserializer, Serializer, de};
-
-    use super::TimeOfDay;
-
-    pub fn serialize<S: Serializer>(time: &Option<TimeOfDay>, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(&time.map(|time| time.to_string()).unwrap_or_default())
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<TimeOfDay>, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        if text.is_empty() { Ok(None) } else { text.parse().map(Some).map_err(de::Error::custom) }
     }
 }

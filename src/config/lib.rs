@@ -22,6 +22,7 @@ mod mqtt;
 mod opening;
 mod pin;
 pub mod remedies;
+mod time_text;
 
 pub use care::Care;
 pub use chord::Chord;

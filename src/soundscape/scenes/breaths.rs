@@ -30,24 +30,8 @@ impl World {
         hearing: Hearing,
         random: &mut Random,
     ) -> Take {
-        let (distance, angle_deg, child) = mouth;
-        // Soft breaths are as frequent as hard ones: they are the harder to hear.
-        let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
-        let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
-        let (apart, past_deg) = (pair.range(APART_M.0, APART_M.1), pair.range(0.0, 360.0));
-        let first = BreathShape {
-            lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
-            strength: soft * pow(hard / soft, random.unit()),
-            lead_out: random.range(0.8, 1.5),
-            distance,
-            angle_deg,
-            apart: if hearing.stereo { apart } else { 0.0 },
-            past_deg,
-            foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
-            colour: pow(2.0, random.range(-0.8, 1.4)),
-            corner_hz: 5.0,
-            ..BreathShape::default()
-        };
+        let angle_deg = mouth.1;
+        let first = self.first_breath(condition, index, mouth, hearing, random);
         let (shapes, breaths) = Self::row_of_breaths(&first, random);
         let seconds = shapes.iter().map(BreathShape::duration).sum::<f64>();
         let seed = random.word();
@@ -112,6 +96,34 @@ impl World {
         let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
         let played = if matches!(condition, Condition::Answered(_)) { played.collect() } else { Vec::new() };
         Take { events: dry.events, played, ..take }
+    }
+
+    /// The first breath of a mouth at a distance (m) and an angle (degrees), a child's or not.
+    fn first_breath(
+        &self,
+        condition: Condition,
+        index: u64,
+        (distance, angle_deg, child): (f64, f64, bool),
+        hearing: Hearing,
+        random: &mut Random,
+    ) -> BreathShape {
+        // Soft breaths are as frequent as hard ones: they are the harder to hear.
+        let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
+        let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
+        let (apart, past_deg) = (pair.range(APART_M.0, APART_M.1), pair.range(0.0, 360.0));
+        BreathShape {
+            lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
+            strength: soft * pow(hard / soft, random.unit()),
+            lead_out: random.range(0.8, 1.5),
+            distance,
+            angle_deg,
+            apart: if hearing.stereo { apart } else { 0.0 },
+            past_deg,
+            foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
+            colour: pow(2.0, random.range(-0.8, 1.4)),
+            corner_hz: 5.0,
+            ..BreathShape::default()
+        }
     }
 
     /// One breath like `first`, or a few of one mouth: short puffs and long ones, hard and soft; when each of them is.

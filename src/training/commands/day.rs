@@ -6,7 +6,8 @@ use soffio_config::Config;
 use soffio_kiosk::site::Site;
 use soffio_rehearsal::{Crowd, Rehearsal, featured_exhibits, listen};
 
-use super::{Failure, Outcome, detector};
+use super::failure::{Failure, Outcome};
+use super::tables_given::detector;
 
 /// Lets the detector listen to a rehearsed day: who is heard, how soon, and wind without breath.
 ///

@@ -9,7 +9,7 @@ use soffio_offline::{wav, whole_file::WholeFile};
 use soffio_soundscape::scenes::{Condition, Hearing, World};
 use soffio_soundscape::{Kind, RATE, Take};
 
-use super::{Failure, Outcome};
+use super::failure::{Failure, Outcome};
 use crate::recordings;
 
 /// Make labelled scenes of breath and of museums, as WAVs beside a labels.csv.

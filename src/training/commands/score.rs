@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use soffio_soundscape::Take;
 use soffio_soundscape::scenes::Hearing;
 
-use super::{Failure, Outcome, detector};
+use super::failure::{Failure, Outcome};
+use super::tables_given::detector;
 use crate::score::Table;
 use crate::{course, recordings};
 use soffio_soundscape::statistics::spearman;

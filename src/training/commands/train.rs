@@ -8,7 +8,8 @@ use soffio_offline::whole_file::WholeFile;
 use soffio_soundscape::Take;
 use soffio_soundscape::scenes::Hearing;
 
-use super::{Failure, Outcome, detector};
+use super::failure::{Failure, Outcome};
+use super::tables_given::detector;
 use crate::course::{self, Course};
 use crate::descent::{self, Subject};
 use crate::{recordings, tables};
