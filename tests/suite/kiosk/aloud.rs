@@ -194,7 +194,7 @@ fn a_program_that_fails_says_so_and_leaves_nothing_on() {
 
 /// The system's own program, where it is installed.
 fn system() -> Option<Speaker> {
-    Speaker::find("espeak-ng").inspect_err(|error| eprintln!("not tested: {error}")).ok()
+    crate::require::require("program that speaks", Speaker::find("espeak-ng"))
 }
 
 /// What it says of the fish, in English.

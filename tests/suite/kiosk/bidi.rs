@@ -71,12 +71,16 @@ fn what_is_read_from_the_left_is_left_alone() {
     assert!(!reads_from_right("1941"));
 }
 
+/// Whether this system has fonts for the scripts that are read from the right.
+fn from_the_right() -> Option<()> {
+    let missing = [Script::Hebrew, Script::Arabic].into_iter().find(|script| fonts::find(*script).is_none());
+    let found = missing.map_or(Ok(()), |script| Err(format!("none has {script:?}")));
+    crate::require::require("font for Hebrew and Arabic", found)
+}
+
 /// Type as the kiosk sets it on a page, with this system's fonts; nothing where it has none for these scripts.
 fn with_page<T>(then: impl FnOnce(&Page) -> T) -> Option<T> {
-    if [Script::Hebrew, Script::Arabic].into_iter().any(|script| fonts::find(script).is_none()) {
-        eprintln!("not tested: no fonts for Hebrew and Arabic");
-        return None;
-    }
+    from_the_right()?;
     let context = egui::Context::default();
     context.set_fonts(fonts::definitions());
     let (mut then, mut made) = (Some(then), None);
@@ -141,9 +145,7 @@ fn lines_from_the_right_end_at_one_edge_and_keep_their_length() {
 #[test]
 fn a_label_in_hebrew_or_arabic_is_offered_and_drawn() {
     let Some(mut glass) = Glass::new() else { return };
-    if fonts::find(Script::Hebrew).is_none() || fonts::find(Script::Arabic).is_none() {
-        return;
-    }
+    let Some(()) = from_the_right() else { return };
     let mut exhibit = load("pendulum");
     let label = |title: &str, maker: &str, body: &str| Label {
         title: title.into(),

@@ -15,7 +15,7 @@ pub struct Glass {
 impl Glass {
     /// On whatever driver there is.
     pub fn new() -> Option<Self> {
-        let gpu = Gpu::headless().inspect_err(|error| eprintln!("not tested: {error}")).ok()?;
+        let gpu = crate::require::require("Vulkan driver", Gpu::headless())?;
         let type_setter = egui_wgpu::Renderer::new(&gpu.device, FORMAT, egui_wgpu::RendererOptions::default());
         Some(Self { gpu, type_setter })
     }
