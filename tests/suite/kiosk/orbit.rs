@@ -37,7 +37,7 @@ fn drag(stage: &mut Stage, controls: &Controls, way: [f64; 2]) {
     }
     let lift = Lift { id: 5, from: BESIDE, at: at(1.0) };
     stage.lift(lift);
-    stage.step(&controls, None);
+    stage.step(controls, None);
 }
 
 fn stage(id: &str) -> Stage {
