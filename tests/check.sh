@@ -8,7 +8,7 @@ cd "$(dirname "$self")/.."
 built="${CARGO_TARGET_DIR:-target}/ci"
 # Where the parts leave what they said, and how they ended.
 marks=out/check
-everything=(format lints build live headless docs exhibits states suite)
+everything=(format lints build headless docs exhibits states suite live)
 
 format()   { cargo fmt --all -- --check; }
 lints()    { cargo clippy --profile ci --workspace --locked --quiet --all-targets -- -D warnings; }

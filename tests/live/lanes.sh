@@ -12,7 +12,7 @@ soffio=$(readlink -f "${1:?usage: tests/live/lanes.sh PATH-OF-SOFFIO [PART …]}
 shift
 # shellcheck source-path=SCRIPTDIR
 . "$here/parts.sh"
-lanes=${SOFFIO_LIVE_LANES:-$(($(nproc) + 1))}
+lanes=${SOFFIO_LIVE_LANES:-$(nproc)}
 
 is_patient() { [[ " ${patient_parts[*]} " == *" $1 "* ]]; }
 
