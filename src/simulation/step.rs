@@ -207,7 +207,7 @@ impl Simulation {
         &self.emitter.events
     }
 
-    /// Sounds of the last step; sample times count from the start of the run at [`SAMPLE_RATE`].
+    /// Sounds of the last step; sample times count from the start of the run at [`SAMPLE_RATE`](crate::SAMPLE_RATE).
     pub fn sounds(&self) -> &[SoundCommand] {
         &self.emitter.sounds
     }
