@@ -119,14 +119,14 @@ every_screen() {
     # Closed, opened by staff, closed again, and open by the hours.
     site "[opening]
 holidays = [\"$(date +%F)\"]"
-    within 5 dark && left=1 || left=0
+    within 15 dark && left=1 || left=0
     xdotool key ctrl+alt+o
-    within 5 picture && seen=1 || seen=0
+    within 15 picture && seen=1 || seen=0
     xdotool key ctrl+alt+o
-    within 5 dark || left=0
+    within 15 dark || left=0
     shot closed
     site
-    within 5 picture && back=1 || back=0
+    within 15 picture && back=1 || back=0
     bar "closed and open" "$left == 1 && $seen == 1 && $back == 1" "by the hours, by staff, and by the hours again"
     end_launcher || code=$?
     bar "no way out" "$code == 130 && $(grep -c 'died' "$room/screens.err") == 0" "it ran until the launcher was ended"
