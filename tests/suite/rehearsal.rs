@@ -213,8 +213,6 @@ fn an_ear_alone_needs_no_pictures() {
     assert!(table.out.contains("first breaths") && table.out.contains("wind without breath: "), "{}", table.out);
     let json: serde_json::Value = serde_json::from_str(&listen(&["--json", "--capsules", "1"]).out).expect("JSON");
     assert!(json["all"]["breaths"].as_u64().is_some_and(|breaths| breaths > 0), "{json}");
-    listen(&["--table", "nowhere.rs"]).refused(1, &["nowhere.rs"]);
-    desk.soffio(&["rehearse", "--table", "nowhere.rs"]).refused(2, &["--ear"]);
     assert!(desk.files().is_empty());
 }
 

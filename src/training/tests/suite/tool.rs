@@ -125,4 +125,5 @@ fn the_detector_listens_to_a_rehearsed_day() {
     let report: serde_json::Value = serde_json::from_str(&heard.out).expect("one JSON object");
     assert!(report["all"]["breaths"].as_u64() > Some(0), "{report}");
     day("cathedral").refused(1, &["cathedral", "gallery"]);
+    desk.run(&["day", "--table", "nowhere.rs"]).refused(1, &["nowhere.rs"]);
 }
