@@ -5,7 +5,7 @@
 #
 # SOFFIO_LIVE_LANES=3 is how many rooms there are at once: one more than processors, where nobody says; 1 is one part after
 # another. Parts whose bars are seconds or hundredths of them (parts.sh says which) go before the others on the processor.
-# One of these that misses a bar beside other rooms is tried once more in the only room; what was missed is told all the same.
+# A part that misses a bar beside another room is tried once more in the only room; what was missed is told all the same.
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 soffio=$(readlink -f "${1:?usage: tests/live/lanes.sh PATH-OF-SOFFIO [PART …]}")
@@ -26,7 +26,7 @@ part() {
         printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
     fi
     # What is tried again has missed nothing yet.
-    if [ -n "${SOFFIO_LIVE_AGAIN:-}" ] && ! is_patient "$1" && grep -q '^live: BAD' "$logs/$1"; then
+    if [ -n "${SOFFIO_LIVE_AGAIN:-}" ] && grep -q '^live: BAD' "$logs/$1"; then
         touch "$logs/$1.again"
         sed -i 's/^live: BAD  /live: AGAIN/; /^live: good/d' "$logs/$1"
     fi
