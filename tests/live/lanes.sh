@@ -3,7 +3,7 @@
 #
 #   tests/live/lanes.sh target/ci/soffio [PART …]
 #
-# SOFFIO_LIVE_LANES=3 is how many rooms there are at once: one more than processors, where nobody says; 1 is one part after
+# SOFFIO_LIVE_LANES=3 is how many rooms there are at once: as many as processors, where nobody says; 1 is one part after
 # another. Parts whose bars are seconds or hundredths of them (parts.sh says which) go before the others on the processor.
 # A part that misses a bar beside another room is tried once more in the only room; what was missed is told all the same.
 set -euo pipefail
