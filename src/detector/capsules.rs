@@ -32,7 +32,7 @@
 //! it, told them apart: there centimetres, reverberation and each capsule's own noise leave less than 0.97 of
 //! two capsules' coherence.
 
-use rustfft::num_complex::Complex;
+use soffio_fourier::Complex;
 
 use super::decision::LEAST_RISE_DB;
 use super::features::blend;

@@ -14,7 +14,7 @@
 //! and a few tenths of chance. C is the power of what is one wave: a crowd has less of it than of all power by some decibels, and
 //! by so much more hiss of lips rises above it.
 
-use rustfft::num_complex::Complex;
+use soffio_fourier::Complex;
 
 use super::capsules::Pair;
 use super::features::{QUIETEST, RESIDUE, blend, decibels};

@@ -15,7 +15,7 @@
 
 use std::sync::Arc;
 
-use rustfft::{Fft, FftPlannerScalar, num_complex::Complex};
+use soffio_fourier::{Complex, Fft, forward};
 
 use super::resample::INTERNAL_RATE;
 use soffio_math::{PI, cos, ln};
@@ -109,7 +109,7 @@ impl std::fmt::Debug for Framer {
 impl Framer {
     /// Plans the transform.
     pub fn new() -> Self {
-        let transform = FftPlannerScalar::new().plan_fft_forward(TRANSFORM);
+        let transform = forward(TRANSFORM);
         let window: [f64; WINDOW] = std::array::from_fn(|i| {
             let t = i as f64 + 0.5 - RISING as f64;
             let half = if t < 0.0 { RISING } else { WINDOW - RISING };

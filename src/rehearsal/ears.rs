@@ -15,7 +15,7 @@
 
 use std::sync::Arc;
 
-use realfft::{RealFftPlanner, RealToComplex};
+use soffio_fourier::{RealToComplex, real_forward};
 
 use super::blocks::SAMPLE_RATE_HZ;
 use soffio_math::{PI, cos, from_decibels};
@@ -50,7 +50,7 @@ impl Ears {
     pub fn new() -> Self {
         let hann = |i: usize| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / FRAME as f64);
         Self {
-            transform: RealFftPlanner::new().plan_fft_forward(FRAME),
+            transform: real_forward(FRAME),
             window: (0..FRAME).map(hann).collect(),
             waiting: vec![0.0; FRAME - HOP],
             frames: 0,

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex, num_traits::Zero};
+use soffio_fourier::{Complex, ComplexToReal, RealToComplex, real_forward, real_inverse};
 
 use super::blocks::BLOCK;
 use super::rate::Coarser;
@@ -56,8 +56,7 @@ impl Echo {
     /// In this room, for so many capsules.
     pub fn new(room: &Room, capsules: usize, random: &mut Random) -> Self {
         let (at, seed) = (room.near(AWAY_M, random), random.word());
-        let mut planner = RealFftPlanner::new();
-        let (forward, back) = (planner.plan_fft_forward(2 * BLOCK), planner.plan_fft_inverse(2 * BLOCK));
+        let (forward, back) = (real_forward(2 * BLOCK), real_inverse(2 * BLOCK));
         let gain = from_decibels(COUPLING_DB) / (2 * BLOCK) as f64;
         let part = |part: &[f64]| {
             let mut padded = vec![0.0; 2 * BLOCK];
@@ -101,7 +100,7 @@ impl Echo {
 
     /// The present block of all that was played, through a response.
     fn arrives(&self, parts: &[Vec<Complex<f64>>]) -> Vec<f64> {
-        let mut sum = vec![Complex::zero(); BLOCK + 1];
+        let mut sum = vec![Complex::ZERO; BLOCK + 1];
         for (part, spectrum) in parts.iter().zip(&self.spectra) {
             sum.iter_mut().zip(part.iter().zip(spectrum)).for_each(|(z, (h, x))| *z += h * x);
         }

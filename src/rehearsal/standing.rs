@@ -9,8 +9,8 @@
 //! the first capsule, before it adds its corner and its noise. Two capsules hear rumble that lies below the house, as far as that
 //! is the same at both: so the rumble of their difference is told as well. Hiss they both hear the same.
 
-use realfft::{RealFftPlanner, num_complex::Complex};
 use serde::Serialize;
+use soffio_fourier::{Complex, real_forward};
 
 use super::judge::{FPS, SOON};
 use soffio_math::{PI, cos, decibels};
@@ -91,7 +91,7 @@ fn above(breath: &[f64], rest: &[f64], (low, high): (f64, f64)) -> f64 {
 }
 
 fn spectrum(samples: &[f64]) -> Vec<Complex<f64>> {
-    let transform = RealFftPlanner::new().plan_fft_forward(samples.len());
+    let transform = real_forward(samples.len());
     let hann = |i: usize| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / samples.len() as f64);
     let mut windowed: Vec<f64> = samples.iter().enumerate().map(|(i, x)| hann(i) * x).collect();
     let mut out = transform.make_output_vec();

@@ -8,8 +8,7 @@
 //! images an exponential tail of noise goes on, of Sabine's reverberation time T = 0.161 V / (α S). A wall takes more of
 //! the high notes: one pole per response, the lower the longer the room rings.
 
-use rustfft::num_complex::Complex;
-use rustfft::{FftPlanner, num_traits::Zero};
+use soffio_fourier::Complex;
 
 use soffio_detector::generate::filter;
 use soffio_math::noise::Random;
@@ -145,20 +144,19 @@ impl Room {
 
 /// `sound` as it arrives through `response`, of the same length (overlap and add).
 pub fn convolved(sound: &[f64], response: &[f64]) -> Vec<f64> {
-    let mut planner = FftPlanner::<f64>::new();
-    let (forward, back) = (planner.plan_fft_forward(BLOCK), planner.plan_fft_inverse(BLOCK));
+    let (forward, back) = (soffio_fourier::forward(BLOCK), soffio_fourier::inverse(BLOCK));
     let response = &response[..response.len().min(BLOCK / 2)];
-    let mut filter = vec![Complex::zero(); BLOCK];
+    let mut filter = vec![Complex::ZERO; BLOCK];
     filter.iter_mut().zip(response).for_each(|(z, h)| z.re = h / BLOCK as f64);
     forward.process(&mut filter);
     let step = BLOCK - response.len() + 1;
     let mut out = vec![0.0; sound.len()];
-    let mut buffer = vec![Complex::zero(); BLOCK];
+    let mut buffer = vec![Complex::ZERO; BLOCK];
     // Two pieces a transform: one in the real, one in the imaginary part.
     for start in (0..sound.len()).step_by(2 * step) {
         let middle = (start + step).min(sound.len());
         let end = (middle + step).min(sound.len());
-        buffer.fill(Complex::zero());
+        buffer.fill(Complex::ZERO);
         buffer.iter_mut().zip(&sound[start..middle]).for_each(|(z, x)| z.re = *x);
         buffer.iter_mut().zip(&sound[middle..end]).for_each(|(z, x)| z.im = *x);
         forward.process(&mut buffer);

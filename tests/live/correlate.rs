@@ -15,8 +15,7 @@
 
 use std::process::ExitCode;
 
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use soffio_fourier::{Complex, ComplexToReal, RealToComplex, real_forward, real_inverse};
 use std::sync::Arc;
 
 /// Samples of a piece.
@@ -96,8 +95,7 @@ struct Matcher {
 
 impl Matcher {
     fn new(known: &[f64]) -> Self {
-        let mut planner = RealFftPlanner::new();
-        let (forward, back) = (planner.plan_fft_forward(BLOCK), planner.plan_fft_inverse(BLOCK));
+        let (forward, back) = (real_forward(BLOCK), real_inverse(BLOCK));
         let mut pieces = Vec::new();
         for rate in RATES {
             for place in PLACES {

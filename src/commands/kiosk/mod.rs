@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
 
@@ -202,8 +203,12 @@ fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop:
 /// Logs go to stderr, and their last lines to the staff panel; `RUST_LOG` says how much. The sound server's client calls
 /// its own orderly end an error.
 fn log_to_stderr(log: &Log) {
-    let filter = tracing_subscriber::EnvFilter::try_from_default_env()
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("error,soffio=info,pulseaudio=off"));
+    let asked = std::env::var("RUST_LOG").ok().and_then(|words| words.parse::<Targets>().ok());
+    let usual = || {
+        let levels = [("soffio", LevelFilter::INFO), ("pulseaudio", LevelFilter::OFF)];
+        Targets::new().with_default(LevelFilter::ERROR).with_targets(levels)
+    };
+    let filter = asked.unwrap_or_else(usual);
     let terminal = std::io::stderr().is_terminal();
     let lines = tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_ansi(terminal);
     // A second call in one process keeps the first log.

@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-use realfft::RealFftPlanner;
+use soffio_fourier::{real_forward, real_inverse};
 
 use soffio_devices::audio::{LOUDEST, Words};
 use soffio_math::from_decibels;
@@ -173,10 +173,9 @@ fn at_rate(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
     let period = from / gcd(from, to);
     let n = samples.len().div_ceil(period as usize) * period as usize;
     let m = n / period as usize * (to / gcd(from, to)) as usize;
-    let mut planner = RealFftPlanner::<f32>::new();
-    let (forward, inverse) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(m));
+    let (forward, inverse) = (real_forward(n), real_inverse(m));
     let (mut x, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
-    x[..samples.len()].copy_from_slice(samples);
+    x.iter_mut().zip(samples).for_each(|(x, sample)| *x = f64::from(*sample));
     let (mut other, mut y) = (inverse.make_input_vec(), inverse.make_output_vec());
     if forward.process(&mut x, &mut spectrum).is_err() {
         return Vec::new();
@@ -187,7 +186,7 @@ fn at_rate(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
     if inverse.process(&mut other, &mut y).is_err() {
         return Vec::new();
     }
-    y.iter().map(|sample| sample / n as f32).collect()
+    y.iter().map(|sample| (sample / n as f64) as f32).collect()
 }
 
 fn gcd(a: u32, b: u32) -> u32 {

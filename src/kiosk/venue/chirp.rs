@@ -11,8 +11,7 @@
 //! counts. What a loudspeaker distorts lies before the arrival (A. Farina, 2000), the second harmonic by T ln 2/L; between
 //! the two there is noise only, and the same window there says how much of a level is the room's noise.
 
-use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
+use soffio_fourier::{Complex, RealToComplex, real_forward, real_inverse};
 
 use soffio_math::{PI, cos, decibels, exp, ln, sin};
 use soffio_sound::BANDS;
@@ -34,7 +33,7 @@ const WINDOW_S: (f64, f64) = (0.005, 0.1);
 /// Windows of noise before it.
 const QUIET_WINDOWS: usize = 2;
 /// Below this share of the greatest |X|² the division is damped: outside of the chirp's range.
-const DAMPING: f32 = 1e-4;
+const DAMPING: f64 = 1e-4;
 /// An octave so far above the noise is clear, dB.
 const CLEAR_DB: f64 = 6.0;
 /// A microphone whose loudest sample is below this hears nothing at all: its cable is out, or it is switched off.
@@ -83,8 +82,8 @@ pub fn arrived(heard: &[f32], rate: u32) -> Arrived {
     let window = samples(WINDOW_S.1);
     let octaves = |before: usize| {
         let from = first + 2 * way.len() - samples(WINDOW_S.0) - before;
-        let cut: Vec<f32> = (0..window).map(|i| way[(from + i) % way.len()]).collect();
-        powers(&cut, rate)
+        let cut: Vec<f64> = (0..window).map(|i| way[(from + i) % way.len()]).collect();
+        powers(cut, rate)
     };
     let there = octaves(0);
     let mut noise = [0.0; OCTAVES];
@@ -103,39 +102,41 @@ fn decibels_of(power: f64) -> f64 {
 }
 
 /// The impulse response between loudspeaker and microphone, circular.
-fn way(heard: &[f32], rate: u32) -> Vec<f32> {
+fn way(heard: &[f32], rate: u32) -> Vec<f64> {
     let sent = chirp(rate);
     let length = (sent.len() + heard.len()).next_power_of_two();
-    let mut planner = RealFftPlanner::<f32>::new();
-    let forward = planner.plan_fft_forward(length);
-    let (x, y) = (spectrum(&*forward, &sent), spectrum(&*forward, heard));
-    let damping = DAMPING * x.iter().map(Complex::norm_sqr).fold(0.0, f32::max);
+    let forward = real_forward(length);
+    let (x, y) = (spectrum(&*forward, doubles(&sent)), spectrum(&*forward, doubles(heard)));
+    let damping = DAMPING * x.iter().map(Complex::norm_sqr).fold(0.0, f64::max);
     let mut ratio: Vec<_> = x.iter().zip(&y).map(|(x, y)| y * x.conj() / (x.norm_sqr() + damping)).collect();
     // What a real signal cannot have, rounding aside.
     ratio[0].im = 0.0;
     ratio[length / 2].im = 0.0;
     let mut way = vec![0.0; length];
-    planner.plan_fft_inverse(length).process(&mut ratio, &mut way).expect("lengths of one plan");
-    way.iter_mut().for_each(|sample| *sample /= length as f32);
+    real_inverse(length).process(&mut ratio, &mut way).expect("lengths of one plan");
+    way.iter_mut().for_each(|sample| *sample /= length as f64);
     way
 }
 
 /// Mean power of each octave's bins; nothing where the rate has none.
-fn powers(cut: &[f32], rate: u32) -> [f64; OCTAVES] {
+fn powers(cut: Vec<f64>, rate: u32) -> [f64; OCTAVES] {
     let length = cut.len().next_power_of_two();
-    let spectrum = spectrum(&*RealFftPlanner::<f32>::new().plan_fft_forward(length), cut);
+    let spectrum = spectrum(&*real_forward(length), cut);
     std::array::from_fn(|b| {
         let half = std::f64::consts::SQRT_2;
         let bin = |hz: f64| ((hz * length as f64 / f64::from(rate)) as usize).min(spectrum.len());
         let bins = &spectrum[bin(BANDS[b] / half)..bin(BANDS[b] * half)];
-        bins.iter().map(|bin| f64::from(bin.norm_sqr())).sum::<f64>() / bins.len().max(1) as f64
+        bins.iter().map(Complex::norm_sqr).sum::<f64>() / bins.len().max(1) as f64
     })
 }
 
-fn spectrum(forward: &dyn RealToComplex<f32>, samples: &[f32]) -> Vec<Complex<f32>> {
-    let mut padded = samples.to_vec();
-    padded.resize(forward.len(), 0.0);
+fn doubles(samples: &[f32]) -> Vec<f64> {
+    samples.iter().map(|sample| f64::from(*sample)).collect()
+}
+
+fn spectrum(forward: &dyn RealToComplex<f64>, mut samples: Vec<f64>) -> Vec<Complex<f64>> {
+    samples.resize(forward.len(), 0.0);
     let mut out = forward.make_output_vec();
-    forward.process(&mut padded, &mut out).expect("lengths of one plan");
+    forward.process(&mut samples, &mut out).expect("lengths of one plan");
     out
 }

@@ -1,8 +1,6 @@
 //! What the pictures show: spectra, spectrograms, and how long each band rings.
 
-use std::sync::Arc;
-
-use realfft::{RealFftPlanner, RealToComplex};
+use soffio_fourier::real_forward;
 
 use soffio_math::{PI, cos, decibels, log10};
 
@@ -19,7 +17,7 @@ pub struct Frames {
 impl Frames {
     /// Frames of `n` samples, Hann's window, a quarter apart.
     pub fn new(sound: &[f32], rate: f64, n: usize) -> Self {
-        let transform: Arc<dyn RealToComplex<f64>> = RealFftPlanner::new().plan_fft_forward(n);
+        let transform = real_forward(n);
         let window: Vec<f64> = (0..n).map(|i| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / n as f64)).collect();
         let mut bins = transform.make_output_vec();
         let mut rows = Vec::new();

@@ -7,6 +7,7 @@ pub mod glb;
 mod mass;
 mod model;
 mod motion;
+mod shape;
 mod shipped;
 mod sidecar;
 mod timing;

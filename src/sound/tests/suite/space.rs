@@ -1,7 +1,6 @@
 //! The room: it decays as asked, densely, without ringing, and the same for any block.
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
+use soffio_fourier::{Complex, real_forward, real_inverse};
 use soffio_math::noise::Random;
 use soffio_math::{decibels, from_decibels, ln};
 use soffio_sound::{BANDS, Room, RoomSpec};
@@ -19,7 +18,7 @@ fn response(spec: &RoomSpec, impulse: [f32; 2], seconds: f64) -> [Vec<f64>; 2] {
 
 fn spectrum(samples: &[f64]) -> Vec<Complex<f64>> {
     let mut input = samples.to_vec();
-    let fft = RealFftPlanner::new().plan_fft_forward(input.len());
+    let fft = real_forward(input.len());
     let mut out = fft.make_output_vec();
     fft.process(&mut input, &mut out).expect("lengths fit");
     out
@@ -38,7 +37,7 @@ fn octave(samples: &[f64], centre: f64) -> Vec<f64> {
     }
     let (first, last) = (0, bins.len() - 1);
     (bins[first].im, bins[last].im) = (0.0, 0.0);
-    let fft = RealFftPlanner::new().plan_fft_inverse(padded.len());
+    let fft = real_inverse(padded.len());
     fft.process(&mut bins, &mut padded).expect("lengths fit");
     let scale = 1.0 / padded.len() as f64;
     padded.iter_mut().for_each(|x| *x *= scale);

@@ -1,6 +1,6 @@
 //! The sound of wind: its slope, its pitch and its level, from long-term spectra.
 
-use realfft::RealFftPlanner;
+use soffio_fourier::real_forward;
 use soffio_math::{decibels, ln};
 use soffio_sound::{Preset, SoundCommand, Synth, WindSound, multifractal};
 
@@ -8,7 +8,7 @@ use super::{RATE, render, rms, spec};
 
 /// Mean power spectrum of a long signal by Welch's method: `n` points a window of Hann, half overlapping.
 pub fn spectrum(signal: &[f64], n: usize) -> Vec<f64> {
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+    let transform = real_forward(n);
     let window: Vec<f64> =
         (0..n).map(|i| 0.5 - 0.5 * soffio_math::cos(2.0 * soffio_math::PI * i as f64 / n as f64)).collect();
     let mut power = vec![0.0; n / 2 + 1];

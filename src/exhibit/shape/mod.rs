@@ -1,16 +1,16 @@
 //! The shape check: is the sidecar what the format's JSON Schema says? All violations at once, each where it stands.
 
+pub mod validate;
+
 use schemars::transform::RecursiveTransform;
 use schemars::{Schema, generate::SchemaSettings};
 use serde_json::{Value, json};
-
-use jsonschema::ValidationError;
-use jsonschema::error::{TypeKind, ValidationErrorKind};
 
 use super::codes;
 use super::diagnostic::{Diagnostic, near, quoted};
 use super::sidecar::Sidecar;
 use super::source::{Source, join};
+use validate::{Kind, Problem};
 
 /// JSON Schema (draft 2020-12) of `exhibit.toml`.
 pub fn schema() -> Value {
@@ -29,27 +29,21 @@ pub fn schema() -> Value {
 /// All places where the sidecar does not have the shape of the format.
 pub fn check(source: &Source) -> Vec<Diagnostic> {
     let schema = schema();
-    let validator = match jsonschema::validator_for(&schema) {
-        Ok(validator) => validator,
-        Err(error) => {
-            return vec![Diagnostic::new(codes::WRONG_SHAPE, format!("the format's own schema is broken: {error}"))];
-        }
-    };
     let mut found = Vec::new();
-    for error in validator.iter_errors(&source.value) {
-        explain(source, &schema, &error, &mut found);
+    for problem in validate::problems(&schema, &source.value) {
+        explain(source, &problem, &mut found);
     }
     found
 }
 
-fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut Vec<Diagnostic>) {
-    let at = error.instance_path().to_string();
-    let place = if at.is_empty() { "at the top of the file".to_owned() } else { format!("in {}", readable(&at)) };
-    match error.kind() {
-        ValidationErrorKind::AdditionalProperties { unexpected } => {
-            let known = properties(schema, &error.schema_path().to_string());
-            for key in unexpected {
-                let likely = near(key, known.iter().map(String::as_str));
+fn explain(source: &Source, problem: &Problem, found: &mut Vec<Diagnostic>) {
+    let at = &problem.at;
+    let place = if at.is_empty() { "at the top of the file".to_owned() } else { format!("in {}", readable(at)) };
+    match &problem.kind {
+        Kind::Unknown(keys) => {
+            let known = properties(problem);
+            for key in keys {
+                let likely = near(key, known.iter().copied());
                 let help = match likely.as_slice() {
                     [] => format!("known here: {}; keys of your own begin with x_", known.join(", ")),
                     names => format!("did you mean {}? Keys of your own begin with x_", quoted(names)),
@@ -57,30 +51,27 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
                 let mut diagnostic = Diagnostic::new(codes::UNKNOWN_KEY, format!("unknown key \"{key}\" {place}"))
                     .label("the format has no such key")
                     .help(help);
-                diagnostic.location = Some(source.locate(source.key_span(&join(&at, key))));
+                diagnostic.location = Some(source.locate(source.key_span(&join(at, key))));
                 found.push(diagnostic);
             }
         }
-        ValidationErrorKind::Required { property } => {
-            let name = property.as_str().unwrap_or_default();
+        Kind::Missing(name) => {
             let mut diagnostic = Diagnostic::new(codes::MISSING_KEY, format!("key \"{name}\" is missing {place}"))
                 .label(format!("needs \"{name}\""))
-                .help(format!("add {name} = …{}", described(schema, &error.schema_path().to_string(), name)));
-            diagnostic.location = Some(source.locate(source.span(&at)));
+                .help(format!("add {name} = …{}", described(problem, name)));
+            diagnostic.location = Some(source.locate(source.span(at)));
             found.push(diagnostic);
         }
-        ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context }
-            if let Some(branch) = meant(context, depth(error)) =>
-        {
+        Kind::Choice(all) if let Some(branch) = meant(all, problem.depth()) => {
             for inner in branch {
-                explain(source, schema, inner, found);
+                explain(source, inner, found);
             }
         }
         kind => {
-            let (code, message, help) = value_problem(kind, error.instance(), &readable(&at));
+            let (code, message, help) = value_problem(kind, problem.value, &readable(at));
             let mut diagnostic = Diagnostic::new(code, message);
             diagnostic.help = help;
-            diagnostic.location = Some(source.locate(source.span(&at)));
+            diagnostic.location = Some(source.locate(source.span(at)));
             found.push(diagnostic);
         }
     }
@@ -88,72 +79,51 @@ fn explain(source: &Source, schema: &Value, error: &ValidationError, found: &mut
 
 /// Of a choice, the branch that was meant: not one for another type of value or with another tag, and of the rest the
 /// one with the fewest problems.
-fn meant<'a>(context: &'a [Vec<ValidationError<'static>>], here: usize) -> Option<&'a [ValidationError<'static>]> {
-    let other = |error: &ValidationError| match error.kind() {
+fn meant<'p, 'v>(all: &'p [Vec<Problem<'v>>], here: usize) -> Option<&'p [Problem<'v>]> {
+    let other = |problem: &Problem| match problem.kind {
         // Of a choice of words none is meant more than the others: all of them are named.
-        ValidationErrorKind::Constant { .. } => true,
-        ValidationErrorKind::Required { .. } | ValidationErrorKind::AdditionalProperties { .. } => false,
-        _ => depth(error) == here,
+        Kind::Constant(_) => true,
+        Kind::Missing(_) | Kind::Unknown(_) => false,
+        _ => problem.depth() == here,
     };
-    let problems = |error: &ValidationError| match error.kind() {
-        ValidationErrorKind::AdditionalProperties { unexpected } => unexpected.len(),
+    let problems = |problem: &Problem| match &problem.kind {
+        Kind::Unknown(keys) => keys.len(),
         _ => 1,
     };
-    let mut all = Vec::new();
-    branches(context, here, &mut all);
-    all.into_iter()
+    let mut every = Vec::new();
+    branches(all, here, &mut every);
+    every
+        .into_iter()
         .filter(|branch| !branch.is_empty() && !branch.iter().any(other))
         .min_by_key(|branch| branch.iter().map(problems).sum::<usize>())
 }
 
 /// The branches of a choice; one that is itself a choice of the same value (an optional one is) stands for its own branches.
-fn branches<'a>(
-    context: &'a [Vec<ValidationError<'static>>],
-    here: usize,
-    out: &mut Vec<&'a [ValidationError<'static>]>,
-) {
-    for branch in context {
+fn branches<'p, 'v>(all: &'p [Vec<Problem<'v>>], here: usize, out: &mut Vec<&'p [Problem<'v>]>) {
+    for branch in all {
         match branch.as_slice() {
-            [one] if depth(one) == here => match one.kind() {
-                ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
-                    branches(context, here, out);
-                }
-                _ => out.push(branch),
-            },
+            [Problem { kind: Kind::Choice(inner), .. }] if branch[0].depth() == here => branches(inner, here, out),
             _ => out.push(branch),
         }
     }
 }
 
 /// All problems of a choice with the value itself, choices within it included.
-fn flat<'a>(context: &'a [Vec<ValidationError<'static>>], out: &mut Vec<&'a ValidationError<'static>>) {
-    for error in context.iter().flatten() {
-        match error.kind() {
-            ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
-                flat(context, out);
-            }
-            _ => out.push(error),
+fn flat<'p, 'v>(all: &'p [Vec<Problem<'v>>], out: &mut Vec<&'p Problem<'v>>) {
+    for problem in all.iter().flatten() {
+        match &problem.kind {
+            Kind::Choice(inner) => flat(inner, out),
+            _ => out.push(problem),
         }
     }
 }
 
-fn depth(error: &ValidationError) -> usize {
-    error.instance_path().to_string().matches('/').count()
-}
-
-fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (codes::Code, String, Option<String>) {
+fn value_problem(kind: &Kind, value: &Value, place: &str) -> (codes::Code, String, Option<String>) {
     let shown = brief(value);
     match kind {
-        ValidationErrorKind::Type { kind } => {
-            let wanted = match kind {
-                TypeKind::Single(one) => one.to_string(),
-                TypeKind::Multiple(many) => many.iter().map(|t| t.to_string()).collect::<Vec<_>>().join(" or "),
-            };
-            let help = match kind {
-                TypeKind::Single(one) => one.to_string(),
-                TypeKind::Multiple(_) => String::new(),
-            };
-            let help = match help.as_str() {
+        Kind::Type(types) => {
+            let help = if let [one] = types[..] { one } else { "" };
+            let help = match help {
                 "string" => "write a text, in quotes",
                 "number" | "integer" => "write a number, without quotes",
                 "boolean" => "write true or false",
@@ -161,26 +131,28 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
                 "object" => "write a table: { key = …, … }",
                 _ => "`soffio schema exhibit` says what may stand here",
             };
-            (codes::WRONG_TYPE, format!("{place} is {shown}, which is not of type {wanted}"), Some(help.to_owned()))
+            (
+                codes::WRONG_TYPE,
+                format!("{place} is {shown}, which is not of type {}", types.join(" or ")),
+                Some(help.to_owned()),
+            )
         }
-        ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
+        Kind::Choice(all) => {
             // A choice of words or quantities: each branch is one of them.
             let mut problems = Vec::new();
-            flat(context, &mut problems);
+            flat(all, &mut problems);
             let mut words: Vec<&str> = problems
                 .iter()
-                .flat_map(|e| match e.kind() {
-                    ValidationErrorKind::Constant { expected_value } => vec![expected_value.as_str()],
-                    ValidationErrorKind::Enum { options } => {
-                        options.as_array().into_iter().flatten().map(Value::as_str).collect()
-                    }
-                    _ => Vec::new(),
+                .flat_map(|problem| match problem.kind {
+                    Kind::Constant(word) => std::slice::from_ref(word),
+                    Kind::Words(words) => words,
+                    _ => &[],
                 })
-                .flatten()
+                .filter_map(Value::as_str)
                 .collect();
             words.dedup();
-            let units = problems.iter().find_map(|e| match e.kind() {
-                ValidationErrorKind::Pattern { pattern } if e.instance().is_string() => units_of(pattern.as_str()),
+            let units = problems.iter().find_map(|problem| match problem.kind {
+                Kind::Pattern(pattern) => units_of(pattern),
                 _ => None,
             });
             match (units, words.is_empty()) {
@@ -194,25 +166,25 @@ fn value_problem(kind: &ValidationErrorKind, value: &Value, place: &str) -> (cod
                     (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(help))
                 }
                 (None, true) => {
-                    let help = problems.iter().max_by_key(|error| depth(error)).map(|error| error.to_string());
+                    let help = problems.iter().max_by_key(|problem| problem.depth()).map(ToString::to_string);
                     (codes::WRONG_TYPE, format!("{place} is {shown}, which has not the shape of this key"), help)
                 }
             }
         }
-        ValidationErrorKind::Enum { options } => {
-            let names: Vec<&str> = options.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+        Kind::Words(words) => {
+            let names: Vec<&str> = words.iter().filter_map(Value::as_str).collect();
             (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(format!("allowed are {}", quoted(&names))))
         }
-        ValidationErrorKind::Minimum { limit } => {
+        Kind::Minimum(limit) => {
             (codes::RANGE, format!("{place} is {shown}"), Some(format!("it must be at least {limit}")))
         }
-        ValidationErrorKind::Maximum { limit } => {
+        Kind::Maximum(limit) => {
             (codes::RANGE, format!("{place} is {shown}"), Some(format!("it must be at most {limit}")))
         }
-        ValidationErrorKind::MinItems { limit } => {
+        Kind::Short(limit) => {
             (codes::WRONG_SHAPE, format!("{place} has too few entries"), Some(format!("give at least {limit}")))
         }
-        ValidationErrorKind::MaxItems { limit } => {
+        Kind::Long(limit) => {
             (codes::WRONG_SHAPE, format!("{place} has too many entries"), Some(format!("give at most {limit}")))
         }
         _ => {
@@ -251,19 +223,12 @@ fn readable(pointer: &str) -> String {
     text
 }
 
-/// The schema object that holds the keyword at `schema_path`.
-fn holder<'a>(schema: &'a Value, schema_path: &str) -> Option<&'a Value> {
-    let parent = &schema_path[..schema_path.rfind('/')?];
-    schema.pointer(parent)
+fn properties<'a>(problem: &Problem<'a>) -> Vec<&'a str> {
+    let object = problem.schema.get("properties").and_then(Value::as_object);
+    object.into_iter().flat_map(|object| object.keys().map(String::as_str)).collect()
 }
 
-fn properties(schema: &Value, schema_path: &str) -> Vec<String> {
-    let object = holder(schema, schema_path).and_then(|s| s.get("properties")).and_then(Value::as_object);
-    object.into_iter().flat_map(|o| o.keys().cloned()).collect()
-}
-
-fn described(schema: &Value, schema_path: &str, name: &str) -> String {
-    let parent = holder(schema, schema_path);
-    let text = parent.and_then(|s| s.get("properties")?.get(name)?.get("description")?.as_str());
+fn described(problem: &Problem, name: &str) -> String {
+    let text = problem.schema.get("properties").and_then(|all| all.get(name)?.get("description")?.as_str());
     text.map(|text| format!(" ({text})")).unwrap_or_default()
 }
