@@ -8,21 +8,28 @@ cd "$(dirname "$self")/.."
 built="${CARGO_TARGET_DIR:-target}/ci"
 # Where the parts leave what they said, and how they ended.
 marks=out/check
-everything=(format lints build headless docs exhibits states suite live)
+everything=(format build lints headless docs exhibits states suite live)
 
 format()   { cargo fmt --all -- --check; }
 lints()    { cargo clippy --profile ci --workspace --locked --quiet --all-targets -- -D warnings; }
 # Without the kiosk: the two packages that have it as a feature.
 headless() { cargo clippy --profile ci -p soffio -p soffio-offline --locked --quiet --all-targets --no-default-features -- -D warnings; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --profile ci --workspace --locked --quiet --no-deps --document-private-items; }
-# All that is run later: the suites, the program, and what looks for a recording.
-build()    { cargo test --profile ci --workspace --locked --no-run && program; }
-# What a part needs of this that is run alone, with the same features of every dependency. After the part `build` nobody asks
-# cargo again, which would wait for the lints that it works at.
-program()  { [ -n "${SOFFIO_BUILT:-}" ] || cargo build --profile ci --workspace --locked --quiet --bins --example correlate; }
+# The program, and what looks for a recording: all that the parts need that are no tests. Of the workspace, so that every
+# dependency has the features that it has for the suite.
+build()    { cargo build --profile ci --workspace --locked "$@" --bins --example correlate; }
+# The same for a part that is run alone. After the part `build` nobody asks cargo again, which would wait for the lints that it
+# works at.
+program()  { [ -n "${SOFFIO_BUILT:-}" ] || build --quiet; }
 suite()    { cargo test --profile ci --workspace --locked --quiet; }
 exhibits() { program && "$built/soffio" check exhibits kiosk-config/kiosk.toml; }
-live()     { program && tests/live/lanes.sh "$built/soffio"; }
+# Of a copy of the program: beside it cargo builds, and may put the same program in its place once more.
+live() {
+    program
+    install -D -t "$marks/live-of" "$built/soffio"
+    install -D -t "$marks/live-of/examples" "$built/examples/correlate"
+    tests/live/lanes.sh "$marks/live-of/soffio"
+}
 deb()      { tests/package.sh; }
 
 # Every exhibit's run ends in the state that its folder stores; one at a time for each processor.

@@ -5,9 +5,10 @@
 //!     cargo test --no-default-features --test exhibits gathers_itself     one property of all exhibits
 //!     cargo test --no-default-features --test exhibits -- --nocapture     with what each case measures
 
+use std::collections::BTreeMap;
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use assert_no_alloc::AllocDisabler;
 use libtest_mimic::{Arguments, Trial};
@@ -76,9 +77,17 @@ const PROPERTIES: [Property; 20] = properties![
 /// Part `hands` of tests/check.sh --long.
 const LONG: [Property; 1] = properties![hands::no_handling_breaks_anything_in_twenty_seconds(ignored)];
 
+/// An exhibit, read once for all its cases: nothing changes it.
 fn load(id: &str) -> Arc<Exhibit> {
+    static READ: Mutex<BTreeMap<String, Arc<Exhibit>>> = Mutex::new(BTreeMap::new());
+    let read = || READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(exhibit) = read().get(id) {
+        return exhibit.clone();
+    }
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))));
+    read().insert(id.to_owned(), exhibit.clone());
+    exhibit
 }
 
 fn main() -> ExitCode {
