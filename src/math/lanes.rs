@@ -5,8 +5,9 @@
 //! or one of them. Vectors are added, multiplied and divided number by number, each rounded as IEEE 754 says and
 //! nothing fused, so the bits are the same on every processor and in either way (a test holds them to that).
 //!
-//! `fearless_simd::dispatch!` makes a loop for each set of vector instructions that `.cargo/config.toml` leaves (SSE2 and AVX2
-//! on x86-64; without that file all four), and takes the best that the processor has. Whatever such a loop calls must be inlined into it: hence `#[inline(always)]`.
+//! `fearless_simd::dispatch!` makes a loop for each set of vector instructions that `.cargo/config.toml` leaves (SSE2 and
+//! AVX2 on x86-64; without that file all four), and takes the best that the processor has. Whatever such a loop calls must
+//! be inlined into it: hence `#[inline(always)]`.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
