@@ -23,13 +23,7 @@ build()    { cargo build --profile ci --workspace --locked "$@" --bins --example
 program()  { [ -n "${SOFFIO_BUILT:-}" ] || build --quiet; }
 suite()    { cargo test --profile ci --workspace --locked --quiet; }
 exhibits() { program && "$built/soffio" check exhibits kiosk-config/kiosk.toml; }
-# Of a copy of the program: beside it cargo builds, and may put the same program in its place once more.
-live() {
-    program
-    install -D -t "$marks/live-of" "$built/soffio"
-    install -D -t "$marks/live-of/examples" "$built/examples/correlate"
-    tests/live/lanes.sh "$marks/live-of/soffio"
-}
+live()     { program && tests/live/lanes.sh "$built/soffio"; }
 deb()      { tests/package.sh; }
 
 # Every exhibit's run ends in the state that its folder stores; one at a time for each processor.

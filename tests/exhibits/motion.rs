@@ -123,7 +123,7 @@ pub fn the_mode_is_an_input_so_a_replay_repeats_it(id: &str) {
     };
     let first = run(50);
     assert_eq!(first, run(50), "{id}");
-    assert_ne!(first, run(70), "{id}: the mode tells");
+    assert_ne!(first, run(70), "{id}: another order of modes gives the same state");
 }
 
 pub fn does_not_fault_when_moved_by_places(id: &str) {
