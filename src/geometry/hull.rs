@@ -67,16 +67,19 @@ impl Hull {
     }
 
     /// The corners, m.
+    #[inline]
     pub fn corners(&self) -> &[DVec3] {
         &self.corners
     }
 
     /// Mean of the corners, m.
+    #[inline]
     pub fn middle(&self) -> DVec3 {
         self.middle
     }
 
     /// Outward normals of the faces.
+    #[inline]
     pub fn normals(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.faces.iter().map(|face| face.normal)
     }

@@ -42,6 +42,7 @@ pub enum Core {
 
 impl Core {
     /// Farthest distance of its points from a point of its frame, m; infinite for the half-space.
+    #[inline]
     pub fn reach(&self, from: DVec3) -> f64 {
         match self {
             Self::Point => from.length(),
@@ -58,6 +59,7 @@ impl Core {
     }
 
     /// A middle point.
+    #[inline]
     pub fn middle(&self) -> DVec3 {
         match self {
             Self::Hull(hull) => hull.middle(),
@@ -76,16 +78,19 @@ pub trait Support {
 
 /// The hull of corners in the world (one at least).
 impl Support for [DVec3] {
+    #[inline]
     fn support(&self, d: DVec3) -> DVec3 {
         self[farthest(self, d)]
     }
 
+    #[inline]
     fn middle(&self) -> DVec3 {
         self.iter().sum::<DVec3>() / self.len() as f64
     }
 }
 
 /// Index of the farthest corner along `d`; the first of equals, so that the answer does not depend on rounding order.
+#[inline]
 pub fn farthest(corners: &[DVec3], d: DVec3) -> usize {
     let mut best = 0;
     let mut far = f64::NEG_INFINITY;
@@ -112,16 +117,19 @@ pub struct Placed<'a> {
 
 impl<'a> Placed<'a> {
     /// The core with its frame at a pose.
+    #[inline]
     pub fn new(core: &'a Core, pose: &Pose) -> Self {
         Self { core, axes: DMat3::from_quat(pose.rotation), origin: pose.position }
     }
 
     /// A world vector in the core's axes.
+    #[inline]
     pub fn local(&self, v: DVec3) -> DVec3 {
         DVec3::new(self.axes.x_axis.dot(v), self.axes.y_axis.dot(v), self.axes.z_axis.dot(v))
     }
 
     /// World place of a point of the core's frame.
+    #[inline]
     pub fn world(&self, p: DVec3) -> DVec3 {
         self.origin + self.axes * p
     }
@@ -207,6 +215,7 @@ impl<'a> Placed<'a> {
     }
 
     /// Half extents along the world's axes about [`Support::middle`], m; infinite for the half-space.
+    #[inline]
     pub fn extents(&self) -> DVec3 {
         let axes = [self.axes.x_axis.abs(), self.axes.y_axis.abs(), self.axes.z_axis.abs()];
         match self.core {
@@ -226,6 +235,7 @@ impl<'a> Placed<'a> {
 }
 
 impl Support for Placed<'_> {
+    #[inline]
     fn support(&self, d: DVec3) -> DVec3 {
         let l = self.local(d);
         let sign = |x: f64| if x < 0.0 { -1.0 } else { 1.0 };
@@ -245,12 +255,14 @@ impl Support for Placed<'_> {
         self.world(p)
     }
 
+    #[inline]
     fn middle(&self) -> DVec3 {
         self.world(self.core.middle())
     }
 }
 
 /// A rotation that turns Y onto a unit direction.
+#[inline]
 pub fn along(direction: DVec3) -> soffio_math::DQuat {
     let (t, b) = tangents(direction);
     // Columns x, y, z: (b, t, n) is left-handed, (t, n, −b) right-handed.

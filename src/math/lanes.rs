@@ -373,6 +373,7 @@ impl From<DVec3> for V3<f64> {
 }
 
 impl From<V3<f64>> for DVec3 {
+    #[inline(always)]
     fn from(v: V3<f64>) -> Self {
         Self::new(v.x, v.y, v.z)
     }

@@ -84,12 +84,14 @@ pub fn perlin3_vector(p: glam::DVec3, seed: u64) -> glam::DVec3 {
 }
 
 /// Cell of the lattice, and where in it.
+#[inline]
 fn split(p: glam::DVec3) -> (glam::DVec3, glam::DVec3) {
     let cell = p.floor();
     (cell, p - cell)
 }
 
 /// Hashes of a cell's corners, as [`hash_words`] of seed, x, y and z; corner i is off by the bits of i.
+#[inline]
 fn corner_hashes(cell: glam::DVec3, seed: u64) -> [u64; 8] {
     let word = |x: f64, i: usize| (x + i as f64) as i64 as u64;
     let start = hash_words(&[seed]);
@@ -99,6 +101,7 @@ fn corner_hashes(cell: glam::DVec3, seed: u64) -> [u64; 8] {
 }
 
 /// Product of `d` with one of the twelve edge directions of a cube (Perlin 2002), picked by the four lowest bits.
+#[inline]
 fn along_edge(bits: u64, d: glam::DVec3) -> f64 {
     let glam::DVec3 { x, y, z } = d;
     match bits & 15 {
@@ -118,6 +121,7 @@ fn along_edge(bits: u64, d: glam::DVec3) -> f64 {
 }
 
 /// Blends what the eight corners of a cell say at `t` in it; they are asked with their number and the way from them.
+#[inline]
 fn blend<V>(t: glam::DVec3, corner: impl Fn(usize, glam::DVec3) -> V) -> V
 where
     V: Copy + std::ops::Add<Output = V> + std::ops::Sub<Output = V>,
@@ -132,6 +136,7 @@ where
 }
 
 /// 6t⁵ − 15t⁴ + 10t³.
+#[inline]
 fn fade(t: f64) -> f64 {
     t * t * t * (t * (6.0 * t - 15.0) + 10.0)
 }

@@ -12,7 +12,7 @@
 //! | [`wav`], [`feed`] | recordings, and how they become a microphone |
 //! | [`trace`], [`events`], [`soundtrack`] | poses as CSV, events as JSON lines, sound as WAV |
 //! | [`export`] | baked glTF animation, MuJoCo models, RenderMan scenes |
-//! | [`loudness`], [`programme`] | loudness and true peak of an exhibit |
+//! | [`loudness`] | loudness and true peak of an exhibit |
 //! | [`scene`] | physics scenes, their measures and their limits |
 //!
 //! ```
@@ -45,7 +45,6 @@ pub mod loudness;
 #[cfg(feature = "pictures")]
 pub mod pictures;
 pub mod play;
-pub mod programme;
 pub mod scene;
 pub mod sound_page;
 pub mod soundtrack;

@@ -6,13 +6,13 @@ use std::path::Path;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 
-use super::programme::Programme;
 use super::whole_file::WholeFile;
 use soffio_exhibit::Exhibit;
 use soffio_math::decibels;
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use soffio_sound::{MAX_COMMANDS, RoomSpec, SoundCommand, Synth, peak};
+use soffio_sound::{LoudnessMeter, MAX_COMMANDS, RoomSpec, SoundCommand, Synth, peak};
 
+const _: () = assert!(SAMPLE_RATE == LoudnessMeter::SAMPLE_RATE);
 /// Stereo.
 const CHANNELS: u16 = 2;
 /// Steps whose sound is made at once: how it is cut does not matter to it, and there is less to begin and to end.
@@ -30,7 +30,7 @@ pub struct Soundtrack {
     /// Samples of the limiter's look-ahead still to be left out at the beginning, so that a hit sounds on its sample.
     early: usize,
     peak: f32,
-    loudness: Programme,
+    loudness: LoudnessMeter,
     file: Option<WholeWav>,
 }
 
@@ -64,7 +64,7 @@ impl Soundtrack {
             steps: 0,
             sounds: 0,
             peak: 0.0,
-            loudness: Programme::new(),
+            loudness: LoudnessMeter::new(),
             file,
         })
     }

@@ -6,10 +6,9 @@ use ebur128::{EbuR128, Mode};
 use soffio_config::{Config, Hours, TimeOfDay};
 use soffio_math::noise::Random;
 use soffio_math::{PI, StateHash, decibels, from_decibels, sin};
-use soffio_offline::programme::Programme;
 use soffio_sound::{
-    AWeighting, CEILING, Exposure, InstrumentSpec, PROGRAMME, Preset, RoomSpec, SUDDEN, SoundBody, SoundCommand,
-    SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
+    AWeighting, CEILING, Exposure, InstrumentSpec, LoudnessMeter, PROGRAMME, Preset, RoomSpec, SUDDEN, SoundBody,
+    SoundCommand, SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
 };
 
 const RATE: u32 = 48_000;
@@ -446,13 +445,13 @@ fn a_runs_loudness_is_that_of_another_meter() {
     meter.add_frames_f32(&samples).expect("stereo");
     let expected = meter.loudness_global().expect("a loudness");
     for piece in [1, 7, 200, 4_800, 9_999] {
-        let mut programme = Programme::new();
-        samples.as_chunks().0.chunks(piece).for_each(|frames| programme.hear(frames));
-        let own = programme.loudness();
+        let mut meter = LoudnessMeter::new();
+        samples.as_chunks().0.chunks(piece).for_each(|frames| meter.hear(frames));
+        let own = meter.loudness();
         assert!((own - expected).abs() < SAME, "{own} LUFS in pieces of {piece}, {expected} by the other meter");
     }
-    assert_eq!(Programme::new().loudness(), f64::NEG_INFINITY);
-    let mut silent = Programme::new();
+    assert_eq!(LoudnessMeter::new().loudness(), f64::NEG_INFINITY);
+    let mut silent = LoudnessMeter::new();
     silent.hear(&[[0.0; 2]; 48_000]);
     assert_eq!(silent.loudness(), f64::NEG_INFINITY);
 }

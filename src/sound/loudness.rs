@@ -15,16 +15,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x2, f64x4};
 
 use soffio_math::decibels;
-use soffio_simulation::SAMPLE_RATE;
 
-/// The rate that the coefficients are for.
-const _: () = assert!(SAMPLE_RATE == 48_000);
-/// b₀, b₁, b₂, a₁, a₂ of the two filters.
+/// b₀, b₁, b₂, a₁, a₂ of the two filters, at [`LoudnessMeter::SAMPLE_RATE`].
 const HEAD: [f64; 5] =
     [1.535_124_859_586_97, -2.691_696_189_406_38, 1.198_392_810_852_85, -1.690_659_293_182_41, 0.732_480_774_215_85];
 const HIGH_PASS: [f64; 5] = [1.0, -2.0, 1.0, -1.990_047_454_833_98, 0.990_072_250_366_21];
 /// Frames from one look to the next, and looks that a block is long.
-const STRIDE: usize = SAMPLE_RATE as usize / 10;
+const STRIDE: usize = LoudnessMeter::SAMPLE_RATE as usize / 10;
 const BLOCK: usize = 4;
 /// Loudness of a mean square of 1, LUFS.
 const FULL: f64 = -0.691;
@@ -134,8 +131,8 @@ impl Filters {
     }
 }
 
-/// The meter.
-pub struct Programme {
+/// Measures the integrated loudness of a stereo run.
+pub struct LoudnessMeter {
     filters: Filters,
     /// Which instructions there are.
     level: Level,
@@ -150,7 +147,10 @@ pub struct Programme {
     blocks: Vec<f64>,
 }
 
-impl Programme {
+impl LoudnessMeter {
+    /// The rate that it is made for, Hz.
+    pub const SAMPLE_RATE: u32 = 48_000;
+
     /// Nothing has been heard.
     pub fn new() -> Self {
         Self {
@@ -212,7 +212,7 @@ impl Programme {
     }
 }
 
-impl Default for Programme {
+impl Default for LoudnessMeter {
     fn default() -> Self {
         Self::new()
     }
