@@ -80,6 +80,7 @@ impl Part {
     }
 
     /// The box in the world, rounded outwards.
+    #[inline]
     fn aabb(&self) -> Aabb {
         let center = single(self.axes * self.center + self.origin);
         let absolute = DMat3::from_cols(self.axes.x_axis.abs(), self.axes.y_axis.abs(), self.axes.z_axis.abs());
@@ -89,6 +90,7 @@ impl Part {
     }
 
     /// A world ray in the part's frame.
+    #[inline]
     fn local(&self, origin: DVec3, direction: DVec3, far: f32) -> Ray {
         Ray::new(single(self.inverse * (origin - self.origin)), single(self.inverse * direction), 0.0, far)
     }

@@ -367,6 +367,7 @@ impl Quat<Four> {
 }
 
 impl From<DVec3> for V3<f64> {
+    #[inline(always)]
     fn from(v: DVec3) -> Self {
         Self { x: v.x, y: v.y, z: v.z }
     }

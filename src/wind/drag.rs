@@ -104,7 +104,7 @@ pub(super) fn all<S: Simd>(simd: S, v: DVec3) -> V3<f64x4<S>> {
 /// A vector for each lane.
 #[inline(always)]
 pub(super) fn by_lane<S: Simd>(simd: S, vector: impl Fn(usize) -> DVec3) -> V3<f64x4<S>> {
-    let v: [DVec3; WIDTH] = std::array::from_fn(vector);
+    let v: [DVec3; WIDTH] = [vector(0), vector(1), vector(2), vector(3)];
     let lanes = All(simd);
     V3::new(lanes.gather(|k| v[k].x), lanes.gather(|k| v[k].y), lanes.gather(|k| v[k].z))
 }

@@ -154,19 +154,13 @@ impl Pass for Predict<'_> {
         course.begun.put(lanes, &a);
         let (start, h) = (course.start.get(lanes), self.h);
         let [d, dd, ddd] = differences(lanes, course, self.slots);
-        let speed = |v, a, d, dd, ddd| sum([v, a, d, dd, ddd], [1.0, h, h / 2.0, h * 5.0 / 12.0, h * 3.0 / 8.0]);
-        let way = |v, a, d, dd, ddd| {
-            let h2 = h * h;
-            sum([v, a, d, dd, ddd], [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0])
-        };
-        let to = Twist {
-            linear: speed(start.velocity, a.linear, d.linear, dd.linear, ddd.linear),
-            angular: speed(start.spin, a.angular, d.angular, dd.angular, ddd.angular),
-        };
-        let way = Twist {
-            linear: way(start.velocity, a.linear, d.linear, dd.linear, ddd.linear),
-            angular: way(start.spin, a.angular, d.angular, dd.angular, ddd.angular),
-        };
+        let h2 = h * h;
+        let speed = [1.0, h, h / 2.0, h * 5.0 / 12.0, h * 3.0 / 8.0];
+        let way = [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0];
+        let linear = [start.velocity, a.linear, d.linear, dd.linear, ddd.linear];
+        let angular = [start.spin, a.angular, d.angular, dd.angular, ddd.angular];
+        let to = Twist { linear: sum(linear, speed), angular: sum(angular, speed) };
+        let way = Twist { linear: sum(linear, way), angular: sum(angular, way) };
         let state = arrived(lanes, &start, h, to, way);
         put(lanes, system, index, &state);
     }
@@ -194,15 +188,15 @@ impl Pass for Correct<'_> {
         let second = less(first, d);
         let third = less(second, dd);
         let fourth = less(third, ddd);
-        let speed = |v, a, d, dd, ddd| sum([v, a, d, dd, ddd], [1.0, h, -h / 2.0, -h / 12.0, -h / 24.0]);
+        let speed = [1.0, h, -h / 2.0, -h / 12.0, -h / 24.0];
+        let way = [h / 2.0, h / 2.0, -h * h / 12.0];
         let to = Twist {
-            linear: speed(start.velocity, a.linear, first.linear, second.linear, third.linear),
-            angular: speed(start.spin, a.angular, first.angular, second.angular, third.angular),
+            linear: sum([start.velocity, a.linear, first.linear, second.linear, third.linear], speed),
+            angular: sum([start.spin, a.angular, first.angular, second.angular, third.angular], speed),
         };
-        let way = |from, to, d| sum([from, to, d], [h / 2.0, h / 2.0, -h * h / 12.0]);
         let way = Twist {
-            linear: way(start.velocity, to.linear, first.linear),
-            angular: way(start.spin, to.angular, first.angular),
+            linear: sum([start.velocity, to.linear, first.linear], way),
+            angular: sum([start.spin, to.angular, first.angular], way),
         };
         let state = arrived(lanes, &start, h, to, way);
         let share = mass.all(ERROR * h);
