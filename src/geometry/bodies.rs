@@ -84,7 +84,6 @@ impl RigidBody {
 
     /// Inertia tensor in world axes, kg m².
     #[inline]
-    #[inline]
     pub fn inertia_world(&self) -> DMat3 {
         let r = DMat3::from_quat(self.rotation);
         r * self.properties.inertia * r.transpose()

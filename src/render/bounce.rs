@@ -42,8 +42,6 @@ const ROUGH: usize = 2;
 const ASIDE: f32 = 0.02;
 /// Turn of the rays, rad: none runs along the edges that halving leaves, where rounding lets it through.
 const ASKEW: f32 = 0.37;
-/// A ray that meets nothing.
-const NOTHING: u32 = u32::MAX;
 
 /// Light that falls on a still scene.
 pub(super) struct Light<'a> {
@@ -73,14 +71,15 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
         let (place, normal) = (places[i] + clear * normals[i] + ASIDE * mean, normals[i]);
         let (t, b) = normal.any_orthonormal_pair();
         let (mut open, mut all) = (0.0, 0.0);
-        let mut met = Vec::with_capacity(rays);
+        let mut met = Vec::new();
         for d in &directions {
             let way = t * d.x + b * d.y + normal * d.z;
             let brightness = light.environment.radiance(way, ROUGH).element_sum();
-            let triangle = solid.nearest(place, way).unwrap_or(NOTHING);
             all += brightness;
-            open += if triangle == NOTHING { brightness } else { 0.0 };
-            met.push(triangle);
+            match solid.nearest(place, way) {
+                Some(triangle) => met.push(triangle),
+                None => open += brightness,
+            }
         }
         let visibility = if all > 0.0 { open / all } else { 1.0 };
         let around = light.env_intensity * visibility * light.environment.irradiance_at(normal);
@@ -100,8 +99,7 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
             })
             .collect();
         sent = in_parallel(&gathered, |(.., met)| {
-            let hits = met.iter().filter(|&&triangle| triangle != NOTHING);
-            hits.map(|&triangle| of_triangle[triangle as usize]).sum::<Vec3>() / rays as f32
+            met.iter().map(|&triangle| of_triangle[triangle as usize]).sum::<Vec3>() / rays as f32
         });
     }
     for (i, vertex) in scene.vertices.iter_mut().enumerate() {

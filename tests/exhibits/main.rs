@@ -50,7 +50,7 @@ macro_rules! properties {
     (@ ignored) => { true };
 }
 
-const PROPERTIES: [Property; 20] = properties![
+const PROPERTIES: [Property; 19] = properties![
     files::loads_without_a_warning,
     files::has_its_picture_in_the_readme,
     files::its_model_reads_back_as_it_was_written,
@@ -66,16 +66,18 @@ const PROPERTIES: [Property; 20] = properties![
     motion::a_change_of_motion_moves_nothing_by_itself,
     motion::a_change_of_motion_is_not_heard_as_a_click,
     motion::the_mode_is_an_input_so_a_replay_repeats_it,
-    motion::does_not_fault_when_moved_by_places,
-    motion::a_step_by_places_asks_for_no_memory_once_it_is_warm,
+    motion::moved_by_places_it_does_not_fault_and_asks_for_no_memory,
     robust::a_number_that_is_none_is_found_and_the_figure_put_back,
     robust::a_hundred_times_the_gravity_is_borne,
     hands::the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle,
     hands::no_handling_breaks_anything,
 ];
 
-/// Part `hands` of tests/check.sh --long.
-const LONG: [Property; 1] = properties![hands::no_handling_breaks_anything_in_twenty_seconds(ignored)];
+/// Parts `hands` and `places` of tests/check.sh --long.
+const LONG: [Property; 2] = properties![
+    hands::no_handling_breaks_anything_in_twenty_seconds(ignored),
+    motion::moved_by_places_for_twenty_seconds_it_does_not_fault(ignored),
+];
 
 /// An exhibit, read once for all its cases: nothing changes it.
 fn load(id: &str) -> Arc<Exhibit> {

@@ -38,7 +38,7 @@ end_launcher() {
 
 # Is a picture on the glass? The gallery's wall is light, the display without a window black.
 picture() {
-    [ "$(import -window root -crop 64x64+608+100 -depth 8 gray:- 2>/dev/null | od -An -v -tu1 |
+    [ "$(import -window root -crop "64x64+$((${screen_size%x*} / 2 - 32))+$((${screen_size#*x} / 7))" -depth 8 gray:- 2>/dev/null | od -An -v -tu1 |
         awk '{ for (i = 1; i <= NF; i++) s += $i; n += NF } END { print (n && s / n > 60) ? 1 : 0 }')" = 1 ]
 }
 

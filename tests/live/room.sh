@@ -52,11 +52,16 @@ within() {
     done
 }
 
-enter_room() {
+# Pixels of the display, WIDTHxHEIGHT.
+screen_size=1280x720
+enter_room() { # enter_room [SCREEN_SIZE]
+    screen_size=${1:-$screen_size}
     mkdir -p "$room/run" "$room/home"
     chmod 700 "$room/run"
     # As it is shipped, with fewer pictures.
     sed "s/^software_fps = .*/software_fps = $few_pictures/" "$root/kiosk-config/kiosk.toml" >"$room/kiosk.toml"
+    # Software graphics compile shaders for seconds: once for all rooms.
+    export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}}
     export HOME=$room/home XDG_RUNTIME_DIR=$room/run PULSE_SERVER=unix:$room/run/pulse/native
     export XDG_CONFIG_HOME=$room/home/.config XDG_CACHE_HOME=$room/home/.cache
     unset WAYLAND_DISPLAY RUST_LOG PULSE_SINK PULSE_SOURCE XDG_STATE_HOME STATE_DIRECTORY
@@ -67,7 +72,7 @@ load-module module-remap-sink sink_name=mic_in master=air channels=1 channel_map
 PA
     start_server
     # The server finds a free number itself and says which.
-    start xvfb Xvfb -displayfd 1 -screen 0 "${1:-1280x720}x24" -nolisten tcp
+    start xvfb Xvfb -displayfd 1 -screen 0 "${screen_size}x24" -nolisten tcp
     within 30 test -s "$room/xvfb.out" || { cat "$room/xvfb.err" >&2; return 1; }
     DISPLAY=:$(cat "$room/xvfb.out")
     export DISPLAY

@@ -522,7 +522,12 @@ no_display() {
     bar "no display: runs on" "$code == 0 && \"$files\" ~ /csv/ && \"$files\" ~ /wav/" "exit code $code, left $files"
 }
 
-enter_room 1280x720
+parts=${SOFFIO_LIVE_PARTS-${live_parts[*]}}
+small=640x360
+for part in ${parts:-other}; do
+    [[ " ${small_parts[*]} " == *" $part "* ]] || small=
+done
+enter_room "$small"
 breath normal
 breath strong
 # Two speakers, close and loud: peaks at −1 dB of full scale.
@@ -540,7 +545,7 @@ timed() {
     printf 'live: time  %-24s %s s\n' "$1" $((SECONDS - began))
 }
 
-for part in ${SOFFIO_LIVE_PARTS-${live_parts[*]}}; do
+for part in $parts; do
     timed "$part"
 done
 if [ -n "${SOFFIO_LIVE_SUITE:-}" ]; then

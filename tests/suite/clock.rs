@@ -125,20 +125,26 @@ fn crossing((from, slope): (f64, f64), (to, end): (f64, f64)) -> f64 {
     0.5 * (low + high)
 }
 
+/// `cargo test --no-default-features --release --test suite an_hour -- --ignored --nocapture`
 #[test]
-fn it_beats_6720_times_an_hour_tooth_by_tooth() {
-    /// After this it swings as it will for ever: six times 2 Q/ω would be minutes; it starts near its own swing.
-    const SETTLES: usize = 120;
+#[ignore = "an hour: a minute of the machine; part `beats` of tests/check.sh --long"]
+fn it_beats_6720_times_an_hour() {
     /// Beats an hour.
     const OFF: f64 = 1.0;
-    /// Of a swing to the next on the same side.
-    const STEADY: f64 = 2e-3;
     // It is rated where it hangs, as what the air takes from its swing is a part of its rate, and over an hour with its strike:
     // what the strike's release takes from the train is one too.
     let Kept { beats, .. } = in_the_room(3600.0, 0.0, false);
     let rate = rate(&beats);
     println!("{} beats in an hour, {rate} by its swings", beats.len());
     assert!((beats.len() as f64 - RATE).abs() <= OFF && (rate - RATE).abs() < OFF, "{rate} beats an hour");
+}
+
+#[test]
+fn it_beats_tooth_by_tooth() {
+    /// After this it swings as it will for ever: six times 2 Q/ω would be minutes; it starts near its own swing.
+    const SETTLES: usize = 120;
+    /// Of a swing to the next on the same side.
+    const STEADY: f64 = 2e-3;
     let mut clock = Clock::new();
     clock.run(150.0, DT);
     for pair in clock.swings[SETTLES..].windows(3) {
@@ -219,41 +225,50 @@ fn a_stopped_pendulum_stops_the_train_and_a_push_starts_it() {
 /// What stands between two strikes.
 const STRIKING: [&str; 7] = ["StrikeWheel", "StrikeDrum", "StrikeWeight", "PinWheel", "LockWheel", "Fly", "CountWheel"];
 
-#[test]
-fn it_beats_and_strikes_as_if_its_strike_never_slept() {
-    /// s, of any of 1120 beats, for each pair. What is left out touches nothing that goes, but the forces of fewer touches round
-    /// otherwise, and from then on the two runs differ by what a step does to a beat: 2.1 ms in ten seconds
-    /// (`beats_fall_where_a_finer_step_has_them`). Over 615 s such differences add up as a random walk: 2.1 ms · √61.5 = 16.5 ms.
-    const BEAT: f64 = 16.5e-3;
-    /// s, the same for the median of the pairs. Of seven pairs whose pendulums began a rounding apart, beats came 0.2 to 6.3 ms
-    /// apart, five within 4 ms; a strike that moved the beats would move those of all pairs.
-    const MEDIAN_BEAT: f64 = 5e-3;
-    /// s, of any of eleven blows; reached: 15 ms. The minute hand's pin lets the flirt fall so much sooner or later.
-    const BLOW: f64 = 5e-2;
+/// s, of any of eleven blows; reached: 15 ms. The minute hand's pin lets the flirt fall so much sooner or later.
+const BLOWS_APART: f64 = 5e-2;
+/// s, of any of 1120 beats. What is left out touches nothing that goes, but the forces of fewer touches round otherwise, and from
+/// then on the two runs differ by what a step does to a beat: 2.1 ms in ten seconds (`beats_fall_where_a_finer_step_has_them`).
+/// Over 615 s such differences add up as a random walk: 2.1 ms · √61.5 = 16.5 ms.
+const BEATS_APART: f64 = 16.5e-3;
+
+/// How far the beats of two runs are apart at most, s: of one whose strike sleeps, and of the same awake.
+fn apart_from_awake(asleep: &Kept, push: f64) -> f64 {
     /// Of the time: all but the strike itself, and what it takes the hammer to come to rest.
     const SLEEPS: f64 = 0.95;
+    let steps = TO_ELEVEN * STEPS_PER_SECOND as f64;
+    let awake = in_the_room(TO_ELEVEN, push, true);
+    let slept = asleep.slept;
+    assert!(awake.slept == 0 && slept as f64 > SLEEPS * steps, "slept in {slept} steps of {steps}");
+    assert_eq!((asleep.blows.len(), asleep.beats.len()), (awake.blows.len(), awake.beats.len()));
+    let apart = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let (blow, beat) = (apart(&asleep.blows, &awake.blows), apart(&asleep.beats, &awake.beats));
+    println!("{push:.0e} rad/s: slept in {slept} of {steps} steps; blows {blow:.1e} s apart, beats {beat:.1e} s");
+    assert!(blow < BLOWS_APART && beat < BEATS_APART, "blows {blow} s apart, beats {beat} s");
+    beat
+}
+
+/// `cargo test --no-default-features --release --test suite never_slept -- --ignored --nocapture`
+#[test]
+#[ignore = "eight runs over the hour: a minute of the machine; part `beats` of tests/check.sh --long"]
+fn it_beats_and_strikes_as_if_its_strike_never_slept() {
+    /// s, the median of the pairs. Of seven pairs whose pendulums began a rounding apart, beats came 0.2 to 6.3 ms
+    /// apart, five within 4 ms; a strike that moved the beats would move those of all pairs.
+    const MEDIAN_BEAT: f64 = 5e-3;
     /// rad/s that the pendulum begins with, of each pair: roundings of its speed.
     const ROUNDINGS: [f64; 4] = [0.0, 1e-12, 2e-12, 3e-12];
-    let steps = 615.0 * STEPS_PER_SECOND as f64;
-    let run = |push: f64| {
-        let Kept { blows, beats, slept, .. } = in_the_room(615.0, push, false);
-        let Kept { blows: other_blows, beats: other_beats, slept: never, .. } = in_the_room(615.0, push, true);
-        assert!(never == 0 && slept as f64 > SLEEPS * steps, "slept in {slept} steps of {steps}");
-        assert_eq!((blows.len(), beats.len()), (other_blows.len(), other_beats.len()));
-        let apart = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let (blow, beat) = (apart(&blows, &other_blows), apart(&beats, &other_beats));
-        println!("{push:.0e} rad/s: slept in {slept} of {steps} steps; blows {blow:.1e} s apart, beats {beat:.1e} s");
-        assert!(blow < BLOW && beat < BEAT, "blows {blow} s apart, beats {beat} s");
-        beat
-    };
     let mut beats: Vec<f64> = std::thread::scope(|scope| {
-        let runs = ROUNDINGS.map(|push| scope.spawn(move || run(push)));
+        let runs =
+            ROUNDINGS.map(|push| scope.spawn(move || apart_from_awake(&in_the_room(TO_ELEVEN, push, false), push)));
         runs.into_iter().map(|run| run.join().expect("a pair that is alike")).collect()
     });
     beats.sort_by(f64::total_cmp);
     let median = 0.5 * (beats[1] + beats[2]);
     assert!(median < MEDIAN_BEAT, "its strike moves the beats: {beats:?} s");
 }
+
+/// s: from where the model's hands stand, ten to eleven, until it has struck eleven.
+const TO_ELEVEN: f64 = 615.0;
 
 /// What was kept of a run.
 struct Kept {
@@ -437,10 +452,12 @@ const TO_THE_BLOW: f64 = 0.6;
 const PUNCTUAL: f64 = 0.1;
 
 #[test]
-fn it_strikes_eleven_at_eleven() {
+fn it_strikes_eleven_at_eleven_as_if_its_strike_never_slept() {
     /// Whatever hits what, m.
     const CLOSED: f64 = 1e-9;
-    let Kept { blows, open, .. } = in_the_room(615.0, 0.0, false);
+    let kept = in_the_room(TO_ELEVEN, 0.0, false);
+    apart_from_awake(&kept, 0.0);
+    let Kept { blows, open, .. } = kept;
     assert_eq!(blows.len(), 11, "{blows:?}");
     let first = blows[0] - 600.0;
     assert!((first - TO_THE_BLOW).abs() < PUNCTUAL, "the first blow falls {first} s after the hour");
