@@ -60,7 +60,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands places million-hits clock-hour half-day beats shape turning-gears visits blown cabinet wind contrast flashes minutes rehearse \
+    for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands places million-hits clock-hour half-day beats schemas turning-gears visits blown cabinet wind contrast flashes minutes rehearse \
         answered first groups shuffled nobody staff attract fuzz; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
@@ -92,7 +92,7 @@ long() {
             beats)      ignored clock::two_minutes_of_beats_fall_where_a_finer_step_has_them
                         ignored clock::it_beats_6720_times_an_hour
                         ignored clock::it_beats_and_strikes_as_if_its_strike_never_slept ;;
-            shape)      ignored exhibit::shape::every_mistake_is_what_a_whole_implementation_finds ;;
+            schemas)    cargo test --manifest-path tests/schemas/Cargo.toml --target-dir "${CARGO_TARGET_DIR:-target}/schemas" --release --locked --quiet ;;
             turning-gears) ignored motion::gears::gears_keep_their_phase_over_a_hundred_thousand_turns ;;
             half-day)      ignored clock::in_half_a_day_it_strikes_seventy_eight_blows ;;
             # Rehearsed minutes: the same the second time, and a crowd that is to be answered nothing.

@@ -100,21 +100,6 @@ fn hostile_files_give_errors() {
     assert!(error.problem.contains("limit"), "{error}");
 }
 
-#[test]
-fn the_schema_accepts_what_is_shipped_and_refuses_what_is_not() {
-    let schema = serde_json::to_value(schemars::schema_for!(Preset)).expect("a schema");
-    let validator = jsonschema::validator_for(&schema).expect("a valid schema");
-    for name in timbre::names() {
-        let table: toml::Table = timbre::source(name).expect("shipped").parse().expect("toml");
-        let value = serde_json::to_value(&table).expect("plain data");
-        let problems: Vec<String> = validator.iter_errors(&value).map(|e| e.to_string()).collect();
-        assert!(problems.is_empty(), "{name}: {problems:?}");
-    }
-    let bad: toml::Table =
-        timbre::source("plate").expect("shipped").replace("\"modal\"", "\"modl\"").parse().expect("toml");
-    assert!(!validator.is_valid(&serde_json::to_value(&bad).expect("plain data")));
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
