@@ -60,7 +60,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands places million-hits clock-hour half-day beats schemas turning-gears visits blown cabinet wind contrast flashes minutes rehearse \
+    for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands places million-hits clock-hour half-day beats schemas turning-gears visits plates blown cabinet wind contrast flashes minutes rehearse \
         answered first groups shuffled nobody staff attract fuzz; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
@@ -78,6 +78,7 @@ long() {
             fuzz)       tests/fuzz/run.sh ;;
             hands)      ignored_of_exhibits ::no_handling_breaks_anything_in_twenty_seconds ;;
             places)     ignored_of_exhibits ::moved_by_places_for_twenty_seconds_it_does_not_fault ;;
+            plates)     ignored curator::new::many_plates_hang_level_and_ring_in_a_breath ;;
             blown)      ignored mobiles::ten_minutes_of_hard_breath_tangle_nothing ;;
             cabinet)    ignored cabinet::ten_minutes_of_hard_breath_break_nothing_in_the_cabinet ;;
             # 10,000 patches among 5,000 triangles in 4 ms of one core, and 20 times faster than every triangle.
@@ -112,12 +113,12 @@ long() {
     fi
 }
 
-# ---- one part after another, the live tests beside the others --------------------------------------------------------------
+# ---- one part after another ----------------------------------------------------------------------------------------------------
 
 # Runs a part as a process of its own, so that its first failing command ends it, and notes how it ended and how long it took.
 run_part() {
     local began=$SECONDS code=0
-    "${@:2}" "$self" --alone "$1" || code=$?
+    "$self" --alone "$1" || code=$?
     echo "$code $((SECONDS - began))" >"$marks/$1"
 }
 
@@ -140,17 +141,6 @@ tell_end() { # tell_end PART: of one that has ended
     [ "$code" = 0 ] && echo "== $1: good, $time s" || echo "== $1: FAILED, $time s"
 }
 
-# The live tests that run in the background; none runs where this is empty.
-beside=
-finish_live() {
-    [ -n "$beside" ] || return 0
-    ! kill -0 "$beside" 2>/dev/null || echo "== live: waiting for the rest of it"
-    wait "$beside" || true
-    beside=
-    sed 's/^/    /' "$marks/live.log"
-    tell_end live
-}
-
 # The times of all parts, and the sum of what they have counted.
 table() {
     local part code time passed failed good=0 bad=0
@@ -168,41 +158,24 @@ table() {
 }
 
 run() {
-    local part before=()
+    local part
     rm -rf "$marks"
     mkdir -p "$marks"
-    trap '[ -z "$beside" ] || kill -- -"$beside" 2>/dev/null || true' EXIT
-    trap 'exit 130' INT TERM
     for part in "$@"; do
-        # They wait more than they work: with other parts to come they run beside them, and go before them.
-        if [ "$part" = live ] && [ $# -gt 1 ]; then
-            echo "== live: begun, in the background"
-            # In a process group of its own, which can be ended whole; not in a session, or the system would share the processor
-            # between sessions and not by niceness.
-            set -m
-            "$self" --beside live >"$marks/live.log" 2>&1 </dev/null &
-            beside=$!
-            set +m
-            before=(nice -n 19)
-            continue
-        fi
         echo "== $part"
-        run_part "$part" "${before[@]}" 2>&1 | tee "$marks/$part.log"
+        run_part "$part" 2>&1 | tee "$marks/$part.log"
         tell_end "$part"
         if [ "$part" = build ]; then
             # Without the program there is nothing to run.
             [ "$(cut -d' ' -f1 "$marks/build")" = 0 ] || break
             export SOFFIO_BUILT=1
         fi
-        kill -0 "${beside:-$$}" 2>/dev/null || finish_live
     done
-    finish_live
     table "$@"
 }
 
 case ${1:-} in
     --alone) "$2" ;;
-    --beside) run_part "$2" ;;
     --long)  run long ;;
     "")      run "${everything[@]}" ;;
     *)

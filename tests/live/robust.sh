@@ -178,7 +178,7 @@ gaps() {
 devices_out() {
     local t ears voice rows gaps code=0
     # By its name, or another loudspeaker takes its place.
-    configured "$room/out.toml" '[audio]\nloudspeaker = "speakers"\n'
+    configured "$room/out.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nloudspeaker = "speakers"\n'
     start_kiosk out --no-attract --config "$room/out.toml" --trace "$room/out.csv" --for 28
     within 30 grep -q 'supervisor: microphone: ' "$room/out.err" || true
     within 30 grep -q 'supervisor: loudspeaker: ' "$room/out.err" || true
@@ -223,7 +223,7 @@ devices() { # devices SUITE
 # No file may grow beyond nothing (RLIMIT_FSIZE), which is what a full disk does to a write; the log is a pipe.
 disk_full() {
     local seen code=0 said
-    configured "$room/full.toml" '[staff]\nmetrics = "%s"\nstate = "%s"\n' "$room/full.prom" "$room/full"
+    configured "$room/full.toml" '[exhibits]\nshow = ["steel-fish"]\n[staff]\nmetrics = "%s"\nstate = "%s"\n' "$room/full.prom" "$room/full"
     mkdir -p "$room/full"
     mkfifo "$room/full.pipe"
     # shellcheck disable=SC2016

@@ -58,8 +58,8 @@ enter_room() { # enter_room [SCREEN_SIZE]
     screen_size=${1:-$screen_size}
     mkdir -p "$room/run" "$room/home"
     chmod 700 "$room/run"
-    # As it is shipped, with fewer pictures.
-    sed "s/^software_fps = .*/software_fps = $few_pictures/" "$root/kiosk-config/kiosk.toml" >"$room/kiosk.toml"
+    # As it is shipped, with fewer pictures and works.
+    sed "s/^software_fps = .*/software_fps = $few_pictures/; s/^show = .*/show = [\"steel-fish\", \"pendulum\"]/" "$root/kiosk-config/kiosk.toml" >"$room/kiosk.toml"
     # Software graphics compile shaders for seconds: once for all rooms.
     export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}}
     export HOME=$room/home XDG_RUNTIME_DIR=$room/run PULSE_SERVER=unix:$room/run/pulse/native

@@ -244,7 +244,7 @@ doctor_blow() {
 # ---- the kiosk never answers itself, even beside its loudspeaker, and hears a breath over its own sound -------------------------------------
 own_voice() {
     local loud before t_on t_off begun ended
-    configured "$room/loud.toml" '[audio]\nvolume_db = 0.0\n'
+    configured "$room/loud.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nvolume_db = 0.0\n'
     # At full volume, and 12 dB louder than it plays: a sensitive capsule in the loudspeaker's face.
     close_the_loop 12
     start ears parec -d mic_in.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 --raw
@@ -418,7 +418,7 @@ listens_times() { [ "$(grep -c 'supervisor: microphone: ' "$room/$1.err")" -ge "
 # ---- the loudspeaker is pulled out and put in again: it sounds again, and the motion never stopped -------------------
 speaker_replugged() {
     local i rows gaps
-    configured "$room/mute.toml" '[audio]\nloudspeaker = "speakers"\n'
+    configured "$room/mute.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nloudspeaker = "speakers"\n'
     start_kiosk mute --no-attract --config "$room/mute.toml" --trace "$room/mute.csv" --for 36
     within 30 grep -q 'supervisor: loudspeaker: ' "$room/mute.err"
     for i in 1 2 3; do

@@ -178,8 +178,8 @@ fn blown_hard(id: &str, seconds: f64, seed: u64) {
 }
 
 #[test]
-fn twenty_seconds_of_hard_breath_break_nothing_in_the_cabinet() {
-    NEW.into_iter().for_each(|id| blown_hard(id, 20.0, 5));
+fn ten_seconds_of_hard_breath_break_nothing_in_the_cabinet() {
+    NEW.into_iter().for_each(|id| blown_hard(id, 10.0, 5));
 }
 
 #[test]

@@ -117,7 +117,7 @@ fn attract_mode_never_flashes() {
         return;
     }
     for id in ["steel-fish", "noise-mobile"] {
-        let flashes = worst(attract(id, 8.0, 12), 12);
+        let flashes = worst(attract(id, 4.0, 12), 12);
         assert!(flashes <= MOST, "{id}: {flashes} flashes in a second");
     }
 }
