@@ -26,7 +26,7 @@ static ALONE: Mutex<()> = Mutex::new(());
 /// Format of the targets.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Pixels.
-const SIZE: (u32, u32) = (480, 270);
+const SIZE: (u32, u32) = (240, 135);
 
 fn shipped(id: &str) -> Exhibit {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id);
