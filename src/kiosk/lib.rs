@@ -27,3 +27,6 @@ pub mod staff;
 
 // What shows it.
 pub mod window;
+
+// The panel library: its types stand in what pages and panels take and give.
+pub use {egui, egui_wgpu};

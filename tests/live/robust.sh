@@ -66,7 +66,7 @@ compositor() {
     configured "$glass/kiosk.toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n' "$glass/exhibits"
     chmod 700 "$glass/run"
     [ "$(id -u)" != 0 ] || { chown -R 65534:65534 "$glass" && chmod 711 "$room"; }
-    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME="$glass/cache" \
+    start cage env -u WAYLAND_DISPLAY XDG_RUNTIME_DIR="$glass/run" HOME="$glass" XDG_CACHE_HOME="$glass/cache" MESA_SHADER_CACHE_DIR="$glass/cache" \
         XDG_CONFIG_HOME="$glass/config" PULSE_SERVER= WLR_BACKENDS=x11 WLR_RENDERER=pixman WLR_LIBINPUT_NO_DEVICES=1 \
         "${as[@]}" cage -d -- "$glass/launch" "$glass/soffio" kiosk --config "$glass/kiosk.toml"
     left=$last
@@ -192,8 +192,8 @@ devices_out() {
     within 10 spoken out 'supervisor: microphone: ' 2 || true
     within 10 spoken out 'supervisor: loudspeaker: ' 2 || true
     end_kiosk out || code=$?
-    ears=$(awk "BEGIN { printf \"%.1f\", $(log_times out 'supervisor: microphone: ' | tail -1) - $t }")
-    voice=$(awk "BEGIN { printf \"%.1f\", $(log_times out 'supervisor: loudspeaker: ' | tail -1) - $t }")
+    ears=$(awk "BEGIN { printf \"%.3f\", $(log_times out 'supervisor: microphone: ' | tail -1) - $t }")
+    voice=$(awk "BEGIN { printf \"%.3f\", $(log_times out 'supervisor: loudspeaker: ' | tail -1) - $t }")
     bar "devices out: back" "$code == 0 && $ears > 0 && $ears < 3 && $voice > 0 && $voice < 3" \
         "the microphone after $ears s, the loudspeaker after $voice s"
     read -r rows gaps < <(gaps "$room/out.csv")

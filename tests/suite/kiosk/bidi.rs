@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use soffio_exhibit::Label;
+use soffio_kiosk::egui;
 use soffio_kiosk::pages::bidi::{is_mixed, lines, reads_from_right};
 use soffio_kiosk::pages::fonts::{self, Script};
 use soffio_kiosk::pages::page::{INK, Page};

@@ -6,9 +6,9 @@
 
 use std::path::Path;
 
-use egui::Rect;
 use image::RgbaImage;
 use soffio_config::Config;
+use soffio_kiosk::egui::{self, Rect};
 use soffio_kiosk::pages::languages::{offered, unwritten};
 use soffio_kiosk::pages::words::words;
 use soffio_kiosk::staff::Page;

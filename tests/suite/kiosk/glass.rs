@@ -2,6 +2,7 @@
 //! driver there is none, and whoever needs it says so and passes.
 
 use image::RgbaImage;
+use soffio_kiosk::{egui, egui_wgpu};
 use soffio_render::Gpu;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;

@@ -4,9 +4,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use egui::{Rect, pos2};
 use soffio_config::{Config, Group};
 use soffio_exhibit::{self as exhibit, Exhibit, Label};
+use soffio_kiosk::egui::{self, Rect, pos2};
 use soffio_kiosk::pages::fonts;
 use soffio_kiosk::pages::languages::{offered, unwritten};
 use soffio_kiosk::pages::menu::{Menu, Tile, tiles};

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use egui::{Event, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
 use soffio_config::{Config, Pin};
 use soffio_exhibit as exhibit;
+use soffio_kiosk::egui::{self, Event, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
 use soffio_kiosk::fleet::kept::Kept;
 use soffio_kiosk::live::Frame;
 use soffio_kiosk::pages::fonts;
