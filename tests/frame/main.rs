@@ -73,8 +73,8 @@ fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], motes: &'a [Mote]) -> Frame<'
 #[test]
 fn a_frame_asks_for_no_memory_before_it_turns_to_the_device() {
     /// Frames until everything has grown as large as it gets.
-    const WARM: usize = 5;
-    const FRAMES: usize = 20;
+    const WARM: usize = 4;
+    const FRAMES: usize = 8;
     let _alone = alone();
     let Some((gpu, target)) = device() else { return };
     let motes: Vec<Mote> = (0..600)
