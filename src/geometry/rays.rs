@@ -55,6 +55,7 @@ struct Part {
     origin: DVec3,
 }
 
+#[inline]
 fn single(v: DVec3) -> Vec3A {
     v.as_vec3a()
 }

@@ -84,6 +84,7 @@ impl Breath {
     }
 
     /// Distance x along the axis and v(x, r)/U₀ at a point; `None` outside the breath.
+    #[inline]
     pub fn share(&self, point: DVec3) -> Option<(f64, f64)> {
         let from = point - self.mouth;
         let x = from.dot(self.direction);

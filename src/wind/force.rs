@@ -73,6 +73,7 @@ pub struct Blown<'a> {
 
 impl Blown<'_> {
     /// Velocity of the breath's air at a point without gusts, and the speed at which it left the lips, m/s.
+    #[inline]
     fn air(&self, point: DVec3) -> (DVec3, f64) {
         let Some((x, share)) = self.breath.share(point) else { return (DVec3::ZERO, 0.0) };
         let source = match self.front {
