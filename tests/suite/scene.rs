@@ -5,12 +5,14 @@ use std::path::Path;
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, PI, cos, rotation, sin};
 use soffio_multibody::articulation::System;
+use soffio_multibody::collision::TOUCH;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::linear;
 use soffio_offline::scene::make;
 use soffio_offline::scene::measure::{self, Coordinate};
 use soffio_offline::scene::run::{self, Best};
-use soffio_offline::scene::{Engine, Joint, JointKind, Limits, Observer, Scene, Soffio, State};
+use soffio_offline::scene::times::StepTimes;
+use soffio_offline::scene::{Engine, Joint, JointKind, Limits, OLD_FORMAT, Observer, Scene, Soffio, State};
 
 const DT: f64 = 1.0 / 240.0;
 /// A few operations of f64 on numbers of about one.
@@ -31,7 +33,7 @@ fn pendulum() -> Scene {
 
 fn joint(kind: JointKind, a: i64, b: usize, anchors: [[f64; 3]; 2], axis: Option<[DVec3; 2]>) -> Joint {
     let [axis_a, axis_b] = axis.map_or([None; 2], |axis| axis.map(|axis| Some(axis.to_array())));
-    Joint { kind, a, b, anchor_a: anchors[0], anchor_b: anchors[1], axis_a, axis_b }
+    Joint { kind, a, b, anchor_a: anchors[0], anchor_b: anchors[1], axis_a, axis_b, limits: None }
 }
 
 #[test]
@@ -49,7 +51,18 @@ fn a_bad_scene_is_told_by_place_and_reason() {
         ("\"duration\": 6.0,", "", &["s.json:", "missing field `duration`"]),
         ("\"couplings\"", "\"coupling\"", &["s.json:", "unknown field `coupling`", "`couplings`"]),
         ("\"hinge\"", "\"door\"", &["s.json:", "unknown variant `door`", "`hinge`"]),
-        ("scene/1", "scene/2", &["s.json: format:", "isaac-bench-scene/1"]),
+        ("scene/1", "scene/2", &["s.json: format:", "soffio-scene/1", "isaac-bench-scene/1"]),
+        (
+            "\"couplings\": []",
+            "\"static\": [{ \"shape\": { \"type\": \"sphere\", \"radius\": 1 } }]",
+            &["s.json: static:", "soffio-scene/1"],
+        ),
+        (
+            "\"couplings\": []",
+            "\"surface\": { \"friction\": 0, \"restitution\": 0 }",
+            &["s.json: surface:", "soffio-scene/1"],
+        ),
+        ("\"axis_b\":", "\"limits\": [0, 1], \"axis_b\":", &["s.json: joints[0].limits:", "soffio-scene/1"]),
         ("\"mass\": 0.5", "\"mass\": 0", &["s.json: bodies[0].mass:", "above zero"]),
         ("\"mass\": 0.5", "\"mass\": -0.5", &["s.json: bodies[0].mass: -0.5"]),
         ("\"mass\": 0.5", "\"mass\": 1e999", &["s.json:", "number out of range"]),
@@ -79,9 +92,128 @@ fn a_bad_scene_is_told_by_place_and_reason() {
         }
     }
     let mut scene = make::chain(3, 1);
+    scene.format = OLD_FORMAT.into();
     scene.joints.swap(1, 2);
     let error = Scene::parse(&scene.to_json(), "s.json").expect_err("out of order").to_string();
     assert!(error.contains("joints[1].b: 2 is out of order"), "{error}");
+}
+
+/// A ball over a floor, and a gate between two posts that is held twice: on a hinge and by a ball joint.
+const GATE: &str = r#"{
+  "format": "soffio-scene/1", "name": "gate", "gravity": [0, -9.81, 0], "dts": [0.004], "duration": 2.0, "energy_scale": 1.0,
+  "surface": { "friction": 0.5, "restitution": 0.0 },
+  "static": [{ "shape": { "type": "plane", "normal": [0, 1, 0] }, "pos": [0, -1, 0] }],
+  "bodies": [
+    { "name": "gate", "mass": 1.0, "inertia": [0.1, 0.1, 0.1], "shape": { "type": "box", "half": [0.4, 0.2, 0.01] },
+      "pos": [0.5, 0, 0], "quat": [0, 0, 0, 1], "linvel": [0, 0, -0.25], "angvel": [0, 0.5, 0] },
+    { "name": "ball", "mass": 1.0, "inertia": [0.004, 0.004, 0.004], "shape": { "type": "sphere", "radius": 0.1 },
+      "pos": [3, -0.8, 0], "quat": [0, 0, 0, 1], "linvel": [0, 0, 0], "angvel": [0, 0, 0] }
+  ],
+  "joints": [
+    { "type": "hinge", "a": -1, "b": 0, "anchor_a": [0, 0.2, 0], "anchor_b": [-0.5, 0.2, 0], "axis_a": [0, 1, 0], "axis_b": [0, 1, 0], "limits": [-0.1, 0.2] },
+    { "type": "spherical", "a": -1, "b": 0, "anchor_a": [0, -0.2, 0], "anchor_b": [-0.5, -0.2, 0] }
+  ]
+}"#;
+
+#[test]
+fn a_bad_scene_of_contacts_and_loops_is_told_by_place_and_reason() {
+    Scene::parse(GATE, "gate.json").expect("valid");
+    for (find, replace, words) in [
+        ("\"limits\": [-0.1, 0.2]", "\"limits\": [0.1, 0.2]", &["joints[0].limits:", "enclose the start"][..]),
+        ("\"limits\": [-0.1, 0.2]", "\"limits\": [0.2, -0.1]", &["joints[0].limits:", "enclose the start"]),
+        (
+            "\"type\": \"spherical\"",
+            "\"limits\": [-1, 1], \"type\": \"spherical\"",
+            &["joints[1].limits:", "no coordinate"],
+        ),
+        ("\"a\": -1", "\"a\": 0", &["joints[0].a:", "to itself"]),
+        ("\"radius\": 0.1", "\"radius\": 0", &["bodies[1].shape.radius:", "above zero"]),
+        ("\"half\": [0.4, 0.2, 0.01]", "\"half\": [0.4, -0.2, 0.01]", &["bodies[0].shape.half[1]:", "above zero"]),
+        ("\"half\": [0.4,", "\"rounding\": 0.02, \"half\": [0.4,", &["bodies[0].shape.rounding:", "within 0 and 0.01"]),
+        ("\"half\": [0.4, 0.2, 0.01]", "\"size\": 1", &["bodies[0].shape:", "unknown field `size`"]),
+        ("\"type\": \"sphere\"", "\"type\": \"cone\"", &["bodies[1].shape:", "unknown variant `cone`", "`sphere`"]),
+        (
+            "{ \"type\": \"sphere\", \"radius\": 0.1 }",
+            "{ \"type\": \"plane\", \"normal\": [0, 1, 0] }",
+            &["bodies[1].shape:", "\"static\""],
+        ),
+        ("\"normal\": [0, 1, 0]", "\"normal\": [0, 2, 0]", &["static[0].shape.normal:", "length 1"]),
+        ("\"friction\": 0.5", "\"friction\": -0.5", &["surface.friction:", "zero or more"]),
+        ("\"restitution\": 0.0", "\"restitution\": 1.5", &["surface.restitution:", "within 0 and 1"]),
+        (
+            "\"name\": \"ball\"",
+            "\"name\": \"ball\", \"surface\": { \"friction\": 1, \"restitution\": 2 }",
+            &["bodies[1].surface.restitution:"],
+        ),
+    ] {
+        assert!(GATE.contains(find), "the scene has no {find}");
+        let error = Scene::parse(&GATE.replacen(find, replace, 1), "gate.json").expect_err(replace).to_string();
+        for word in words {
+            assert!(error.contains(word), "{find} → {replace}: no \"{word}\" in: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_lands_a_gate_stops_and_a_loop_holds() {
+    /// A contact rests anywhere within the touching layer, m.
+    const SINKS: f64 = 2.0 * TOUCH;
+    let scene = Scene::parse(GATE, "gate.json").expect("valid");
+    let mut gate = Coordinate::new(&scene, 0).expect("a hinge");
+    let mut engine = Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
+    let mut states = Vec::new();
+    let mut opened = 0.0_f64;
+    for _ in 0..480 {
+        assert!(engine.step());
+        engine.states(&mut states);
+        opened = opened.max(gate.follow(&states));
+    }
+    assert!((opened - 0.2).abs() < 1e-6, "0.5 rad/s carry the gate to its stop at 0.2 rad, not to {opened}");
+    assert!(measure::joint_error(&scene, &states) < JOINT_ERROR);
+    assert!((states[1].position.y + 0.9).abs() < SINKS, "the ball lies at {}", states[1].position.y);
+
+    let limits = Limits { seconds: 2.0, budget: f64::INFINITY };
+    let watched = run::watch(&scene, &mut Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse), DT, limits);
+    let contacts = watched.report.contacts.expect("a scene that collides");
+    assert!(contacts.max_penetration_m < SINKS && contacts.max_energy_rise_rel < 1e-9, "{contacts:?}");
+    assert!((contacts.max_way_m - 0.1).abs() < SINKS, "the ball falls by 0.1 m: {contacts:?}");
+    assert!(contacts.rest_drift_m.is_some_and(|drift| drift < SINKS), "{contacts:?}");
+    assert_eq!(watched.asleep, 2, "both rest");
+}
+
+#[test]
+fn a_penetration_and_a_rise_of_energy_are_seen() {
+    let scene = Scene::parse(GATE, "gate.json").expect("valid");
+    let mut states: Vec<_> = scene.bodies.iter().map(|body| body.state()).collect();
+    let mut observer = Observer::new(&scene);
+    // Down to 3 mm below the floor, and up again by 0.5 m.
+    states[1].position.y = -0.903;
+    observer.see(DT, &states);
+    states[1].position.y = -0.403;
+    observer.see(2.0 * DT, &states);
+    let contacts = observer.report(&states).contacts.expect("a scene that collides");
+    assert!((contacts.max_penetration_m - 3e-3).abs() < ROUNDING, "{contacts:?}");
+    assert_eq!(contacts.rest_penetration_m, 0.0);
+    assert!((contacts.max_energy_rise_j - 0.5 * 9.81).abs() < 100.0 * ROUNDING, "{contacts:?}");
+    assert_eq!(contacts.rest_drift_m, None, "the run did not get to its last second");
+}
+
+#[test]
+fn percentiles_of_step_times_are_those_of_the_least_times() {
+    let mut times = StepTimes::default();
+    let spin = |ms: f64| {
+        let start = cpu_time::ThreadTime::now();
+        while start.elapsed().as_secs_f64() < 1e-3 * ms {}
+    };
+    // One slow step in the first round alone, one in both.
+    for step in 0..10 {
+        times.time(|| spin(if step == 3 || step == 7 { 2.0 } else { 0.1 }));
+    }
+    times.again_by(|step| spin(if step == 7 { 2.0 } else { 0.1 }));
+    let report = times.report();
+    assert_eq!(report.worst_step, 7, "{report:?}");
+    assert!(report.p100_us >= 2e3 && report.p50_us >= 100.0 && report.p50_us < 2e3, "{report:?}");
+    assert!(times.us()[3] < 2e3, "what is slow once is the machine's doing: {:?}", times.us());
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Articulated scenes, and what a body costs as figures grow: rows of JSON, or a table.
+//! Scenes, and what a body costs as figures grow: rows of JSON, or a table.
 
 use std::path::PathBuf;
 
@@ -20,8 +20,8 @@ pub fn run(
         files.iter().map(|file| Scene::read(file)).collect::<Result<_, _>>().map_err(Failure::input)?;
     if !json {
         println!(
-            "{:<22} {:>5} {:>9} {:>11} {:>8} {:>9} {:>9} {:>9} {:>7}",
-            "scene", "n", "dt", "us/step", "substeps", "energy", "joint", "diverged", "sim s"
+            "{:<22} {:>5} {:>9} {:>11} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>7}",
+            "scene", "n", "dt", "us/step", "p50", "p99", "p100", "substeps", "energy", "joint", "diverged", "sim s"
         );
     }
     for scene in &scenes {
@@ -39,17 +39,33 @@ pub fn run(
 
 fn print(row: &Row) {
     println!(
-        "{:<22} {:>5} {:>9.6} {:>11.2} {:>8.1} {:>9.1e} {:>9.1e} {:>9} {:>7.2}",
+        "{:<22} {:>5} {:>9.6} {:>11.2} {:>9.1} {:>9.1} {:>9.1} {:>8.1} {:>9.1e} {:>9.1e} {:>9} {:>7.2}",
         row.scene,
         row.n,
         row.dt,
         row.us_per_step,
+        row.times.p50_us,
+        row.times.p99_us,
+        row.times.p100_us,
         row.substeps,
         row.max_energy_drift_rel,
         row.max_joint_err_m,
         row.diverged_at_s.map_or_else(|| "-".to_owned(), |t| format!("{t:.2} s")),
         row.sim_s
     );
+    if let Some(contacts) = &row.contacts {
+        println!(
+            "    contacts: overlap {:.1e} m, at the end {:.1e} m; energy rises {:.1e} J; drift {} in the last second, {:.2} m in \
+             all; {} asleep; worst step {}",
+            contacts.max_penetration_m,
+            contacts.rest_penetration_m,
+            contacts.max_energy_rise_j,
+            contacts.rest_drift_m.map_or_else(|| "-".to_owned(), |drift| format!("{drift:.1e} m")),
+            contacts.max_way_m,
+            row.asleep,
+            row.times.worst_step
+        );
+    }
     if let (Some(speed), Some(drop), Some(phase)) =
         (row.s4_speed_rel_err, row.s4_drop_rel_err, row.s4_max_coupling_err_m)
     {

@@ -1,4 +1,4 @@
-//! A scene as bodies and rows of the field.
+//! A scene as bodies, rows, limits and colliders.
 //!
 //! ```text
 //! spherical   a point on a point                                                        3 rows
@@ -7,15 +7,18 @@
 //! ```
 //!
 //! (t₁, t₂, axis) is a right-handed frame of the parent; u₂ is t₂ as the child sees it at the start, which holds the
-//! last rotation of a slider.
+//! last rotation of a slider. Limits are stops without bounce on a hinge's angle or a slider's way.
 
 use super::format::{Joint, JointKind, Scene};
+use super::solid::Surface;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::Function;
-use soffio_math::{DMat3, DQuat, DVec3, tangents};
-use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Measure, Term};
+use soffio_math::{DMat3, DQuat, DVec3, Pose, tangents};
+use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
+use soffio_multibody::collision::reach::JointEnd;
+use soffio_multibody::collision::{Collider, Excluded, Exclusion, Reach, pairs};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Settings, Solver};
+use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Settings, Solver, SurfacePair};
 
 /// Time in which the field draws a drifted joint together, as exhibits have it, s.
 const STABILIZATION_TIME: f64 = 0.04;
@@ -53,18 +56,71 @@ impl Scene {
         joints.chain(couplings).collect()
     }
 
-    /// The scene in motion, without friction.
+    /// The joints' limits.
+    pub fn limits(&self) -> Vec<Limit> {
+        let limit = |(index, joint): (usize, &Joint)| {
+            let [min, max] = joint.limits?;
+            let kind = LimitKind::Range { measure: measure(joint), min, max };
+            Some(Limit { name: format!("limit-{index}"), kind, restitution: 0.0 })
+        };
+        self.joints.iter().enumerate().filter_map(limit).collect()
+    }
+
+    /// What collides: the bodies' shapes and the world's, each with a material of its own; nothing without a surface.
+    pub fn colliders(&self) -> Vec<Collider> {
+        if self.surface.is_none() {
+            return Vec::new();
+        }
+        let body = |(index, body): (usize, &super::Body)| {
+            let shape = body.solid()?.shape(Pose::IDENTITY);
+            Some(Collider { body: Some(index), shape, material: index, node: body.name.clone() })
+        };
+        let n = self.bodies.len();
+        let statics = self.statics.iter().enumerate().map(|(index, fixed)| fixed.collider(index, n + index));
+        self.bodies.iter().enumerate().filter_map(body).chain(statics).collect()
+    }
+
+    /// Pairs of colliders that may meet; bodies that a joint connects do not.
+    pub fn surface_pairs(&self, colliders: &[Collider]) -> Vec<SurfacePair> {
+        let Some(surface) = self.surface else { return Vec::new() };
+        let material = |index: usize| -> Surface {
+            let body = self.bodies.get(index).map(|body| body.surface);
+            body.unwrap_or_else(|| self.statics[index - self.bodies.len()].surface).unwrap_or(surface)
+        };
+        let joined = |joint: &Joint| Exclusion { bodies: (joint.parent(), Some(joint.b)), why: Excluded::Joined };
+        let excluded: Vec<_> = self.joints.iter().map(joined).collect();
+        let poses: Vec<_> = self
+            .bodies
+            .iter()
+            .map(|body| body.state())
+            .map(|state| Pose { rotation: state.rotation, position: state.position })
+            .collect();
+        let end = |anchor: Anchor| JointEnd { body: anchor.body, point: anchor.point };
+        let held = self.joints.iter().filter(|joint| joint.kind != JointKind::Slider);
+        let points: Vec<_> = held.map(anchors).map(|(a, b)| [end(a), end(b)]).collect();
+        let reach = Reach::new(colliders, &poses, &points, &[]);
+        let meet = pairs(colliders, &excluded, &reach).meet.into_iter();
+        meet.map(|pair| {
+            let [a, b] = [pair.a, pair.b].map(|collider| material(colliders[collider].material));
+            let (restitution, friction, resistance) = a.with(&b);
+            SurfacePair { pair, restitution, friction, resistance }
+        })
+        .collect()
+    }
+
+    /// The scene in motion, its pivots without friction.
     pub fn dynamics(&self, integrator: Integrator, solver: Solver) -> Dynamics {
         let bodies = self.rigid_bodies();
+        let colliders = self.colliders();
         let figure = Figure {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &self.constraints(),
-            limits: &[],
+            limits: &self.limits(),
             springs: &[],
             drives: &[],
-            colliders: &[],
-            pairs: Vec::new(),
+            pairs: self.surface_pairs(&colliders),
+            colliders: &colliders,
         };
         let settings = Settings {
             gravity: DVec3::from_array(self.gravity),

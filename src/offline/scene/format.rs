@@ -1,25 +1,32 @@
-//! The scene format `isaac-bench-scene/1`: JSON, SI units, `y` up, right-handed.
+//! The scene format `soffio-scene/1`: JSON, SI units, `y` up, right-handed.
 //!
-//! Invariant: a [`Scene`] that [`Scene::parse`] returns is sound. Its numbers are finite, its masses positive, its
-//! joints in tree order (joint i hangs body i on an earlier body or the world) and closed at the start.
+//! Bodies without a joint are free, joints beyond a body's first close loops, hinges and sliders may have limits. In a
+//! scene with a `surface` its bodies' shapes and the `static` ones collide, but for bodies that a joint connects.
+//!
+//! The older `isaac-bench-scene/1` is the part of it without collisions, limits, loops and free bodies: joint i hangs
+//! body i on an earlier body or the world. Its shapes are only drawn.
+//!
+//! Invariant: a [`Scene`] that [`Scene::parse`] returns is valid. Its numbers are finite, its masses positive, its
+//! joints closed at the start and within their limits.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::measure;
+use super::solid::{Solid, Static, Surface};
 use soffio_math::{DQuat, DVec3};
 
 /// What `format` says.
-pub const FORMAT: &str = "isaac-bench-scene/1";
-/// How far a unit vector's length, a joint's anchors (m) or its axes may be off: files have at least seven digits.
-const ROUNDED: f64 = 1e-6;
+pub const FORMAT: &str = "soffio-scene/1";
+/// And in older files: joints in tree order, without collisions.
+pub const OLD_FORMAT: &str = "isaac-bench-scene/1";
 
 /// An articulated figure at its start, and how long to run it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// [`FORMAT`].
+    /// [`FORMAT`] or [`OLD_FORMAT`].
     pub format: String,
     /// Name of the scene.
     pub name: String,
@@ -34,13 +41,19 @@ pub struct Scene {
     pub duration: f64,
     /// What energy errors are divided by, J.
     pub energy_scale: f64,
-    /// The bodies, parents before children.
+    /// The bodies.
     pub bodies: Vec<Body>,
-    /// One per body: joint i hangs body i.
+    /// The joints.
     pub joints: Vec<Joint>,
     /// Gears and drums.
     #[serde(default)]
     pub couplings: Vec<Coupling>,
+    /// What surfaces do to each other; without it nothing collides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<Surface>,
+    /// Shapes of the world.
+    #[serde(default, rename = "static", skip_serializing_if = "Vec::is_empty")]
+    pub statics: Vec<Static>,
     /// What is known of the motion.
     #[serde(default)]
     pub meta: Meta,
@@ -56,9 +69,12 @@ pub struct Body {
     pub mass: f64,
     /// Principal moments about the centre of mass, body axes, kg m².
     pub inertia: [f64; 3],
-    /// What to draw; nothing here uses it.
+    /// A [`Solid`] about the centre of mass, which collides where the scene has a surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<serde_json::Value>,
+    /// If it differs from the scene's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<Surface>,
     /// Centre of mass in the world, m.
     pub pos: [f64; 3],
     /// Body axes to world axes, (x, y, z, w).
@@ -102,6 +118,9 @@ pub struct Joint {
     /// The same axis in the child's frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis_b: Option<[f64; 3]>,
+    /// Least and greatest coordinate of a hinge (rad) or slider (m), counted from the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<[f64; 2]>,
 }
 
 /// Coordinates of joints that keep a proportion: Σ coefficient · (q − q₀) = 0.
@@ -192,127 +211,12 @@ impl Scene {
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and names are JSON")
     }
-
-    /// The first thing that makes it no figure: where, and what.
-    fn fault(&self) -> Option<(String, String)> {
-        let fault = |key: String, what: String| Some((key, what));
-        if self.format != FORMAT {
-            return fault("format".into(), format!("\"{}\" is not \"{FORMAT}\"", self.format));
-        }
-        if !self.gravity.iter().all(|g| g.is_finite()) {
-            return fault("gravity".into(), format!("{:?} is not finite", self.gravity));
-        }
-        let times = self.dts.iter().enumerate().map(|(i, &dt)| (format!("dts[{i}]"), dt));
-        let single = [("duration".into(), self.duration), ("energy_scale".into(), self.energy_scale)];
-        if let Some((key, value)) = times.chain(single).find(|(_, value)| !positive(*value)) {
-            return fault(key, format!("{value} is not a finite number above zero"));
-        }
-        if self.dts.is_empty() || self.bodies.is_empty() {
-            return fault(if self.dts.is_empty() { "dts" } else { "bodies" }.into(), "is empty".into());
-        }
-        if self.joints.len() != self.bodies.len() {
-            let (joints, bodies) = (self.joints.len(), self.bodies.len());
-            return fault("joints".into(), format!("{joints} joints for {bodies} bodies; every body has one"));
-        }
-        let bodies = self.bodies.iter().enumerate().find_map(|(i, body)| body.fault(&format!("bodies[{i}]")));
-        let joints = || (0..self.joints.len()).find_map(|i| self.joint_fault(i));
-        let couplings = || (0..self.couplings.len()).find_map(|i| self.coupling_fault(i));
-        bodies.or_else(joints).or_else(couplings).or_else(|| {
-            let weight = self.meta.weight_body.filter(|&body| body >= self.bodies.len())?;
-            fault("meta.weight_body".into(), self.no_body(weight as i64))
-        })
-    }
-
-    fn no_body(&self, index: i64) -> String {
-        format!("there is no body {index}; they are 0 to {}", self.bodies.len() - 1)
-    }
-
-    fn joint_fault(&self, index: usize) -> Option<(String, String)> {
-        let joint = &self.joints[index];
-        let fault = |key: &str, what: String| Some((format!("joints[{index}].{key}"), what));
-        if joint.b != index {
-            let what = if joint.b >= self.bodies.len() {
-                self.no_body(joint.b as i64)
-            } else {
-                format!("{} is out of order; joint {index} hangs body {index}", joint.b)
-            };
-            return fault("b", what);
-        }
-        if joint.a < -1 || joint.a >= self.bodies.len() as i64 {
-            return fault("a", format!("{}, and -1 for the world", self.no_body(joint.a)));
-        }
-        if joint.a >= index as i64 {
-            return fault("a", format!("body {} does not come before body {index}; parents come first", joint.a));
-        }
-        for (key, anchor) in [("anchor_a", &joint.anchor_a), ("anchor_b", &joint.anchor_b)] {
-            if !anchor.iter().all(|x| x.is_finite()) {
-                return fault(key, format!("{anchor:?} is not finite"));
-            }
-        }
-        if joint.kind != JointKind::Spherical {
-            for (key, axis) in [("axis_a", joint.axis_a), ("axis_b", joint.axis_b)] {
-                let Some(axis) = axis else { return fault(key, "a hinge or slider needs its axis".into()) };
-                if !unit(&axis) {
-                    return fault(key, format!("{axis:?} is not of length 1"));
-                }
-            }
-        }
-        let states: Vec<_> = [joint.parent(), Some(joint.b)]
-            .into_iter()
-            .map(|body| body.map_or(measure::State::WORLD, |body| self.bodies[body].state()))
-            .collect();
-        let gap = measure::gap(joint, &states[0], &states[1]);
-        if gap > ROUNDED {
-            return fault("anchor_b", format!("lies {gap:.3e} m from anchor_a at the start; joints begin closed"));
-        }
-        if let Some((a, b)) = joint.axes() {
-            let apart = (states[0].rotation * a - states[1].rotation * b).length();
-            if apart > ROUNDED {
-                return fault(
-                    "axis_b",
-                    format!("points {apart:.3e} away from axis_a at the start; joints begin closed"),
-                );
-            }
-        }
-        None
-    }
-
-    fn coupling_fault(&self, index: usize) -> Option<(String, String)> {
-        let terms = &self.couplings[index].terms;
-        if terms.len() < 2 {
-            return Some((format!("couplings[{index}].terms"), "couples two joints at least".into()));
-        }
-        terms.iter().enumerate().find_map(|(k, &(joint, coefficient))| {
-            let what = match self.joints.get(joint) {
-                None => format!("there is no joint {joint}; they are 0 to {}", self.joints.len() - 1),
-                Some(Joint { kind: JointKind::Spherical, .. }) => {
-                    format!("joint {joint} is spherical and has no coordinate; couple hinges and sliders")
-                }
-                Some(_) if !coefficient.is_finite() || coefficient == 0.0 => {
-                    format!("coefficient {coefficient} is not a finite number other than zero")
-                }
-                Some(_) => return None,
-            };
-            Some((format!("couplings[{index}].terms[{k}]"), what))
-        })
-    }
 }
 
 impl Body {
-    fn fault(&self, key: &str) -> Option<(String, String)> {
-        let fault = |own: &str, what: String| Some((format!("{key}.{own}"), what));
-        if !positive(self.mass) {
-            return fault("mass", format!("{} is not a finite number above zero", self.mass));
-        }
-        if !self.inertia.iter().all(|&i| positive(i)) {
-            return fault("inertia", format!("{:?} are not finite numbers above zero", self.inertia));
-        }
-        for (own, vector) in [("pos", &self.pos), ("linvel", &self.linvel), ("angvel", &self.angvel)] {
-            if !vector.iter().all(|x| x.is_finite()) {
-                return fault(own, format!("{vector:?} is not finite"));
-            }
-        }
-        (!unit(&self.quat)).then(|| fault("quat", format!("{:?} is not of length 1", self.quat)))?
+    /// The shape that collides; `None` where there is none.
+    pub fn solid(&self) -> Option<Solid> {
+        Solid::deserialize(self.shape.as_ref()?).ok()
     }
 
     /// Pose and velocities at the start.
@@ -337,13 +241,4 @@ impl Joint {
         let unit = |axis| DVec3::from_array(axis).normalize();
         (self.kind != JointKind::Spherical).then(|| Some((unit(self.axis_a?), unit(self.axis_b?))))?
     }
-}
-
-fn positive(value: f64) -> bool {
-    value.is_finite() && value > 0.0
-}
-
-fn unit(vector: &[f64]) -> bool {
-    let length: f64 = vector.iter().map(|x| x * x).sum();
-    (length - 1.0).abs() < 2.0 * ROUNDED
 }

@@ -142,6 +142,8 @@ impl Maker {
             bodies: Vec::new(),
             joints: Vec::new(),
             couplings: Vec::new(),
+            surface: None,
+            statics: Vec::new(),
             meta: Meta::default(),
         };
         Self { scene, states: Vec::new() }
@@ -166,6 +168,7 @@ impl Maker {
             mass: part.mass,
             inertia: part.inertia(),
             shape: Some(serde_json::json!({ "type": "box", "half": part.half.to_array() })),
+            surface: None,
             pos: state.position.to_array(),
             quat: state.rotation.to_array(),
             linvel: state.velocity.to_array(),
@@ -173,7 +176,7 @@ impl Maker {
         });
         let a = a.map_or(-1, |a| a as i64);
         let kind = JointKind::Spherical;
-        self.scene.joints.push(Joint { kind, a, b, anchor_a, anchor_b, axis_a: None, axis_b: None });
+        self.scene.joints.push(Joint { kind, a, b, anchor_a, anchor_b, axis_a: None, axis_b: None, limits: None });
     }
 
     /// The scene, its energy scale what its fall to hanging straight down sets free, and what moves already.

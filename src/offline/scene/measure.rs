@@ -5,22 +5,16 @@
 //! gap = |xₐ + Rₐ pₐ − x_b − R_b p_b|                              joint error, m; a slider's without its part along the axis
 //! q   = right-handed angle of b against a about the axis          hinge, not wrapped, rad
 //! q   = (x_b + R_b p_b − xₐ − Rₐ pₐ) · axis                       slider, m
-//! θ   = atan2(axis·(g × r), g·r), r from the hinge to the centre  pendulum, rad
 //! ```
-//!
-//! A pendulum's period is the mean over all zero crossings of θ, two a period. A crossing between two samples is found
-//! on the straight line through them, and on the cubic through both angles and rates (Hermite).
 
+use super::contact::{ContactObserver, ContactReport};
 use super::format::{Coupling, Joint, JointKind, Scene};
+use super::pendulum::Pendulum;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DQuat, DVec3, PI, StateHash, atan2, tangents};
 
 /// Relative energy error beyond which a run has diverged.
 const DIVERGED: f64 = 10.0;
-/// Span at the end of a pendulum's run in which its amplitude is sampled, s.
-const AMPLITUDE_SPAN: f64 = 4.0;
-/// Halvings that bring an interval of one step to the rounding of f64.
-const HALVINGS: usize = 60;
 
 /// Pose and velocities of a body, as any engine has them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +77,7 @@ pub fn joint_error(scene: &Scene, states: &[State]) -> f64 {
 }
 
 /// The larger of two numbers, and the one that is none.
-fn larger(a: f64, b: f64) -> f64 {
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }
 
@@ -135,94 +129,6 @@ impl Coordinate {
     }
 }
 
-/// Zero crossings of a pendulum on a hinge of the world.
-#[derive(Clone, Debug)]
-struct Pendulum {
-    axis: DVec3,
-    hinge: DVec3,
-    gravity: DVec3,
-    before: Sample,
-    crossings: usize,
-    /// First and last crossing on the straight line and on the cubic, s.
-    first: [f64; 2],
-    last: [f64; 2],
-    /// Sampled |θ| of the last seconds: (t, |θ|).
-    recent: std::collections::VecDeque<(f64, f64)>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Sample {
-    t: f64,
-    angle: f64,
-    rate: f64,
-}
-
-impl Pendulum {
-    fn new(scene: &Scene) -> Option<Self> {
-        let joint = scene.joints.first().filter(|j| j.kind == JointKind::Hinge && j.parent().is_none())?;
-        let mut pendulum = Self {
-            axis: joint.axes()?.0,
-            hinge: DVec3::from_array(joint.anchor_a),
-            gravity: DVec3::from_array(scene.gravity).normalize(),
-            before: Sample { t: 0.0, angle: 0.0, rate: 0.0 },
-            crossings: 0,
-            first: [0.0; 2],
-            last: [0.0; 2],
-            recent: std::collections::VecDeque::new(),
-        };
-        pendulum.before = pendulum.sample(0.0, &scene.bodies[joint.b].state());
-        Some(pendulum)
-    }
-
-    fn sample(&self, t: f64, state: &State) -> Sample {
-        let r = state.position - self.hinge;
-        let angle = atan2(self.axis.dot(self.gravity.cross(r)), self.gravity.dot(r));
-        Sample { t, angle, rate: self.axis.dot(state.angular_velocity) }
-    }
-
-    fn follow(&mut self, t: f64, state: &State) {
-        let (a, b) = (self.before, self.sample(t, state));
-        self.before = b;
-        self.recent.push_back((t, b.angle.abs()));
-        while self.recent.front().is_some_and(|&(then, _)| then < t - AMPLITUDE_SPAN) {
-            self.recent.pop_front();
-        }
-        if (a.angle < 0.0) != (b.angle < 0.0) {
-            let h = b.t - a.t;
-            self.last = [a.t + h * a.angle / (a.angle - b.angle), a.t + h * hermite_root(&a, &b)];
-            if self.crossings == 0 {
-                self.first = self.last;
-            }
-            self.crossings += 1;
-        }
-    }
-
-    /// Mean period on the straight line and on the cubic, s.
-    fn periods(&self) -> Option<[f64; 2]> {
-        let halves = self.crossings.checked_sub(1).filter(|&n| n > 0)? as f64;
-        Some(std::array::from_fn(|k| 2.0 * (self.last[k] - self.first[k]) / halves))
-    }
-
-    fn amplitude(&self) -> f64 {
-        self.recent.iter().map(|&(_, angle)| angle).fold(0.0, larger)
-    }
-}
-
-/// Share of the step at which the cubic through both angles and rates is zero; the angles differ in sign.
-fn hermite_root(a: &Sample, b: &Sample) -> f64 {
-    let h = b.t - a.t;
-    let cubic = |s: f64| {
-        let r = 1.0 - s;
-        r * r * (1.0 + 2.0 * s) * a.angle + s * s * (3.0 - 2.0 * s) * b.angle + s * r * h * (r * a.rate - s * b.rate)
-    };
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if (cubic(middle) < 0.0) == (a.angle < 0.0) { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
 /// One word for the bits of all states.
 pub fn hash(states: &[State]) -> u64 {
     let mut hash = StateHash::default();
@@ -242,6 +148,7 @@ pub struct Observer<'a> {
     start: f64,
     couplings: Vec<(&'a Coupling, Vec<Coordinate>)>,
     pendulum: Option<Pendulum>,
+    contacts: Option<ContactObserver>,
     coupling_error: f64,
     report: Report,
     time: f64,
@@ -262,6 +169,8 @@ pub struct Report {
     pub weight: Option<WeightReport>,
     /// Pendulum, where the scene knows its period.
     pub pendulum: Option<PendulumReport>,
+    /// Contacts, where the scene collides.
+    pub contacts: Option<ContactReport>,
 }
 
 /// How a weight on gears fell.
@@ -293,8 +202,10 @@ impl<'a> Observer<'a> {
         let coordinates = |coupling: &'a Coupling| {
             (coupling, coupling.terms.iter().filter_map(|&(joint, _)| Coordinate::new(scene, joint)).collect())
         };
+        let start = energy(scene, &states);
         Self {
-            start: energy(scene, &states),
+            start,
+            contacts: ContactObserver::new(scene, start),
             couplings: scene.couplings.iter().map(coordinates).collect(),
             pendulum: scene.meta.period.and_then(|_| Pendulum::new(scene)),
             coupling_error: 0.0,
@@ -304,10 +215,18 @@ impl<'a> Observer<'a> {
         }
     }
 
+    /// The run is to end after so many seconds.
+    pub fn ends(&mut self, seconds: f64) {
+        if let Some(contacts) = &mut self.contacts {
+            contacts.ends(seconds);
+        }
+    }
+
     /// Sees the states at `t` seconds; false once the run has diverged.
     pub fn see(&mut self, t: f64, states: &[State]) -> bool {
         self.time = t;
-        let drift = (energy(self.scene, states) - self.start) / self.scene.energy_scale;
+        let energy = energy(self.scene, states);
+        let drift = (energy - self.start) / self.scene.energy_scale;
         let report = &mut self.report;
         report.final_energy_drift_rel = drift;
         report.max_energy_drift_rel = larger(report.max_energy_drift_rel, drift.abs());
@@ -318,7 +237,10 @@ impl<'a> Observer<'a> {
             self.coupling_error = larger(self.coupling_error, error.abs());
         }
         if let Some(pendulum) = &mut self.pendulum {
-            pendulum.follow(t, &states[0]);
+            pendulum.follow(t, &states[pendulum.body]);
+        }
+        if let Some(contacts) = &mut self.contacts {
+            contacts.see(t, states, energy, self.scene.energy_scale);
         }
         if drift.is_nan() || drift.abs() > DIVERGED {
             self.gave_up(t);
@@ -349,6 +271,7 @@ impl<'a> Observer<'a> {
             let amplitude_ratio = pendulum.amplitude() / start;
             Some(PendulumReport { period_err_ppm: line, period_err_hermite_ppm: cubic, amplitude_ratio })
         });
-        Report { weight, pendulum, ..self.report.clone() }
+        let contacts = self.contacts.as_ref().map(ContactObserver::report);
+        Report { weight, pendulum, contacts, ..self.report.clone() }
     }
 }

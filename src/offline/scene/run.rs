@@ -1,4 +1,5 @@
-//! Runs a scene in an engine: one pass that measures what comes out, and rounds that measure only time.
+//! Runs a scene in an engine: rounds that measure only time, one pass that measures what comes out, and rounds that
+//! measure every step's time.
 //!
 //! Time is processor time of the thread, so other work on the machine counts less; the best of the rounds is told, as
 //! other work can only add. The rounds of several engines can take turns ([`Best::round`]), so that a slow spell of the
@@ -7,10 +8,11 @@
 use std::hint::black_box;
 
 use cpu_time::ThreadTime;
-use serde::Serialize;
 
 use super::format::Scene;
 use super::measure::{Observer, Report, State, hash};
+use super::row::Row;
+use super::times::StepTimes;
 use soffio_multibody::dynamics::{Dynamics, Impact, Integrator, Solver};
 
 /// Rounds of a measurement of time.
@@ -26,6 +28,10 @@ pub trait Engine {
     fn step(&mut self) -> bool;
     /// Substeps that the last step took.
     fn substeps(&self) -> u32;
+    /// Bodies that sleep after the last step.
+    fn asleep(&self) -> usize {
+        0
+    }
     /// The bodies' states in the scene's order.
     fn states(&self, out: &mut Vec<State>);
 }
@@ -55,6 +61,10 @@ impl Engine for Soffio {
         self.dynamics.substeps()
     }
 
+    fn asleep(&self) -> usize {
+        (0..self.dynamics.bodies.len()).filter(|&body| self.dynamics.sleeps(body)).count()
+    }
+
     fn states(&self, out: &mut Vec<State>) {
         out.clear();
         out.extend(self.dynamics.bodies.iter().map(State::from));
@@ -79,22 +89,28 @@ pub struct Watched {
     pub substeps: f64,
     /// What it came to.
     pub report: Report,
+    /// Bodies that slept at the end.
+    pub asleep: usize,
+    /// Time of each step.
+    pub times: StepTimes,
 }
 
 /// Runs `engine` in steps of `dt` and watches each; it ends with the scene, at a limit, or when the motion diverges.
 pub fn watch(scene: &Scene, engine: &mut (impl Engine + ?Sized), dt: f64, limits: Limits) -> Watched {
     let mut observer = Observer::new(scene);
+    observer.ends(limits.seconds);
+    let mut times = StepTimes::default();
     let mut states = Vec::with_capacity(scene.bodies.len());
     let start = ThreadTime::now();
     let (mut steps, mut substeps) = (0, 0);
     engine.states(&mut states);
     while steps < step_count(scene, dt, limits.seconds) {
-        let sound = engine.step();
+        let valid = times.time(|| engine.step());
         steps += 1;
         substeps += u64::from(engine.substeps());
         engine.states(&mut states);
         let t = steps as f64 * dt;
-        if !sound {
+        if !valid {
             observer.gave_up(t);
         }
         if !observer.see(t, &states) || start.elapsed().as_secs_f64() > limits.budget {
@@ -102,7 +118,7 @@ pub fn watch(scene: &Scene, engine: &mut (impl Engine + ?Sized), dt: f64, limits
         }
     }
     let substeps = substeps as f64 / steps.max(1) as f64;
-    Watched { sim_s: steps as f64 * dt, substeps, report: observer.report(&states) }
+    Watched { sim_s: steps as f64 * dt, substeps, report: observer.report(&states), asleep: engine.asleep(), times }
 }
 
 /// Steps of `dt` in the scene's time or `seconds`, whichever is less; one at least.
@@ -186,93 +202,6 @@ impl Best {
     }
 }
 
-/// One line of a benchmark. It has 22 fields, because it is the table that is written, column by column.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    /// Who ran it.
-    pub engine: String,
-    /// Which version.
-    pub version: String,
-    /// How it was set.
-    pub config: String,
-    /// Name of the scene.
-    pub scene: String,
-    /// Bodies.
-    pub n: usize,
-    /// Step, s.
-    pub dt: f64,
-    /// Processor time of a step, best of the rounds.
-    pub us_per_step: f64,
-    /// Processor time of a simulated second.
-    pub us_per_sim_s: f64,
-    /// Steps of each round.
-    pub timed_steps: u64,
-    /// Simulated seconds of the pass that measures the motion.
-    pub sim_s: f64,
-    /// Mean substeps of its steps.
-    pub substeps: f64,
-    /// As [`Report`] has them, and so on down.
-    pub max_joint_err_m: f64,
-    /// |E − E₀|, relative.
-    pub max_energy_drift_rel: f64,
-    /// E − E₀ at the end, relative.
-    pub final_energy_drift_rel: f64,
-    /// s.
-    pub diverged_at_s: Option<f64>,
-    /// Do the rounds agree bit for bit?
-    pub repeat_bitwise: bool,
-    /// Weight's speed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub s4_speed_rel_err: Option<f64>,
-    /// Weight's way.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub s4_drop_rel_err: Option<f64>,
-    /// Phase error of the gears.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub s4_max_coupling_err_m: Option<f64>,
-    /// Mean period by straight lines.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub s5_period_err_ppm: Option<f64>,
-    /// Mean period by cubics.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub s5_period_err_hermite_ppm: Option<f64>,
-    /// Amplitude at the end over that at the start.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub s5_amplitude_ratio: Option<f64>,
-}
-
-impl Row {
-    /// A line from what was measured.
-    pub fn new(who: [&str; 3], scene: &Scene, dt: f64, best: &Best, watched: &Watched) -> Self {
-        let [engine, version, config] = who.map(str::to_owned);
-        let Report { weight, pendulum, .. } = watched.report;
-        Self {
-            engine,
-            version,
-            config,
-            scene: scene.name.clone(),
-            n: scene.bodies.len(),
-            dt,
-            us_per_step: best.us_per_step(),
-            us_per_sim_s: best.us_per_step() / dt,
-            timed_steps: best.steps(),
-            sim_s: watched.sim_s,
-            substeps: watched.substeps,
-            max_joint_err_m: watched.report.max_joint_err_m,
-            max_energy_drift_rel: watched.report.max_energy_drift_rel,
-            final_energy_drift_rel: watched.report.final_energy_drift_rel,
-            diverged_at_s: watched.report.diverged_at_s,
-            repeat_bitwise: best.agree(),
-            s4_speed_rel_err: weight.map(|w| w.speed_rel_err),
-            s4_drop_rel_err: weight.map(|w| w.drop_rel_err),
-            s4_max_coupling_err_m: weight.map(|w| w.max_coupling_err_m),
-            s5_period_err_ppm: pendulum.map(|p| p.period_err_ppm),
-            s5_period_err_hermite_ppm: pendulum.map(|p| p.period_err_hermite_ppm),
-            s5_amplitude_ratio: pendulum.map(|p| p.amplitude_ratio),
-        }
-    }
-}
-
 /// Measures this engine on a scene: rounds of time, then the pass that watches.
 pub fn measure(scene: &Scene, dt: f64, integrator: Integrator, solver: Solver, limits: Limits) -> Row {
     let engine = || Soffio::new(scene, dt, integrator, solver);
@@ -280,7 +209,10 @@ pub fn measure(scene: &Scene, dt: f64, integrator: Integrator, solver: Solver, l
     for _ in 0..ROUNDS {
         best.round(&mut engine(), step_count(scene, dt, limits.seconds), limits);
     }
-    let watched = watch(scene, &mut engine(), dt, limits);
+    let mut watched = watch(scene, &mut engine(), dt, limits);
+    for _ in 1..ROUNDS {
+        watched.times.again(&mut engine());
+    }
     let config = config(integrator, solver);
     Row::new(["soffio", env!("CARGO_PKG_VERSION"), &config], scene, dt, &best, &watched)
 }

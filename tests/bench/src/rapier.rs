@@ -2,7 +2,7 @@
 //!
 //! As its users set it, but for what would hide motion: no sleeping, no speed or spin cap, no continuous collision
 //! detection, no joint damping; gyroscopic forces on. Impulse joints know no gears, so scenes with couplings run in
-//! reduced coordinates only. Joint frames are chosen so that every joint's turn is zero at the start; the frames' x
+//! reduced coordinates only. Scenes that collide or have limits are not run. Joint frames are chosen so that every joint's turn is zero at the start; the frames' x
 //! axis is the axis of a hinge or slider.
 
 /// The same code for the crate in f32 and in f64.
@@ -173,15 +173,15 @@ macro_rules! engine {
                 Some(())
             }
 
-            /// Impulse joints, `substeps` a step; `None` for scenes with couplings.
+            /// Impulse joints, `substeps` a step; `None` for scenes with couplings or contacts.
             pub fn impulse(scene: &Scene, dt: f64, substeps: usize, warm: bool) -> Option<Box<dyn Engine>> {
-                let runs = scene.couplings.is_empty();
+                let runs = crate::articulated(scene) && scene.couplings.is_empty();
                 runs.then(|| build(scene, dt, substeps, warm, false))?.map(|world| Box::new(world) as Box<dyn Engine>)
             }
 
-            /// Reduced coordinates with the default substeps; `None` for figures too large for it.
+            /// Reduced coordinates with the default substeps; `None` for figures too large for it or with contacts.
             pub fn multibody(scene: &Scene, dt: f64) -> Option<Box<dyn Engine>> {
-                let runs = scene.bodies.len() <= crate::MULTIBODY_MOST;
+                let runs = crate::articulated(scene) && scene.bodies.len() <= crate::MULTIBODY_MOST;
                 runs.then(|| build(scene, dt, 4, false, true))?.map(|world| Box::new(world) as Box<dyn Engine>)
             }
         }

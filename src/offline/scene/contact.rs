@@ -1,0 +1,124 @@
+//! How well a scene's contacts hold, from the file's shapes and the bodies' states alone.
+//!
+//! ```text
+//! penetration = largest −gap of two shapes that may meet, m
+//! rise        = largest E(t) − E(s), s ≤ t: contacts, friction and joints only lose energy, J
+//! way         = farthest distance of a body from where it began, m
+//! drift       = the same within the last second of the run: what rests does not move, m
+//! ```
+//!
+//! Gaps are measured where the balls around two shapes overlap; shapes that only touch have none to tell.
+
+use serde::Serialize;
+
+use super::format::Scene;
+use super::measure::{State, larger};
+use soffio_math::{DVec3, Pose};
+use soffio_multibody::collision::{Collider, proximity};
+use soffio_multibody::dynamics::SurfacePair;
+
+/// Span at the end of a run in which bodies should be at rest, s.
+const REST_SPAN: f64 = 1.0;
+
+/// What the contacts of a run came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ContactReport {
+    /// Deepest overlap of two shapes over the run, m; 0 where none overlap.
+    pub max_penetration_m: f64,
+    /// The same at the end.
+    pub rest_penetration_m: f64,
+    /// Largest rise of the energy above its least value so far, J.
+    pub max_energy_rise_j: f64,
+    /// Over the scene's energy.
+    pub max_energy_rise_rel: f64,
+    /// Farthest that a body came from where it began, m.
+    pub max_way_m: f64,
+    /// Farthest that a body came from where it was a second before the end, m; none if the run ended earlier.
+    pub rest_drift_m: Option<f64>,
+}
+
+/// Watches the contacts of a run step by step.
+#[derive(Clone, Debug)]
+pub(super) struct ContactObserver {
+    colliders: Vec<Collider>,
+    pairs: Vec<SurfacePair>,
+    start: Vec<DVec3>,
+    /// When the last second begins, s, and where the bodies were then.
+    rest: (f64, Option<Vec<DVec3>>),
+    least_energy: f64,
+    report: ContactReport,
+}
+
+impl ContactObserver {
+    /// `None` for a scene without collisions. `energy` is that of the start, J.
+    pub fn new(scene: &Scene, energy: f64) -> Option<Self> {
+        scene.surface?;
+        let colliders = scene.colliders();
+        Some(Self {
+            pairs: scene.surface_pairs(&colliders),
+            colliders,
+            start: scene.bodies.iter().map(|body| DVec3::from_array(body.pos)).collect(),
+            rest: (scene.duration - REST_SPAN, None),
+            least_energy: energy,
+            report: ContactReport::default(),
+        })
+    }
+
+    /// A run ends after so many seconds, if that is before the scene's end.
+    pub fn ends(&mut self, seconds: f64) {
+        self.rest.0 = self.rest.0.min(seconds - REST_SPAN);
+    }
+
+    /// Sees the states at `t` seconds and their energy, J; `scale` is the scene's.
+    pub fn see(&mut self, t: f64, states: &[State], energy: f64, scale: f64) {
+        let penetration = self.penetration(states);
+        let report = &mut self.report;
+        report.max_penetration_m = larger(report.max_penetration_m, penetration);
+        report.rest_penetration_m = penetration;
+        report.max_energy_rise_j = larger(report.max_energy_rise_j, energy - self.least_energy);
+        report.max_energy_rise_rel = report.max_energy_rise_j / scale;
+        self.least_energy = self.least_energy.min(energy);
+        let farthest = |from: &[DVec3]| {
+            states.iter().zip(from).map(|(state, from)| state.position.distance(*from)).fold(0.0, larger)
+        };
+        report.max_way_m = larger(report.max_way_m, farthest(&self.start));
+        match &self.rest {
+            (_, Some(from)) => {
+                report.rest_drift_m = Some(larger(report.rest_drift_m.unwrap_or_default(), farthest(from)));
+            }
+            (begins, None) if t >= *begins => {
+                self.rest.1 = Some(states.iter().map(|state| state.position).collect());
+            }
+            _ => {}
+        }
+    }
+
+    pub fn report(&self) -> ContactReport {
+        self.report
+    }
+
+    fn penetration(&self, states: &[State]) -> f64 {
+        let pose = |collider: &Collider| {
+            let state = collider.body.map_or(&State::WORLD, |body| &states[body]);
+            Pose { rotation: state.rotation, position: state.position }
+        };
+        let placed: Vec<(Pose, DVec3, f64)> = self
+            .colliders
+            .iter()
+            .map(|collider| {
+                let (pose, (middle, radius)) = (pose(collider), collider.bounds());
+                (pose, pose.point(middle), radius + collider.shape.radius)
+            })
+            .collect();
+        let mut deepest = 0.0;
+        for SurfacePair { pair, .. } in &self.pairs {
+            let ((pose_a, a, radius_a), (pose_b, b, radius_b)) = (&placed[pair.a], &placed[pair.b]);
+            let reach = radius_a + radius_b;
+            if a.distance_squared(*b) < reach * reach {
+                let (first, second) = (&self.colliders[pair.a].shape, &self.colliders[pair.b].shape);
+                deepest = larger(deepest, -proximity(first, pose_a, second, pose_b).gap);
+            }
+        }
+        deepest
+    }
+}

@@ -1,0 +1,84 @@
+//! How long each step of a run took, in processor time of its thread.
+//!
+//! The same steps are run several times and the least time of each counts, as the machine's other work can only add: what
+//! is left of a slow step is the step's own.
+
+use cpu_time::ThreadTime;
+use serde::Serialize;
+
+use super::run::Engine;
+
+/// Least time of each step of a run so far, µs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepTimes {
+    us: Vec<f64>,
+}
+
+/// Step times in short, µs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct TimesReport {
+    /// Mean.
+    pub mean_us: f64,
+    /// Half of the steps take at most so long.
+    pub p50_us: f64,
+    /// And 99 of 100.
+    pub p99_us: f64,
+    /// And all.
+    pub p100_us: f64,
+    /// Index of the longest, from 0.
+    pub worst_step: usize,
+}
+
+impl StepTimes {
+    /// Runs the next step of the first round.
+    pub fn time<T>(&mut self, step: impl FnOnce() -> T) -> T {
+        let (us, out) = timed(step);
+        self.us.push(us);
+        out
+    }
+
+    /// Runs all steps once more in an engine at its start; of each the least time counts.
+    pub fn again(&mut self, engine: &mut (impl Engine + ?Sized)) {
+        self.again_by(|_| engine.step());
+    }
+
+    /// The same with any way to run the step of an index.
+    pub fn again_by<T>(&mut self, mut step: impl FnMut(usize) -> T) {
+        for (index, least) in self.us.iter_mut().enumerate() {
+            *least = least.min(timed(|| step(index)).0);
+        }
+    }
+
+    /// Time of each step, µs.
+    pub fn us(&self) -> &[f64] {
+        &self.us
+    }
+
+    /// Mean, percentiles and the longest step; zeros without steps.
+    pub fn report(&self) -> TimesReport {
+        let mut sorted = self.us.clone();
+        sorted.sort_by(f64::total_cmp);
+        // The least time that so many percent of the steps keep to.
+        let percentile = |percent: usize| sorted.get((percent * sorted.len()).div_ceil(100).max(1) - 1).copied();
+        let worst = (0..self.us.len()).reduce(|worst, step| if self.us[step] > self.us[worst] { step } else { worst });
+        TimesReport {
+            mean_us: self.us.iter().sum::<f64>() / self.us.len().max(1) as f64,
+            p50_us: percentile(50).unwrap_or_default(),
+            p99_us: percentile(99).unwrap_or_default(),
+            p100_us: percentile(100).unwrap_or_default(),
+            worst_step: worst.unwrap_or_default(),
+        }
+    }
+}
+
+impl FromIterator<f64> for StepTimes {
+    fn from_iter<I: IntoIterator<Item = f64>>(us: I) -> Self {
+        Self { us: us.into_iter().collect() }
+    }
+}
+
+fn timed<T>(run: impl FnOnce() -> T) -> (f64, T) {
+    let start = ThreadTime::now();
+    let out = run();
+    (1e6 * start.elapsed().as_secs_f64(), out)
+}
