@@ -12,6 +12,7 @@
 //! | [`wav`], [`feed`] | recordings, and how they become a microphone |
 //! | [`trace`], [`events`], [`soundtrack`] | poses as CSV, events as JSON lines, sound as WAV |
 //! | [`export`] | baked glTF animation, MuJoCo models, RenderMan scenes |
+//! | [`load`] | what must not slow an exhibit down: assembly, a hard breath, a fast hand |
 //! | [`loudness`] | loudness and true peak of an exhibit |
 //! | [`scene`] | physics scenes, their measures and their limits |
 //!
@@ -41,6 +42,7 @@ pub mod events;
 pub mod export;
 pub mod feed;
 pub mod frames;
+pub mod load;
 pub mod loudness;
 #[cfg(feature = "pictures")]
 pub mod pictures;

@@ -1,4 +1,4 @@
-//! What a step of an exhibit costs: motion, wind, a hard breath, sound.
+//! What a step of an exhibit costs: motion, wind, a hard breath, sound; and its dearest steps under all loads.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -9,13 +9,12 @@ use serde::Serialize;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
+use soffio_offline::load::{HARD, Load, LoadReport, LoadTimes, loads};
 use soffio_simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_sound::{SoundCommand, Synth};
 
 /// Rounds of each measurement; the best is reported, as the machine's other work can only add.
 const ROUNDS: usize = 3;
-/// A hard breath, m/s at the lips.
-const HARD: f64 = 17.0;
 
 /// Costs of one exhibit, thread CPU time, best of three.
 #[derive(Serialize)]
@@ -35,27 +34,43 @@ struct Row {
     substeps: u32,
     /// Times faster than real time in a hard breath, sound included.
     real_time_factor: f64,
+    /// Step times in a hard breath, under a fast hand, and while the parts gather, where it has these; and in all of them.
+    hard_breath: Option<LoadReport>,
+    drag: Option<LoadReport>,
+    assembly: Option<LoadReport>,
+    all: Option<LoadReport>,
 }
 
 /// Measures the named exhibits, or all that are shipped.
-pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
+pub fn run(names: &[String], seconds: f64, seeds: u64, json: bool) -> Outcome {
     let names = if names.is_empty() { soffio_exhibit::ids() } else { names.to_vec() };
     if names.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
     }
     if !json {
         println!(
-            "{:<16} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9}",
-            "exhibit", "bodies", "colliders", "motion", "still", "breath", "sound", "substeps", "x real"
+            "{:<20} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>7} | {:>9} {:>9} {:>9}  worst step",
+            "exhibit",
+            "bodies",
+            "colliders",
+            "motion",
+            "still",
+            "breath",
+            "sound",
+            "substeps",
+            "x real",
+            "p50",
+            "p99",
+            "p100"
         );
     }
     for name in names {
-        let row = measure(&open(&name)?, seconds)?;
+        let row = measure(&open(&name)?, seconds, seeds)?;
         if json {
             println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
         } else {
-            println!(
-                "{:<16} {:>6} {:>9} {:>6.1} us {:>6.1} us {:>6.1} us {:>6.1} us {:>8} {:>9.1}",
+            print!(
+                "{:<20} {:>6} {:>9} {:>6.1} us {:>6.1} us {:>6.1} us {:>6.1} us {:>8} {:>7.0} | ",
                 row.exhibit,
                 row.bodies,
                 row.colliders,
@@ -66,12 +81,19 @@ pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
                 row.substeps,
                 row.real_time_factor
             );
+            match &row.all {
+                Some(LoadReport { times, worst_load, worst_at_s }) => println!(
+                    "{:>6.0} us {:>6.0} us {:>6.0} us  {worst_load}, step {} ({worst_at_s:.2} s)",
+                    times.p50_us, times.p99_us, times.p100_us, times.worst_step
+                ),
+                None => println!("none"),
+            }
         }
     }
     Ok(())
 }
 
-fn measure(exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Row, Failure> {
+fn measure(exhibit: &Arc<Exhibit>, seconds: f64, seeds: u64) -> Result<Row, Failure> {
     let steps = (seconds * STEPS_PER_SECOND as f64).ceil() as u64;
     let blow = [Command::Blow(Some(HARD))];
     let still = Settings::default();
@@ -91,7 +113,14 @@ fn measure(exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Row, Failure> {
         }
         sound_us = sound_us.min(1e6 * start.elapsed().as_secs_f64() / steps as f64);
     }
+    let times: Vec<LoadTimes> =
+        loads(exhibit, seeds, seconds).into_iter().map(|load| LoadTimes::measure(exhibit, load, ROUNDS)).collect();
+    let of = |kind: fn(&Load) -> bool| LoadReport::of(times.iter().filter(|times| kind(&times.load)));
     Ok(Row {
+        hard_breath: of(|load| matches!(load, Load::Breath(_))),
+        drag: of(|load| matches!(load, Load::Drag)),
+        assembly: of(|load| matches!(load, Load::Assembly(_))),
+        all: LoadReport::of(&times),
         exhibit: exhibit.id.clone(),
         bodies: exhibit.bodies.len(),
         colliders: exhibit.colliders.len(),

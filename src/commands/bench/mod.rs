@@ -25,12 +25,13 @@ const EXHIBIT_SECONDS: f64 = 10.0;
 #[cfg(feature = "kiosk")]
 const PICTURE_SECONDS: f64 = 2.0;
 
-/// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, and its sound), of an
-/// articulated scene beside how well it keeps energy and joints, of a body as figures grow, of wind on many parts, of
+/// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, its sound, and the dearest steps in
+/// a hard breath, under a fast hand and while its parts gather), of a
+/// scene beside how well it keeps energy, joints and contacts, of a body as figures grow, of wind on many parts, of
 /// thousands of partials that ring, of motion by places, or of pictures.
 #[derive(clap::Args, Debug)]
 #[command(
-    after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
+    after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --seeds 100\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
                         soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound\n  \
                         soffio bench --procedural\n  soffio bench steel-fish --picture 1920x1080"
 )]
@@ -38,7 +39,7 @@ pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
     #[arg(conflicts_with_all = ["scene", "linear", "wind", "sound"])]
     exhibits: Vec<String>,
-    /// An articulated scene, JSON of the format `isaac-bench-scene/1`; more than one may be given.
+    /// A scene, JSON of the format `soffio-scene/1` (or `isaac-bench-scene/1`); more than one may be given.
     #[arg(long, value_name = "FILE.json")]
     scene: Vec<PathBuf>,
     /// What a body costs in chains and binary trees of 10, 100, 1,000 and 10,000.
@@ -66,6 +67,9 @@ pub struct Args {
     /// Which linear solver a scene uses.
     #[arg(long, value_enum, default_value_t = SolverArg::Sparse)]
     solver: SolverArg,
+    /// Assemblies of an exhibit, each from parts scattered by a seed of its own.
+    #[arg(long, value_name = "N", default_value_t = 5, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
+    seeds: u64,
     /// Simulated seconds: of each measurement of an exhibit (10 if not given; 2 of pictures), at most of a scene.
     #[arg(long, value_parser = parse_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
@@ -110,7 +114,7 @@ pub fn run(args: Args) -> Outcome {
         return picture::run(&args.exhibits, size, args.seconds.unwrap_or(PICTURE_SECONDS), args.json);
     }
     if args.scene.is_empty() {
-        return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.json);
+        return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.seeds, args.json);
     }
     let integrator = match args.integrator {
         IntegratorArg::Auto => Integrator::Auto,
