@@ -3,12 +3,17 @@
 use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::failure::{Failure, Outcome};
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
+use soffio_offline::budget::{self, Findings};
 
 /// Validates exhibits, configs and models: all problems at once, located, explained.
+///
+/// An exhibit without mistakes is also run, for up to 10 s of processor time: a hard breath, a fast hand, and 20 assemblies.
+/// A warning tells where a kiosk would not keep up with it.
 ///
 /// Example: soffio check exhibits/steel-fish
 #[derive(clap::Args, Debug, Default)]
@@ -17,6 +22,9 @@ pub struct Args {
     /// (any other .toml).
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<String>,
+    /// Does not run the exhibits.
+    #[arg(long)]
+    quick: bool,
     /// Prints one JSON array of problems to stdout.
     #[arg(long)]
     json: bool,
@@ -26,12 +34,16 @@ pub struct Args {
 pub fn run(args: Args) -> Outcome {
     let mut all = Report::default();
     for path in args.paths.iter().flat_map(|path| expand(path)) {
-        let report = check(&path);
+        let (report, findings) = check(&path, args.quick);
         if !args.json {
             let verdict = match (report.has_errors(), report.diagnostics.len()) {
                 (_, 0) => "good".to_owned(),
                 (true, n) => format!("{n} problem{}", if n == 1 { "" } else { "s" }),
                 (false, n) => format!("good, {n} warning{}", if n == 1 { "" } else { "s" }),
+            };
+            let verdict = match findings.filter(|findings| findings.tried < findings.of) {
+                Some(Findings { tried, of, .. }) => format!("{verdict} (time for {tried} of {of} loads)"),
+                None => verdict,
             };
             eprint!("{}", report.render(std::io::stderr().is_terminal()));
             eprintln!("{path}: {verdict}");
@@ -57,19 +69,20 @@ fn expand(path: &str) -> Vec<String> {
     if own || inside.is_empty() { vec![path.into()] } else { inside }
 }
 
-/// Problems and warnings of one path, by what it is.
-fn check(path: &str) -> Report {
+/// Problems and warnings of one path, by what it is, and what a run found.
+fn check(path: &str, quick: bool) -> (Report, Option<Findings>) {
     let file = Path::new(path);
     let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
+    let without = |report: Report| (report, None);
     let outcome = match extension.as_str() {
-        "glb" | "gltf" => model::import(file).map(|imported| Report::from(imported.warnings)),
+        "glb" | "gltf" => model::import(file).map(|imported| without(imported.warnings.into())),
         "toml" if file.file_name().is_some_and(|name| name == exhibit::SIDECAR) => {
-            exhibit_report(file.parent().unwrap_or(file))
+            exhibit_report(file.parent().unwrap_or(file), quick)
         }
-        "toml" => Config::load(Some(file)).map(|_| Report::default()).map_err(|error| config_report(&error)),
-        _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder)),
+        "toml" => Config::load(Some(file)).map(|_| without(Report::default())).map_err(|error| config_report(&error)),
+        _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder, quick)),
     };
-    outcome.unwrap_or_else(|report| report)
+    outcome.unwrap_or_else(without)
 }
 
 /// A configuration's problems in the form of an exhibit's.
@@ -100,6 +113,14 @@ fn rest_of_line(text: &str, line: usize, column: usize) -> Range<usize> {
     start + before..start + line.len()
 }
 
-fn exhibit_report(folder: &Path) -> Result<Report, Report> {
-    exhibit::load(folder).map(|exhibit| exhibit.warning_report())
+fn exhibit_report(folder: &Path, quick: bool) -> Result<(Report, Option<Findings>), Report> {
+    let exhibit = Arc::new(exhibit::load(folder)?);
+    let mut report = exhibit.warning_report();
+    if quick {
+        return Ok((report, None));
+    }
+    let findings = budget::check(&exhibit);
+    let warnings = findings.late.iter().map(|late| late.warning(&exhibit.id)).collect::<Vec<_>>();
+    report.absorb(warnings.into());
+    Ok((report, Some(findings)))
 }

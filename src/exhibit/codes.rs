@@ -85,4 +85,5 @@ codes! {
     GEAR_DISTANCE = "W0408", "the axles of two gears are not as far apart as their radii say";
     MASS_RATIO = "W0409", "two joined bodies differ in mass by more than a million";
     UNUSED = "W0410", "a value is given that nothing uses";
+    LATE = "W0411", "a step takes longer than a kiosk has for it";
 }

@@ -12,7 +12,7 @@
 //! | [`wav`], [`feed`] | recordings, and how they become a microphone |
 //! | [`trace`], [`events`], [`soundtrack`] | poses as CSV, events as JSON lines, sound as WAV |
 //! | [`export`] | baked glTF animation, MuJoCo models, RenderMan scenes |
-//! | [`load`] | what must not slow an exhibit down: assembly, a hard breath, a fast hand |
+//! | [`load`], [`budget`] | what must not slow an exhibit down: assembly, a hard breath, a fast hand; and whether it does |
 //! | [`loudness`] | loudness and true peak of an exhibit |
 //! | [`scene`] | physics scenes, their measures and their limits |
 //!
@@ -36,6 +36,7 @@
 //! ```
 
 pub mod audition;
+pub mod budget;
 pub mod compare;
 pub mod demo;
 pub mod events;

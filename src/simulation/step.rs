@@ -16,6 +16,7 @@ use super::start::start_dynamics;
 use soffio_exhibit::{Exhibit, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::StateHash;
+use soffio_multibody::dynamics::Touching;
 use soffio_multibody::procedural::Reach;
 use soffio_sound::SoundCommand;
 
@@ -254,6 +255,11 @@ impl Simulation {
     pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
         self.motion.dynamics.disturb();
         &mut self.motion.dynamics.bodies
+    }
+
+    /// Surfaces that press on each other at the end of the last step.
+    pub fn touching(&self) -> impl Iterator<Item = Touching> + '_ {
+        self.motion.dynamics.touching()
     }
 
     /// Largest distance between the two points of any joint now, m.

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod breath_command;
+mod budget;
 mod cabinet;
 mod chimes;
 mod cli;

@@ -32,8 +32,8 @@ pub struct TimesReport {
 impl StepTimes {
     /// Runs the next step of the first round.
     pub fn time<T>(&mut self, step: impl FnOnce() -> T) -> T {
-        let (us, out) = timed(step);
-        self.us.push(us);
+        let (seconds, out) = timed(step);
+        self.us.push(1e6 * seconds);
         out
     }
 
@@ -45,7 +45,7 @@ impl StepTimes {
     /// The same with any way to run the step of an index.
     pub fn again_by<T>(&mut self, mut step: impl FnMut(usize) -> T) {
         for (index, least) in self.us.iter_mut().enumerate() {
-            *least = least.min(timed(|| step(index)).0);
+            *least = least.min(1e6 * timed(|| step(index)).0);
         }
     }
 
@@ -77,8 +77,9 @@ impl FromIterator<f64> for StepTimes {
     }
 }
 
-fn timed<T>(run: impl FnOnce() -> T) -> (f64, T) {
+/// Runs something; its processor time, s, and what it returns.
+pub fn timed<T>(run: impl FnOnce() -> T) -> (f64, T) {
     let start = ThreadTime::now();
     let out = run();
-    (1e6 * start.elapsed().as_secs_f64(), out)
+    (start.elapsed().as_secs_f64(), out)
 }

@@ -18,7 +18,7 @@ fn an_exhibit_is_begun_played_translated_and_never_written_over() {
     let new = desk.soffio(&["new", "red-mobile", "--from", "mobile", "--plates", "120x80,100,90x60"]);
     assert_eq!(new.done(), "exhibits/red-mobile\n");
     assert!(new.err.contains("Plate1: 120x80") && new.err.contains("soffio check exhibits/red-mobile"), "{}", new.err);
-    let check = desk.soffio(&["check", "red-mobile"]);
+    let check = desk.soffio(&["check", "--quick", "red-mobile"]);
     check.done();
     assert!(check.err.contains("red-mobile: good\n"), "{}", check.err);
     desk.soffio(&["play", "red-mobile", "--no-wind", "--seconds", "0.5"]).done();
@@ -45,7 +45,7 @@ fn an_exhibit_is_begun_played_translated_and_never_written_over() {
     for words in ["\"ko\" has no column", "\"body\" has no row", "4 texts changed"] {
         assert!(read.err.contains(words), "{words}: {}", read.err);
     }
-    let told = desk.soffio(&["check", "red-mobile"]);
+    let told = desk.soffio(&["check", "--quick", "red-mobile"]);
     told.done();
     assert!(told.err.contains("missing in \"fr\""), "what is left to translate: {}", told.err);
     desk.soffio(&["labels", "red-mobile"]).refused(2, &["--csv"]);
@@ -93,7 +93,7 @@ fn a_model_is_imported_under_the_name_of_its_file() {
     let run = desk.soffio(&["import", "My Cup_2.glb"]);
     assert_eq!(run.done(), "my-cup-2\n");
     assert!(run.err.contains("node \"Cup\""), "{}", run.err);
-    let check = desk.soffio(&["check", "my-cup-2"]);
+    let check = desk.soffio(&["check", "--quick", "my-cup-2"]);
     check.done();
     assert!(check.err.contains("my-cup-2: good\n"), "{}", check.err);
     desk.soffio(&["import", "My Cup_2.glb"]).refused(1, &["my-cup-2", "is there already"]);
@@ -105,7 +105,7 @@ fn a_model_is_imported_under_the_name_of_its_file() {
     desk.write("odd.glb", scene.glb());
     let odd = desk.soffio(&["import", "odd.glb"]);
     odd.refused(1, &["E0223", "odd/exhibit.toml:", "is there; mend", "soffio check odd"]);
-    assert_eq!(desk.soffio(&["check", "odd"]).code, Some(1));
+    assert_eq!(desk.soffio(&["check", "--quick", "odd"]).code, Some(1));
     assert_eq!(desk.files(), ["My Cup_2.glb", "cup", "my-cup-2", "odd", "odd.glb"]);
 }
 
@@ -145,7 +145,7 @@ fn every_mistake_is_told_with_its_line_its_cause_and_a_remedy() {
         let at = good.find(find).unwrap_or_else(|| panic!("no {find} in\n{good}"));
         std::fs::write(&path, good.replacen(find, replace, 1)).expect("writable");
         let line = good[..at].matches('\n').count() + 1;
-        let told = desk.soffio(&["check", "mine"]);
+        let told = desk.soffio(&["check", "--quick", "mine"]);
         assert_eq!(told.code, Some(1), "{replace}: {}", told.err);
         assert_eq!(told.out, "");
         let place = format!("mine/exhibit.toml:{line}:");
@@ -154,7 +154,7 @@ fn every_mistake_is_told_with_its_line_its_cause_and_a_remedy() {
         }
     }
     std::fs::write(&path, &good).expect("writable");
-    desk.soffio(&["check", "mine"]).done();
+    desk.soffio(&["check", "--quick", "mine"]).done();
 }
 
 /// One spoiled text: lines that are gone, double, moved or cut, and characters that are others.

@@ -1,0 +1,182 @@
+//! Does an exhibit keep up with time? A step of 1/240 s may take 4.17 ms, whatever visitors do ([`load`](super::load)).
+//!
+//! What counts is measured processor time. A count of work would be the same on every machine, but steps cost different
+//! things (wind, contacts, loops, substeps), and a sum of them would need weights that are wrong after every change of
+//! the engine. Time depends on the machine, so a curator has the last word from the kiosk itself. A step that is too
+//! long is run again from the start of its load and counts by the lesser time, so that other work on the machine is not
+//! taken for the exhibit's. Each kind of load ends with its first step that is too long, and the whole check after
+//! [`MOST`] seconds.
+
+use std::sync::Arc;
+
+use super::load::{Load, LoadRun, loads};
+use super::scene::times::timed;
+use soffio_exhibit::{Diagnostic, Exhibit, codes};
+use soffio_multibody::articulation::ConstraintKind;
+use soffio_simulation::STEPS_PER_SECOND;
+
+/// Time of a step, s.
+const BUDGET: f64 = 1.0 / STEPS_PER_SECOND as f64;
+/// Assemblies that are tried, and seconds of breath.
+pub const SEEDS: u64 = 20;
+const BREATH_SECONDS: f64 = 10.0;
+/// Processor time of the check of an exhibit, about, s.
+pub const MOST: f64 = 10.0;
+/// Points that touch in a step and make it long.
+const MANY_TOUCHES: usize = 8;
+/// Substeps that do.
+const MANY_SUBSTEPS: u32 = 4;
+
+/// A step that takes too long.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LateStep {
+    /// Under which load.
+    pub load: Load,
+    /// Its index.
+    pub step: usize,
+    /// What it took, s.
+    pub seconds: f64,
+    /// What there was to do in it, in a curator's words.
+    pub cause: String,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// The first step of each kind of load that is too long.
+    pub late: Vec<LateStep>,
+    /// Loads that were run, and how many there are without a late one.
+    pub tried: usize,
+    /// All loads.
+    pub of: usize,
+}
+
+/// Runs an exhibit under all loads.
+pub fn check(exhibit: &Arc<Exhibit>) -> Findings {
+    check_within(exhibit, BUDGET, MOST)
+}
+
+/// The same with another bound of a step's time and of the whole check's, s.
+pub fn check_within(exhibit: &Arc<Exhibit>, bound: f64, most: f64) -> Findings {
+    let loads = loads(exhibit, SEEDS, BREATH_SECONDS);
+    let mut findings = Findings { of: loads.len(), ..Findings::default() };
+    let mut left = most;
+    let kind = |load: &Load| std::mem::discriminant(load);
+    for load in loads {
+        if findings.late.iter().any(|late| kind(&late.load) == kind(&load)) {
+            findings.of -= 1;
+            continue;
+        }
+        if left <= 0.0 {
+            continue;
+        }
+        findings.tried += 1;
+        let (late, took) = first_late(exhibit, load, bound, left);
+        findings.late.extend(late);
+        left -= took;
+    }
+    findings
+}
+
+/// The first step of a load that takes longer than `bound` both times, and the time that finding it took, which ends it
+/// at `most`, s.
+fn first_late(exhibit: &Arc<Exhibit>, load: Load, bound: f64, most: f64) -> (Option<LateStep>, f64) {
+    let mut run = LoadRun::new(exhibit, load);
+    let mut took = 0.0;
+    for step in 0..run.steps() {
+        let (seconds, ()) = timed(|| run.step());
+        took += seconds;
+        if seconds > bound {
+            let mut again = LoadRun::new(exhibit, load);
+            let (before, ()) = timed(|| (0..step).for_each(|_| again.step()));
+            let (second, ()) = timed(|| again.step());
+            took += before + second;
+            let seconds = seconds.min(second);
+            if seconds > bound {
+                return (Some(LateStep { load, step, seconds, cause: cause(&again) }), took);
+            }
+        }
+        if took > most {
+            break;
+        }
+    }
+    (None, took)
+}
+
+/// What there was to do in the last step.
+fn cause(run: &LoadRun) -> String {
+    let exhibit = run.simulation.exhibit();
+    let mut causes = Vec::new();
+    let name = |body: usize| exhibit.bodies[body].name.as_str();
+    let mut touches = vec![0; exhibit.bodies.len()];
+    let mut points = 0;
+    for touching in run.simulation.touching() {
+        points += 1;
+        touching.bodies.iter().flatten().for_each(|&body| touches[body] += 1);
+    }
+    let most = (0..touches.len()).max_by_key(|&body| (touches[body], std::cmp::Reverse(body)));
+    if let Some(most) = most.filter(|_| points >= MANY_TOUCHES) {
+        causes.push(format!("parts touch at {points} points, {} of them on \"{}\"", touches[most], name(most)));
+    }
+    let loops = closing_joints(exhibit);
+    if loops > 0 {
+        causes.push(format!("closed loops: {loops} joint{}", if loops == 1 { "" } else { "s" }));
+    }
+    let substeps = run.simulation.snapshot().diagnostics.substeps;
+    if substeps >= MANY_SUBSTEPS {
+        causes.push(format!("something light or fast asks for {substeps} substeps"));
+    }
+    if causes.is_empty() {
+        causes.push(format!("{} bodies and {} shapes that collide", exhibit.bodies.len(), exhibit.colliders.len()));
+    }
+    causes.join("; ")
+}
+
+/// Joints beyond those that hang each body: two bodies that others connect already.
+fn closing_joints(exhibit: &Exhibit) -> usize {
+    // The world is one more body; a body's group is that of the least body that joints connect it to.
+    let world = exhibit.bodies.len();
+    let mut group: Vec<usize> = (0..=world).collect();
+    let mut joined: Vec<[usize; 2]> = Vec::new();
+    for constraint in &exhibit.constraints {
+        let bodies = match &constraint.kind {
+            ConstraintKind::PointToPoint { a, b } => [a.body, b.body],
+            ConstraintKind::PointOnPlane { point, plane, .. } => [point.body, plane.body],
+            ConstraintKind::Orientation { a, b, .. } => [a.body, b.body],
+            ConstraintKind::Coupling { .. } => continue,
+        };
+        let mut bodies = bodies.map(|body| body.unwrap_or(world));
+        bodies.sort_unstable();
+        if !joined.contains(&bodies) {
+            joined.push(bodies);
+        }
+    }
+    let closes = |[a, b]: [usize; 2]| {
+        let (first, second) = (group[a], group[b]);
+        group.iter_mut().filter(|group| **group == second).for_each(|group| *group = first);
+        first == second
+    };
+    joined.into_iter().map(closes).filter(|closes| *closes).count()
+}
+
+impl LateStep {
+    /// As a warning about the exhibit of this name.
+    pub fn warning(&self, exhibit: &str) -> Diagnostic {
+        let Self { load, step, seconds, cause } = self;
+        let at = *step as f64 / STEPS_PER_SECOND as f64;
+        let message = format!(
+            "{exhibit}: a step takes {:.1} ms here, {at:.2} s after the beginning of: {load}; a kiosk has {:.2} ms for it \
+             ({cause})",
+            1e3 * seconds,
+            1e3 * BUDGET
+        );
+        let fewer = match load {
+            Load::Assembly(_) => "fewer joints that close loops, or `gathers = false` under [scene]",
+            Load::Breath(_) | Load::Drag => {
+                "fewer parts that touch at once, simpler shapes, fewer joints that close loops"
+            }
+        };
+        let help = format!("{fewer}; `soffio bench {exhibit}` tells its longest steps, on the kiosk too");
+        Diagnostic::new(codes::LATE, message).help(help)
+    }
+}
