@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_simulation::{
-    Command, EventKind, GATHERING_LASTS, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
+    Command, EventKind, GATHERING_LASTS, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
 };
 
 fn load(id: &str) -> Arc<Exhibit> {
@@ -46,4 +46,43 @@ fn a_script_gathers_and_a_hand_and_a_breath_do_not_hinder_it() {
     }
     assert!(gathered && simulation.gathers_from().is_none());
     assert!(simulation.joint_error() < 1e-9, "{} m", simulation.joint_error());
+}
+
+#[test]
+fn position_based_parts_gather_too_at_any_change_of_the_kind_of_motion() {
+    /// Δ₀ (1 + Ωt) e^(−Ωt) of half a metre at the end is 0.2 µm, m.
+    const HOME: f64 = 5e-6;
+    let positions = Some(MotionMode::PositionBased);
+    let modes: [fn(u64) -> Option<MotionMode>; 3] = [
+        |_| Some(MotionMode::PositionBased),
+        // As a governor that comes to it, and goes back.
+        |step| (step > 300).then_some(MotionMode::PositionBased),
+        |step| (step % 400 < 200).then_some(MotionMode::PositionBased),
+    ];
+    for id in ["twelve-moons", "snow", "breath-clock"] {
+        let exhibit = load(id);
+        for mode in modes {
+            let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
+            let mut before: Option<Vec<_>> = None;
+            let mut fastest = 0.0_f64;
+            for step in 0..steps(GATHERING_LASTS) {
+                let commands = [Command::Gather(5)];
+                let commands = if step == 0 { &commands[..] } else { &[] };
+                simulation.step(&StepInput { commands, mode: mode(step), ..StepInput::default() });
+                assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "{id}: step {step}");
+                let places: Vec<_> = simulation.bodies().iter().map(|body| body.position).collect();
+                for (now, before) in places.iter().zip(before.iter().flatten()) {
+                    fastest = fastest.max(now.distance(*before));
+                }
+                before = Some(places);
+            }
+            let away = simulation.gathers_from().expect("it still gathers");
+            assert!(away < HOME, "{id}: {away} m from home");
+            // Ω Δ₀/e of a metre a second at most, by the field's word; joints may pull somewhat harder.
+            assert!(fastest * STEPS_PER_SECOND as f64 <= 4.0, "{id}: no part jumps: {fastest} m in a step");
+            simulation.step(&StepInput { mode: positions, ..StepInput::default() });
+            assert_eq!(simulation.gathers_from(), None);
+            assert!(simulation.joint_error() < 1e-6, "{id}: {} m", simulation.joint_error());
+        }
+    }
 }

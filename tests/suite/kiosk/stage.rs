@@ -356,11 +356,12 @@ fn what_the_governor_chose_repeats_to_the_bit() {
             script.push(format!(r#"{{"t": {t}, "solver": "{name}"}}"#));
         }
         stage.step(&controls, None);
-        // As on a machine that is too slow for the laws from the second second on.
+        // As on a machine that is too slow for dynamics from the second second on.
         let slow = step > 240 && controls.mode.is_none();
         governor.note(if slow { 5e-3 } else { 5e-4 });
     }
-    assert_eq!(script.len(), 2, "{script:?}");
+    // Twice it tries dynamics again, after one and after two seconds.
+    assert_eq!((governor.switches(), script.len()), (5, 6), "{script:?}");
     let play = Play {
         script: Some(Script::parse(&script.join("\n")).expect("a good script")),
         seconds: STEPS as f64 / 240.0,
@@ -370,7 +371,7 @@ fn what_the_governor_chose_repeats_to_the_bit() {
     };
     let summary = play::run(&exhibit, play, &false.into(), |_| {}, None).expect("it runs");
     assert_eq!(summary.state_hash, format!("{:016x}", stage.state_hash()));
-    assert_eq!(summary.solver_switches, 1);
+    assert_eq!(summary.solver_switches, 5);
 }
 
 #[test]
