@@ -10,6 +10,7 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
 use soffio_offline::load::{HARD, Load, LoadReport, LoadTimes, loads};
+use soffio_offline::scene::times::timed;
 use soffio_simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_sound::{SoundCommand, Synth};
 
@@ -34,6 +35,10 @@ struct Row {
     substeps: u32,
     /// Times faster than real time in a hard breath, sound included.
     real_time_factor: f64,
+    /// ms to read and check the exhibit's files, to build what moves, and to build its instruments.
+    load_ms: f64,
+    start_ms: f64,
+    instruments_ms: f64,
     /// Step times in a hard breath, under a fast hand, and while the parts gather, where it has these; and in all of them.
     hard_breath: Option<LoadReport>,
     drag: Option<LoadReport>,
@@ -49,10 +54,11 @@ pub fn run(names: &[String], seconds: f64, seeds: u64, json: bool) -> Outcome {
     }
     if !json {
         println!(
-            "{:<20} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>7} | {:>9} {:>9} {:>9}  worst step",
+            "{:<20} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>7} | {:>9} {:>9} {:>9}  worst step",
             "exhibit",
             "bodies",
             "colliders",
+            "load",
             "motion",
             "still",
             "breath",
@@ -70,10 +76,11 @@ pub fn run(names: &[String], seconds: f64, seeds: u64, json: bool) -> Outcome {
             println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
         } else {
             print!(
-                "{:<20} {:>6} {:>9} {:>6.1} us {:>6.1} us {:>6.1} us {:>6.1} us {:>8} {:>7.0} | ",
+                "{:<20} {:>6} {:>9} {:>6.0} ms {:>6.1} us {:>6.1} us {:>6.1} us {:>6.1} us {:>8} {:>7.0} | ",
                 row.exhibit,
                 row.bodies,
                 row.colliders,
+                row.load_ms + row.start_ms + row.instruments_ms,
                 row.motion_us,
                 row.still_us,
                 row.breath_us,
@@ -113,6 +120,10 @@ fn measure(exhibit: &Arc<Exhibit>, seconds: f64, seeds: u64) -> Result<Row, Fail
         }
         sound_us = sound_us.min(1e6 * start.elapsed().as_secs_f64() / steps as f64);
     }
+    let folder = exhibit.folder.clone();
+    let load_ms = best_ms(|| soffio_exhibit::load(&folder));
+    let start_ms = best_ms(|| Simulation::new(exhibit.clone(), still));
+    let instruments_ms = best_ms(|| Synth::new(SAMPLE_RATE, &exhibit.instruments, still.seed));
     let times: Vec<LoadTimes> =
         loads(exhibit, seeds, seconds).into_iter().map(|load| LoadTimes::measure(exhibit, load, ROUNDS)).collect();
     let of = |kind: fn(&Load) -> bool| LoadReport::of(times.iter().filter(|times| kind(&times.load)));
@@ -129,8 +140,16 @@ fn measure(exhibit: &Arc<Exhibit>, seconds: f64, seeds: u64) -> Result<Row, Fail
         breath_us,
         sound_us,
         substeps,
+        load_ms,
+        start_ms,
+        instruments_ms,
         real_time_factor: 1e6 / (STEPS_PER_SECOND as f64 * (breath_us + sound_us)),
     })
+}
+
+/// ms to make something, best of the rounds.
+fn best_ms<T>(make: impl Fn() -> T) -> f64 {
+    (0..ROUNDS).map(|_| 1e3 * timed(|| black_box(make())).0).fold(f64::INFINITY, f64::min)
 }
 
 /// µs per step, best of the rounds; the sounds of each step and the last step's substeps.
