@@ -35,10 +35,11 @@ impl Hull {
         let mean = points.iter().sum::<DVec3>() / points.len() as f64;
         let size = points.iter().fold(0.0, |r: f64, p| r.max(p.distance(mean)));
         let mut found: Vec<(DVec3, Vec<usize>)> = Vec::new();
+        let mut known = KnownFaces::new(points.len());
         for i in 0..points.len() {
             for j in i + 1..points.len() {
                 for k in j + 1..points.len() {
-                    plane_of(points, [i, j, k], FLAT * size, &mut found);
+                    plane_of(points, [i, j, k], FLAT * size, &mut found, &mut known);
                 }
             }
         }
@@ -136,8 +137,46 @@ impl Hull {
     }
 }
 
-/// Adds the plane of three corners, either way up, where no corner lies above it and it is new.
-fn plane_of(points: &[DVec3], [i, j, k]: [usize; 3], flat: f64, found: &mut Vec<(DVec3, Vec<usize>)>) {
+/// Which corners lie on the outline of which faces.
+struct KnownFaces {
+    /// For each corner a bit of each face.
+    of: Vec<Vec<u64>>,
+}
+
+impl KnownFaces {
+    fn new(points: usize) -> Self {
+        Self { of: vec![Vec::new(); points] }
+    }
+
+    fn add(&mut self, face: usize, ring: &[usize]) {
+        let (word, bit) = (face / 64, 1 << (face % 64));
+        for &corner in ring {
+            let words = &mut self.of[corner];
+            words.resize(words.len().max(word + 1), 0);
+            words[word] |= bit;
+        }
+    }
+
+    /// Faces that have all three corners on their outline.
+    fn with(&self, [i, j, k]: [usize; 3]) -> impl Iterator<Item = usize> + '_ {
+        let words = self.of[i].iter().zip(&self.of[j]).zip(&self.of[k]).map(|((a, b), c)| a & b & c);
+        let bits = |word: u64| (0..64).filter(move |bit| word >> bit & 1 == 1);
+        words
+            .enumerate()
+            .filter(|(_, word)| *word != 0)
+            .flat_map(move |(at, word)| bits(word).map(move |b| 64 * at + b))
+    }
+}
+
+/// Adds the plane of three corners, either way up, where no corner lies above it and it is new. It is not new where a
+/// face that looks the same way has all three on its outline.
+fn plane_of(
+    points: &[DVec3],
+    [i, j, k]: [usize; 3],
+    flat: f64,
+    found: &mut Vec<(DVec3, Vec<usize>)>,
+    faces: &mut KnownFaces,
+) {
     let (u, v) = (points[j] - points[i], points[k] - points[i]);
     let cross = u.cross(v);
     let length = cross.length();
@@ -145,6 +184,9 @@ fn plane_of(points: &[DVec3], [i, j, k]: [usize; 3], flat: f64, found: &mut Vec<
         return;
     }
     for normal in [cross / length, -cross / length] {
+        if faces.with([i, j, k]).any(|face| found[face].0.dot(normal) > 0.0) {
+            continue;
+        }
         let above = |p: &DVec3| (*p - points[i]).dot(normal);
         if points.iter().any(|p| above(p) > flat) {
             continue;
@@ -156,6 +198,7 @@ fn plane_of(points: &[DVec3], [i, j, k]: [usize; 3], flat: f64, found: &mut Vec<
         if !found.iter().any(known) {
             let ring = ring_of(points, &inside, normal);
             if ring.len() > 2 {
+                faces.add(found.len(), &ring);
                 found.push((normal, ring));
             }
         }

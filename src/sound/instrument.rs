@@ -6,6 +6,7 @@ use super::excitation::{Contact, Radiator};
 use super::graph::Graph;
 use super::modal::{Bank, Partial};
 use super::modes::{Mode, Place, modes};
+use super::shared::Shared;
 use super::timbre::{Inputs, Number, Player, Preset, TimbreError};
 use super::{InstrumentSpec, Strike, timbre};
 use soffio_math::noise::Random;
@@ -40,19 +41,23 @@ struct Modal {
 }
 
 impl Instrument {
-    pub fn compile(spec: &InstrumentSpec) -> Result<Self, TimbreError> {
-        Self::from_preset(&Preset::shipped(&spec.timbre)?, spec)
+    /// `shared` is that of the synth.
+    pub fn compile(spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
+        Self::from_preset(&Preset::shipped(&spec.timbre)?, spec, shared)
     }
 
-    pub fn from_preset(preset: &Preset, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
+    pub fn from_preset(preset: &Preset, spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         let radiator = Radiator::new(&spec.body, &spec.material);
         Ok(Self {
-            graph: Graph::compile(preset, spec)?,
+            graph: Graph::compile(preset, spec, shared)?,
             player: preset.player(),
             gain: spec.gain,
             max_voices: spec.max_voices.max(1),
             radiator,
-            modal: preset.modal().map(|(key, node)| Modal::compile(&preset.name, key, node, spec)).transpose()?,
+            modal: preset
+                .modal()
+                .map(|(key, node)| Modal::compile(&preset.name, key, node, spec, shared))
+                .transpose()?,
         })
     }
 
@@ -127,13 +132,22 @@ impl Instrument {
 
 /// The partials of a timbre on a body, in ascending order; none where nothing rings.
 pub fn partials(preset: &Preset, spec: &InstrumentSpec) -> Result<Vec<Mode>, TimbreError> {
-    let found = preset.modal().map(|(key, node)| Modal::modes(&preset.name, key, node, spec)).transpose()?;
+    let found = preset
+        .modal()
+        .map(|(key, node)| Modal::modes(&preset.name, key, node, spec, &mut Shared::default()))
+        .transpose()?;
     Ok(found.map(|(modes, _)| modes).unwrap_or_default())
 }
 
 impl Modal {
-    fn compile(name: &str, key: &str, node: &timbre::Modal, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
-        let (mut modes, outline) = Self::modes(name, key, node, spec)?;
+    fn compile(
+        name: &str,
+        key: &str,
+        node: &timbre::Modal,
+        spec: &InstrumentSpec,
+        shared: &mut Shared,
+    ) -> Result<Self, TimbreError> {
+        let (mut modes, outline) = Self::modes(name, key, node, spec, shared)?;
         modes.sort_by(|a, b| a.decay.total_cmp(&b.decay));
         let contact = Contact::new(node.contact_radius, node.surface_modulus, &spec.material);
         let mass = spec.body.mass.max(LIGHTEST);
@@ -145,7 +159,9 @@ impl Modal {
         key: &str,
         node: &timbre::Modal,
         spec: &InstrumentSpec,
+        shared: &mut Shared,
     ) -> Result<(Vec<Mode>, f64), TimbreError> {
-        modes(node, spec).map_err(|(field, problem)| TimbreError::new(name, format!("node.{key}.{field}"), problem))
+        modes(node, spec, shared)
+            .map_err(|(field, problem)| TimbreError::new(name, format!("node.{key}.{field}"), problem))
     }
 }

@@ -48,6 +48,7 @@ pub mod modes;
 mod motion;
 mod night;
 mod room;
+mod shared;
 mod synth;
 pub mod timbre;
 mod true_peak;

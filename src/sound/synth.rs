@@ -19,6 +19,7 @@ use super::instrument::Instrument;
 use super::master::Master;
 use super::motion::{Heard, Motion, NEAREST};
 use super::room::RoomSpec;
+use super::shared::Shared;
 use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
 use super::{InstrumentSpec, SoundCommand, Strike, Touch};
@@ -71,9 +72,10 @@ impl Synth {
     ///
     /// Solves the plates' modes, so it takes milliseconds per instrument; everything afterwards is real-time.
     pub fn new(sample_rate: u32, instruments: &[InstrumentSpec], seed: u64) -> Result<Self, TimbreError> {
+        let mut shared = Shared::default();
         let mut compiled = Vec::with_capacity(instruments.len());
         for spec in instruments {
-            compiled.push(Instrument::compile(spec)?);
+            compiled.push(Instrument::compile(spec, &mut shared)?);
         }
         Ok(Self::with_instruments(sample_rate, compiled, seed))
     }
@@ -94,9 +96,10 @@ impl Synth {
         instruments: &[(&Preset, &InstrumentSpec)],
         seed: u64,
     ) -> Result<Self, TimbreError> {
+        let mut shared = Shared::default();
         let mut compiled = Vec::with_capacity(instruments.len());
         for (preset, spec) in instruments {
-            compiled.push(Instrument::from_preset(preset, spec)?);
+            compiled.push(Instrument::from_preset(preset, spec, &mut shared)?);
         }
         Ok(Self::with_instruments(sample_rate, compiled, seed))
     }

@@ -1,5 +1,6 @@
 //! What all stages of resolving share.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::super::bodies::Material;
@@ -17,6 +18,8 @@ pub(super) struct Context<'a> {
     pub(super) source: &'a Source,
     pub(super) sidecar: &'a Sidecar,
     pub(super) model: &'a Model,
+    /// Nodes of each name, in the model's order.
+    pub(super) named: BTreeMap<&'a str, Vec<usize>>,
     pub(super) folder: &'a Path,
     pub(super) problems: Vec<Diagnostic>,
     pub(super) origins: Vec<Origin>,
@@ -37,10 +40,15 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     pub(super) fn new(source: &'a Source, sidecar: &'a Sidecar, model: &'a Model, folder: &'a Path) -> Self {
+        let mut named: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for (index, node) in model.nodes.iter().enumerate() {
+            named.entry(&node.name).or_default().push(index);
+        }
         Self {
             source,
             sidecar,
             model,
+            named,
             folder,
             problems: Vec::new(),
             origins: Vec::new(),

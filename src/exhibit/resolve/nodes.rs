@@ -60,10 +60,12 @@ impl Context<'_> {
     /// Nodes with this name, or at the end of this path.
     pub(super) fn nodes_named(&self, name: &str) -> Vec<usize> {
         let nodes = &self.model.nodes;
-        let exact: Vec<usize> = (0..nodes.len()).filter(|&i| nodes[i].name == name).collect();
-        if !exact.is_empty() || !name.contains('/') {
+        let with = |name: &str| self.named.get(name).cloned().unwrap_or_default();
+        let exact = with(name);
+        if !exact.is_empty() {
             return exact;
         }
+        let Some((_, last)) = name.rsplit_once('/') else { return exact };
         let ends = |leaf: &usize| {
             let mut at = Some(*leaf);
             name.rsplit('/').all(|part| {
@@ -72,7 +74,7 @@ impl Context<'_> {
                 here.is_some()
             })
         };
-        (0..nodes.len()).filter(ends).collect()
+        with(last).into_iter().filter(ends).collect()
     }
 
     /// The nodes that a pattern such as `Rod.*` stands for, in natural order: children of `root` that belong to its

@@ -16,11 +16,13 @@ mod state;
 mod surface;
 
 use super::InstrumentSpec;
+use super::shared::Shared;
 use super::timbre::{Inputs, MAX_NODES, Number, Preset, TimbreError};
 pub(super) use block::{Block, CONTROL};
 use operator::Kind;
 use soffio_math::noise::hash_words;
 pub(super) use state::State;
+pub(super) use surface::Pyramid;
 
 /// Whose sound is rendered: what rings belongs to the body and adds up there, the rest to each hit by itself. A sum of
 /// both is taken apart; everything else that takes what rings is the body's.
@@ -48,13 +50,13 @@ struct Operator {
 
 impl Graph {
     /// Compiles a checked preset for a body.
-    pub fn compile(preset: &Preset, spec: &InstrumentSpec) -> Result<Self, TimbreError> {
+    pub fn compile(preset: &Preset, spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         let order = preset.order(&preset.name)?;
         let index = |name: &str| order.iter().position(|known| *known == name).unwrap_or_default();
         let mut operators: Vec<Operator> = Vec::with_capacity(order.len());
         for name in &order {
             let node = &preset.node[*name];
-            let kind = Kind::compile(node, spec.surface.as_ref())
+            let kind = Kind::compile(node, spec.surface.as_ref(), shared)
                 .map_err(|problem| TimbreError::new(&preset.name, format!("node.{name}"), problem))?;
             // A bank's level is in its partials already, so that what is inaudible is never started.
             let gain = if matches!(kind, Kind::Modal) { Number::Fixed(1.0) } else { node.gain() };

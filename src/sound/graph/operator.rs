@@ -7,6 +7,7 @@ use super::noises::{Pink, Slow};
 use super::state::State;
 use super::surface::Pyramid;
 use crate::SurfaceLine;
+use crate::shared::Shared;
 use crate::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
 use soffio_math::exp;
 
@@ -49,7 +50,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// An operator of a checked node. The error says what the node lacks.
-    pub fn compile(node: &Node, surface: Option<&SurfaceLine>) -> Result<Self, String> {
+    pub fn compile(node: &Node, surface: Option<&SurfaceLine>, shared: &mut Shared) -> Result<Self, String> {
         Ok(match node {
             Node::Modal(_) => Self::Modal,
             Node::Noise(noise) => match noise.kind {
@@ -60,13 +61,13 @@ impl Kind {
             Node::Texture(texture) => {
                 let line = match (texture.kind, surface) {
                     (TextureKind::Image, None) if texture.optional => return Ok(Self::Smooth),
-                    (TextureKind::Image, Some(surface)) => Pyramid::of_picture(surface)?,
+                    (TextureKind::Image, Some(surface)) => Arc::new(Pyramid::of_picture(surface)?),
                     (TextureKind::Image, None) => {
                         return Err("kind \"image\" needs a body whose surface has a picture; this one has none".into());
                     }
-                    _ => Pyramid::of_texture(texture),
+                    _ => shared.texture(texture),
                 };
-                Self::Texture { line: Arc::new(line), speed: texture.speed }
+                Self::Texture { line, speed: texture.speed }
             }
             Node::Filter(filter) => Self::Filter { kind: filter.kind, cutoff: filter.cutoff, q: filter.q },
             Node::Env(env) => Self::Env { attack: env.attack, decay: env.decay },

@@ -38,7 +38,7 @@ const REACH: usize = 110;
 const WINDOW: f64 = 7.9;
 
 /// A closed line of a surface at all scales.
-pub(super) struct Pyramid {
+pub(crate) struct Pyramid {
     /// Finest first, each half as long; mean 0, mean square about 1 before anything was filtered away.
     levels: Vec<Vec<f32>>,
     /// Distance between points of the finest, m.

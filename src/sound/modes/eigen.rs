@@ -10,6 +10,8 @@
 //!
 //! Invariant: vectors come out M-normalised, xᵀ M x = 1, in ascending order of λ.
 
+use fearless_simd::{Level, dispatch};
+
 /// A dense square matrix, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Matrix {
@@ -26,6 +28,12 @@ impl Matrix {
     /// Row `i`.
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.entries[i * self.n..(i + 1) * self.n]
+    }
+
+    /// Rows `p` and `q`, the later one second.
+    fn rows_mut(&mut self, p: usize, q: usize) -> (&mut [f64], &mut [f64]) {
+        let (before, from) = self.entries.split_at_mut(q * self.n);
+        (&mut before[p * self.n..(p + 1) * self.n], &mut from[..self.n])
     }
 
     fn at(&self, i: usize, j: usize) -> f64 {
@@ -58,7 +66,7 @@ pub(super) fn generalised(stiffness: &Matrix, mass: &Matrix) -> Vec<(f64, Vec<f6
     }
     let half = forward(&lower, &full);
     let mut c = forward(&lower, &transpose(&half));
-    let mut vectors = jacobi(&mut c);
+    let mut vectors = dispatch!(Level::new(), _simd => jacobi(&mut c));
     let mut pairs: Vec<(f64, Vec<f64>)> = (0..n)
         .map(|k| {
             let mut whole = vec![0.0; mass.n];
@@ -103,9 +111,8 @@ fn forward(l: &Matrix, b: &Matrix) -> Matrix {
     for i in 0..n {
         for k in 0..i {
             let factor = l.at(i, k);
-            for j in 0..n {
-                x.entries[i * n + j] -= factor * x.entries[k * n + j];
-            }
+            let (above, row) = x.rows_mut(k, i);
+            row.iter_mut().zip(above).for_each(|(x, above)| *x -= factor * *above);
         }
         let pivot = l.at(i, i);
         x.row_mut(i).iter_mut().for_each(|v| *v /= pivot);
@@ -134,6 +141,7 @@ fn transpose(m: &Matrix) -> Matrix {
 }
 
 /// Diagonalises `c` in place; the rows of the answer are the eigenvectors.
+#[inline(always)]
 fn jacobi(c: &mut Matrix) -> Matrix {
     let n = c.n;
     let mut v = Matrix::zero(n);
@@ -156,6 +164,7 @@ fn jacobi(c: &mut Matrix) -> Matrix {
 }
 
 /// One rotation in the plane (p, q) that makes c_pq zero: t = tan θ is the smaller root of t² + 2τt − 1 = 0.
+#[inline(always)]
 fn rotate(c: &mut Matrix, v: &mut Matrix, p: usize, q: usize) {
     let n = c.n;
     let apq = c.at(p, q);
@@ -166,16 +175,15 @@ fn rotate(c: &mut Matrix, v: &mut Matrix, p: usize, q: usize) {
     let t = if tau >= 0.0 { 1.0 / (tau + (1.0 + tau * tau).sqrt()) } else { -1.0 / (-tau + (1.0 + tau * tau).sqrt()) };
     let cos = 1.0 / (1.0 + t * t).sqrt();
     let sin = t * cos;
-    for k in 0..n {
-        let (a, b) = (c.at(k, p), c.at(k, q));
-        c.set(k, p, cos * a - sin * b);
-        c.set(k, q, sin * a + cos * b);
+    for row in c.entries.chunks_exact_mut(n) {
+        let (a, b) = (row[p], row[q]);
+        row[p] = cos * a - sin * b;
+        row[q] = sin * a + cos * b;
     }
     for matrix in [c, v] {
-        for k in 0..n {
-            let (a, b) = (matrix.at(p, k), matrix.at(q, k));
-            matrix.set(p, k, cos * a - sin * b);
-            matrix.set(q, k, sin * a + cos * b);
+        let (first, second) = matrix.rows_mut(p, q);
+        for (a, b) in first.iter_mut().zip(second) {
+            (*a, *b) = (cos * *a - sin * *b, sin * *a + cos * *b);
         }
     }
 }

@@ -27,6 +27,7 @@ pub use shape::Shape;
 
 use super::InstrumentSpec;
 use super::excitation::Radiator;
+use super::shared::Shared;
 use super::timbre::{Modal, Source, Table};
 use mode::Matter;
 use plate::outline_exponent;
@@ -36,11 +37,12 @@ const SLENDER: f64 = 4.0;
 /// A body thinner than this share of its width is a sheet.
 const SHEET: f64 = 0.3;
 
-/// The partials of a modal node on a body, in ascending order, and the exponent of the outline that plates have.
-pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec) -> Result<(Vec<Mode>, f64), ModeError> {
+/// The partials of a modal node on a body, in ascending order, and the exponent of the outline that plates have;
+/// `shared` keeps what was found for earlier instruments.
+pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec, shared: &mut Shared) -> Result<(Vec<Mode>, f64), ModeError> {
     let mut modes = match &modal.source {
-        Source::Plate(plate) => plate_partials(&Matter::new(spec, &plate.material), modal)?,
-        Source::Mesh(mesh) => mesh_partials(&Matter::new(spec, &mesh.material), modal)?,
+        Source::Plate(plate) => plate_partials(&Matter::new(spec, &plate.material), modal, shared)?,
+        Source::Mesh(mesh) => mesh_partials(&Matter::new(spec, &mesh.material), modal, shared)?,
         Source::Table(table) => tabled(table, modal.support_loss),
         Source::Tube(tube) => bars::tube(tube, &Matter::new(spec, &tube.material), modal)?,
         Source::Bar(bar) => bars::bar(bar, &Matter::new(spec, &bar.material), modal)?,
@@ -52,9 +54,9 @@ pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec) -> Result<(Vec<Mode>, 
     Ok((modes, outline_exponent(&spec.body)))
 }
 
-fn plate_partials(matter: &Matter, modal: &Modal) -> Result<Vec<Mode>, ModeError> {
+fn plate_partials(matter: &Matter, modal: &Modal, shared: &mut Shared) -> Result<Vec<Mode>, ModeError> {
     let body = &matter.body;
-    let modes = free_plate_modes(body, &matter.material);
+    let modes = shared.plate_modes(body, &matter.material);
     if modes.is_empty() {
         let problem = format!(
             "no plate of half extents {:?} m, thickness {} m, area {} m², mass {} kg can ring; all must be above 0",
@@ -74,11 +76,11 @@ fn plate_partials(matter: &Matter, modal: &Modal) -> Result<Vec<Mode>, ModeError
 
 /// Sheets are plates. What is long is a tube where its mass leaves a hole or fills a circle, and a bar where it fills
 /// more than a circle would.
-fn mesh_partials(matter: &Matter, modal: &Modal) -> Result<Vec<Mode>, ModeError> {
+fn mesh_partials(matter: &Matter, modal: &Modal, shared: &mut Shared) -> Result<Vec<Mode>, ModeError> {
     let [long, wide] = matter.body.half_extents;
     let sheet = matter.body.thickness < SHEET * 2.0 * wide;
     if sheet || long < SLENDER * wide {
-        return plate_partials(matter, modal);
+        return plate_partials(matter, modal, shared);
     }
     /// Share of the bounding rectangle's area that a circle fills, π/4, and a little.
     const ROUND: f64 = 0.8;

@@ -15,6 +15,8 @@
 //! Ritz frequencies are upper bounds; the lower half of each class is accurate (a test compares with published
 //! tables), the upper half is thrown away.
 
+use fearless_simd::{Level, dispatch};
+
 use super::eigen::{Matrix, generalised};
 use crate::{SoundBody, SoundMaterial};
 use soffio_math::{PI, cos, pow};
@@ -67,31 +69,9 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
     let mut modes = Vec::new();
     for parity in [[0, 0], [1, 0], [0, 1], [1, 1]] {
         let basis: Vec<(usize, usize)> = terms(parity).collect();
-        let (mut k, mut m) = (Matrix::zero(basis.len()), Matrix::zero(basis.len()));
-        for point in &quadrature.points {
-            let (x, y) = (derivatives(point.x), derivatives(point.y));
-            // Per basis function: w, w,xx, w,yy, w,xy.
-            let values: Vec<[f64; 4]> = basis
-                .iter()
-                .map(|&(i, j)| {
-                    [
-                        x[0][i] * y[0][j],
-                        x[2][i] * y[0][j] / (a * a),
-                        x[0][i] * y[2][j] / (b * b),
-                        x[1][i] * y[1][j] / (a * b),
-                    ]
-                })
-                .collect();
-            let (wm, wk) = (4.0 * point.weight * mass_per_weight, 4.0 * point.weight * stiffness_per_weight);
-            for (i, f) in values.iter().enumerate() {
-                let moment =
-                    [wk * (f[1] + nu * f[2]), wk * (f[2] + nu * f[1]), wk * 2.0 * (1.0 - nu) * f[3], wm * f[0]];
-                for ((g, k), m) in values.iter().zip(&mut k.row_mut(i)[..=i]).zip(&mut m.row_mut(i)[..=i]) {
-                    *k += moment[0] * g[1] + moment[1] * g[2] + moment[2] * g[3];
-                    *m += moment[3] * g[0];
-                }
-            }
-        }
+        let per_weight = (stiffness_per_weight, mass_per_weight);
+        // The same sums in the same order, whatever the instructions.
+        let (k, m) = dispatch!(Level::new(), _simd => matrices(&quadrature, &basis, [a, b], nu, per_weight));
         // Rigid motions: 1, x and y are the lowest of their classes; xy bends.
         let rigid = usize::from(parity != [1, 1]);
         let solved = generalised(&k, &m);
@@ -104,6 +84,45 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
     }
     modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     modes
+}
+
+/// K and M of a basis, of which only the lower triangles are filled. `per_weight`: what a weight of the quadrature stands
+/// for, in stiffness and in mass.
+#[inline(always)]
+fn matrices(
+    quadrature: &Quadrature,
+    basis: &[(usize, usize)],
+    [a, b]: [f64; 2],
+    nu: f64,
+    per_weight: (f64, f64),
+) -> (Matrix, Matrix) {
+    let n = basis.len();
+    let (mut k, mut m) = (Matrix::zero(n), Matrix::zero(n));
+    // Of each basis function: w, w,xx, w,yy, w,xy.
+    let [mut w, mut xx, mut yy, mut xy] = [(); 4].map(|()| vec![0.0; n]);
+    for point in &quadrature.points {
+        let (x, y) = (derivatives(point.x), derivatives(point.y));
+        for (at, &(i, j)) in basis.iter().enumerate() {
+            w[at] = x[0][i] * y[0][j];
+            xx[at] = x[2][i] * y[0][j] / (a * a);
+            yy[at] = x[0][i] * y[2][j] / (b * b);
+            xy[at] = x[1][i] * y[1][j] / (a * b);
+        }
+        let (wk, wm) = (4.0 * point.weight * per_weight.0, 4.0 * point.weight * per_weight.1);
+        for i in 0..n {
+            let by_xx = wk * (xx[i] + nu * yy[i]);
+            let by_yy = wk * (yy[i] + nu * xx[i]);
+            let by_xy = wk * 2.0 * (1.0 - nu) * xy[i];
+            let by_w = wm * w[i];
+            let (k, m) = (&mut k.row_mut(i)[..=i], &mut m.row_mut(i)[..=i]);
+            let (w, xx, yy, xy) = (&w[..=i], &xx[..=i], &yy[..=i], &xy[..=i]);
+            for j in 0..k.len() {
+                k[j] += by_xx * xx[j] + by_yy * yy[j] + by_xy * xy[j];
+                m[j] += by_w * w[j];
+            }
+        }
+    }
+    (k, m)
 }
 
 /// A place (−1…1 each) outside of the outline of exponent `p`, pulled straight towards the centre onto the rim: shapes
