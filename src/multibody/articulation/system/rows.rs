@@ -50,8 +50,6 @@ pub(super) struct Rows {
     pub gathering: bool,
     /// Do the rows' numbers hold the values of the last evaluation?
     pub told: bool,
-    /// Was it of all that is held, and not for accelerations alone?
-    pub whole: bool,
 }
 
 /// A configuration at which rows are evaluated.
@@ -70,7 +68,7 @@ impl Rows {
         let Now { bodies, quads, activity, asleep } = now;
         factor.trains.evaluate(quads);
         factor.hung.evaluate(simd, quads.all(), &mut factor.tree);
-        (self.told, self.whole) = (false, values);
+        self.told = false;
         if all {
             for (body, frame) in self.frames.iter_mut().enumerate().filter(|(body, _)| !asleep[*body]) {
                 *frame = quads.frame(body);

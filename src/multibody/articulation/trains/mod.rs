@@ -121,6 +121,11 @@ impl Trains {
         self.of_body.get(body).is_some_and(Option::is_some)
     }
 
+    /// The train that a body is in.
+    pub fn of(&self, body: usize) -> Option<usize> {
+        self.of_body.get(body).copied().flatten().map(|wheel| self.wheels[wheel].train)
+    }
+
     /// Is a constraint a train's own?
     pub fn owns(&self, constraint: usize) -> bool {
         self.own.get(constraint).copied().unwrap_or(false)
