@@ -1,6 +1,6 @@
 //! How bodies hang in the tree of their joints: parents, the order from the roots, and the quads that they go by.
 
-use super::graph::Component;
+use super::loops::graph::Component;
 use super::quads::{Members, Slot};
 use soffio_math::lanes::{Four, WIDTH};
 

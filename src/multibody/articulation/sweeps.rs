@@ -11,7 +11,7 @@ use super::hang::Step;
 use super::loops::Loops;
 use super::quads::{Quad, Slot};
 use super::trains::Trains;
-use super::tree::{Form, Tree};
+use super::tree::{Form, JointRows, Tree};
 use soffio_math::lanes::{All, Four, Lanes, One, V3};
 use soffio_math::spatial::Articulated;
 use soffio_math::spatial::{Vec6, add_scaled, dot, inverse, mul};
@@ -25,7 +25,8 @@ impl Tree {
         simd: S,
         quads: &[Quad],
         form: &impl Fn(usize) -> Form<'a>,
-        (loops, trains, gathering): (&mut Loops, &Trains, bool),
+        loops: &mut Loops,
+        of_loops: (&[JointRows], &Trains, bool),
     ) {
         for &index in &self.begun {
             let (members, quad, lanes) = (&self.members[index], &quads[index], All(simd));
@@ -39,7 +40,7 @@ impl Tree {
                 Step::Quad(quad) => self.factor_balls(All(simd), quad),
                 Step::Point(Slot { quad, lane }) => self.factor_balls(One(lane), quad),
                 Step::Body(body) => self.factor_one(body, form),
-                Step::Loops(component) => loops.factor(component, &mut self.articulated, trains, gathering),
+                Step::Loops(component) => loops.factor(component, &mut self.articulated, of_loops),
             }
         }
     }

@@ -34,8 +34,8 @@ use fearless_simd::Level;
 use super::Groups;
 use super::ball::Ball;
 use super::block::{MAX_ROWS, RowBlock, RowSquare, for_rows, pseudo_inverse};
-use super::graph::{Component, Graph};
 use super::hang::{Hang, Hooks, Link, Step, by_quads, hangs, hooks};
+use super::loops::graph::{Component, Graph};
 use super::quads::{Members, Slot};
 use soffio_math::DVec3;
 use soffio_math::lanes::{Four, One};
@@ -53,11 +53,14 @@ pub struct JointRows {
     pub b: RowBlock,
     /// Γ, lower triangle; 0 is hard.
     pub compliance: RowSquare,
+    /// Is any of it not 0?
+    pub soft: bool,
 }
 
 impl Default for JointRows {
     fn default() -> Self {
-        Self { rows: 0, a: [[0.0; 6]; MAX_ROWS], b: [[0.0; 6]; MAX_ROWS], compliance: [[0.0; MAX_ROWS]; MAX_ROWS] }
+        let (blocks, hard) = ([[0.0; 6]; MAX_ROWS], [[0.0; MAX_ROWS]; MAX_ROWS]);
+        Self { rows: 0, a: blocks, b: blocks, compliance: hard, soft: false }
     }
 }
 
@@ -253,6 +256,16 @@ impl Tree {
     /// All bodies, roots first.
     pub fn order(&self) -> &[usize] {
         &self.order
+    }
+}
+
+impl JointRows {
+    /// Lets no row be soft.
+    #[inline(always)]
+    pub fn harden(&mut self) {
+        if std::mem::take(&mut self.soft) {
+            self.compliance = [[0.0; MAX_ROWS]; MAX_ROWS];
+        }
     }
 }
 

@@ -12,9 +12,9 @@ use super::{Method, System};
 use crate::articulation::activity::Activity;
 use crate::articulation::block::MAX_ROWS;
 use crate::articulation::dense::Dense;
-use crate::articulation::graph::{Component, Graph};
 use crate::articulation::hang::Link;
 use crate::articulation::hung::Hung;
+use crate::articulation::loops::graph::{Component, Graph};
 use crate::articulation::loops::{LoopRow, Loops, Span};
 use crate::articulation::quads::Quads;
 use crate::articulation::rows::coupling::Gauge;
@@ -157,8 +157,10 @@ fn components(graph: &Graph, joints: &[Joint], constraints: &[Constraint], train
 
 /// Which rows outside the tree are each joint's, then each coupling's.
 fn spans(joints: &[Joint], couplings: &[Coupling]) -> Vec<Span> {
-    let of_joint = |joint: &Joint| joint.outside.map_or(Span::default(), |first| Span { first, count: joint.capacity });
-    let of_couplings = couplings.iter().map(|coupling| Span { first: coupling.outside, count: 1 });
+    let of_joint = |joint: &Joint| {
+        joint.outside.map_or(Span::default(), |first| Span { first, count: joint.capacity, block: joint.block })
+    };
+    let of_couplings = couplings.iter().map(|coupling| Span { first: coupling.outside, count: 1, block: None });
     joints.iter().map(of_joint).chain(of_couplings).collect()
 }
 

@@ -61,7 +61,8 @@ impl Factor {
             }
         };
         self.loops.begin();
-        self.tree.factor(simd, quads.all(), &form, (&mut self.loops, &self.trains, rows.gathering));
+        let of_loops = (&blocks[..], &self.trains, rows.gathering);
+        self.tree.factor(simd, quads.all(), &form, &mut self.loops, of_loops);
     }
 
     /// Solves for `a` and `lambda` from `b` and `g`, by the best instructions there are.

@@ -4,20 +4,20 @@
 //! edge; a coupling is a ring of edges through all that it touches. A *component* is a largest set of edges of which any two
 //! lie on one cycle (J. Hopcroft, R. Tarjan, Algorithm 447, 1973). Two components share one vertex at most, so that they form
 //! a tree, whatever loops are within them. A component that is one joint is an edge of the tree; any other is a
-//! [`Component`] that is eliminated at once (`loops.rs`). Its *top* is the vertex by which it hangs on the rest: the one that is
+//! [`Component`] that is eliminated at once (`mod.rs`). Its *top* is the vertex by which it hangs on the rest: the one that is
 //! nearest to the ground, or to the first body of a piece that floats.
 
-use super::hang::Link;
+use crate::articulation::hang::Link;
 
 /// A vertex: a body, or what comes after them.
 type Vertex = usize;
 
 /// A joint or a coupling: couplings are counted on after the joints.
-pub(super) type Tie = usize;
+pub(in crate::articulation) type Tie = usize;
 
 /// What is joined by loops.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Component {
+pub(in crate::articulation) struct Component {
     /// Its joints and couplings, in order.
     pub ties: Vec<Tie>,
     /// Its bodies but for the top, in order.
@@ -37,7 +37,7 @@ impl Component {
 
 /// The vertices of a figure.
 #[derive(Clone, Debug)]
-pub(super) struct Graph<'a> {
+pub(in crate::articulation) struct Graph<'a> {
     /// Whether each body's motion is given.
     pub driven: &'a [bool],
     /// The train that each body is in.

@@ -1,28 +1,38 @@
-//! Closed loops and couplings: what a tree cannot hold is eliminated component by component, each by a sparse system of its own.
+//! Closed loops and couplings: what a tree cannot hold is eliminated component by component, each with a sparse factor.
 //!
 //! The joints of a figure make a tree of biconnected components (`graph.rs`). A component with loops hangs on its *top* t, a
-//! body or the ground, and is eliminated as `tree.rs` eliminates a body that hangs on its parent: the same equations, where
-//! c now stands for all of its bodies but the top. With A the articulated masses of these (block by block: what hangs
-//! on each is gone already), J_c and J_t the blocks of all rows of the component on them and on the top,
+//! body or the ground. It is eliminated as `tree.rs` eliminates a body that hangs on its parent, by the same equations, where c
+//! stands for all of its bodies but the top. With A the articulated masses of these (one block a body: what hangs on each is
+//! gone already), J_c and J_t the blocks of the component's rows on them and on the top, J_d those on bodies whose a is given:
 //!
 //! ```text
-//! K = J_c A⁻¹ J_cᵀ + Γ         W = A⁻¹ J_cᵀ        d = g − Wᵀ b_c − J_d a_d
-//! λ = K⁻¹ (d − J_t a_t)        A_t += J_tᵀ K⁻¹ J_t        b_t += J_tᵀ K⁻¹ d        a_c = A⁻¹ b_c + W λ
+//! K = J_c A⁻¹ J_cᵀ + Γ         W = A⁻¹ J_cᵀ         e = g − Wᵀ b_c − J_d a_d
+//! λ = K⁻¹ (e − J_t a_t)        A_t += J_tᵀ K⁻¹ J_t        b_t += J_tᵀ K⁻¹ e        a_c = A⁻¹ b_c + W λ
 //! ```
 //!
-//! where d are driven bodies, whose a is given. K has a block for each two joints that share a body, so that it is as sparse as the
-//! figure: `sparse.rs` factors it in an order found once, with J_t as its rim. Nothing is lost by eliminating all rows before the
-//! top: a motion of the whole component as one rigid body opens none of its joints, so that rows are as independent with the top
-//! held as with the top free.
+//! K has a block for each two joints that share a body, so it is as sparse as the figure is. `sparse.rs` factors it in an
+//! order that is found once. A chain of loops costs what its loops cost one by one, a net of n knots about n^1.5.
 //!
-//! A train (`trains/`) is a body of one coordinate: a row's part on it is its f, A its m.
+//! All rows of a component are eliminated before its top. No row is lost by that: where joints are closed, a motion of component
+//! and top as one rigid body opens none of them, so rows that are independent stay so with the top held. Where points are still
+//! apart this need not hold; then the figure gathers, and rows are soft.
+//!
+//! A train (`trains/`) is a body of one coordinate: a row's block on it is its f, A its m. The ground carries it, so that no
+//! component with a train has a top.
 //!
 //! Rows that repeat others (a planar four-bar of hinges has three) get the multiplier 0, as in the tree.
 
+mod cluster;
+mod eliminate;
+mod factor;
+pub(super) mod graph;
+mod sparse;
+
 use super::block::RowVec;
-use super::cluster::{Cluster, Node};
 use super::trains::Trains;
-use super::tree::Tree;
+use super::tree::{JointRows, Tree};
+use cluster::{Cluster, Node};
+use eliminate::Source;
 use soffio_math::spatial::{NUMBERS, Vec6};
 
 /// Γ of rows that close loops while a figure gathers, as a share of their answer alone. On its way together a figure
@@ -60,14 +70,8 @@ pub struct Span {
     pub first: usize,
     /// Most that there may be.
     pub count: usize,
-}
-
-impl Span {
-    /// They themselves.
-    #[inline(always)]
-    pub fn of(self, rows: &[LoopRow]) -> &[LoopRow] {
-        &rows[self.first..self.first + self.count]
-    }
+    /// Where a joint has its blocks; a coupling has them in the row.
+    pub block: Option<usize>,
 }
 
 /// The loop rows of a figure and their factor.
@@ -99,13 +103,13 @@ impl Loops {
         Self { rows, clusters, places, pushes: vec![0.0; count], answers: Vec::with_capacity(count * count) }
     }
 
-    /// Was this row found to repeat others at the last factorisation?
+    /// Was this row, which acts, found to repeat others at the last factorisation? So does one to which nothing gives way.
     pub fn is_redundant(&self, row: usize) -> bool {
         let repeats = |(cluster, node): (usize, usize)| {
             let of: &Cluster = &self.clusters[cluster];
             of.factor.is_redundant(node, row - of.nodes[node].span.first)
         };
-        self.rows[row].active && self.places[row].is_none_or(repeats)
+        self.places[row].map_or(!self.rows[row].held, repeats)
     }
 
     /// How many numbers the factors of all components hold at most.
@@ -118,10 +122,16 @@ impl Loops {
         self.answers.clear();
     }
 
-    /// Eliminates a component, once all that hangs on its bodies is gone. Does the figure gather?
+    /// Eliminates a component, once all that hangs on its bodies is gone. Joints have their rows in `blocks`. Does the figure
+    /// gather?
     #[inline(always)]
-    pub fn factor(&mut self, index: usize, masses: &mut [[f64; NUMBERS]], trains: &Trains, gathering: bool) {
-        self.clusters[index].factor(&self.rows, masses, trains, gathering);
+    pub fn factor(
+        &mut self,
+        index: usize,
+        masses: &mut [[f64; NUMBERS]],
+        (blocks, trains, gathering): (&[JointRows], &Trains, bool),
+    ) {
+        self.clusters[index].factor(Source { blocks, rows: &self.rows }, masses, trains, gathering);
     }
 
     /// Begins a solve.
