@@ -39,7 +39,7 @@ use soffio_math::spatial::{NUMBERS, Vec6};
 /// passes places where its rows almost repeat each other but do not agree; what little holds them there must not decide.
 pub const GATHERING: f64 = 1e-4;
 
-/// One row outside the tree, at the present configuration.
+/// One row outside the tree. Where it is one of a joint, only the dense solver keeps its numbers here.
 #[derive(Clone, Debug)]
 pub struct LoopRow {
     /// Where its numbers are in `g` and `lambda`.

@@ -42,7 +42,7 @@ pub struct Joint {
     pub(super) hangs: Option<usize>,
     /// Its block rows, where it is ever more than a point.
     pub(super) block: Option<usize>,
-    /// First of its rows among the loops', where it closes one (or the solver is dense).
+    /// First of its rows among those outside the tree, where it is in a loop (or the solver is dense).
     pub(super) outside: Option<usize>,
     /// Is it a train's own?
     pub(super) in_train: bool,

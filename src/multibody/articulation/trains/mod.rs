@@ -12,7 +12,7 @@
 //! ```
 //!
 //! and m does not change. Places come from the angle of the train's fastest wheel and its whole turns, so that phases stay in
-//! the ratio of the teeth for ever. A row outside the tree that touches a train (`loops.rs`) answers it by
+//! the ratio of the teeth for ever. A row outside the tree that touches a train (`loops/`) answers it by
 //! f = Σ ρ_i s_i·J_i, to which it adds f²/m.
 //!
 //! A train's joints always act, never break and do not rub; what they carry is not asked.
