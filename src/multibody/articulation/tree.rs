@@ -27,7 +27,7 @@
 //!
 //! A driven body's a is given: it is ground that moves. Γ need not be diagonal within a joint: `share.rs` says why.
 //!
-//! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
+//! Invariant: the order and all sizes are fixed by `Tree::new`; `factor` and `solve` never allocate.
 
 use fearless_simd::Level;
 
