@@ -6,13 +6,16 @@
 //! forces over the whole substep (`rest`) until it has opened by more than `RELEASE_GAP`.
 
 mod asleep;
-mod grip;
+mod coordinates;
+mod envelope;
 mod held;
 mod hit;
 mod impact;
-mod leap;
+mod islands;
+mod law;
 mod met;
 mod near;
+mod newton;
 mod open;
 mod problem;
 mod rest;
@@ -22,6 +25,7 @@ mod sleepers;
 mod state;
 mod surfaces;
 mod sweep;
+mod together;
 mod touch;
 mod touching;
 mod twist;
