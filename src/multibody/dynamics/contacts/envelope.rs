@@ -118,3 +118,40 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     }
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + rest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use soffio_math::noise::Random;
+
+    #[test]
+    fn solves_what_the_whole_matrix_multiplies() {
+        /// Rounding of some hundred numbers.
+        const ROUNDED: f64 = 1e-12;
+        let first = [0, 0, 1, 0, 2, 4, 3, 6];
+        let n = first.len();
+        let mut random = Random::new(5);
+        let mut whole = vec![vec![0.0; n]; n];
+        let mut envelope = Envelope::default();
+        envelope.begin(first.into_iter());
+        for row in 0..n {
+            for column in first[row]..=row {
+                let (below, above) = (random.signed(), random.signed());
+                whole[row][column] = below;
+                whole[column][row] = above;
+                if row == column {
+                    whole[row][row] = 4.0;
+                }
+                let (lower, upper) = envelope.arms(row, column);
+                (lower[0], upper[0]) = (whole[row][column], whole[column][row]);
+            }
+        }
+        let x: Vec<f64> = (0..n).map(|_| random.signed()).collect();
+        let mut b: Vec<f64> = whole.iter().map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
+        assert!(envelope.factor() > 0);
+        envelope.solve(&mut b);
+        for (found, x) in b.iter().zip(&x) {
+            assert!((found - x).abs() < ROUNDED, "{found}, not {x}");
+        }
+    }
+}

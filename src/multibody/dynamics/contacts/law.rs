@@ -295,3 +295,65 @@ fn join(normal: f64, across: DMat2) -> DMat3 {
         DVec3::new(0.0, across.y_axis.x, across.y_axis.y),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use soffio_math::noise::Random;
+
+    /// K of a free body that is touched at a random place.
+    fn answer(random: &mut Random) -> Answer {
+        let l = DVec3::new(random.signed(), random.signed(), random.signed());
+        let k = DMat3::IDENTITY - soffio_math::skew(l) * soffio_math::skew(l);
+        let (a, d, b) = (k.y_axis.y, k.z_axis.z, k.y_axis.z);
+        Answer { k, inverse: k.inverse(), across: 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt() }
+    }
+
+    #[test]
+    fn a_contact_that_has_relaxed_presses_sticks_or_slides_by_the_law() {
+        /// What a touch that sticks or presses may still move, m/s.
+        const HELD: f64 = 1e-12;
+        for seed in 0..2_000 {
+            let mut random = Random::new(seed);
+            let (answer, mu) = (answer(&mut random), random.unit());
+            let (p, u) = (DVec3::ZERO, DVec3::new(random.signed(), random.signed(), random.signed()));
+            let to = Law::Contact(mu).relax(&answer, p, u);
+            let after = u + answer.k * (to - p);
+            let rub = DVec2::new(to.y, to.z).length();
+            assert!(to.x >= 0.0 && rub <= mu * to.x * (1.0 + 1e-9), "seed {seed}: {to}");
+            if to.x == 0.0 {
+                // What sliding would press on it lets go: it opens by itself or with friction.
+                continue;
+            }
+            assert!(after.x.abs() < HELD, "seed {seed}: {after}");
+            if rub < mu * to.x * (1.0 - 1e-9) {
+                assert!(after.length() < HELD, "seed {seed}: sticks and moves by {after}");
+            }
+        }
+    }
+
+    #[test]
+    fn projections_of_cones_have_the_derivative_that_they_say() {
+        const STEP: f64 = 1e-6;
+        for seed in 0..500 {
+            let mut random = Random::new(seed);
+            let (a, mu) = (DVec3::new(random.signed(), random.signed(), random.signed()), random.unit());
+            let (_, turn) = on_cone(a, mu);
+            for axis in DMat3::IDENTITY.to_cols_array_2d().map(DVec3::from_array) {
+                let change = (on_cone(a + STEP * axis, mu).0 - on_cone(a - STEP * axis, mu).0) / (2.0 * STEP);
+                // Where the cone begins or ends the derivative jumps.
+                let jumps = on_cone(a + STEP * axis, mu).1 != turn && (change - turn * axis).length() > 1e-3;
+                assert!(jumps || (change - turn * axis).length() < 1e-3, "seed {seed}: {change}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_clutch_carries_more_the_faster_it_slips() {
+        let one = Answer { k: DMat3::IDENTITY, inverse: DMat3::IDENTITY, across: 1.0 };
+        let (most, u) = (0.1, DVec3::X * 2.0);
+        let to = Law::Clutch(most).relax(&one, DVec3::ZERO, u);
+        let rate = (u + to).x;
+        assert!((to.x + most * (1.0 + rate / GREASE)).abs() < 1e-12, "{to} at {rate}");
+    }
+}
