@@ -454,10 +454,11 @@ impl Newton {
                 let at_p = islands.place[p.node] - base;
                 for q in parts {
                     let at_q = islands.place[q.node] - base;
-                    if at_q > at_p {
+                    let (of_q, size_q) = (coordinates.block(q, own.rows), coordinates.nodes[q.node].size);
+                    // A mechanism that joints hold fast has no coordinates.
+                    if at_q > at_p || size_q == 0 {
                         continue;
                     }
-                    let (of_q, size_q) = (coordinates.block(q, own.rows), coordinates.nodes[q.node].size);
                     for i in 0..size_p {
                         let column = take(of_p, own.rows, size_p, i);
                         // Row i of Bₚᵀ D and column i of D Bₚ.
