@@ -6,7 +6,7 @@
 //! forces over the whole substep (`rest`) until it has opened by more than `RELEASE_GAP`.
 //!
 //! Impacts of several points and resting contact are one problem (`problem`): reduced coordinates of what moves (`coordinates`), islands
-//! of it (`islands`), the laws of each touch (`law`), and the solver (`newton`, `envelope`). Where a step has no time to follow
+//! of it (`islands`), the laws of each touch (`law`), and the solver (`newton`, `leap`, `envelope`). Where a step has no time to follow
 //! impacts one by one, its rest is a single substep that solves all of them with the resting contacts (`together`).
 
 mod asleep;
@@ -17,6 +17,7 @@ mod hit;
 mod impact;
 mod islands;
 mod law;
+mod leap;
 mod met;
 mod near;
 mod newton;
