@@ -30,6 +30,9 @@ use soffio_math::{DMat3, DVec3};
 /// Room for so many touches at once; more make lists grow.
 const ROOM: usize = 256;
 
+/// Time in which bodies are moved out of each other, as far as the solver's bounds of velocities go, s: 10⁻⁵ m/s are 10 nm.
+const PUSH_TIME: f64 = 1e-3;
+
 /// All touches of one moment.
 #[derive(Clone, Debug)]
 pub(super) struct Problem {
@@ -222,17 +225,17 @@ impl Problem {
     }
 
     /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
-    /// Momentum and angular momentum are kept. It is the same problem with ways for velocities.
+    /// Momentum and angular momentum are kept. It is the same problem with the velocities of [`PUSH_TIME`] for ways.
     pub fn push_out(&mut self, depth: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
         let Self { touches, coordinates, islands, newton, impulses, .. } = self;
         for (touch, iterate) in touches.iter().zip(&mut newton.iterates) {
             let law = if touch.answer.k.x_axis.x > LOCKED { Law::Bound } else { Law::Still };
-            *iterate = Iterate::pushed(touch, (depth - touch.gap).min(most), law);
+            *iterate = Iterate::pushed(touch, (depth - touch.gap).min(most) / PUSH_TIME, law);
         }
         newton.solve(View { touches, coordinates, islands });
         impulses.clear();
         for (touch, iterate) in touches.iter().zip(&newton.iterates) {
-            impulses.extend((0..touch.rows).map(|k| if k == 0 { iterate.p.x } else { 0.0 }));
+            impulses.extend((0..touch.rows).map(|k| if k == 0 { PUSH_TIME * iterate.p.x } else { 0.0 }));
         }
         self.push_all(system);
         self.coordinates.answer(&self.impulses, system);
