@@ -30,6 +30,8 @@ use soffio_math::{DMat3, DVec3};
 
 /// What is left of a row's own answer below this share of it is rounding: other rows move the mechanism that way already.
 const REPEATS: f64 = 1e-11;
+/// Room for the rows of so many touches of mechanisms; more make lists grow.
+const ROOM: usize = 64;
 /// No node.
 const NONE: usize = usize::MAX;
 
@@ -113,20 +115,20 @@ pub(super) struct Coordinates {
 
 impl Coordinates {
     /// For problems among these mechanisms, of about so many touches.
-    pub fn new(mechanisms: Mechanisms, touches: usize, open: Open) -> Self {
+    pub fn new(mechanisms: Mechanisms, touches: usize, (joint_rows, time): (usize, f64)) -> Self {
         let bodies = mechanisms.first.len();
-        let rows = if mechanisms.free.iter().all(|free| *free) { 0 } else { 3 * touches.min(64) };
+        let rows = if mechanisms.free.iter().all(|free| *free) { 0 } else { 3 * touches.min(ROOM) };
         Self {
             node_of: vec![NONE; bodies],
             nodes: Vec::with_capacity(bodies),
-            parts: Vec::with_capacity(2 * touches),
-            jacobian: Vec::with_capacity(36 * touches),
-            lines: Vec::with_capacity(rows),
+            parts: Vec::with_capacity(3 * touches),
+            jacobian: Vec::with_capacity(36 * touches + rows * rows),
+            lines: Vec::with_capacity(2 * rows),
             w: Vec::with_capacity(rows * rows),
             left: Vec::with_capacity(rows),
             b: Vec::with_capacity(rows * rows),
+            open: Open::new(joint_rows, time, 2 * rows),
             mechanisms,
-            open,
         }
     }
 

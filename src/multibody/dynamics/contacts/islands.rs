@@ -44,12 +44,12 @@ impl Islands {
         let of_nodes = || Vec::with_capacity(nodes + 1);
         Self {
             islands: Vec::with_capacity(nodes),
-            touches: Vec::with_capacity(2 * touches),
+            touches: Vec::with_capacity(3 * touches),
             place: of_nodes(),
             reach: of_nodes(),
             order: of_nodes(),
             first: of_nodes(),
-            at_node: Vec::with_capacity(2 * touches),
+            at_node: Vec::with_capacity(3 * touches),
             ends: of_nodes(),
             seen: Vec::with_capacity(nodes),
         }

@@ -44,16 +44,16 @@ pub(super) struct Open {
 }
 
 impl Open {
-    /// Room for the open rows of a system with this many rows.
-    pub fn new(rows: usize, time: f64) -> Self {
+    /// Room for the open rows of a system with this many rows, and for about so many columns of touches.
+    pub fn new(rows: usize, time: f64, columns: usize) -> Self {
         let room = rows.min(MOST_OPEN);
         Self {
             rows: Vec::with_capacity(room),
             room,
             time,
             factor: Cholesky::with_room(room, REPEATS),
-            lambda: Vec::new(),
-            solved: Vec::new(),
+            lambda: Vec::with_capacity(room * columns),
+            solved: Vec::with_capacity(room * columns),
         }
     }
 

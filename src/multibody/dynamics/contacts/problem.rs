@@ -18,7 +18,6 @@ use super::coordinates::{Coordinates, Mechanisms};
 use super::islands::{Island, Islands};
 use super::law::{Answer, Law};
 use super::newton::{Iterate, Newton, View};
-use super::open::Open;
 use super::row::Row;
 use super::touch::{LOCKED, PROXIMAL, Source, Touch};
 use crate::articulation::System;
@@ -50,13 +49,13 @@ pub(super) struct Problem {
 impl Problem {
     /// Room for about this many touches at a time, of a figure of these mechanisms whose joints have this many rows and are
     /// drawn together with this time constant (s).
-    pub fn new(touches: usize, mechanisms: Mechanisms, (joint_rows, time): (usize, f64)) -> Self {
+    pub fn new(touches: usize, mechanisms: Mechanisms, joints: (usize, f64)) -> Self {
         let (touches, bodies) = (touches.min(ROOM), mechanisms.count());
         Self {
             touches: Vec::with_capacity(touches),
             rows: Vec::with_capacity(3 * touches),
             newton: Newton::with_room(touches, bodies),
-            coordinates: Coordinates::new(mechanisms, touches, Open::new(joint_rows, time)),
+            coordinates: Coordinates::new(mechanisms, touches, joints),
             islands: Islands::with_room(bodies, touches),
             impulses: Vec::with_capacity(3 * touches),
             effort: 0,
