@@ -65,7 +65,7 @@ impl Dynamics {
             }
             let now = self.time + done;
             self.find_first_rates(now);
-            let together = self.effort.is_spent() && !self.contacts.is_empty();
+            let together = self.must_hurry() && !self.contacts.is_empty();
             let h = self.next_substep(now, dt - done, (dt, together));
             self.set_shares(now + 0.5 * h);
             done += if together { self.substep_together(h, done, impacts) } else { self.substep(h, dt, done, impacts) };
@@ -77,6 +77,12 @@ impl Dynamics {
         let lost = self.end_step(dt, already, impacts);
         self.fall_asleep(dt);
         bad.or(lost)
+    }
+
+    /// Would a substep with all its passes be too much? Joints need every substep that their error asks for, so a figure that has
+    /// any goes on.
+    fn must_hurry(&self) -> bool {
+        self.effort.is_spent() && self.equations.system.states().is_empty()
     }
 
     /// Begins a step of `dt` seconds.
@@ -220,7 +226,7 @@ impl Dynamics {
             let (integration, mut moving) = self.moving();
             h = integration.integrate(&mut moving, t, h, if sure || pass > 1 { h } else { least });
             // A pass more would be too much: the forces are as good as they get.
-            let last = self.effort.is_spent();
+            let last = self.must_hurry();
             let verdict = self.settle(h, if last { usize::MAX } else { pass }, if last { h } else { least });
             self.effort.note(self.bodies.len(), self.contacts.take_effort());
             match verdict {
