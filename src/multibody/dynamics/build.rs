@@ -1,7 +1,6 @@
 //! A figure at its start.
 
 use super::contacts::Contacts;
-use super::effort::Effort;
 use super::equations::Equations;
 use super::faults::Recovery;
 use super::forces::{Damping, Springs};
@@ -34,13 +33,8 @@ impl Dynamics {
             .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
         let joints = (system.states().len(), settings.stabilization_time);
-        let contacts = Contacts::new(
-            figure.colliders,
-            figure.pairs,
-            (figure.limits, figure.constraints),
-            (&bodies, &driven),
-            joints,
-        );
+        let contacts =
+            Contacts::new(figure.colliders, figure.pairs, (figure.limits, figure.constraints), &bodies, joints);
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,
@@ -57,7 +51,6 @@ impl Dynamics {
             integration: Integration::new(settings.integrator, precise, n, system.quads().members().len()),
             equations: Equations::new((system, plain), springs, figure.drives, &damping, laws),
             contacts,
-            effort: Effort::default(),
             sleep: Sleep::new(&bodies, &driven, ties, sleeps),
             before: bodies.clone(),
             recovery: Recovery::new(n),

@@ -19,7 +19,6 @@ mod clutches;
 mod contacts;
 mod course;
 mod drive;
-mod effort;
 mod equations;
 mod faults;
 pub mod forces;

@@ -68,8 +68,7 @@ impl Near {
         ((sweep_a, sweep_b), toi)
     }
 
-    /// The way of a collider.
-    pub fn sweep(&self, surfaces: &Surfaces, collider: usize) -> Sweep {
+    fn sweep(&self, surfaces: &Surfaces, collider: usize) -> Sweep {
         surfaces.colliders[collider].body.map_or(Sweep::STILL, |body| self.sweeps[body])
     }
 }

@@ -3,7 +3,6 @@
 mod figures;
 mod kkt;
 mod lanes;
-mod loops;
 mod rows;
 mod shares;
 mod solvers;

@@ -2,7 +2,6 @@
 
 mod asleep;
 mod loaded;
-mod many;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
