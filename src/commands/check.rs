@@ -13,7 +13,7 @@ use soffio_offline::budget::{self, Findings};
 /// Validates exhibits, configs and models: all problems at once, located, explained.
 ///
 /// An exhibit without mistakes is also run, for up to 10 s of processor time: a hard breath, a fast hand, and 20 assemblies.
-/// A warning tells where a kiosk would not keep up with it.
+/// A warning says where a kiosk would not keep up with it.
 ///
 /// Example: soffio check exhibits/steel-fish
 #[derive(clap::Args, Debug, Default)]

@@ -176,7 +176,7 @@ impl LateStep {
                 "fewer parts that touch at once, simpler shapes, fewer joints that close loops"
             }
         };
-        let help = format!("{fewer}; `soffio bench {exhibit}` tells its longest steps, on the kiosk too");
+        let help = format!("{fewer}; `soffio bench {exhibit}` reports its longest steps, on the kiosk too");
         Diagnostic::new(codes::LATE, message).help(help)
     }
 }

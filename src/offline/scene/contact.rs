@@ -4,7 +4,7 @@
 //! penetration = largest −gap of two shapes that may meet, m
 //! rise        = largest E(t) − E(s), s ≤ t: contacts, friction and joints only lose energy, J
 //! way         = farthest distance of a body from where it began, m
-//! drift       = the same within the last second of the run: what rests does not move, m
+//! drift       = the same within the last second of the run: resting bodies do not move, m
 //! ```
 //!
 //! Gaps are measured where the balls around two shapes overlap; shapes that only touch have none to tell.

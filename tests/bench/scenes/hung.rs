@@ -1,4 +1,4 @@
-//! What hangs and hits.
+//! Chimes, cradles and mobiles that hang and collide.
 
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI, rotation};
