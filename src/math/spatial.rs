@@ -301,6 +301,17 @@ impl Articulated {
         })
     }
 
+    /// From one matrix, which is symmetric.
+    #[inline(always)]
+    pub fn of_matrix(m: &Mat6) -> Self {
+        let column = |j: usize| V3::new(m[0][j], m[1][j], m[2][j]);
+        Self {
+            a: Sym3 { d: V3::new(m[0][0], m[1][1], m[2][2]), o: V3::new(m[1][2], m[0][2], m[0][1]) },
+            b: M3 { x: column(3), y: column(4), z: column(5) },
+            c: Sym3 { d: V3::new(m[3][3], m[4][4], m[5][5]), o: V3::new(m[4][5], m[3][5], m[3][4]) },
+        }
+    }
+
     /// Inverse of the matrix of a body on which nothing hangs: its two blocks by themselves.
     #[inline(always)]
     pub fn inverse_alone(&self) -> Mat6 {

@@ -71,7 +71,10 @@ impl Dense {
             let alone = *self.factor.entry(i, i);
             self.factor.measure(i, alone);
             *self.factor.entry(i, i) += if gathering { GATHERING * alone } else { 0.0 };
-            self.rows[self.active[i]].add_compliance(i, &mut self.factor);
+            let row = &self.rows[self.active[i]];
+            for (l, gamma) in row.compliance[..=row.place].iter().enumerate() {
+                *self.factor.entry(i, i - row.place + l) += gamma;
+            }
         }
         self.factor.factor();
     }

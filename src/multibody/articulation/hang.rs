@@ -1,5 +1,6 @@
 //! How bodies hang in the tree of their joints: parents, the order from the roots, and the quads that they go by.
 
+use super::loops::graph::Component;
 use super::quads::{Members, Slot};
 use soffio_math::lanes::{Four, WIDTH};
 
@@ -29,6 +30,8 @@ pub(super) struct Hang {
     pub depth: usize,
     /// Does nothing hang on it?
     pub leaf: bool,
+    /// The component of loops that it is eliminated with.
+    pub component: Option<usize>,
 }
 
 /// What the bodies of a quad hang on.
@@ -53,12 +56,22 @@ pub(super) enum Step {
     Point(Slot),
     /// Any other body.
     Body(usize),
+    /// The bodies of a component of loops.
+    Loops(usize),
 }
 
 /// Steps from the roots, and the quads that they go by: two to four bodies of one depth that hang by a point side by
 /// side, the others in the order in which they come. What is driven is in a quad, but nothing is to be found of it.
-pub(super) fn by_quads(order: &[usize], hang: &[Hang], driven: &[bool]) -> (Vec<Step>, Vec<Members>) {
+pub(super) fn by_quads(
+    order: &[usize],
+    hang: &[Hang],
+    driven: &[bool],
+    components: &[Component],
+) -> (Vec<Step>, Vec<Members>) {
     let (mut steps, mut members) = (Vec::new(), Vec::<Members>::new());
+    // Trains alone may be in loops too.
+    let of_none = |&component: &usize| components[component].bodies.is_empty();
+    steps.extend((0..components.len()).filter(of_none).map(Step::Loops));
     let mut open = None;
     for level in order.chunk_by(|&a, &b| hang[a].depth == hang[b].depth) {
         let (points, mut others): (Vec<usize>, Vec<usize>) = level.iter().partition(|&&body| hang[body].ball);
@@ -86,52 +99,64 @@ pub(super) fn by_quads(order: &[usize], hang: &[Hang], driven: &[bool]) -> (Vec<
             };
             open = Some(quad);
             let slot = Slot { quad, lane: members[quad].count - 1 };
-            if !driven[body] {
-                steps.push(if hang[body].ball { Step::Point(slot) } else { Step::Body(body) });
+            match hang[body].component {
+                Some(component) if components[component].bodies[0] == body => steps.push(Step::Loops(component)),
+                None if hang[body].ball => steps.push(Step::Point(slot)),
+                None if !driven[body] => steps.push(Step::Body(body)),
+                _ => {}
             }
         }
     }
     (steps, members)
 }
 
-/// How each body hangs, all bodies roots first, and which links are in the tree.
+/// How each body hangs, and all bodies roots first. `bridges` are the links of the tree, beside the components of loops.
 pub(super) fn hangs(
     driven: &[bool],
     links: &[Link],
     (at, points): (&[usize], &[bool]),
-) -> (Vec<Hang>, Vec<usize>, Vec<bool>) {
+    (bridges, components): (&[bool], &[Component]),
+) -> (Vec<Hang>, Vec<usize>) {
     let bodies = driven.len();
     let mut hang: Vec<Option<Hang>> = vec![None; bodies];
-    let mut in_tree = vec![false; links.len()];
     let mut order = Vec::with_capacity(bodies);
     for body in (0..bodies).filter(|&body| driven[body]) {
         hang[body] = Some(Hang::root(None, at));
         order.push(body);
     }
-    for (joint, link) in links.iter().enumerate() {
-        if link.b.is_none() && hang[link.a].is_none() {
+    for (joint, link) in links.iter().enumerate().filter(|(joint, _)| bridges[*joint]) {
+        if link.b.is_none() {
             hang[link.a] = Some(Hang::root(Some(joint), at));
-            in_tree[joint] = true;
             order.push(link.a);
         }
     }
     let beside = links_of(bodies, links);
+    let enter = |top: Option<usize>, depth: usize, hang: &mut [Option<Hang>], order: &mut Vec<usize>| {
+        for (index, component) in components.iter().enumerate().filter(|(_, component)| component.top == top) {
+            for &body in &component.bodies {
+                hang[body] = Some(Hang { depth, component: Some(index), ..Hang::root(None, at) });
+                order.push(body);
+            }
+        }
+    };
+    enter(None, 0, &mut hang, &mut order);
     let mut head = 0;
     for piece in 0..=bodies {
         while head < order.len() {
             let parent = order[head];
             head += 1;
             let depth = hang[parent].map_or(0, |hang| hang.depth) + 1;
-            for &joint in &beside[parent] {
+            for &joint in beside[parent].iter().filter(|&&joint| bridges[joint]) {
                 let link = links[joint];
                 let child = if link.a == parent { link.b } else { Some(link.a) };
                 let Some(child) = child.filter(|&child| hang[child].is_none()) else { continue };
                 let (first, at) = (link.a == child, at[joint]);
-                in_tree[joint] = true;
                 let (parent, joint) = (Some(parent), Some(joint));
-                hang[child] = Some(Hang { parent, joint, at, first, ball: false, depth, leaf: true });
+                let leaf = true;
+                hang[child] = Some(Hang { parent, joint, at, first, ball: false, depth, leaf, component: None });
                 order.push(child);
             }
+            enter(Some(parent), depth, &mut hang, &mut order);
         }
         if piece < bodies && hang[piece].is_none() {
             hang[piece] = Some(Hang::root(None, at));
@@ -147,7 +172,10 @@ pub(super) fn hangs(
             hang[parent].leaf = false;
         }
     }
-    (hang, order, in_tree)
+    for top in components.iter().filter_map(|component| component.top) {
+        hang[top].leaf = false;
+    }
+    (hang, order)
 }
 
 /// The links of each body.
@@ -185,7 +213,7 @@ impl Hang {
     /// Of a body by a joint to the world, or by nothing. `at` is where each joint's numbers begin.
     fn root(joint: Option<usize>, at: &[usize]) -> Self {
         let at = joint.map_or(0, |j| at[j]);
-        Self { parent: None, joint, at, first: true, ball: false, depth: 0, leaf: true }
+        Self { parent: None, joint, at, first: true, ball: false, depth: 0, leaf: true, component: None }
     }
 
     /// Rows are written for the joint's first body: their sign as seen from this one.

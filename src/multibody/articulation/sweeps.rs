@@ -8,16 +8,26 @@ use fearless_simd::Simd;
 use super::ball::{Arms, Ball, Twist};
 use super::block::{MAX_ROWS, for_rows};
 use super::hang::Step;
+use super::loops::Loops;
 use super::quads::{Quad, Slot};
-use super::tree::{Form, Tree};
+use super::trains::Trains;
+use super::tree::{Form, JointRows, Tree};
 use soffio_math::lanes::{All, Four, Lanes, One, V3};
 use soffio_math::spatial::Articulated;
 use soffio_math::spatial::{Vec6, add_scaled, dot, inverse, mul};
 
 impl Tree {
-    /// Factors the system for bodies of these masses and world inertias, and the joints' present forms.
+    /// Factors the system for bodies of these masses and world inertias, the joints' present forms and the rows of loops.
+    /// Does the figure gather?
     #[inline(always)]
-    pub fn factor<'a, S: Simd>(&mut self, simd: S, quads: &[Quad], form: &impl Fn(usize) -> Form<'a>) {
+    pub fn factor<'a, S: Simd>(
+        &mut self,
+        simd: S,
+        quads: &[Quad],
+        form: &impl Fn(usize) -> Form<'a>,
+        loops: &mut Loops,
+        of_loops: (&[JointRows], &Trains, bool),
+    ) {
         for &index in &self.begun {
             let (members, quad, lanes) = (&self.members[index], &quads[index], All(simd));
             let alone = Articulated::alone(lanes.get(&quad.mass), quad.inertia.get(lanes));
@@ -30,6 +40,7 @@ impl Tree {
                 Step::Quad(quad) => self.factor_balls(All(simd), quad),
                 Step::Point(Slot { quad, lane }) => self.factor_balls(One(lane), quad),
                 Step::Body(body) => self.factor_one(body, form),
+                Step::Loops(component) => loops.factor(component, &mut self.articulated, of_loops),
             }
         }
     }
@@ -76,26 +87,40 @@ impl Tree {
         }
     }
 
-    /// The way up: h of the joints into `lambda`, what they push into `b`.
+    /// The way up: h of the joints into `lambda`, what they push into `b`. `a` has what is given.
     #[inline(always)]
-    pub fn sweep_up<S: Simd>(&self, simd: S, b: &mut [Vec6], g: &[f64], lambda: &mut [f64]) {
+    pub fn sweep_up<S: Simd>(
+        &self,
+        simd: S,
+        loops: &mut Loops,
+        (b, g, a): (&mut [Vec6], &[f64], &[Vec6]),
+        lambda: &mut [f64],
+    ) {
         for step in self.awake.iter().rev() {
             match *step {
                 Step::Quad(quad) => self.up_balls(All(simd), quad, b, Some(g), lambda),
                 Step::Point(Slot { quad, lane }) => self.up_balls(One(lane), quad, b, Some(g), lambda),
                 Step::Body(body) => self.up(body, b, Some(g), lambda),
+                Step::Loops(component) => loops.up(component, b, g, a),
             }
         }
     }
 
     /// The way down: the accelerations and the final `lambda`.
     #[inline(always)]
-    pub fn sweep_down<S: Simd>(&self, simd: S, b: &[Vec6], g: &[f64], lambda: &mut [f64], a: &mut [Vec6]) {
+    pub fn sweep_down<S: Simd>(
+        &self,
+        simd: S,
+        loops: &mut Loops,
+        (b, g): (&[Vec6], &[f64]),
+        (lambda, a): (&mut [f64], &mut [Vec6]),
+    ) {
         for step in &self.awake {
             match *step {
                 Step::Quad(quad) => self.down_balls(All(simd), quad, b, Some(g), lambda, a),
                 Step::Point(Slot { quad, lane }) => self.down_balls(One(lane), quad, b, Some(g), lambda, a),
                 Step::Body(body) => self.down(body, b, Some(g), lambda, a),
+                Step::Loops(component) => loops.down(component, b, lambda, a),
             }
         }
     }

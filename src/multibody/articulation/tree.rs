@@ -27,7 +27,7 @@
 //!
 //! A driven body's a is given: it is ground that moves. Γ need not be diagonal within a joint: `share.rs` says why.
 //!
-//! Invariant: the order and all sizes are fixed by [`Tree::new`]; `factor` and `solve` never allocate.
+//! Invariant: the order and all sizes are fixed by `Tree::new`; `factor` and `solve` never allocate.
 
 use fearless_simd::Level;
 
@@ -35,6 +35,7 @@ use super::Groups;
 use super::ball::Ball;
 use super::block::{MAX_ROWS, RowBlock, RowSquare, for_rows, pseudo_inverse};
 use super::hang::{Hang, Hooks, Link, Step, by_quads, hangs, hooks};
+use super::loops::graph::{Component, Graph};
 use super::quads::{Members, Slot};
 use soffio_math::DVec3;
 use soffio_math::lanes::{Four, One};
@@ -52,11 +53,14 @@ pub struct JointRows {
     pub b: RowBlock,
     /// Γ, lower triangle; 0 is hard.
     pub compliance: RowSquare,
+    /// Is any of it not 0?
+    pub soft: bool,
 }
 
 impl Default for JointRows {
     fn default() -> Self {
-        Self { rows: 0, a: [[0.0; 6]; MAX_ROWS], b: [[0.0; 6]; MAX_ROWS], compliance: [[0.0; MAX_ROWS]; MAX_ROWS] }
+        let (blocks, hard) = ([[0.0; 6]; MAX_ROWS], [[0.0; MAX_ROWS]; MAX_ROWS]);
+        Self { rows: 0, a: blocks, b: blocks, compliance: hard, soft: false }
     }
 }
 
@@ -92,9 +96,13 @@ pub struct Tree {
     pub(super) awake: Vec<Step>,
     /// Quads that the factor begins with: those of whom is eliminated, and of what these hang on.
     pub(super) begun: Vec<usize>,
+    /// Room to find them: a flag a quad, and one for the world's.
+    needed: Vec<bool>,
     pub(super) hang: Vec<Hang>,
     pub(super) driven: Vec<bool>,
-    loops: Vec<usize>,
+    /// Which links are the tree's, and what else there is.
+    bridges: Vec<bool>,
+    pub(super) components: Vec<Component>,
     pub(super) members: Vec<Members>,
     pub(super) slots: Vec<Slot>,
     pub(super) hooks: Vec<Hooks>,
@@ -107,27 +115,35 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// The elimination order of bodies joined by `links`: breadth first from the ground (the world and what is
+    /// The elimination order of the bodies of a graph joined by `links`: breadth first from the ground (the world and what is
     /// driven), then each piece that floats from its first body. `at` is where each link's numbers begin, `points`
-    /// whether it is never anything but a point. Links that would close a loop are left out, see [`Tree::loops`].
+    /// whether it is never anything but a point. `components` are those of the graph.
     /// `level` says which instructions there are, `groups` which bodies stand beside each other where they may.
-    pub fn new(
+    pub(super) fn new(
         level: Level,
-        driven: &[bool],
+        graph: &Graph,
         links: &[Link],
         (at, points): (&[usize], &[bool]),
+        components: Vec<Component>,
         groups: &Groups,
     ) -> Self {
-        let bodies = driven.len();
-        let (hang, mut order, in_tree) = hangs(driven, links, (at, points));
+        let bodies = graph.driven.len();
+        // To the tree a train is ground that moves.
+        let driven: Vec<bool> = (0..bodies).map(|body| graph.driven[body] || graph.train[body].is_some()).collect();
+        let (of_tree, components): (Vec<_>, Vec<_>) =
+            components.into_iter().partition(|component| component.is_bridge(links.len()));
+        let mut bridges = vec![false; links.len()];
+        of_tree.iter().for_each(|component| bridges[component.ties[0]] = true);
+        let (hang, mut order) = hangs(&driven, links, (at, points), (&bridges, &components));
         // What sleeps is left out quad by quad, so groups share as few as they can; sums come out the same.
         order.sort_by_key(|&body| (hang[body].depth, groups.first(body)));
-        let (steps, members) = by_quads(&order, &hang, driven);
+        let (steps, members) = by_quads(&order, &hang, &driven, &components);
         let (slots, hooks) = hooks(&hang, &members);
         let mut tree = Self {
             level,
             begun: Vec::with_capacity(members.len()),
-            general: hang.iter().map(|hang| (!hang.ball).then(Box::default)).collect(),
+            needed: vec![false; members.len() + 1],
+            general: hang.iter().map(|hang| (!hang.ball && hang.component.is_none()).then(Box::default)).collect(),
             awake: steps.clone(),
             steps,
             hooks,
@@ -137,8 +153,9 @@ impl Tree {
             members,
             order,
             hang,
-            driven: driven.to_vec(),
-            loops: (0..links.len()).filter(|&joint| !in_tree[joint]).collect(),
+            driven,
+            bridges,
+            components,
         };
         tree.look_who_begins();
         tree
@@ -146,12 +163,13 @@ impl Tree {
 
     /// Leaves out the steps whose bodies all sleep.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
-        let Self { steps, awake, members, .. } = self;
+        let Self { steps, awake, members, components, .. } = self;
         let of = |slot: &Slot| asleep[members[slot.quad].bodies[slot.lane]];
         let idle = |step: &Step| match step {
             Step::Quad(quad) => members[*quad].all().iter().all(|&body| asleep[body]),
             Step::Point(slot) => of(slot),
             Step::Body(body) => asleep[*body],
+            Step::Loops(component) => components[*component].bodies.first().is_some_and(|&body| asleep[body]),
         };
         awake.clear();
         awake.extend(steps.iter().filter(|step| !idle(step)));
@@ -159,17 +177,25 @@ impl Tree {
     }
 
     fn look_who_begins(&mut self) {
-        let Self { awake, members, slots, hooks, begun, .. } = self;
-        let needs = |step: &Step, quad: usize| {
-            let (own, lanes) = match *step {
-                Step::Quad(own) => (own, 0..members[own].count),
-                Step::Point(slot) => (slot.quad, slot.lane..slot.lane + 1),
-                Step::Body(body) => (slots[body].quad, slots[body].lane..slots[body].lane + 1),
-            };
-            own == quad || hooks[own].slots[lanes].iter().any(|parent| parent.quad == quad)
+        let Self { awake, members, slots, hooks, components, begun, needed, .. } = self;
+        needed.fill(false);
+        let mut needs = |slot: Slot| {
+            needed[slot.quad] = true;
+            needed[hooks[slot.quad].slots[slot.lane].quad] = true;
         };
+        for step in awake.iter() {
+            match *step {
+                Step::Quad(quad) => (0..members[quad].count).for_each(|lane| needs(Slot { quad, lane })),
+                Step::Point(slot) => needs(slot),
+                Step::Body(body) => needs(slots[body]),
+                Step::Loops(index) => {
+                    let Component { bodies, top, .. } = &components[index];
+                    bodies.iter().chain(top).for_each(|&body| needs(slots[body]));
+                }
+            }
+        }
         begun.clear();
-        begun.extend((0..members.len()).filter(|&quad| awake.iter().any(|step| needs(step, quad))));
+        begun.extend((0..members.len()).filter(|&quad| needed[quad]));
     }
 
     /// Who stands beside whom.
@@ -177,9 +203,14 @@ impl Tree {
         &self.members
     }
 
-    /// Links that close a loop and so are not in the tree.
-    pub fn loops(&self) -> &[usize] {
-        &self.loops
+    /// Is a link one of the tree? Else it is in a loop, or joins nothing that gives way.
+    pub fn is_bridge(&self, link: usize) -> bool {
+        self.bridges[link]
+    }
+
+    /// Does anything hang on a body?
+    pub fn carries(&self, body: usize) -> bool {
+        !self.hang[body].leaf
     }
 
     /// Rows of a body's joint that repeat others at the last factorisation, as a bit set: they carry no multiplier.
@@ -206,14 +237,7 @@ impl Tree {
         if self.hang[body].first { (own, parent) } else { (parent, own) }
     }
 
-    /// Bodies on the ways from these to their roots, roots first.
-    pub fn paths(&self, from: impl Iterator<Item = usize>) -> Vec<usize> {
-        let (mut on, mut ways) = (vec![false; self.hang.len()], Vec::new());
-        self.paths_into(from, &mut on, &mut ways);
-        ways
-    }
-
-    /// The same into `ways`; `on` lends a flag a body.
+    /// Bodies on the ways from these to their roots, roots first, into `ways`; `on` lends a flag a body. In loops there are no ways.
     pub fn paths_into(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
         on.fill(false);
         for mut body in from {
@@ -232,6 +256,16 @@ impl Tree {
     /// All bodies, roots first.
     pub fn order(&self) -> &[usize] {
         &self.order
+    }
+}
+
+impl JointRows {
+    /// Lets no row be soft.
+    #[inline(always)]
+    pub fn harden(&mut self) {
+        if std::mem::take(&mut self.soft) {
+            self.compliance = [[0.0; MAX_ROWS]; MAX_ROWS];
+        }
     }
 }
 

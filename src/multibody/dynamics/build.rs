@@ -1,6 +1,7 @@
 //! A figure at its start.
 
 use super::contacts::Contacts;
+use super::effort::Effort;
 use super::equations::Equations;
 use super::faults::Recovery;
 use super::forces::{Damping, Springs};
@@ -33,8 +34,13 @@ impl Dynamics {
             .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
         let joints = (system.states().len(), settings.stabilization_time);
-        let contacts =
-            Contacts::new(figure.colliders, figure.pairs, (figure.limits, figure.constraints), &bodies, joints);
+        let contacts = Contacts::new(
+            figure.colliders,
+            figure.pairs,
+            (figure.limits, figure.constraints),
+            (&bodies, &driven),
+            joints,
+        );
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,
@@ -51,6 +57,7 @@ impl Dynamics {
             integration: Integration::new(settings.integrator, precise, n, system.quads().members().len()),
             equations: Equations::new((system, plain), springs, figure.drives, &damping, laws),
             contacts,
+            effort: Effort::default(),
             sleep: Sleep::new(&bodies, &driven, ties, sleeps),
             before: bodies.clone(),
             recovery: Recovery::new(n),

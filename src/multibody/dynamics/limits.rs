@@ -24,6 +24,8 @@ use soffio_math::{DVec3, Pose, acos};
 
 use super::contacts::Row;
 
+/// What approaches no faster than this does so by rounding, m/s or rad/s.
+const ROUNDED: f64 = 1e-15;
 /// Rounds of the search for the time at which a bound is reached: bisection to a millionth of a substep.
 const HALVINGS: usize = 20;
 /// Distances and tilts smaller than this have no direction, m and rad.
@@ -257,11 +259,11 @@ impl Limits {
         let start = self.value(bound, before);
         if start <= TOUCH {
             let rate = |bodies: &[RigidBody]| self.row(bound, bodies).1.rate(bodies);
-            if rate(before) < 0.0 {
+            if rate(before) < -ROUNDED {
                 return Some(0.0);
             }
             // Opens at first: reached again on the way only if it has come back.
-            if end >= start || rate(after) >= 0.0 {
+            if end >= start || rate(after) >= -ROUNDED {
                 return None;
             }
         }

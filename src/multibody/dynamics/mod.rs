@@ -19,6 +19,7 @@ mod clutches;
 mod contacts;
 mod course;
 mod drive;
+mod effort;
 mod equations;
 mod faults;
 pub mod forces;

@@ -25,9 +25,9 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::Function;
 use soffio_math::spatial::{Vec6, angular, linear};
 
-/// Slower than this is rest, m/s: less than a tenth of a millimetre in a day, and a hundred times what rounding leaves to what
-/// rests on others.
-const SLOW: f64 = 1e-9;
+/// Slower than this is rest, m/s: less than a millimetre in a day, and more than what the contact solver leaves to the top of a tower of
+/// twenty boxes.
+const SLOW: f64 = 1e-8;
 /// For so long, s: a swing of ω that is wider than 2 SLOW/(ω² QUIET), some nanometres, does not pause for as long.
 const QUIET: f64 = 1.0;
 /// Acceleration that a change of push may be worth, m/s²: it would make a body SLOW in the same time.

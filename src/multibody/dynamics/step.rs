@@ -1,6 +1,7 @@
 //! One step of a figure, stage by stage.
 
 use super::contacts::{Contacts, Hit, Impact, Verdict};
+use super::effort::Effort;
 use super::equations::{Equations, Known};
 use super::faults::Recovery;
 use super::integrate::{Integration, Moving};
@@ -32,6 +33,7 @@ pub struct Dynamics {
     pub(super) equations: Equations,
     pub(super) integration: Integration,
     pub(super) contacts: Contacts,
+    pub(super) effort: Effort,
     pub(super) loads: JointLoads,
     pub(super) sleep: Sleep,
     pub(super) recovery: Recovery,
@@ -63,9 +65,10 @@ impl Dynamics {
             }
             let now = self.time + done;
             self.find_first_rates(now);
-            let h = self.next_substep(now, dt - done, dt);
+            let together = self.must_hurry() && !self.contacts.is_empty();
+            let h = self.next_substep(now, dt - done, (dt, together));
             self.set_shares(now + 0.5 * h);
-            done += self.substep(h, dt, done, impacts);
+            done += if together { self.substep_together(h, done, impacts) } else { self.substep(h, dt, done, impacts) };
             self.substeps += 1;
         }
         if self.loads.rubs && self.bodies.iter().all(RigidBody::is_finite) {
@@ -76,11 +79,18 @@ impl Dynamics {
         bad.or(lost)
     }
 
+    /// Would a substep with all its passes be too much? Joints need every substep that their error asks for, so a figure that has
+    /// any goes on.
+    fn must_hurry(&self) -> bool {
+        self.effort.is_spent() && self.equations.system.states().is_empty()
+    }
+
     /// Begins a step of `dt` seconds.
     pub(super) fn begin_step(&mut self, dt: f64) {
         self.recovery.begin_step(&self.bodies);
         self.integration.begin_step(dt);
         self.contacts.begin_step(self.time);
+        self.effort.begin_step();
         self.begin_happenings();
         self.substeps = 0;
     }
@@ -95,12 +105,12 @@ impl Dynamics {
     }
 
     /// How long the next substep is to be, with `left` of the step's `dt` seconds left at the time `now`.
-    fn next_substep(&self, now: f64, left: f64, dt: f64) -> f64 {
+    fn next_substep(&self, now: f64, left: f64, (dt, together): (f64, bool)) -> f64 {
         let Equations { system, springs, .. } = &self.equations;
         let edge = system.activity.next_edge(now).min(springs.activity.next_edge(now));
         // Asked anew each time: a hit changes what there is to follow.
         let left = left.min((edge - now).max(dt / MOST_EDGES));
-        let count = (left / self.substep_length(dt)).ceil().max(1.0);
+        let count = (left / self.substep_length(dt, together)).ceil().max(1.0);
         left / count
     }
 
@@ -133,6 +143,38 @@ impl Dynamics {
         self.weigh_joints(now + used);
         self.break_overloaded(now + used);
         used
+    }
+
+    /// Integrates `h` seconds as if nothing were in the way, and puts right at their end what met or rests. Returns `h`.
+    fn substep_together(&mut self, h: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
+        let now = self.time + done;
+        let (integration, mut moving) = self.moving();
+        integration.begin_substep(&mut moving);
+        self.before.copy_from_slice(&self.bodies);
+        self.contacts.begin_substep();
+        self.contacts.lay_out_once(h, &self.equations.system);
+        self.press();
+        let (integration, mut moving) = self.moving();
+        integration.integrate(&mut moving, now, h, h);
+        while self.sleep.any()
+            && let Some(body) = self.contacts.met_asleep(&self.before, &self.bodies)
+        {
+            self.wake(body);
+        }
+        self.equations.prepare_impulses(&self.bodies);
+        let Self { equations, contacts, bodies, before, .. } = self;
+        contacts.settle_together((done, h), before, &mut equations.system, bodies, impacts);
+        self.equations.project(&mut self.bodies);
+        self.integration.interrupt();
+        self.sleep.keep(&mut self.bodies, &self.before);
+        while let Some(body) = self.contacts.leant_on() {
+            self.wake(body);
+        }
+        self.contacts.end_substep(&self.bodies);
+        self.weigh_joints(now + h);
+        self.break_overloaded(now + h);
+        self.effort.note(self.bodies.len(), self.contacts.take_effort());
+        h
     }
 
     /// Goes through a substep of `whole` seconds again, up to a hit on its way. Returns the time used, and the time aimed at.
@@ -183,7 +225,11 @@ impl Dynamics {
             self.press();
             let (integration, mut moving) = self.moving();
             h = integration.integrate(&mut moving, t, h, if sure || pass > 1 { h } else { least });
-            match self.settle(h, pass, least) {
+            // A pass more would be too much: the forces are as good as they get.
+            let last = self.must_hurry();
+            let verdict = self.settle(h, if last { usize::MAX } else { pass }, if last { h } else { least });
+            self.effort.note(self.bodies.len(), self.contacts.take_effort());
+            match verdict {
                 Verdict::Again => pass += 1,
                 Verdict::Shorter => (h, pass) = (0.5 * h, 1),
                 Verdict::Slips => {
@@ -243,14 +289,16 @@ impl Dynamics {
         integration.back_to_start(&mut moving);
     }
 
-    /// Longest substep that follows the fastest motion: the tension modes, the free spin, and what the last error allowed.
-    fn substep_length(&self, dt: f64) -> f64 {
-        let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
-        let spin = spins.fold(0.0, f64::max);
-        let longest = (TENSION_PHASE / self.loads.stiffest().sqrt())
-            .min(SPIN_PHASE / spin.sqrt())
-            .min(self.integration.stride)
-            .min(self.contacts.longest_substep());
+    /// Longest substep that follows the fastest motion: the tension modes, the free spin, and what the last error allowed; of
+    /// contact that is solved `together`, the tension modes alone.
+    fn substep_length(&self, dt: f64, together: bool) -> f64 {
+        let mut longest = TENSION_PHASE / self.loads.stiffest().sqrt();
+        if !together {
+            let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
+            let spin = spins.fold(0.0, f64::max);
+            longest =
+                longest.min(SPIN_PHASE / spin.sqrt()).min(self.integration.stride).min(self.contacts.longest_substep());
+        }
         longest.max(dt / MOST_SUBSTEPS)
     }
 

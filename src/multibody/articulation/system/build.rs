@@ -14,7 +14,8 @@ use crate::articulation::block::MAX_ROWS;
 use crate::articulation::dense::Dense;
 use crate::articulation::hang::Link;
 use crate::articulation::hung::Hung;
-use crate::articulation::loops::{LoopRow, Loops};
+use crate::articulation::loops::graph::{Component, Graph};
+use crate::articulation::loops::{LoopRow, Loops, Span};
 use crate::articulation::quads::Quads;
 use crate::articulation::rows::coupling::Gauge;
 use crate::articulation::trains::{Asked, Trains};
@@ -37,26 +38,26 @@ impl System {
         for joint in &mut joints {
             joint.in_train = joint.constraints.iter().all(|&constraint| trains.owns(constraint));
         }
-        // To the tree a train is ground that moves.
-        let given: Vec<bool> = (0..n).map(|body| driven[body] || trains.has(body)).collect();
         let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
         let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
-        let tree = Tree::new(level, &given, &links, (&at, &points), &islands(driven, constraints));
+        let train: Vec<Option<usize>> = (0..n).map(|body| trains.of(body)).collect();
+        let graph = Graph { driven, train: &train };
+        let components = components(&graph, &joints, constraints, &trains);
+        let islands = islands(driven, constraints);
+        let tree = Tree::new(level, &graph, &links, (&at, &points), components, &islands);
         let mut outside = Vec::new();
         let blocks = place_rows(&mut joints, (constraints, bodies), (&tree, &points), method, &mut outside);
         let (couplings, count) = couplings((constraints, bodies), &trains, count, &mut outside);
         for &body in tree.order() {
-            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint] && !given[body]) {
+            if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint]) {
                 joints[joint].hangs = Some(body);
             }
         }
         let hung = Hung::new(&tree, |body| ends(&tree, &joints, body));
-        let (loop_rows, dense) = match method {
-            Method::Sparse => (outside, None),
-            Method::Dense => (Vec::new(), Some(Dense::new(outside, driven))),
+        let (loops, dense) = match method {
+            Method::Sparse => (Loops::new(outside, &tree, &spans(&joints, &couplings), &trains), None),
+            Method::Dense => (Loops::default(), Some(Dense::new(outside, driven))),
         };
-        let numbers = |joint: usize| joints[joint].at..joints[joint].at + joints[joint].capacity;
-        let loops = Loops::new(loop_rows, (&tree, &trains), driven, (count, numbers));
         let quads = Quads::new(level, tree.members(), bodies);
         let rows = Rows::new((constraints, n), joints, couplings, (blocks, count), &trains);
         Self {
@@ -118,7 +119,6 @@ impl Rows {
             framed,
             gathering: false,
             told: false,
-            whole: true,
         }
     }
 }
@@ -141,6 +141,29 @@ fn islands(driven: &[bool], constraints: &[Constraint]) -> Groups {
     groups
 }
 
+/// The components of the graph of joints and couplings, without what trains hold themselves.
+fn components(graph: &Graph, joints: &[Joint], constraints: &[Constraint], trains: &Trains) -> Vec<Component> {
+    let links: Vec<Option<Link>> = joints.iter().map(|joint| (!joint.in_train).then_some(joint.link)).collect();
+    let touched = |(index, constraint): (usize, &Constraint)| match &constraint.kind {
+        ConstraintKind::Coupling { .. } if trains.owns(index) => Some(Vec::new()),
+        ConstraintKind::Coupling { terms } => {
+            Some(terms.iter().flat_map(|term| <[_; 2]>::from(term.measure.bodies())).collect())
+        }
+        _ => None,
+    };
+    let couplings: Vec<Vec<Option<usize>>> = constraints.iter().enumerate().filter_map(touched).collect();
+    graph.components(&links, &couplings)
+}
+
+/// Which rows outside the tree are each joint's, then each coupling's.
+fn spans(joints: &[Joint], couplings: &[Coupling]) -> Vec<Span> {
+    let of_joint = |joint: &Joint| {
+        joint.outside.map_or(Span::default(), |first| Span { first, count: joint.capacity, block: joint.block })
+    };
+    let of_couplings = couplings.iter().map(|coupling| Span { first: coupling.outside, count: 1, block: None });
+    joints.iter().map(of_joint).chain(of_couplings).collect()
+}
+
 /// Says where the rows of each joint are: in a block of its own, and among those outside the tree. Returns the blocks.
 fn place_rows(
     joints: &mut [Joint],
@@ -152,7 +175,7 @@ fn place_rows(
     let mut blocks = Vec::new();
     for (index, joint) in joints.iter_mut().enumerate() {
         joint.point = lone_point(joint, constraints, bodies);
-        let closes = tree.loops().contains(&index) && !joint.in_train;
+        let closes = !tree.is_bridge(index) && !joint.in_train;
         if closes || method == Method::Dense {
             joint.outside = Some(outside.len());
             let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
@@ -212,5 +235,5 @@ fn merged(ranges: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
 
 fn blank_row(at: usize, place: usize, bodies: &[usize], held: bool) -> LoopRow {
     let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
-    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held, alone: 0.0 }
+    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held }
 }

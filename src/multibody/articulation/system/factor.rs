@@ -52,15 +52,17 @@ impl Factor {
             return;
         }
         let (joints, blocks) = (&rows.joints, &rows.blocks);
-        self.tree.factor(simd, quads.all(), &|index| {
+        let form = |index: usize| {
             let joint = &joints[index];
             match (joint.arms, joint.block) {
                 (Some((a, b)), _) => Form::Point(a, b),
                 (None, Some(block)) => Form::Rows(&blocks[block]),
                 (None, None) => unreachable!("a joint is a point or has a block"),
             }
-        });
-        self.loops.factor((&self.tree, &self.trains), quads, (rows.gathering, rows.whole));
+        };
+        self.loops.begin();
+        let of_loops = (&blocks[..], &self.trains, rows.gathering);
+        self.tree.factor(simd, quads.all(), &form, &mut self.loops, of_loops);
     }
 
     /// Solves for `a` and `lambda` from `b` and `g`, by the best instructions there are.
@@ -77,9 +79,9 @@ impl Factor {
             return;
         }
         self.trains.solve(self.asked, quads, b, a);
-        self.tree.sweep_up(simd, b, g, lambda);
-        self.loops.correct(&self.tree, b, g, a, lambda);
-        self.tree.sweep_down(simd, b, g, lambda, a);
+        self.loops.begin_solve();
+        self.tree.sweep_up(simd, &mut self.loops, (b, g, a), lambda);
+        self.tree.sweep_down(simd, &mut self.loops, (b, g), (lambda, a));
         self.trains.push(self.loops.pushes(), a);
     }
 }

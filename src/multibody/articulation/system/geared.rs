@@ -4,7 +4,7 @@
 //! an f along each train's coordinate, and is answered by
 //!
 //! ```text
-//! q̇ = f/m + Σ μ g/m        S μ = −Σ g f/m        g those of the rows of loops, S their system (`loops.rs`)
+//! q̇ = f/m + Σ μ g/m        S μ = −Σ g f/m        g those of the rows of loops, S their system (`loops/`)
 //! ```
 //!
 //! since nothing hangs on a train in the tree. What contacts ask of a clock is of this kind.

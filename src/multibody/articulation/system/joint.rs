@@ -42,7 +42,7 @@ pub struct Joint {
     pub(super) hangs: Option<usize>,
     /// Its block rows, where it is ever more than a point.
     pub(super) block: Option<usize>,
-    /// First of its rows among the loops', where it closes one (or the solver is dense).
+    /// First of its rows among those outside the tree, where it is in a loop (or the solver is dense).
     pub(super) outside: Option<usize>,
     /// Is it a train's own?
     pub(super) in_train: bool,
@@ -117,6 +117,7 @@ impl Joint {
         let Some(block) = self.block else { return };
         let rows = &mut blocks[block];
         rows.rows = 0;
+        rows.harden();
         for i in 0..self.constraints.len() {
             let index = self.constraints[i];
             let share = activity.share(index);
@@ -132,7 +133,6 @@ impl Joint {
                     return;
                 }
                 (rows.a[k], rows.b[k]) = if own { (row.a, row.b) } else { (row.b, row.a) };
-                rows.compliance[k] = [0.0; MAX_ROWS];
                 states[self.at + k].set(&row, index, share);
                 rows.rows = k + 1;
             };
@@ -168,10 +168,10 @@ impl Joint {
         }
         let rows = &mut blocks[block];
         if let Some((r, s)) = self.arms.take() {
+            rows.harden();
             rows.rows = 3;
             for (k, e) in DVec3::AXES.into_iter().enumerate() {
                 (rows.a[k], rows.b[k]) = (vec6(e, r.cross(e)), vec6(-e, -s.cross(e)));
-                rows.compliance[k] = [0.0; MAX_ROWS];
             }
         }
         let spin = |body: Option<usize>| body.map_or(DVec3::ZERO, |b| bodies[b].angular_velocity);
@@ -184,6 +184,7 @@ impl Joint {
                     break;
                 }
                 (rows.a[k], rows.b[k]) = (row.a, row.b);
+                rows.soft = true;
                 rows.compliance[k] = [0.0; MAX_ROWS];
                 rows.compliance[k][k] = friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
                 // It holds no place, and where it stands another row may have stood before.
@@ -194,7 +195,7 @@ impl Joint {
         self.rows = rows.rows;
     }
 
-    /// Copies the rows to where the loops' (or the dense) solver reads them.
+    /// Copies the rows to where the dense solver reads them.
     #[inline(always)]
     pub(super) fn write_outside(&self, blocks: &[JointRows], outside: &mut [LoopRow]) {
         let (Some(block), Some(first)) = (self.block, self.outside) else { return };

@@ -82,10 +82,16 @@ impl System {
                 }
             }
         }
-        for coupling in self.rows.couplings.iter().filter(|coupling| outside(coupling.outside)) {
+        let acting = self.rows.couplings.iter().filter(|coupling| self.activity.share(coupling.constraint) > 0.0);
+        for coupling in acting.filter(|coupling| outside(coupling.outside)) {
             out.push((coupling.constraint, coupling.at));
         }
         out
+    }
+
+    /// How many numbers the factors of closed loops hold at most, which is what their elimination costs.
+    pub fn loop_numbers(&self) -> usize {
+        self.factor.loops.numbers()
     }
 
     /// Largest |C| of any held row of the last evaluation (m or rad).

@@ -50,8 +50,6 @@ pub(super) struct Rows {
     pub gathering: bool,
     /// Do the rows' numbers hold the values of the last evaluation?
     pub told: bool,
-    /// Was it of all that is held, and not for accelerations alone?
-    pub whole: bool,
 }
 
 /// A configuration at which rows are evaluated.
@@ -70,7 +68,7 @@ impl Rows {
         let Now { bodies, quads, activity, asleep } = now;
         factor.trains.evaluate(quads);
         factor.hung.evaluate(simd, quads.all(), &mut factor.tree);
-        (self.told, self.whole) = (false, values);
+        self.told = false;
         if all {
             for (body, frame) in self.frames.iter_mut().enumerate().filter(|(body, _)| !asleep[*body]) {
                 *frame = quads.frame(body);
@@ -81,6 +79,7 @@ impl Rows {
             }
         }
         let scene = Scene { bodies, frames: &self.frames, time: activity.time() };
+        let dense = factor.dense.is_some();
         let outside = factor.outside_mut();
         let asked = if all { self.various.len() } else { self.outside_trains };
         for &index in &self.various[..asked] {
@@ -89,7 +88,9 @@ impl Rows {
                 continue;
             }
             joint.evaluate(&scene, &self.constraints, activity, &mut self.blocks, &mut self.states);
-            joint.write_outside(&self.blocks, outside);
+            if dense {
+                joint.write_outside(&self.blocks, outside);
+            }
         }
         for coupling in &mut self.couplings {
             let share = activity.share(coupling.constraint);
@@ -137,6 +138,7 @@ impl Rows {
     pub fn set_compliance(&mut self, outside: &mut [LoopRow], rows: &[usize], (k, d): (&RowSquare, &RowVec)) {
         if let Some(joint) = self.joints.iter().find(|joint| (joint.at..joint.at + joint.hard).contains(&rows[0])) {
             let Some(block) = joint.block else { return };
+            self.blocks[block].soft = true;
             for (i, &row) in rows.iter().enumerate() {
                 for (j, &other) in rows[..=i].iter().enumerate() {
                     self.blocks[block].compliance[row - joint.at][other - joint.at] = d[i] * d[j] * k[i][j];

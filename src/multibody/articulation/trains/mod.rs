@@ -12,7 +12,7 @@
 //! ```
 //!
 //! and m does not change. Places come from the angle of the train's fastest wheel and its whole turns, so that phases stay in
-//! the ratio of the teeth for ever. A row outside the tree that touches a train (`loops.rs`) answers it by
+//! the ratio of the teeth for ever. A row outside the tree that touches a train (`loops/`) answers it by
 //! f = Σ ρ_i s_i·J_i, to which it adds f²/m.
 //!
 //! A train's joints always act, never break and do not rub; what they carry is not asked.
@@ -119,6 +119,11 @@ impl Trains {
     /// Is a body in one?
     pub fn has(&self, body: usize) -> bool {
         self.of_body.get(body).is_some_and(Option::is_some)
+    }
+
+    /// The train that a body is in.
+    pub fn of(&self, body: usize) -> Option<usize> {
+        self.of_body.get(body).copied().flatten().map(|wheel| self.wheels[wheel].train)
     }
 
     /// Is a constraint a train's own?

@@ -99,6 +99,11 @@ impl HeldForces {
         }
     }
 
+    /// Forgets those found in much shorter substeps than `h` seconds: they are impulses rather than forces.
+    pub fn drop_short(&mut self, h: f64) {
+        self.held.retain(|held| held.span > 0.5 * h);
+    }
+
     /// Longest substep in which no body tips far, s.
     pub fn longest_substep(&self) -> f64 {
         TIP_PHASE / self.tips.sqrt()

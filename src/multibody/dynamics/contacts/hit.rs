@@ -12,8 +12,9 @@
 //!
 //! Hits travel: what approaches after one is hit next, in a fixed order, so that of a row of balls the last one leaves.
 
+use super::coordinates::Mechanisms;
 use super::impact::{Impact, ImpactKind};
-use super::problem::{MOST_TOUCHES, Problem};
+use super::problem::Problem;
 use super::row::point_rows;
 use super::state::Contacts;
 use super::sweep::Hit;
@@ -65,7 +66,8 @@ pub struct Struck {
 /// Resolves one hit at one point: three solves for the effective mass, one for the answer. The joints must be
 /// factored at the bodies' present state. `None` where joints hold the point or nothing approaches.
 pub fn strike(strike: &Strike, system: &mut System, bodies: &mut [RigidBody]) -> Option<Struck> {
-    let mut problem = Problem::new(1, (system.states().len(), GATHERS));
+    let mechanisms = Mechanisms::new(system.constraints(), system.driven());
+    let mut problem = Problem::new(1, mechanisms, (system.states().len(), GATHERS));
     let touch = Touch::new(Source::Pair(0), strike.point, strike.normal, 0.0, strike.friction);
     problem.push(touch, &point_rows(strike.point, strike.normal, strike.bodies, bodies));
     problem.assemble(system, bodies);
@@ -77,13 +79,14 @@ pub fn strike(strike: &Strike, system: &mut System, bodies: &mut [RigidBody]) ->
 /// The impulse of a problem of one touch.
 fn strike_one(problem: &mut Problem, restitution: f64) -> Option<Struck> {
     let touch = problem.touches[0];
-    let u = problem.velocity(&touch);
+    let u = problem.velocity(0);
     let k = touch.k();
     if k.x_axis.x < LOCKED || u.x >= 0.0 {
         return None;
     }
     if touch.rows == 1 {
-        problem.set(0, DVec3::new(-(1.0 + restitution) * u.x / k.x_axis.x, 0.0, 0.0));
+        problem.touches[0].impulse = DVec3::X * (-(1.0 + restitution) * u.x / k.x_axis.x);
+        problem.follow();
         return Some(Struck { impulse: DVec3::Z * problem.touches[0].impulse.x, velocity: DVec3::Z * u.x, k: *k });
     }
     // From (n, t, b) to (t, b, n).
@@ -91,7 +94,8 @@ fn strike_one(problem: &mut Problem, restitution: f64) -> Option<Struck> {
     let k = DMat3::from_cols(turn(k.y_axis), turn(k.z_axis), turn(k.x_axis));
     let velocity = turn(u);
     let p = impulse(&k, velocity, touch.friction, restitution);
-    problem.set(0, DVec3::new(p.z, p.x, p.y));
+    problem.touches[0].impulse = DVec3::new(p.z, p.x, p.y);
+    problem.follow();
     Some(Struck { impulse: p, velocity, k })
 }
 
@@ -207,8 +211,7 @@ impl Contacts {
         while first < count {
             let source = self.problem.touches[first].source;
             let end = (first..count).find(|&i| self.problem.touches[i].source != source).unwrap_or(count);
-            let touches = &self.problem.touches[first..end];
-            let speed = touches.iter().fold(0.0, |most: f64, touch| most.max(-self.problem.velocity(touch).x));
+            let speed = (first..end).fold(0.0, |most: f64, touch| most.max(-self.problem.velocity(touch).x));
             let (e, rests) = self.judge(source, time, speed);
             least_e = least_e.min(e);
             for touch in &mut self.problem.touches[first..end] {
@@ -239,7 +242,7 @@ impl Contacts {
     }
 
     /// Restitution of a hit at this speed, and whether it is the beginning of rest.
-    fn judge(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
+    pub(super) fn judge(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
         let now = self.clock + time;
         let last = match source {
             Source::Pair(pair) => &mut self.resting.last_hit[pair],
@@ -257,7 +260,14 @@ impl Contacts {
     }
 
     /// The event of touches `first..end`, all of one source; its impulse is not known yet.
-    fn tell(&self, source: Source, time: f64, (first, end): (usize, usize), speed: f64, rests: bool) -> Impact {
+    pub(super) fn tell(
+        &self,
+        source: Source,
+        time: f64,
+        (first, end): (usize, usize),
+        speed: f64,
+        rests: bool,
+    ) -> Impact {
         let touches = &self.problem.touches[first..end];
         let middle = touches.iter().fold(DVec3::ZERO, |sum, t| sum + t.point) / touches.len() as f64;
         let (bodies, colliders, moving) = match source {
@@ -300,35 +310,27 @@ impl Contacts {
     }
 }
 
-/// One hit at several touches; each touch's `least` holds its restitution.
+/// One hit at several touches; each touch's `least` holds its restitution, which goes over to `begin.x`.
 fn bounce_together(problem: &mut Problem, least_e: f64) {
-    let restitution = |touch: &Touch| touch.least;
-    let mut any = false;
-    // Compression ends all approach.
-    let count = problem.touches.len();
-    let mut es = [0.0; MOST_TOUCHES];
-    for (e, touch) in es.iter_mut().zip(&mut problem.touches) {
-        *e = restitution(touch);
-        any |= *e > 0.0;
-        touch.least = 0.0;
+    let mut most: f64 = 0.0;
+    for touch in &mut problem.touches {
+        most = most.max(touch.least);
+        (touch.begin.x, touch.least) = (touch.least, 0.0);
     }
+    // Compression ends all approach.
     problem.solve();
-    if !any {
+    if most == 0.0 {
         return;
     }
     let compressed = problem.work();
-    let mut pressed = [DVec3::ZERO; MOST_TOUCHES];
-    for index in 0..count {
-        pressed[index] = problem.touches[index].impulse;
-        let mut impulse = pressed[index];
-        impulse.x *= 1.0 + es[index];
-        problem.set(index, impulse);
+    for touch in &mut problem.touches {
+        let e = touch.begin.x;
+        touch.begin = touch.impulse;
+        touch.impulse.x *= 1.0 + e;
     }
     problem.solve_friction();
-    let most = es[..count].iter().fold(0.0, |m: f64, e| m.max(*e));
     if problem.work() > compressed * (1.0 - most * most) {
-        for index in 0..count {
-            problem.set(index, (1.0 + least_e) * pressed[index]);
-        }
+        problem.touches.iter_mut().for_each(|touch| touch.impulse = (1.0 + least_e) * touch.begin);
+        problem.follow();
     }
 }

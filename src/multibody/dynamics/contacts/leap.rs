@@ -1,169 +1,260 @@
-//! Leaps: the contact problem's linear system, for touches that are taken to go on as they are.
+//! Leaps: all touches of an island solved at once, each giving way a little, by Newton's method.
 //!
-//! Touches that press and stick have three unknowns each, those that slide one (the normal impulse, friction going with
-//! it): a step of Newton's method on the contact laws (P. Alart and A. Curnier, A mixed formulation for frictional
-//! contact problems prone to Newton like solution methods, 1991), damped so that no touch leaves its cone.
+//! With the softness of `law.rs`, every touch has an impulse P⁺(u), and the coordinates z of the island obey
+//!
+//! ```text
+//! g(z) = z − Bᵀ (P⁺(u) − P₀) = 0        u = u₀ + B z        ∂g/∂z = 1 + Bᵀ D B
+//! ```
+//!
+//! P⁺ becomes the next P if that brings the touches nearer to their laws: an augmented Lagrangian (P. Alart, A. Curnier, "A mixed
+//! formulation for frictional contact problems prone to Newton like solution methods", 1991). The softness is not in the
+//! answer, it says how fast P gets there; it falls with each P. The matrix has an inverse whatever touches there are: four feet of a
+//! box, or bodies on hinges, need no choice among them, and of impulses that do the same the ones nearest to the last come out.
+//!
+//! There are two kinds. Where each contact may have any impulse of its cone, g is the gradient of a convex function (A. Castro, F.
+//! Permenter, X. Han, "An unconstrained convex formulation of compliant contact", 2022, has the same for soft contact): Newton's
+//! steps, cut by a search along them, always arrive; but what slides lifts off. Where each goes on as it does now, sliding is exact
+//! and convergence quadratic; but a step may be too long, and is halved until g gets less.
 
-use super::problem::Problem;
-use super::touch::{Active, PROXIMAL, ROUNDING, Touch};
-use soffio_math::{DVec2, DVec3};
+use super::islands::Island;
+use super::newton::{Iterate, Newton, View, add_transposed, times};
+use crate::dynamics::effort::SOLVED;
+use soffio_math::{DMat3, DVec3};
 
-/// A leap that changes an impulse by more than this times the velocities it is to correct leads nowhere.
-const MOST_LEAP: f64 = 1e10;
-/// What presses less than this share of the largest impulse does not hinder a leap.
-const SLIGHT: f64 = 1e-3;
+/// Newton's steps of a leap at most, and the share of what was missed that a gradient may leave.
+const LEAP_STEPS: usize = 20;
+const FLAT: f64 = 0.01;
+/// A step is halved so often until it takes this share off the gradient; or trials of a search for where a slope along it is left
+/// with this share.
+const HALVINGS: usize = 4;
+const TRIALS: usize = 10;
+const LESS: f64 = 0.1;
 
-impl Problem {
-    /// Solves at once for all touches that press, each taken to go on sticking, or sliding the way it does.
-    pub(super) fn leap(&mut self) {
-        self.find_active();
-        if !self.solve_active() {
-            return;
-        }
-        for touch in &mut self.touches {
-            touch.leap = DVec3::ZERO;
-        }
-        for (active, x) in self.active.iter().zip(&self.other) {
-            self.touches[active.touch].leap += active.along * x;
-        }
-        self.go_along();
-    }
-
-    /// Finds the unknowns: those of each touch that presses.
-    fn find_active(&mut self) {
-        self.active.clear();
-        for (index, touch) in self.touches.iter().enumerate() {
-            if let Some(twist) = &touch.twist {
-                let [spin, roll] = self.holds(touch, twist);
-                let held = [(spin, DVec3::X), (roll, DVec3::Y), (roll, DVec3::Z)].into_iter().filter(|(held, _)| *held);
-                self.active.extend(held.map(|(_, along)| Active { touch: index, along, test: along }));
-                continue;
-            }
-            if touch.impulse.x <= 0.0 || touch.grip.is_some() {
-                continue;
-            }
-            let most = touch.friction * touch.impulse.x;
-            let rub = DVec2::new(touch.impulse.y, touch.impulse.z);
-            // Slides where friction is all there can be, and opposes the slip: else the cone only caught it by the way.
-            let u = self.velocity(touch);
-            let slip = DVec2::new(u.y, u.z);
-            let slides = rub.length() >= most * (1.0 - ROUNDING) && slip.dot(rub) < -0.5 * slip.length() * rub.length();
-            if touch.rows == 3 && most > 0.0 && !slides {
-                self.active.extend([DVec3::X, DVec3::Y, DVec3::Z].map(|along| Active {
-                    touch: index,
-                    along,
-                    test: along,
-                }));
-            } else {
-                let along = if touch.rows == 3 { (touch.impulse / touch.impulse.x).with_x(1.0) } else { DVec3::X };
-                self.active.push(Active { touch: index, along, test: DVec3::X });
-            }
-        }
-    }
-
-    /// Solves for the unknowns, into `other`. False where that leads nowhere.
-    fn solve_active(&mut self) -> bool {
-        let (n, count) = (self.rows.len(), self.active.len());
-        for (i, at) in self.active.iter().enumerate() {
-            let first = self.touches[at.touch].first + at.test.max_position();
-            let line = &self.w[first * n..][..n];
-            for (j, by) in self.active.iter().enumerate() {
-                let touch = &self.touches[by.touch];
-                let column = &line[touch.first..touch.first + touch.rows];
-                self.matrix[i * count + j] = column.iter().enumerate().map(|(k, w)| w * by.along[k]).sum();
-            }
-            let touch = &self.touches[at.touch];
-            self.matrix[i * count + i] += PROXIMAL * touch.k.x_axis.x.max(touch.tangential);
-            let least = if at.test == DVec3::X { touch.least } else { 0.0 };
-            self.other[i] = least - self.u[first];
-        }
-        let wanted = self.other[..count].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-        if !eliminate(&mut self.matrix[..count * count], &mut self.other[..count]) {
-            return false;
-        }
-        // What no impulse can do asks for endless ones.
-        let sane = |(at, x): (&Active, &f64)| (x * self.touches[at.touch].k.x_axis.x).abs() < MOST_LEAP * wanted;
-        self.active.iter().zip(&self.other[..count]).all(sane)
-    }
-
-    /// Lets the touches go along their leaps.
-    fn go_along(&mut self) {
-        // As far as all that press to speak of keep to the laws: what stops it opens or slides from there on.
-        let points = || self.touches.iter().filter(|touch| touch.pushes());
-        let largest = points().fold(0.0, |most: f64, touch| most.max(touch.impulse.x));
-        let far = points()
-            .filter(|touch| touch.impulse.x > SLIGHT * largest)
-            .fold(1.0, |far: f64, touch| far.min(touch.most_leap()));
-        // Couples do not hinder it: one that leaps beyond its bounds stays on them.
-        for index in 0..self.touches.len() {
-            let touch = &self.touches[index];
-            if touch.grip.is_some() {
-                continue;
-            }
-            let to = touch.impulse + far * touch.leap;
-            if let Some(twist) = touch.twist {
-                self.set(index, self.bounded_twist(&twist, to));
-                continue;
-            }
-            let normal = to.x.max(0.0);
-            let rub = DVec2::new(to.y, to.z).clamp_length_max(touch.friction * normal);
-            self.set(index, DVec3::new(normal, rub.x, rub.y));
-        }
-    }
+/// How touches are taken in a leap: each may do anything, as far as that is convex, or goes on as now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Leap {
+    Convex,
+    AsNow,
 }
 
-impl Touch {
-    /// Share of its leap, up to 1, that keeps it pressing and within the cone.
-    fn most_leap(&self) -> f64 {
-        let (p, d) = (self.impulse, self.leap);
-        let open = if p.x + d.x < 0.0 { p.x / -d.x } else { 1.0 };
-        if self.rows == 1 || self.friction == 0.0 {
-            return open;
+impl Newton {
+    /// Solves for all touches at once, each as soft as this, from where they stand. Answers whether that brought them nearer
+    /// to their laws; else they stay as they were.
+    pub(super) fn leap(
+        &mut self,
+        view: View,
+        island: &Island,
+        (kind, softness): (Leap, f64),
+        left: &mut usize,
+    ) -> bool {
+        let own = &view.islands.touches[island.touches.clone()];
+        let all = island.coordinates.clone();
+        self.follow(view, island);
+        let missed = self.missed(view, own);
+        for &touch in own {
+            let iterate = &mut self.iterates[touch];
+            let Iterate { law, answer, p, u, .. } = &*iterate;
+            iterate.doing = match kind {
+                Leap::Convex => law.may_do(answer, *p, iterate.over(*u)),
+                Leap::AsNow => law.doing(answer, *p, iterate.over(*u)),
+            };
+            (iterate.from, iterate.rho) = (iterate.u, (softness * iterate.answer.most()).recip());
         }
-        // |p_T + x d_T|² = μ² (p_n + x d_n)²: the root beyond which it is outside. Sliding ones stay on the cone.
-        let mu2 = self.friction * self.friction;
-        let a = d.y * d.y + d.z * d.z - mu2 * d.x * d.x;
-        let b = p.y * d.y + p.z * d.z - mu2 * p.x * d.x;
-        let c = p.y * p.y + p.z * p.z - mu2 * p.x * p.x;
-        if c >= -ROUNDING * mu2 * p.x * p.x || a + 2.0 * b + c <= 0.0 {
-            return open;
+        let mut size = self.find_gradient(view, island);
+        // A velocity of touches is at most √k times what z lacks.
+        let k = own.iter().fold(0.0, |most: f64, &touch| most.max(self.iterates[touch].answer.most()));
+        let flat = FLAT * missed / k.sqrt();
+        for step in 0..LEAP_STEPS {
+            if size <= flat || *left == 0 {
+                break;
+            }
+            *left -= 1;
+            let same = |touch: &usize| self.iterates[*touch].d == self.iterates[*touch].factored;
+            if step == 0 || !own.iter().all(same) {
+                self.factor(view, island);
+            }
+            for (step, g) in self.step[all.clone()].iter_mut().zip(&self.gradient[all.clone()]) {
+                *step = -g;
+            }
+            self.h.solve(&mut self.step[all.clone()]);
+            for &touch in own {
+                self.iterates[touch].along = times(view, touch, &self.step);
+            }
+            size = match kind {
+                Leap::Convex => self.go_down(view, island),
+                Leap::AsNow => self.go(view, island, size),
+            };
         }
-        let root = (b * b - a * c).max(0.0).sqrt();
-        open.min(-c / (b + root))
+        for &touch in own {
+            let iterate = &mut self.iterates[touch];
+            (iterate.p, iterate.plus) = (iterate.law.allowed(iterate.plus), iterate.p);
+        }
+        self.follow(view, island);
+        let better = self.missed(view, own) < missed;
+        if !better {
+            own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].plus);
+            self.follow(view, island);
+        }
+        better
     }
-}
 
-/// Solves the system of a row-major square matrix in place by elimination with row pivots; false where it is singular.
-fn eliminate(matrix: &mut [f64], b: &mut [f64]) -> bool {
-    let n = b.len();
-    for column in 0..n {
-        let pivot = (column..n).fold(column, |best, row| {
-            if matrix[row * n + column].abs() > matrix[best * n + column].abs() { row } else { best }
-        });
-        if matrix[pivot * n + column] == 0.0 {
-            return false;
+    /// P⁺, D and g where things stand. Answers |g|.
+    fn find_gradient(&mut self, view: View, island: &Island) -> f64 {
+        let all = island.coordinates.clone();
+        self.gradient[all.clone()].fill(0.0);
+        for &touch in &view.islands.touches[island.touches.clone()] {
+            let iterate = &mut self.iterates[touch];
+            let Iterate { rho, p, u, from, .. } = *iterate;
+            (iterate.plus, iterate.d) = iterate.doing.soft(rho, p, iterate.over(u), u - from);
+            add_transposed(view, touch, iterate.before - iterate.plus, &mut self.gradient);
         }
-        if pivot != column {
-            let (above, below) = matrix.split_at_mut(pivot * n);
-            above[column * n..][..n].swap_with_slice(&mut below[..n]);
-            b.swap(column, pivot);
+        let mut square = 0.0;
+        for (g, z) in self.gradient[all.clone()].iter_mut().zip(&self.z[all]) {
+            *g += z;
+            square += *g * *g;
         }
-        let (above, below) = matrix.split_at_mut((column + 1) * n);
-        let line = &above[column * n..];
-        for (row, values) in below.chunks_exact_mut(n).enumerate() {
-            let share = values[column] / line[column];
-            if share != 0.0 {
-                for k in column + 1..n {
-                    values[k] -= share * line[k];
+        square.sqrt()
+    }
+
+    /// Goes along the step as far as the gradient, of this size, gets less. Answers its size there.
+    fn go(&mut self, view: View, island: &Island, size: f64) -> f64 {
+        let all = island.coordinates.clone();
+        let (mut far, mut gone, mut left) = (1.0, 0.0, size);
+        for _ in 0..HALVINGS {
+            let more = far - gone;
+            for (z, s) in self.z[all.clone()].iter_mut().zip(&self.step[all.clone()]) {
+                *z += more * s;
+            }
+            for &touch in &view.islands.touches[island.touches.clone()] {
+                let iterate = &mut self.iterates[touch];
+                iterate.u += more * iterate.along;
+            }
+            gone = far;
+            left = self.find_gradient(view, island);
+            if left <= (1.0 - LESS * far) * size {
+                break;
+            }
+            far *= 0.5;
+        }
+        left
+    }
+
+    /// Goes along the step to where the function whose gradient it is is least, about. Answers the size of the gradient there.
+    fn go_down(&mut self, view: View, island: &Island) -> f64 {
+        let own = &view.islands.touches[island.touches.clone()];
+        let all = island.coordinates.clone();
+        let (mut linear, mut square) = (0.0, 0.0);
+        for (z, s) in self.z[all.clone()].iter().zip(&self.step[all.clone()]) {
+            linear += z * s;
+            square += s * s;
+        }
+        let iterates = &self.iterates;
+        let slope = |far: f64| {
+            own.iter().fold(linear + far * square, |sum, &touch| {
+                let i = &iterates[touch];
+                let u = i.u + far * i.along;
+                let (plus, _) = i.doing.soft(i.rho, i.p, i.over(u), u - i.from);
+                sum - i.along.dot(plus - i.before)
+            })
+        };
+        let begin = slope(0.0);
+        let mut far = 1.0;
+        let mut end = slope(far);
+        if end > LESS * begin.abs() {
+            // Regula falsi in the way of Illinois.
+            let (mut low, mut high) = ((0.0, begin), (far, end));
+            for _ in 0..TRIALS {
+                far = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+                end = slope(far);
+                if end.abs() <= LESS * begin.abs() {
+                    break;
                 }
-                b[column + 1 + row] -= share * b[column];
+                if end < 0.0 {
+                    low = (far, end);
+                    high.1 *= 0.5;
+                } else {
+                    high = (far, end);
+                    low.1 *= 0.5;
+                }
             }
         }
+        for (z, s) in self.z[all.clone()].iter_mut().zip(&self.step[all]) {
+            *z += far * s;
+        }
+        for &touch in own {
+            let iterate = &mut self.iterates[touch];
+            iterate.u += far * iterate.along;
+        }
+        self.find_gradient(view, island)
     }
-    for row in (0..n).rev() {
-        let line = &matrix[row * n..][..n];
-        let sum = (row + 1..n).fold(b[row], |sum, k| sum - line[k] * b[k]);
-        b[row] = sum / line[row];
+
+    /// Operations of one of Newton's steps, about.
+    pub(super) fn step_effort(&self, view: View, island: &Island) -> u64 {
+        let base = island.coordinates.start;
+        let length = |&node: &usize| {
+            let (size, place) = (view.coordinates.nodes[node].size, view.islands.place[node] - base);
+            let row = place + size - (view.islands.reach[node] - base);
+            2 * (size * row * row) as u64
+        };
+        let rows: u64 = view.islands.order_of(island).iter().map(length).sum();
+        rows + SOLVED * island.touches.len() as u64
     }
-    b.iter().all(|x| x.is_finite())
+
+    /// H and its factor.
+    fn factor(&mut self, view: View, island: &Island) {
+        let View { coordinates, islands, .. } = view;
+        let base = island.coordinates.start;
+        let order = islands.order_of(island);
+        self.h.begin(order.iter().flat_map(|&node| {
+            let first = islands.reach[node] - base;
+            std::iter::repeat_n(first, coordinates.nodes[node].size)
+        }));
+        for row in 0..island.coordinates.len() {
+            self.h.arms(row, row).1[0] = 1.0;
+        }
+        for &touch in &islands.touches[island.touches.clone()] {
+            let iterate = &mut self.iterates[touch];
+            iterate.factored = iterate.d;
+            let d = iterate.d;
+            if d == DMat3::ZERO {
+                continue;
+            }
+            let own = &view.touches[touch];
+            let parts = coordinates.parts_of(own);
+            for p in parts {
+                let (of_p, size_p) = (coordinates.block(p, own.rows), coordinates.nodes[p.node].size);
+                let at_p = islands.place[p.node] - base;
+                for q in parts {
+                    let at_q = islands.place[q.node] - base;
+                    let (of_q, size_q) = (coordinates.block(q, own.rows), coordinates.nodes[q.node].size);
+                    // A mechanism that joints hold fast has no coordinates.
+                    if at_q > at_p || size_q == 0 {
+                        continue;
+                    }
+                    for i in 0..size_p {
+                        let column = take(of_p, own.rows, size_p, i);
+                        // Row i of Bₚᵀ D and column i of D Bₚ.
+                        let (before, after) = (d.transpose() * column, d * column);
+                        let end = if at_p == at_q { i + 1 } else { size_q };
+                        let (row, upright) = self.h.arms(at_p + i, at_q);
+                        let (row, upright) = (&mut row[..end], &mut upright[..end]);
+                        for (k, b) in of_q.chunks_exact(size_q).enumerate() {
+                            let (before, after) = (before[k], after[k]);
+                            for ((row, upright), b) in row.iter_mut().zip(&mut *upright).zip(b) {
+                                *row += before * b;
+                                *upright += after * b;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        self.effort += SOLVED * island.touches.len() as u64 + self.h.factor();
+    }
+}
+
+/// A column of a part's matrix.
+fn take(block: &[f64], rows: usize, size: usize, column: usize) -> DVec3 {
+    let at = |row: usize| if row < rows { block[row * size + column] } else { 0.0 };
+    DVec3::new(at(0), at(1), at(2))
 }

@@ -4,15 +4,23 @@
 //! there and the hit resolved with the joints' own factor, so that it travels through the whole figure (`hit`). What
 //! meets slower than `REST_SPEED`, or slowly and again within `CHATTER_TIME`, *rests*: from then on it is held by
 //! forces over the whole substep (`rest`) until it has opened by more than `RELEASE_GAP`.
+//!
+//! Impacts of several points and resting contact are one problem (`problem`): reduced coordinates of what moves (`coordinates`), islands
+//! of it (`islands`), the laws of each touch (`law`), and the solver (`newton`, `leap`, `envelope`). Where a step has no time to follow
+//! impacts one by one, its rest is a single substep that solves all of them with the resting contacts (`together`).
 
 mod asleep;
-mod grip;
+mod coordinates;
+mod envelope;
 mod held;
 mod hit;
 mod impact;
+mod islands;
+mod law;
 mod leap;
 mod met;
 mod near;
+mod newton;
 mod open;
 mod problem;
 mod rest;
@@ -22,6 +30,7 @@ mod sleepers;
 mod state;
 mod surfaces;
 mod sweep;
+mod together;
 mod touch;
 mod touching;
 mod twist;

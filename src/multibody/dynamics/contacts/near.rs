@@ -68,7 +68,8 @@ impl Near {
         ((sweep_a, sweep_b), toi)
     }
 
-    fn sweep(&self, surfaces: &Surfaces, collider: usize) -> Sweep {
+    /// The way of a collider.
+    pub fn sweep(&self, surfaces: &Surfaces, collider: usize) -> Sweep {
         surfaces.colliders[collider].body.map_or(Sweep::STILL, |body| self.sweeps[body])
     }
 }

@@ -44,16 +44,24 @@ pub(super) struct Open {
 }
 
 impl Open {
-    /// Room for the open rows of a system with this many rows, and this many rows of touches.
-    pub fn new(rows: usize, time: f64, touches: usize) -> Self {
+    /// Room for the open rows of a system with this many rows, and for about so many columns of touches.
+    pub fn new(rows: usize, time: f64, columns: usize) -> Self {
         let room = rows.min(MOST_OPEN);
         Self {
             rows: Vec::with_capacity(room),
             room,
             time,
             factor: Cholesky::with_room(room, REPEATS),
-            lambda: vec![0.0; room * touches],
-            solved: vec![0.0; room * touches],
+            lambda: Vec::with_capacity(room * columns),
+            solved: Vec::with_capacity(room * columns),
+        }
+    }
+
+    /// Makes room for so many columns.
+    pub fn make_room(&mut self, columns: usize) {
+        for numbers in [&mut self.lambda, &mut self.solved] {
+            numbers.clear();
+            numbers.resize(self.rows.len() * columns, 0.0);
         }
     }
 
@@ -109,15 +117,15 @@ impl Open {
         left.iter().zip(right).map(|(x, y)| x * y).sum()
     }
 
-    /// Solves for the answer to the impulses in the system's `b`, which are P in the touches' rows.
-    pub fn solve(&self, p: &[f64], system: &mut System) {
+    /// Solves for the answer to the impulses in the system's `b`, which are P in the columns.
+    pub fn solve(&self, p: impl Iterator<Item = f64>, system: &mut System) {
         if self.rows.is_empty() {
             system.solve_impulse();
             return;
         }
         let n = self.rows.len();
         system.g.fill(0.0);
-        for (column, p) in p.iter().enumerate().filter(|(_, p)| **p != 0.0) {
+        for (column, p) in p.enumerate().filter(|(_, p)| *p != 0.0) {
             for (&(row, _), y) in self.rows.iter().zip(&self.solved[column * n..][..n]) {
                 system.g[row] -= y * p;
             }

@@ -12,7 +12,6 @@
 //! taken.
 
 use super::held::{Held, NEAR, in_frame};
-use super::problem::Problem;
 use super::row::{point_rows, twist_rows};
 use super::state::Contacts;
 use super::touch::{Grip, Source, Touch};
@@ -28,7 +27,7 @@ const PASSES: usize = 3;
 /// Displacement within a substep that another pass is worth, m.
 const MISSED: f64 = 1e-6;
 /// What rests may close a gap that is wider than the touching layer, within one substep.
-const LAYER: f64 = TOUCH;
+pub(super) const LAYER: f64 = TOUCH;
 /// What rests slides no farther than this in one substep, m.
 const SLIDE: f64 = 2e-3;
 /// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
@@ -41,7 +40,7 @@ const FREE: f64 = 1e9;
 /// known.
 const RISE: f64 = 0.02;
 /// Farthest that sunken bodies are moved out in one substep, m.
-const MOST_PUSH: f64 = 1e-3;
+pub(super) const MOST_PUSH: f64 = 1e-3;
 
 /// What is to be done about a pass over a substep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +84,12 @@ impl Contacts {
         self.forces.lay_out(h);
     }
 
+    /// The same for a substep that is gone through but once: what was an impulse is no force.
+    pub(in crate::dynamics) fn lay_out_once(&mut self, h: f64, system: &System) {
+        self.forces.drop_short(h);
+        self.lay_out(h, system);
+    }
+
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
     /// Where the substep stands, velocities and places are put right, the joints' velocities too. The joints must be factored at
     /// the bodies' present state, or as near to it as a substep ends, and the clutches weighed.
@@ -106,7 +111,7 @@ impl Contacts {
         let lost = self.gather(h, system, bodies);
         self.problem.assemble(system, bodies);
         self.problem.begin();
-        let settled = self.problem.among_clutches(Problem::solve_anew);
+        let settled = self.problem.solve();
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
         let last = pass >= PASSES || !missed || self.problem.has_open_joints();
         if last && shortens && settled && self.sinks(FINE) {
@@ -131,7 +136,7 @@ impl Contacts {
         }
         let moved = self.problem.touches.iter().any(|touch| touch.gap < -LAYER);
         if moved {
-            self.problem.push_out(-LAYER, MOST_PUSH, system, bodies);
+            self.problem.push_out(-0.5 * LAYER, MOST_PUSH, system, bodies);
         }
         Verdict::Stands { moved }
     }
@@ -169,7 +174,7 @@ impl Contacts {
             (touch.before, touch.impulse, touch.begin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         }
         self.problem.assemble(system, bodies);
-        self.problem.among_clutches(Problem::solve);
+        self.problem.solve();
         self.slip = self.problem.largest_slip();
         self.work.total += self.problem.work();
         self.problem.apply(system, bodies);
@@ -177,7 +182,7 @@ impl Contacts {
 
     /// Collects all touches of what rests into the problem, each with the impulse that held it; releases what has
     /// opened. Answers whether a force that has acted belongs to no touch any more.
-    fn gather(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
+    pub(super) fn gather(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
         self.problem.clear();
         let mut at_rest = 0;
         while at_rest < self.resting.at_rest.len() {

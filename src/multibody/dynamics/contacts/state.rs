@@ -1,5 +1,6 @@
 //! All that can touch in a figure, and its state.
 
+use super::coordinates::Mechanisms;
 use super::held::HeldForces;
 use super::impact::SurfacePair;
 use super::near::Near;
@@ -7,6 +8,7 @@ use super::problem::Problem;
 use super::resting::Resting;
 use super::sleepers::Sleepers;
 use super::surfaces::Surfaces;
+use super::together::Encounter;
 use super::touch::{Source, Touch};
 use crate::articulation::{Constraint, Limit};
 use crate::collision::{Collider, Pair};
@@ -18,6 +20,9 @@ use soffio_math::spatial::Vec6;
 
 /// Hits resolved at their own time in one step; what is hit further rests.
 const MOST_IMPACTS: usize = 64;
+
+/// Room for what meets in one substep; more makes the list grow.
+const ENCOUNTERS: usize = 64;
 
 /// All that can touch in a figure, and its state.
 #[derive(Clone, Debug)]
@@ -31,6 +36,8 @@ pub struct Contacts {
     pub(super) forces: HeldForces,
     pub(super) sleepers: Sleepers,
     pub(super) work: Work,
+    /// What met on the way of the last substep that was solved together.
+    pub(super) encounters: Vec<Encounter>,
     /// 1/ω₀ of the figure's stabiliser, s.
     pub(super) gathering_time: f64,
     /// When the present step began, s.
@@ -57,14 +64,14 @@ impl Contacts {
         colliders: &[Collider],
         pairs: Vec<SurfacePair>,
         (limits, constraints): (&[Limit], &[Constraint]),
-        bodies: &[RigidBody],
+        (bodies, driven): (&[RigidBody], &[bool]),
         joints: (usize, f64),
     ) -> Self {
         let limits = Limits::new(limits, bodies);
         let clutches = Clutches::new(constraints);
         let turning = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
         let touches = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count() + clutches.count();
-        let problem = Problem::new(touches, joints);
+        let problem = Problem::new(touches, Mechanisms::new(constraints, driven), joints);
         let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
             near: Near::new(colliders, &bare, bodies.len()),
@@ -76,6 +83,7 @@ impl Contacts {
             clutches,
             problem,
             work: Work::default(),
+            encounters: Vec::with_capacity(ENCOUNTERS),
             gathering_time: joints.1,
             clock: 0.0,
             slip: 0.0,
@@ -109,6 +117,11 @@ impl Contacts {
     /// The present substep has not been: it is cut by a hit.
     pub(in crate::dynamics) fn cut_substep(&mut self) {
         self.work.recent = 0.0;
+    }
+
+    /// Operations since this was last asked (`dynamics/effort.rs`).
+    pub(in crate::dynamics) fn take_effort(&mut self) -> u64 {
+        std::mem::take(&mut self.problem.effort)
     }
 
     /// How many pairs of colliders have been measured in the present step: those whose boxes overlapped.

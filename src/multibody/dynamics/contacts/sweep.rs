@@ -41,22 +41,27 @@ impl Contacts {
 
     /// The earliest hit so far, or an earlier one of this pair.
     fn meet(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody], first: &mut Option<Hit>) {
-        if self.resting.pairs[pair] {
-            return;
-        }
-        let Pair { a, b } = self.surfaces.pairs[pair].pair;
-        let ((sweep_a, sweep_b), toi) = self.near.sweep_pair(&mut self.surfaces, pair);
-        let Some(TimeOfImpact { mut s, proximity }) = toi else { return };
-        let states = if s > 0.0 { after } else { before };
-        if self.surfaces.velocity_at(pair, proximity.point, states).dot(proximity.normal) >= 0.0 {
-            let Some(back) = self.surfaces.comes_back(a, b, &sweep_a, &sweep_b) else { return };
-            s = back;
-        }
+        let Some(TimeOfImpact { s, .. }) = self.meets(pair, before, after) else { return };
         if self.impacts_left == 0 {
             self.resting.set(pair, true);
         } else if first.is_none_or(|f| s < f.s) {
             *first = Some(Hit { s, source: Source::Pair(pair) });
         }
+    }
+
+    /// When and where a pair that does not rest meets on the way between two states.
+    pub(super) fn meets(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody]) -> Option<TimeOfImpact> {
+        if self.resting.pairs[pair] {
+            return None;
+        }
+        let Pair { a, b } = self.surfaces.pairs[pair].pair;
+        let ((sweep_a, sweep_b), toi) = self.near.sweep_pair(&mut self.surfaces, pair);
+        let mut toi = toi?;
+        let states = if toi.s > 0.0 { after } else { before };
+        if self.surfaces.velocity_at(pair, toi.proximity.point, states).dot(toi.proximity.normal) >= 0.0 {
+            toi.s = self.surfaces.comes_back(a, b, &sweep_a, &sweep_b)?;
+        }
+        Some(toi)
     }
 }
 

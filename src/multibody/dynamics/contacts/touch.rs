@@ -1,16 +1,17 @@
 //! Touches: the points, bounds, couples and clutches that a contact problem solves for.
 
+use super::law::Answer;
 use soffio_math::{DMat3, DVec3};
 
 /// Share of the largest velocities that an impulse makes which is rounding.
 pub(super) const ROUNDING: f64 = 1e-13;
-/// ε of the proximal step.
+/// What is added to K, as a share of its trace, so that it has an inverse where nothing more gives way.
 pub(super) const PROXIMAL: f64 = 1e-12;
 /// A touch whose effective inverse mass is below this (1/kg) is held by joints and cannot move.
 pub(super) const LOCKED: f64 = 1e-9;
 
 /// ω₁: a clutch that slips so fast carries twice its torque, rad/s.
-const GREASE: f64 = 0.5;
+pub(super) const GREASE: f64 = 0.5;
 
 /// What a touch belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,12 +51,10 @@ pub(super) struct Touch {
     /// Its rows in the problem: `first` up to `first + rows`.
     pub first: usize,
     pub rows: usize,
-    /// Diagonal block of W, inverse of the proximal block, largest tangential stiffness.
-    pub(super) k: DMat3,
-    pub(super) step: DMat3,
-    pub(super) tangential: f64,
-    /// Change that a leap asks for.
-    pub(super) leap: DVec3,
+    /// Its parts among the coordinates, from the first to the one after the last.
+    pub(super) parts: (usize, usize),
+    /// What it answers to its own impulse.
+    pub answer: Answer,
 }
 
 impl Touch {
@@ -76,10 +75,8 @@ impl Touch {
             follows: None,
             first: 0,
             rows: 0,
-            k: DMat3::ZERO,
-            step: DMat3::ZERO,
-            tangential: 0.0,
-            leap: DVec3::ZERO,
+            parts: (0, 0),
+            answer: Answer::default(),
         }
     }
 
@@ -90,7 +87,7 @@ impl Touch {
 
     /// Effective inverse mass block (n, t, b), 1/kg.
     pub fn k(&self) -> &DMat3 {
-        &self.k
+        &self.answer.k
     }
 }
 
@@ -126,19 +123,4 @@ pub(super) struct Grip {
     pub most: f64,
     /// Would it carry too much if it took hold?
     pub slips: bool,
-}
-
-impl Grip {
-    /// x of what slips, nothing of what holds.
-    pub fn yields(&self) -> f64 {
-        if self.slips { GREASE / self.most } else { 0.0 }
-    }
-}
-
-/// One unknown of a leap: how its touch's impulse changes with it, and which of its velocities it is to correct.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Active {
-    pub touch: usize,
-    pub along: DVec3,
-    pub test: DVec3,
 }

@@ -2,7 +2,7 @@
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
-use soffio_multibody::articulation::System;
+use soffio_multibody::articulation::{Constraint, ConstraintKind, System};
 
 /// Gaussian elimination with row pivoting, then one step of refinement with the residual of the matrix as given.
 fn solve(matrix: &[Vec<f64>], rhs: &[f64]) -> Vec<f64> {
@@ -139,6 +139,7 @@ pub fn independent(system: &System, bodies: &[RigidBody], rows: &[usize], least:
 
 /// Do these rows stand by themselves, and those of every joint on either of its bodies alone? Two points between one
 /// pair of bodies do not: once they have met, the second repeats one row of the first, so a tree may say that it does.
+/// For the same reason, do the rows of whatever hangs on one body alone, with that body held?
 pub fn well_posed(system: &System, bodies: &[RigidBody], rows: &[usize], least: f64) -> bool {
     let alone = |body: usize, own: &[usize]| {
         system.driven()[body] || spread(system, bodies, own, least, |b| b == body).0.len() == own.len()
@@ -147,4 +148,37 @@ pub fn well_posed(system: &System, bodies: &[RigidBody], rows: &[usize], least: 
         let own: Vec<usize> = (joint.at..joint.at + joint.hard).filter(|row| rows.contains(row)).collect();
         alone(joint.link.a, &own) && joint.link.b.is_none_or(|b| alone(b, &own))
     }) && independent(system, bodies, rows, least).0.len() == rows.len()
+        && (0..bodies.len()).all(|top| {
+            let hanging = hanging(system, bodies.len(), top);
+            let touches =
+                |row: &usize, of: &dyn Fn(usize) -> bool| system.jacobian(*row).iter().any(|(body, _)| of(*body));
+            let own: Vec<usize> = rows.iter().copied().filter(|row| touches(row, &|body| hanging[body])).collect();
+            spread(system, bodies, &own, least, |body| hanging[body]).0.len() == own.len()
+        })
+}
+
+/// The bodies that constraints join to the rest, and to the ground, through this body alone.
+fn hanging(system: &System, count: usize, top: usize) -> Vec<bool> {
+    let touched = |constraint: &Constraint| {
+        let ends: Vec<Option<usize>> = match (&constraint.kind, constraint.link()) {
+            (ConstraintKind::Coupling { terms }, _) => {
+                terms.iter().flat_map(|term| <[_; 2]>::from(term.measure.bodies())).collect()
+            }
+            (_, link) => link.map_or(Vec::new(), |(a, b)| vec![a, b]),
+        };
+        let vertex = |end: &Option<usize>| end.filter(|&body| !system.driven()[body]).unwrap_or(count);
+        ends.iter().map(vertex).filter(|&vertex| vertex != top).collect::<Vec<_>>()
+    };
+    // Whatever is met from the ground, as long as there is more of it.
+    let mut met = vec![false; count + 1];
+    met[count] = true;
+    for _ in 0..count {
+        for constraint in system.constraints() {
+            let touched = touched(constraint);
+            if touched.iter().any(|&vertex| met[vertex]) {
+                touched.iter().for_each(|&vertex| met[vertex] = true);
+            }
+        }
+    }
+    (0..count).map(|body| !met[body] && body != top).collect()
 }

@@ -3,6 +3,7 @@
 mod figures;
 mod kkt;
 mod lanes;
+mod loops;
 mod rows;
 mod shares;
 mod solvers;

@@ -12,22 +12,22 @@ use super::kkt::{Answer, independent, reference, well_posed};
 
 /// Of the largest unknown. Rows that lean on each other by less than `LEAST` are drawn anew: condition numbers stay
 /// below some 10⁵, so that a solver that loses no more than they cost is four digits better than this.
-const SOLVED: f64 = 1e-10;
+pub const SOLVED: f64 = 1e-10;
 /// Least share of itself that a row of a random figure adds to the rows before it.
-const LEAST: f64 = 0.03;
+pub const LEAST: f64 = 0.03;
 /// How many systems, and how many for figures whose rows repeat each other.
 const SYSTEMS: u64 = 1000;
 const REPEATING: u64 = 100;
 
 /// A solver ready to solve, with the right-hand side it was given.
-struct Posed {
-    system: System,
+pub struct Posed {
+    pub system: System,
     b: Vec<Vec6>,
     g: Vec<f64>,
     given: Vec<Vec6>,
 }
 
-fn prepare(figure: &RandomFigure, method: Method, friction: bool) -> System {
+pub fn prepare(figure: &RandomFigure, method: Method, friction: bool) -> System {
     let mut system = System::new(&figure.bodies, &figure.driven, &figure.constraints, method);
     system.activity.set_shares(figure.time);
     system.activity.set_time(figure.time);
@@ -42,7 +42,7 @@ fn prepare(figure: &RandomFigure, method: Method, friction: bool) -> System {
 
 impl Posed {
     /// Random forces, driven accelerations, and wanted J a (of random accelerations, so that they can be had).
-    fn new(system: System, random: &mut Random) -> Self {
+    pub fn new(system: System, random: &mut Random) -> Self {
         let n = system.driven().len();
         let b: Vec<Vec6> = (0..n).map(|_| wrench(random)).collect();
         let wanted: Vec<Vec6> = (0..n).map(|_| wrench(random)).collect();
@@ -54,14 +54,14 @@ impl Posed {
         Self { system, b, g, given }
     }
 
-    fn solve(&mut self) {
+    pub fn solve(&mut self) {
         self.system.b.copy_from_slice(&self.b);
         self.system.g.copy_from_slice(&self.g);
         self.system.a.copy_from_slice(&self.given);
         self.system.solve();
     }
 
-    fn reference(&self, bodies: &[RigidBody], rows: &[usize]) -> Answer {
+    pub fn reference(&self, bodies: &[RigidBody], rows: &[usize]) -> Answer {
         reference(&self.system, bodies, rows, (&self.b, &self.g, &self.given))
     }
 }
@@ -71,12 +71,12 @@ fn product(system: &System, row: usize, a: &[Vec6]) -> f64 {
     system.jacobian(row).iter().map(|(body, j)| (0..6).map(|k| j[k] * a[*body][k]).sum::<f64>()).sum()
 }
 
-fn largest(answer: &Answer) -> f64 {
+pub fn largest(answer: &Answer) -> f64 {
     let a = answer.a.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
     answer.lambda.iter().fold(a, |s, x| s.max(x.abs()))
 }
 
-fn off(found: &[Vec6], expected: &[Vec6]) -> f64 {
+pub fn off(found: &[Vec6], expected: &[Vec6]) -> f64 {
     found.iter().flatten().zip(expected.iter().flatten()).fold(0.0_f64, |worst, (x, y)| worst.max((x - y).abs()))
 }
 

@@ -2,6 +2,7 @@
 
 mod asleep;
 mod loaded;
+mod many;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_geometry::bodies::{MassProperties, RigidBody};

@@ -1,5 +1,6 @@
 //! Closed loops: a four-bar linkage, a chain between two walls; and figures that put themselves together.
 
+use assert_no_alloc::assert_no_alloc;
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, rotation};
 use soffio_multibody::dynamics::forces::Damping;
@@ -42,6 +43,94 @@ fn a_four_bar_linkage_keeps_its_energy_and_its_pins() {
         assert!(lost < allowed, "{integrator:?}, {solver:?}: energy off by {lost:e}");
         assert!(apart < CLOSED, "{integrator:?}, {solver:?}: {apart:e} m apart");
     }
+}
+
+/// Length and mass of the rods of ladders and nets.
+const ROD: f64 = 0.1;
+const LIGHT: f64 = 0.05;
+
+/// A ladder of so many loops, tilted: two rails of rods, a rung between each two of their joints, all hinged; its rails hang on the
+/// world.
+fn ladder(loops: usize) -> World {
+    let place =
+        |row: usize, side: usize| rotation(DVec3::Z * 0.3) * DVec3::new(ROD * side as f64, -ROD * row as f64, 0.0);
+    let side = |row: usize, side: usize| rod(LIGHT, place(row, side), place(row + 1, side));
+    let rung = |row: usize| rod(LIGHT, place(row + 1, 0), place(row + 1, 1));
+    let mut world = World::new((0..loops).flat_map(|row| [side(row, 0), side(row, 1), rung(row)]).collect());
+    for row in 0..loops {
+        for side in 0..2 {
+            let (own, above) = (3 * row + side, row.checked_sub(1).map(|above| 3 * above + side));
+            world.hinge(&format!("rail-{row}-{side}"), own, above, place(row, side), DVec3::Z);
+            world.hinge(&format!("rung-{row}-{side}"), 3 * row + 2, Some(own), place(row + 1, side), DVec3::Z);
+        }
+    }
+    world
+}
+
+/// A net of n × n knots, rods between neighbours, all by balls; it sags between its corners, which are nailed. Its knots are the
+/// sums of two lines of equal steps, so that all rods have one length.
+fn net(n: usize) -> World {
+    let step = |k: usize| 0.6 * ((2 * k + 1) as f64 / (n - 1) as f64 - 1.0);
+    let line = |i: usize| (0..i).fold((0.0, 0.0), |(x, y), k| (x + ROD * step(k).cos(), y + ROD * step(k).sin()));
+    let place = |knot: usize| {
+        let (along, across) = (line(knot % n), line(knot / n));
+        DVec3::new(along.0, along.1 + across.1, across.0)
+    };
+    let knot = |k: usize| super::body(0.02, DVec3::splat(1e-6), place(k));
+    let mut world = World::new((0..n * n).map(knot).collect());
+    for k in 0..n * n {
+        let right = (k % n + 1 < n).then_some(k + 1);
+        let up = (k + n < n * n).then_some(k + n);
+        for other in [right, up].into_iter().flatten() {
+            world.bodies.push(rod(LIGHT, place(k), place(other)));
+            let own = world.bodies.len() - 1;
+            world.pin(&format!("begin-{own}"), own, Some(k), place(k));
+            world.pin(&format!("end-{own}"), own, Some(other), place(other));
+        }
+    }
+    for corner in [0, n - 1, n * n - n, n * n - 1] {
+        world.pin(&format!("corner-{corner}"), corner, None, place(corner));
+    }
+    world
+}
+
+#[test]
+fn ladders_and_nets_stay_closed_and_keep_their_energy() {
+    /// Of the largest kinetic energy: the method's own error over a second.
+    const KEPT: f64 = 1e-5;
+    for (name, world) in [("ladder", ladder(20)), ("net", net(5))] {
+        let mut dynamics = world.start(Integrator::Auto);
+        let energy = dynamics.energy();
+        let still = vec![[0.0; 6]; world.bodies.len()];
+        let (mut lost, mut apart, mut moved) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for _ in 0..240 {
+            assert_no_alloc(|| step(&mut dynamics, DT, &still));
+            lost = lost.max((dynamics.energy() - energy).abs());
+            apart = apart.max(dynamics.joint_error());
+            moved = moved.max(dynamics.bodies.iter().map(|body| body.kinetic_energy()).sum());
+        }
+        println!("{name}: energy off by {:.1e}, joints by {apart:.1e} m", lost / moved);
+        assert!(lost < KEPT * moved, "{name}: energy off by {:e}", lost / moved);
+        assert!(apart < CLOSED, "{name}: {apart:e} m apart");
+        // Each loop of hinges in a plane has three rows too many, a net's rods have none.
+        let expected = if name == "ladder" { 60 } else { 0 };
+        assert_eq!(dynamics.system().redundant_rows().len(), expected, "{name}");
+    }
+}
+
+#[test]
+fn the_factor_of_a_ladder_grows_with_its_loops_and_no_faster() {
+    // The first and the last loops are a little cheaper than those between.
+    const EVEN: f64 = 1.25;
+    let numbers = |loops: usize| ladder(loops).start(Integrator::Auto).system().loop_numbers() as f64 / loops as f64;
+    let few = numbers(5);
+    for loops in [10, 20, 40, 80, 160] {
+        let more = numbers(loops);
+        assert!((1.0 / EVEN..EVEN).contains(&(more / few)), "{loops} loops: {more} numbers each, {few} in 5");
+    }
+    // A net's factor is about n^1.5 knots: four times the knots, eight times the numbers, where a dense one has sixteen.
+    let knots = |n: usize| net(n).start(Integrator::Auto).system().loop_numbers() as f64;
+    assert!(knots(12) / knots(6) < 9.0, "{} numbers and {}", knots(6), knots(12));
 }
 
 /// Links of the chain, their length and mass.

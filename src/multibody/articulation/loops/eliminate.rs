@@ -1,0 +1,256 @@
+//! The elimination of a component, and the solves by it, in the letters of the folder's head.
+
+use super::cluster::{Cluster, Node};
+use super::sparse::RIM;
+use super::{GATHERING, LoopRow};
+use crate::articulation::block::{RowVec, for_rows};
+use crate::articulation::trains::Trains;
+use crate::articulation::tree::JointRows;
+use soffio_math::spatial::{Articulated, Mat6, NUMBERS, Vec6, add_scaled, dot, inverse, mul};
+
+/// Where the rows of a component are.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    /// Of joints.
+    pub blocks: &'a [JointRows],
+    /// Of couplings.
+    pub rows: &'a [LoopRow],
+}
+
+impl<'a> Source<'a> {
+    /// How many rows of a node act.
+    #[inline(always)]
+    fn size(&self, node: &Node) -> usize {
+        node.span.block.map_or_else(|| usize::from(self.rows[node.span.first].active), |block| self.blocks[block].rows)
+    }
+
+    /// One of their parts.
+    #[inline(always)]
+    fn part(&self, node: &Node, index: usize, size: usize) -> &'a [Vec6] {
+        match (node.span.block, index) {
+            (Some(block), 0) => &self.blocks[block].a[..size],
+            (Some(block), _) => &self.blocks[block].b[..size],
+            (None, _) => &std::slice::from_ref(&self.rows[node.span.first].parts[index].1)[..size],
+        }
+    }
+
+    /// Γ among them, lower triangle; `None` where all are hard.
+    #[inline(always)]
+    fn compliance(&self, node: &Node) -> Option<&'a [RowVec]> {
+        match node.span.block {
+            Some(block) => self.blocks[block].soft.then_some(&self.blocks[block].compliance),
+            None => Some(std::slice::from_ref(&self.rows[node.span.first].compliance)),
+        }
+    }
+}
+
+impl Cluster {
+    /// Factors K for these rows and lays what is left of them on the articulated mass of the top. Does the figure gather?
+    #[inline(always)]
+    pub fn factor(&mut self, source: Source, articulated: &mut [[f64; NUMBERS]], trains: &Trains, gathering: bool) {
+        let Self { nodes, factor, w, .. } = self;
+        factor.begin(|node| source.size(&nodes[node]));
+        for (_, part) in &self.given {
+            let own = source.part(&nodes[part.node], part.index, factor.size(part.node));
+            self.j[part.at..part.at + own.len()].copy_from_slice(own);
+        }
+        for (k, member) in self.bodies.iter().enumerate() {
+            let mass = Articulated::of_numbers(&articulated[member.index]);
+            self.inverses[k] = if self.leaves[k] { mass.inverse_alone() } else { inverse(&mass.matrix()) };
+            let inverse = &self.inverses[k];
+            for part in &member.parts {
+                let own = source.part(&nodes[part.node], part.index, factor.size(part.node));
+                let columns = &mut w[6 * part.at..][..6 * own.len()];
+                for (l, j) in own.iter().enumerate() {
+                    let answer = if self.leaves[k] { mul_alone(inverse, j) } else { mul(inverse, j) };
+                    for c in 0..6 {
+                        columns[c * own.len() + l] = answer[c];
+                    }
+                }
+            }
+            for (first, second, item) in member.pairs() {
+                let others = factor.size(second.node);
+                let own = source.part(&nodes[first.node], first.index, factor.size(first.node));
+                for_rows!(others, others => {
+                    let w = &w[6 * second.at..][..6 * others];
+                    for (k, j) in own.iter().enumerate() {
+                        add_product(&mut factor.row(first.node, k, item)[..others], j, w);
+                    }
+                });
+            }
+        }
+        self.add_trains(source, trains);
+        let Self { nodes, factor, .. } = self;
+        for &(part, item) in &self.on_top {
+            let own = source.part(&nodes[part.node], part.index, factor.size(part.node));
+            for (k, j) in own.iter().enumerate() {
+                factor.row(part.node, k, item).copy_from_slice(j);
+            }
+        }
+        for (index, node) in nodes.iter().enumerate() {
+            if gathering && node.closes {
+                (0..factor.size(index)).for_each(|k| *factor.diagonal(index, k) *= 1.0 + GATHERING);
+            }
+            let Some(compliance) = source.compliance(node) else { continue };
+            let (size, item) = (factor.size(index), factor.own(index));
+            for l in 0..size {
+                for (entry, gamma) in factor.row(index, l, item)[l..].iter_mut().zip(&compliance[l..size]) {
+                    *entry += gamma[l];
+                }
+            }
+        }
+        factor.factor();
+        if let Some(top) = self.top {
+            let (rim, item) = (factor.rim(), factor.own(factor.rim()));
+            let mut left: Mat6 = [[0.0; RIM]; RIM];
+            for (k, row) in left.iter_mut().enumerate() {
+                row.copy_from_slice(factor.row(rim, k, item));
+            }
+            for (sum, left) in articulated[top].iter_mut().zip(Articulated::of_matrix(&left).numbers()) {
+                *sum -= left;
+            }
+        }
+    }
+
+    /// Adds what trains answer.
+    #[inline(always)]
+    fn add_trains(&mut self, source: Source, trains: &Trains) {
+        let Self { nodes, factor, shares, .. } = self;
+        for member in &self.trains {
+            for part in &member.parts {
+                let (node, size) = (&nodes[part.node], factor.size(part.node));
+                let shares = &mut shares[part.at..part.at + size];
+                shares.fill(0.0);
+                for (index, &(body, _)) in source.rows[node.span.first].parts.iter().enumerate() {
+                    if trains.of(body) == Some(member.index) {
+                        for (share, j) in shares.iter_mut().zip(source.part(node, index, size)) {
+                            *share += trains.share(&(body, *j)).map_or(0.0, |(_, f)| f);
+                        }
+                    }
+                }
+            }
+            for (first, second, item) in member.pairs() {
+                for k in 0..factor.size(first.node) {
+                    let entries = factor.row(first.node, k, item);
+                    for (entry, f) in entries.iter_mut().zip(&shares[second.at..]) {
+                        *entry += trains.response(member.index, shares[first.at + k], *f);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The way up: what the rows push on the top into `b`. `a` has the accelerations of what is given.
+    #[inline(always)]
+    pub fn up(&mut self, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
+        let Self { nodes, factor, j, w, x, .. } = self;
+        for (index, node) in nodes.iter().enumerate() {
+            let (first, size) = (factor.first(index), factor.size(index));
+            x[first..first + size].copy_from_slice(&g[node.at..node.at + size]);
+        }
+        for member in &self.bodies {
+            for part in &member.parts {
+                let (first, size) = (factor.first(part.node), factor.size(part.node));
+                let (x, w) = (&mut x[first..first + size], &w[6 * part.at..][..6 * size]);
+                for c in 0..6 {
+                    for (x, w) in x.iter_mut().zip(&w[c * size..]) {
+                        *x -= w * b[member.index][c];
+                    }
+                }
+            }
+        }
+        for (body, part) in &self.given {
+            let (first, size) = (factor.first(part.node), factor.size(part.node));
+            for (x, block) in x[first..first + size].iter_mut().zip(&j[part.at..]) {
+                *x -= dot(block, &a[*body]);
+            }
+        }
+        let rim = factor.first(factor.rim());
+        x[rim..].fill(0.0);
+        factor.forward(x);
+        if let (Some(top), Some(left)) = (self.top, x[rim..].first_chunk::<RIM>()) {
+            add_scaled(&mut b[top], -1.0, left);
+        }
+    }
+
+    /// The way down: the rows' `lambda`, the bodies' `a`, and what the rows push along each train.
+    #[inline(always)]
+    pub fn down(&mut self, b: &[Vec6], lambda: &mut [f64], a: &mut [Vec6], pushes: &mut [f64]) {
+        let Self { nodes, factor, x, .. } = self;
+        let rim = factor.first(factor.rim());
+        match self.top {
+            Some(top) => x[rim..].copy_from_slice(&a[top]),
+            None => x[rim..].fill(0.0),
+        }
+        factor.backward(x);
+        for (index, node) in nodes.iter().enumerate() {
+            let (first, size) = (factor.first(index), factor.size(index));
+            lambda[node.at..node.at + size].copy_from_slice(&x[first..first + size]);
+        }
+        for (member, inverse) in self.bodies.iter().zip(&self.inverses) {
+            let mut out = mul(inverse, &b[member.index]);
+            for part in &member.parts {
+                let (first, size) = (factor.first(part.node), factor.size(part.node));
+                let x = &x[first..first + size];
+                let w = &self.w[6 * part.at..][..6 * size];
+                for (c, out) in out.iter_mut().enumerate() {
+                    for (x, w) in x.iter().zip(&w[c * size..]) {
+                        *out += w * x;
+                    }
+                }
+            }
+            a[member.index] = out;
+        }
+        self.push_trains(pushes);
+    }
+
+    /// What the rows push along each train if this one, and nothing else, goes at a rate of 1 that they are not asked to keep.
+    pub fn answer_train(&mut self, train: usize, pushes: &mut [f64]) {
+        let Some(member) = self.trains.iter().find(|member| member.index == train) else { return };
+        self.x.fill(0.0);
+        for part in &member.parts {
+            let first = self.factor.first(part.node);
+            for k in 0..self.factor.size(part.node) {
+                self.x[first + k] = -self.shares[part.at + k];
+            }
+        }
+        self.factor.forward(&mut self.x);
+        // A train stands on the ground, and so does all that it is in a loop with.
+        self.x[self.factor.first(self.factor.rim())..].fill(0.0);
+        self.factor.backward(&mut self.x);
+        self.push_trains(pushes);
+    }
+
+    #[inline(always)]
+    fn push_trains(&self, pushes: &mut [f64]) {
+        for member in &self.trains {
+            for part in &member.parts {
+                let first = self.factor.first(part.node);
+                for k in 0..self.factor.size(part.node) {
+                    pushes[member.index] += self.x[first + k] * self.shares[part.at + k];
+                }
+            }
+        }
+    }
+}
+
+/// Matrix times vector, where the matrix is that of a body on which nothing hangs.
+#[inline(always)]
+fn mul_alone(m: &Mat6, v: &Vec6) -> Vec6 {
+    let mut out = [m[0][0] * v[0], m[0][0] * v[1], m[0][0] * v[2], 0.0, 0.0, 0.0];
+    for k in 3..6 {
+        out[k] = m[k][3] * v[3] + m[k][4] * v[4] + m[k][5] * v[5];
+    }
+    out
+}
+
+/// Adds a row of J times some columns of W.
+#[inline(always)]
+fn add_product(entries: &mut [f64], j: &Vec6, w: &[f64]) {
+    let n = entries.len();
+    let (a, b, c) = (&w[..n], &w[n..2 * n], &w[2 * n..3 * n]);
+    let (d, e, f) = (&w[3 * n..4 * n], &w[4 * n..5 * n], &w[5 * n..6 * n]);
+    for l in 0..n {
+        entries[l] += j[0] * a[l] + j[1] * b[l] + j[2] * c[l] + j[3] * d[l] + j[4] * e[l] + j[5] * f[l];
+    }
+}

@@ -1,0 +1,178 @@
+//! Closed loops and couplings: what a tree cannot hold is eliminated component by component, each with a sparse factor.
+//!
+//! The joints of a figure make a tree of biconnected components (`graph.rs`). A component with loops hangs on its *top* t, a
+//! body or the ground. It is eliminated as `tree.rs` eliminates a body that hangs on its parent, by the same equations, where c
+//! stands for all of its bodies but the top. With A the articulated masses of these (one block a body: what hangs on each is
+//! gone already), J_c and J_t the blocks of the component's rows on them and on the top, J_d those on bodies whose a is given:
+//!
+//! ```text
+//! K = J_c A⁻¹ J_cᵀ + Γ         W = A⁻¹ J_cᵀ         e = g − Wᵀ b_c − J_d a_d
+//! λ = K⁻¹ (e − J_t a_t)        A_t += J_tᵀ K⁻¹ J_t        b_t += J_tᵀ K⁻¹ e        a_c = A⁻¹ b_c + W λ
+//! ```
+//!
+//! K has a block for each two joints that share a body, so it is as sparse as the figure is. `sparse.rs` factors it in an
+//! order that is found once. A chain of loops costs what its loops cost one by one, a net of n knots about n^1.5.
+//!
+//! All rows of a component are eliminated before its top. No row is lost by that: where joints are closed, a motion of component
+//! and top as one rigid body opens none of them, so rows that are independent stay so with the top held. Where points are still
+//! apart this need not hold; then the figure gathers, and rows are soft.
+//!
+//! A train (`trains/`) is a body of one coordinate: a row's block on it is its f, A its m. The ground carries it, so that no
+//! component with a train has a top.
+//!
+//! Rows that repeat others (a planar four-bar of hinges has three) get the multiplier 0, as in the tree.
+
+mod cluster;
+mod eliminate;
+mod factor;
+pub(super) mod graph;
+mod sparse;
+
+use super::block::RowVec;
+use super::trains::Trains;
+use super::tree::{JointRows, Tree};
+use cluster::{Cluster, Node};
+use eliminate::Source;
+use soffio_math::spatial::{NUMBERS, Vec6};
+
+/// Γ of rows that close loops while a figure gathers, as a share of their answer alone. On its way together a figure
+/// passes places where its rows almost repeat each other but do not agree; what little holds them there must not decide.
+pub const GATHERING: f64 = 1e-4;
+
+/// One row outside the tree. Where it is one of a joint, only the dense solver keeps its numbers here.
+#[derive(Clone, Debug)]
+pub struct LoopRow {
+    /// Where its numbers are in `g` and `lambda`.
+    pub at: usize,
+    /// Does it act now?
+    pub active: bool,
+    /// J: a block per body that it touches.
+    pub parts: Vec<(usize, Vec6)>,
+    /// Which row of its joint it is; those before it stand before it here.
+    pub place: usize,
+    /// Γ with the rows of its joint, from the first to itself.
+    pub compliance: RowVec,
+    /// Is it a coupling of a train, which the train itself holds?
+    pub held: bool,
+}
+
+impl LoopRow {
+    /// Is it between bodies that sleep?
+    pub fn sleeps(&self, asleep: &[bool]) -> bool {
+        self.parts.iter().any(|(body, _)| asleep[*body])
+    }
+}
+
+/// Rows of a joint or a coupling outside the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Span {
+    /// Index of the first.
+    pub first: usize,
+    /// Most that there may be.
+    pub count: usize,
+    /// Where a joint has its blocks; a coupling has them in the row.
+    pub block: Option<usize>,
+}
+
+/// The loop rows of a figure and their factor.
+#[derive(Clone, Debug, Default)]
+pub struct Loops {
+    /// Every row that there may be.
+    pub rows: Vec<LoopRow>,
+    clusters: Vec<Cluster>,
+    /// Component and node of each row; none where nothing gives way to it.
+    places: Vec<Option<(usize, usize)>>,
+    /// What the rows push along each train.
+    pushes: Vec<f64>,
+    /// The same for a rate of each train alone that they are not asked to keep; empty until it is asked for.
+    answers: Vec<f64>,
+}
+
+impl Loops {
+    /// Those beside a tree, of joints and couplings that have these spans of them.
+    pub(super) fn new(rows: Vec<LoopRow>, tree: &Tree, spans: &[Span], trains: &Trains) -> Self {
+        let new = |component| Cluster::new(component, spans, &rows, trains, |body| tree.carries(body));
+        let clusters: Vec<Cluster> = tree.components.iter().map(new).collect();
+        let mut places = vec![None; rows.len()];
+        for (cluster, of) in clusters.iter().enumerate() {
+            for (node, Node { span, .. }) in of.nodes.iter().enumerate() {
+                places[span.first..span.first + span.count].fill(Some((cluster, node)));
+            }
+        }
+        let count = trains.count();
+        Self { rows, clusters, places, pushes: vec![0.0; count], answers: Vec::with_capacity(count * count) }
+    }
+
+    /// Was this row, which acts, found to repeat others at the last factorisation? So does one to which nothing gives way.
+    pub fn is_redundant(&self, row: usize) -> bool {
+        let repeats = |(cluster, node): (usize, usize)| {
+            let of: &Cluster = &self.clusters[cluster];
+            of.factor.is_redundant(node, row - of.nodes[node].span.first)
+        };
+        self.places[row].map_or(!self.rows[row].held, repeats)
+    }
+
+    /// How many numbers the factors of all components hold at most.
+    pub fn numbers(&self) -> usize {
+        self.clusters.iter().map(|cluster| cluster.factor.numbers()).sum()
+    }
+
+    /// A new factor is made.
+    pub fn begin(&mut self) {
+        self.answers.clear();
+    }
+
+    /// Eliminates a component, once all that hangs on its bodies is gone. Joints have their rows in `blocks`. Does the figure
+    /// gather?
+    #[inline(always)]
+    pub fn factor(
+        &mut self,
+        index: usize,
+        masses: &mut [[f64; NUMBERS]],
+        (blocks, trains, gathering): (&[JointRows], &Trains, bool),
+    ) {
+        self.clusters[index].factor(Source { blocks, rows: &self.rows }, masses, trains, gathering);
+    }
+
+    /// Begins a solve.
+    #[inline(always)]
+    pub fn begin_solve(&mut self) {
+        self.pushes.fill(0.0);
+    }
+
+    /// The way up of a component. `a` lends the accelerations of driven bodies and of trains as if there were nothing else.
+    #[inline(always)]
+    pub fn up(&mut self, index: usize, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
+        self.clusters[index].up(b, g, a);
+    }
+
+    /// The way down of a component, after its top.
+    #[inline(always)]
+    pub fn down(&mut self, index: usize, b: &[Vec6], lambda: &mut [f64], a: &mut [Vec6]) {
+        self.clusters[index].down(b, lambda, a, &mut self.pushes);
+    }
+
+    /// What the rows push along each train's coordinate, after a solve.
+    pub fn pushes(&self) -> &[f64] {
+        &self.pushes
+    }
+
+    /// Lets the rows answer an impulse that only trains feel, whose own answers they have already. Contacts ask often, and
+    /// there are few trains: what a rate of each of them calls up is found once.
+    pub fn correct_trains(&mut self, trains: &mut Trains) {
+        let count = self.pushes.len();
+        if self.answers.is_empty() {
+            self.answers.resize(count * count, 0.0);
+            for (train, pushes) in self.answers.chunks_exact_mut(count.max(1)).enumerate() {
+                self.clusters.iter_mut().for_each(|cluster| cluster.answer_train(train, pushes));
+            }
+        }
+        // The answers are the same both ways round.
+        for (push, answers) in self.pushes.iter_mut().zip(self.answers.chunks_exact(count.max(1))) {
+            *push = answers.iter().enumerate().map(|(train, answer)| answer * trains.rate(train)).sum();
+        }
+        for (train, push) in self.pushes.iter().enumerate().filter(|(_, push)| **push != 0.0) {
+            trains.add_push(train, *push);
+        }
+    }
+}

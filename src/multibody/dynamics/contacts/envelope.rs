@@ -1,0 +1,157 @@
+//! LU factor of a matrix whose elements lie between the first of each row or column and the diagonal.
+//!
+//! A = L U with the same envelope below as above: row i of A begins where column i does. L (ones on its diagonal) has no element
+//! before the first of A's row, nor U before the first of A's column, so that the work goes with the square of their lengths
+//! (A. George, J. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, for the symmetric case). Both are
+//! stored so that every sum is one of two stretches of numbers. Sums run in four lanes that are added in a fixed order: the
+//! same bits whatever the processor.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+/// Sums are taken in so many lanes.
+const LANES: usize = 4;
+/// A pivot that elimination leaves with less than this share of its diagonal element is rounding, and counts as this share.
+const LEAST_PIVOT: f64 = 1e-12;
+
+/// The matrix, then its factor.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Envelope {
+    /// First column of each row, and where its numbers begin.
+    first: Vec<usize>,
+    at: Vec<usize>,
+    /// Rows up to the diagonal, then L; the element on the diagonal counts for nothing.
+    lower: Vec<f64>,
+    /// Columns down to the diagonal, then U with the inverse of the diagonal's elements.
+    upper: Vec<f64>,
+}
+
+impl Envelope {
+    /// Room for so many rows of about this length.
+    pub fn with_room(rows: usize, length: usize) -> Self {
+        let numbers = || Vec::with_capacity(rows * length);
+        Self { first: Vec::with_capacity(rows), at: Vec::with_capacity(rows + 1), lower: numbers(), upper: numbers() }
+    }
+
+    /// Begins a matrix of nothing whose rows and columns begin here.
+    pub fn begin(&mut self, first: impl Iterator<Item = usize>) {
+        self.first.clear();
+        self.at.clear();
+        let mut at = 0;
+        for (row, first) in first.enumerate() {
+            self.first.push(first);
+            self.at.push(at);
+            at += row - first + 1;
+        }
+        self.at.push(at);
+        for numbers in [&mut self.lower, &mut self.upper] {
+            numbers.clear();
+            numbers.resize(at, 0.0);
+        }
+    }
+
+    /// A row from a column on, and a column from a row on, up to the diagonal.
+    #[inline(always)]
+    pub fn arms(&mut self, index: usize, from: usize) -> (&mut [f64], &mut [f64]) {
+        let all = self.at[index] + from - self.first[index]..self.at[index + 1];
+        (&mut self.lower[all.clone()], &mut self.upper[all])
+    }
+
+    /// Factors in place. Answers how many operations that took, about.
+    pub fn factor(&mut self) -> u64 {
+        dispatch!(Level::new(), simd => simd.vectorize(
+            #[inline(always)]
+            || self.factor_rows(),
+        ))
+    }
+
+    #[inline(always)]
+    fn factor_rows(&mut self) -> u64 {
+        let mut operations = 0;
+        for i in 0..self.first.len() {
+            let (lower, row) = self.lower.split_at_mut(self.at[i]);
+            let (upper, column) = self.upper.split_at_mut(self.at[i]);
+            let begin = self.first[i];
+            let last = i - begin;
+            operations += 2 * (last * last) as u64;
+            for j in begin..i {
+                let from = self.first[j].max(begin);
+                let (own, theirs) = (from - begin..j - begin, self.at[j] + from - self.first[j]..self.at[j + 1] - 1);
+                column[j - begin] -= dot(&column[own.clone()], &lower[theirs.clone()]);
+                row[j - begin] = (row[j - begin] - dot(&row[own], &upper[theirs])) * upper[self.at[j + 1] - 1];
+            }
+            let diagonal = column[last];
+            let pivot = diagonal - dot(&row[..last], &column[..last]);
+            let least = LEAST_PIVOT * diagonal.abs();
+            column[last] = if pivot.abs() < least { least } else { pivot }.recip();
+        }
+        operations
+    }
+
+    /// Solves L U x = x in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        for i in 0..self.first.len() {
+            let own = &self.lower[self.at[i]..self.at[i + 1] - 1];
+            x[i] -= dot(own, &x[self.first[i]..i]);
+        }
+        for i in (0..self.first.len()).rev() {
+            let column = &self.upper[self.at[i]..self.at[i + 1]];
+            let (own, diagonal) = column.split_at(column.len() - 1);
+            let value = x[i] * diagonal[0];
+            x[i] = value;
+            for (x, u) in x[self.first[i]..i].iter_mut().zip(own) {
+                *x -= u * value;
+            }
+        }
+    }
+}
+
+/// Σ aᵢ bᵢ.
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (whole_a, whole_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest: f64 = whole_a.remainder().iter().zip(whole_b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in whole_a.zip(whole_b) {
+        for lane in 0..LANES {
+            lanes[lane] += a[lane] * b[lane];
+        }
+    }
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use soffio_math::noise::Random;
+
+    #[test]
+    fn solves_what_the_whole_matrix_multiplies() {
+        /// Rounding of some hundred numbers.
+        const ROUNDED: f64 = 1e-12;
+        let first = [0, 0, 1, 0, 2, 4, 3, 6];
+        let n = first.len();
+        let mut random = Random::new(5);
+        let mut whole = vec![vec![0.0; n]; n];
+        let mut envelope = Envelope::default();
+        envelope.begin(first.into_iter());
+        for row in 0..n {
+            for column in first[row]..=row {
+                let (below, above) = (random.signed(), random.signed());
+                whole[row][column] = below;
+                whole[column][row] = above;
+                if row == column {
+                    whole[row][row] = 4.0;
+                }
+                let (lower, upper) = envelope.arms(row, column);
+                (lower[0], upper[0]) = (whole[row][column], whole[column][row]);
+            }
+        }
+        let x: Vec<f64> = (0..n).map(|_| random.signed()).collect();
+        let mut b: Vec<f64> = whole.iter().map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
+        assert!(envelope.factor() > 0);
+        envelope.solve(&mut b);
+        for (found, x) in b.iter().zip(&x) {
+            assert!((found - x).abs() < ROUNDED, "{found}, not {x}");
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! How much a step has done, so that it never does too much.
+//!
+//! A step follows every impact at its own time and every contact until its forces are right: each asks for another pass over the
+//! bodies. Where many things touch, that would have no end. So a step counts its work, and when a pass more would be too
+//! much the rest of it is one substep in which impacts and resting contact are solved together (`contacts/together.rs`).
+//!
+//! Work is counted in operations, not in time: the same run takes the same way on every machine. The numbers were measured by
+//! counting instructions of towers, heaps and pegs; they need to be right to a factor of two.
+
+/// Operations of a step, at most, but for the substep that ends it: a millisecond of a processor of 2020.
+const ALLOWED: u64 = 1_500_000;
+/// Operations of a pass over one body, of a touch with its points, of a touch in a sweep, and in a
+/// step of Newton's method beside the factor.
+const BODY: u64 = 2_500;
+pub(super) const TOUCH: u64 = 2_500;
+pub(super) const SWEPT: u64 = 400;
+pub(super) const SOLVED: u64 = 1_500;
+/// Passes that a substep with contacts takes, about: it is looked at, put right, and cut at an impact.
+const PASSES: u64 = 3;
+
+/// The work of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Effort {
+    spent: u64,
+    /// Of the last pass, and of the dearest one of the step before.
+    pass: u64,
+    dearest: u64,
+}
+
+impl Effort {
+    /// Begins a step.
+    pub fn begin_step(&mut self) {
+        *self = Self { spent: 0, pass: self.dearest.max(self.pass) / 2, dearest: 0 };
+    }
+
+    /// Notes a pass over so many bodies, and so many operations of contacts.
+    pub fn note(&mut self, bodies: usize, contacts: u64) {
+        self.pass = bodies as u64 * BODY + contacts;
+        self.dearest = self.dearest.max(self.pass);
+        self.spent += self.pass;
+    }
+
+    /// Would a substep with all its passes be too much?
+    pub fn is_spent(&self) -> bool {
+        self.spent + PASSES * self.pass > ALLOWED
+    }
+}
