@@ -34,13 +34,14 @@ impl Dynamics {
             .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
         let joints = (system.states().len(), settings.stabilization_time);
-        let contacts = Contacts::new(
+        let mut contacts = Contacts::new(
             figure.colliders,
             figure.pairs,
             (figure.limits, figure.constraints),
             (&bodies, &driven),
             joints,
         );
+        contacts.find_rest(&bodies);
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,

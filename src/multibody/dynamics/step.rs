@@ -65,10 +65,10 @@ impl Dynamics {
             }
             let now = self.time + done;
             self.find_first_rates(now);
-            let together = self.must_hurry() && !self.contacts.is_empty();
+            let together = self.effort.is_spent() && !self.contacts.is_empty();
             let h = self.next_substep(now, dt - done, (dt, together));
             self.set_shares(now + 0.5 * h);
-            done += if together { self.substep_together(h, done, impacts) } else { self.substep(h, dt, done, impacts) };
+            done += if together { self.substep_together(h, dt, done, impacts) } else { self.substep(h, dt, done, impacts) };
             self.substeps += 1;
         }
         if self.loads.rubs && self.bodies.iter().all(RigidBody::is_finite) {
@@ -77,12 +77,6 @@ impl Dynamics {
         let lost = self.end_step(dt, already, impacts);
         self.fall_asleep(dt);
         bad.or(lost)
-    }
-
-    /// Would a substep with all its passes be too much? Joints need every substep that their error asks for, so a figure that has
-    /// any goes on.
-    fn must_hurry(&self) -> bool {
-        self.effort.is_spent() && self.equations.system.states().is_empty()
     }
 
     /// Begins a step of `dt` seconds.
@@ -145,8 +139,9 @@ impl Dynamics {
         used
     }
 
-    /// Integrates `h` seconds as if nothing were in the way, and puts right at their end what met or rests. Returns `h`.
-    fn substep_together(&mut self, h: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
+    /// Integrates `h` seconds or less (where the error asks for it) as if nothing were in the way, puts right at their end what met
+    /// or rests, and returns the time used.
+    fn substep_together(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
         let now = self.time + done;
         let (integration, mut moving) = self.moving();
         integration.begin_substep(&mut moving);
@@ -155,7 +150,7 @@ impl Dynamics {
         self.contacts.lay_out_once(h, &self.equations.system);
         self.press();
         let (integration, mut moving) = self.moving();
-        integration.integrate(&mut moving, now, h, h);
+        let h = integration.integrate(&mut moving, now, h, dt / MOST_SUBSTEPS);
         while self.sleep.any()
             && let Some(body) = self.contacts.met_asleep(&self.before, &self.bodies)
         {
@@ -226,7 +221,7 @@ impl Dynamics {
             let (integration, mut moving) = self.moving();
             h = integration.integrate(&mut moving, t, h, if sure || pass > 1 { h } else { least });
             // A pass more would be too much: the forces are as good as they get.
-            let last = self.must_hurry();
+            let last = self.effort.is_spent();
             let verdict = self.settle(h, if last { usize::MAX } else { pass }, if last { h } else { least });
             self.effort.note(self.bodies.len(), self.contacts.take_effort());
             match verdict {
@@ -289,15 +284,15 @@ impl Dynamics {
         integration.back_to_start(&mut moving);
     }
 
-    /// Longest substep that follows the fastest motion: the tension modes, the free spin, and what the last error allowed; of
-    /// contact that is solved `together`, the tension modes alone.
+    /// Longest substep that follows the fastest motion: the tension modes, the free spin, what the last error allowed and, unless
+    /// contact is solved `together`, what slides.
     fn substep_length(&self, dt: f64, together: bool) -> f64 {
-        let mut longest = TENSION_PHASE / self.loads.stiffest().sqrt();
+        let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
+        let spin = spins.fold(0.0, f64::max);
+        let mut longest =
+            (TENSION_PHASE / self.loads.stiffest().sqrt()).min(SPIN_PHASE / spin.sqrt()).min(self.integration.stride);
         if !together {
-            let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
-            let spin = spins.fold(0.0, f64::max);
-            longest =
-                longest.min(SPIN_PHASE / spin.sqrt()).min(self.integration.stride).min(self.contacts.longest_substep());
+            longest = longest.min(self.contacts.longest_substep());
         }
         longest.max(dt / MOST_SUBSTEPS)
     }
@@ -385,6 +380,7 @@ impl Dynamics {
     pub(super) fn start_anew(&mut self) {
         self.equations.system.begin_trains(&self.bodies);
         self.contacts.forget(&self.bodies);
+        self.contacts.find_rest(&self.bodies);
         self.loads.forget();
         self.integration.begin_anew();
         self.equations.known = Known::Nothing;

@@ -26,7 +26,7 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DMat3, DVec3};
 
 /// Slower approaches do not bounce and make no sound, m/s (rad/s at a limit of an angle).
-const REST_SPEED: f64 = 4e-3;
+pub(super) const REST_SPEED: f64 = 4e-3;
 /// Bounces nearer in time than this, and slower than that, are one contact: no ear tells them apart, s and m/s.
 const CHATTER_TIME: f64 = 5e-3;
 const CHATTER_SPEED: f64 = 0.03;

@@ -2,6 +2,7 @@
 
 use super::coordinates::Mechanisms;
 use super::held::HeldForces;
+use super::hit::REST_SPEED;
 use super::impact::SurfacePair;
 use super::near::Near;
 use super::problem::Problem;
@@ -11,7 +12,7 @@ use super::surfaces::Surfaces;
 use super::together::Encounter;
 use super::touch::{Source, Touch};
 use crate::articulation::{Constraint, Limit};
-use crate::collision::{Collider, Pair};
+use crate::collision::{Collider, ManifoldPoint, Pair, TOUCH};
 use crate::dynamics::clutches::Clutches;
 use crate::dynamics::limits::Limits;
 use soffio_geometry::bodies::RigidBody;
@@ -142,6 +143,20 @@ impl Contacts {
     /// Work of all hits and resting contacts so far, J.
     pub(in crate::dynamics) fn work(&self) -> f64 {
         self.work.total
+    }
+
+    /// Finds what touches where the figure begins and does not hit: it rests from the first substep on.
+    pub(in crate::dynamics) fn find_rest(&mut self, bodies: &[RigidBody]) {
+        self.near.find(bodies, bodies, &self.sleepers.bodies);
+        for near in 0..self.near.list.len() {
+            let pair = self.near.list[near];
+            let manifold = self.surfaces.manifold(pair, bodies);
+            let speed = |at: &ManifoldPoint| self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal);
+            let mut closed = manifold.points().iter().filter(|at| at.gap <= TOUCH).peekable();
+            if closed.peek().is_some() && closed.all(|at| speed(at).abs() < REST_SPEED) {
+                self.resting.set(pair, true);
+            }
+        }
     }
 
     /// Forgets all rest, for bodies that were put elsewhere.
