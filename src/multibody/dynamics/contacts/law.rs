@@ -218,7 +218,7 @@ impl Touch {
             return Law::Couple(normal.max(0.0) * DVec2::new(spinning, rolling));
         }
         match &self.grip {
-            Some(grip) => Law::Clutch(grip.most),
+            Some(grip) => Law::Clutch(if grip.slips { grip.most } else { f64::INFINITY }),
             None if self.answer.k.x_axis.x <= LOCKED => Law::Still,
             None if self.rows == 1 || self.friction == 0.0 => Law::Bound,
             None => Law::Contact(self.friction),

@@ -112,16 +112,24 @@ impl Problem {
         }
     }
 
-    /// Solves for all impulses from where they stand. Answers whether they are good enough to begin from next time.
+    /// Solves for all impulses from where they stand: first as if all clutches took hold, then with those slipping that would carry
+    /// too much. Where teeth jam, both may be possible; then they hold. Answers whether the impulses are good enough to begin from
+    /// next time.
     pub fn solve(&mut self) -> bool {
-        let settled =
-            self.solve_by(|touch, touches| touch.law(touch.twist.map_or(0.0, |twist| touches[twist.of].impulse.x)));
-        for touch in &mut self.touches {
-            if let Some(grip) = &mut touch.grip {
-                grip.slips = touch.impulse.x.abs() > grip.most;
+        loop {
+            let settled =
+                self.solve_by(|touch, touches| touch.law(touch.twist.map_or(0.0, |twist| touches[twist.of].impulse.x)));
+            let mut gives = false;
+            for touch in &mut self.touches {
+                let Some(grip) = &mut touch.grip else { continue };
+                if !grip.slips && touch.impulse.x.abs() > grip.most {
+                    (grip.slips, gives) = (true, true);
+                }
+            }
+            if !gives {
+                return settled;
             }
         }
-        settled
     }
 
     /// Solves for friction alone, the normal impulses given.
