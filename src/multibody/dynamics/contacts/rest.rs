@@ -221,9 +221,8 @@ impl Contacts {
         }
         self.push_clutches(h, system);
         for touch in self.problem.touches.iter_mut().filter(|touch| touch.pushes()) {
-            // Gently to the middle of the layer, or to the bound; a wider gap may close within the substep.
-            let place = if matches!(touch.source, Source::Bound(_)) { 0.0 } else { 0.5 * LAYER };
-            let sunk = (place - touch.gap).clamp(-0.5 * LAYER, LAYER);
+            // Gently to the middle of the layer; a wider gap may close within the substep.
+            let sunk = (0.5 * LAYER - touch.gap).clamp(-0.5 * LAYER, LAYER);
             touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
         }
         self.warm_start(h, system, bodies)
