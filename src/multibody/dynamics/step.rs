@@ -159,6 +159,7 @@ impl Dynamics {
         self.equations.prepare_impulses(&self.bodies);
         let Self { equations, contacts, bodies, before, .. } = self;
         contacts.settle_together((done, h), before, &mut equations.system, bodies, impacts);
+        contacts.take_hold(h, &mut equations.system, bodies);
         self.equations.project(&mut self.bodies);
         self.integration.interrupt();
         self.sleep.keep(&mut self.bodies, &self.before);

@@ -101,7 +101,6 @@ impl Contacts {
         self.slip = self.problem.largest_slip();
         self.work.recent = self.forces.work(start, bodies) + straightened + self.problem.work();
         self.problem.apply_closing(system, bodies);
-        self.clutches.weigh_more(h, system);
         for encounter in &met {
             let own = encounter.touches;
             let mut impact =
@@ -123,7 +122,11 @@ impl Contacts {
         if self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
             self.problem.push_out(-0.5 * LAYER, FARTHEST, system, bodies);
         }
-        self.clutches.give_way(system, |_, _, _| {});
+        // An impact is over before a clutch slips.
+        if met.is_empty() {
+            self.clutches.weigh_more(h, system);
+            self.clutches.give_way(system, |_, _, _| {});
+        }
         self.encounters = met;
     }
 
