@@ -1,6 +1,6 @@
 //! One step of a figure, stage by stage.
 
-use super::contacts::{Contacts, Hit, Impact, Verdict};
+use super::contacts::{Contacts, Hit, Impact, LAST_PASS, Verdict};
 use super::effort::Effort;
 use super::equations::{Equations, Known};
 use super::faults::Recovery;
@@ -68,7 +68,8 @@ impl Dynamics {
             let together = self.effort.is_spent() && !self.contacts.is_empty();
             let h = self.next_substep(now, dt - done, (dt, together));
             self.set_shares(now + 0.5 * h);
-            done += if together { self.substep_together(h, dt, done, impacts) } else { self.substep(h, dt, done, impacts) };
+            done +=
+                if together { self.substep_together(h, dt, done, impacts) } else { self.substep(h, dt, done, impacts) };
             self.substeps += 1;
         }
         if self.loads.rubs && self.bodies.iter().all(RigidBody::is_finite) {
@@ -223,7 +224,7 @@ impl Dynamics {
             h = integration.integrate(&mut moving, t, h, if sure || pass > 1 { h } else { least });
             // A pass more would be too much: the forces are as good as they get.
             let last = self.effort.is_spent();
-            let verdict = self.settle(h, if last { usize::MAX } else { pass }, if last { h } else { least });
+            let verdict = self.settle(h, if last { LAST_PASS } else { pass }, if last { h } else { least });
             self.effort.note(self.bodies.len(), self.contacts.take_effort());
             match verdict {
                 Verdict::Again => pass += 1,

@@ -38,7 +38,7 @@ mod twist;
 pub use hit::{Strike, Struck, strike};
 pub use impact::{Impact, ImpactKind, SurfacePair};
 pub use met::{ENDS, Met, couple_rows};
-pub(super) use rest::Verdict;
+pub(super) use rest::{LAST_PASS, Verdict};
 pub(super) use row::Row;
 pub use state::Contacts;
 pub(super) use sweep::Hit;

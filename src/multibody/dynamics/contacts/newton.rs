@@ -8,8 +8,8 @@
 //!
 //! A *sweep* (block Gauss–Seidel; M. Jean, The non-smooth contact dynamics method, 1999) goes from touch to touch, each exact for
 //! itself. Sweeps settle who does what long before they find the impulses, above all in stacks and where heavy bodies lie on
-//! light ones; a *leap* solves for all touches at once. Leaps go on while they help; where one does not, the other kind of leap is
-//! tried, and sweeps between them. Whatever is taken has brought the touches nearer to their laws. A touch's normal impulse bounds
+//! light ones; a *leap* solves for all touches at once. Sweeps come first; then leaps go on while they help, and where one does not,
+//! sweeps are made and the other kind of leap is tried. Whatever is taken has brought the touches nearer to their laws. A touch's normal impulse bounds
 //! its couple: that bound is taken from the last sweep.
 
 use super::coordinates::Coordinates;
@@ -44,7 +44,7 @@ const HARDEST: f64 = 1e-7;
 const HARDER: f64 = 1e-2;
 /// A leap that leaves more than this share of what was missed helps little.
 const ENOUGH: f64 = 0.3;
-/// Sweeps after such a leap, and leaps at most; then the best impulses so far are taken.
+/// Sweeps at first and after such a leap, and leaps at most; then the best impulses so far are taken.
 const SWEEPS: usize = 8;
 const MOST_LEAPS: usize = 6;
 /// A touch on the way to its impulse.
@@ -164,27 +164,30 @@ impl Newton {
         };
         let cheap = self.step_effort(view, island) <= CHEAP;
         let mut left = if cheap { MOST_STEPS } else { FEW_STEPS };
-        let (mut softness, mut kind) = (SOFTEST, Leap::Convex);
+        let (mut softness, mut kind, mut helps) = (SOFTEST, Leap::Convex, false);
         for _ in 0..MOST_LEAPS {
-            let (mut better, mut missed, begun) = (false, best, best);
-            if left > 0 && (cheap || best <= NEAR) {
-                better = self.leap(view, island, (kind, softness), &mut left);
-                missed = self.missed(view, own);
-                softness = if better { (softness * HARDER).max(HARDEST) } else { SOFTEST };
-            }
-            let helps = better && (missed <= ENOUGH * begun || missed <= NEARLY);
+            // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
             if !helps {
-                kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
+                let mut missed = best;
                 for _ in 0..SWEEPS {
                     if missed <= SETTLED {
                         break;
                     }
                     missed = self.sweep(view, own);
                 }
+                best = self.keep_better(own, missed, best);
             }
-            if missed < best {
-                best = missed;
-                self.keep(own);
+            let begun = best;
+            let mut better = false;
+            if best > SETTLED && left > 0 && (cheap || best <= NEAR) {
+                better = self.leap(view, island, (kind, softness), &mut left);
+                softness = if better { (softness * HARDER).max(HARDEST) } else { SOFTEST };
+                let missed = self.missed(view, own);
+                best = self.keep_better(own, missed, best);
+            }
+            helps = better && (best <= ENOUGH * begun || best <= NEARLY);
+            if !helps {
+                kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
             if best <= SETTLED || (!better && best <= NEARLY + NEARLY_SHARE * scale(self)) {
                 break;
@@ -193,6 +196,14 @@ impl Newton {
         own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].best);
         self.follow(view, island);
         best <= GOOD + NEARLY_SHARE * scale(self)
+    }
+
+    /// Keeps the impulses as they are if they miss the laws by less than the best so far. Answers what the best miss.
+    fn keep_better(&mut self, own: &[usize], missed: f64, best: f64) -> f64 {
+        if missed < best {
+            self.keep(own);
+        }
+        best.min(missed)
     }
 
     fn keep(&mut self, own: &[usize]) {

@@ -24,6 +24,8 @@ use soffio_math::DVec3;
 const RELEASE_GAP: f64 = 5e-5;
 /// Passes over one substep at most, but for one more where a rest proves false.
 const PASSES: usize = 3;
+/// A pass that is the last one whatever it finds.
+pub(in crate::dynamics) const LAST_PASS: usize = usize::MAX;
 /// Displacement within a substep that another pass is worth, m.
 const MISSED: f64 = 1e-6;
 /// What rests may close a gap that is wider than the touching layer, within one substep.
@@ -123,7 +125,8 @@ impl Contacts {
             self.work.recent = self.forces.work(start, bodies) + straightened + self.problem.work();
             self.problem.apply_closing(system, bodies);
             self.clutches.weigh_more(h, system);
-            if self.forces.give_way(&mut self.clutches, self.limits.count(), system) {
+            // Forces of a pass that nobody goes through again are not good enough for a clutch to slip by them.
+            if pass != LAST_PASS && self.forces.give_way(&mut self.clutches, self.limits.count(), system) {
                 return Verdict::Slips;
             }
         }

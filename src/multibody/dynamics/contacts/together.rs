@@ -16,7 +16,7 @@
 //! gap ≥ 0        gap ≥ e u (1 − s) h, u the approach
 //! ```
 //!
-//! Every impact keeps its own time in its event.
+//! Every impact keeps its own time in its event. Clutches that hold go on holding: impacts are over before one slips.
 
 use super::impact::Impact;
 use super::rest::LAYER;
@@ -121,11 +121,6 @@ impl Contacts {
         self.forces.remember(&self.problem, (h, settled, true), start, bodies);
         if self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
             self.problem.push_out(-0.5 * LAYER, FARTHEST, system, bodies);
-        }
-        // An impact is over before a clutch slips.
-        if met.is_empty() {
-            self.clutches.weigh_more(h, system);
-            self.clutches.give_way(system, |_, _, _| {});
         }
         self.encounters = met;
     }
