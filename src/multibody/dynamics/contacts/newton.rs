@@ -25,7 +25,7 @@ use soffio_math::{DMat3, DVec3};
 /// less than a hundredth of a micrometre a minute), or by more than this share of it.
 const SETTLED: f64 = 1e-11;
 const AGREES: f64 = 1e-8;
-/// They nearly do by this, or by this share of the velocities that impulses make alone: good enough to begin from.
+/// They nearly do by this, or by this share of the velocities that impulses make alone: where steps are dear, that will do.
 const NEARLY: f64 = 1e-5;
 const NEARLY_SHARE: f64 = 1e-7;
 /// What moves may miss them by this: a third of a micrometre a step.
@@ -45,7 +45,7 @@ const HARDER: f64 = 1e-2;
 /// A leap that leaves more than this share of what was missed helps little.
 const ENOUGH: f64 = 0.3;
 /// Sweeps at first and after such a leap, and leaps at most; then the best impulses so far are taken.
-const SWEEPS: usize = 8;
+const SWEEPS: usize = 5;
 const MOST_LEAPS: usize = 6;
 /// A touch on the way to its impulse.
 #[derive(Clone, Copy, Debug, Default)]
@@ -189,7 +189,7 @@ impl Newton {
             if !helps {
                 kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
-            if best <= SETTLED || (!better && best <= NEARLY + NEARLY_SHARE * scale(self)) {
+            if best <= SETTLED || (!cheap && !better && best <= NEARLY + NEARLY_SHARE * scale(self)) {
                 break;
             }
         }

@@ -30,6 +30,8 @@ pub(in crate::dynamics) const LAST_PASS: usize = usize::MAX;
 const MISSED: f64 = 1e-6;
 /// What rests may close a gap that is wider than the touching layer, within one substep.
 pub(super) const LAYER: f64 = TOUCH;
+/// What rests at a bound comes so near to it, m or rad: a bound is one number, no surface, and asks for less of the layer.
+const BOUND_PLACE: f64 = 0.25 * LAYER;
 /// What rests slides no farther than this in one substep, m.
 const SLIDE: f64 = 2e-3;
 /// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
@@ -224,8 +226,9 @@ impl Contacts {
         }
         self.push_clutches(h, system);
         for touch in self.problem.touches.iter_mut().filter(|touch| touch.pushes()) {
-            // Gently to the middle of the layer; a wider gap may close within the substep.
-            let sunk = (0.5 * LAYER - touch.gap).clamp(-0.5 * LAYER, LAYER);
+            // Gently to its place in the layer; a wider gap may close within the substep.
+            let place = if matches!(touch.source, Source::Bound(_)) { BOUND_PLACE } else { 0.5 * LAYER };
+            let sunk = (place - touch.gap).clamp(-0.5 * LAYER, LAYER);
             touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
         }
         self.warm_start(h, system, bodies)
