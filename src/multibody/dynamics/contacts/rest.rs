@@ -30,8 +30,10 @@ pub(in crate::dynamics) const LAST_PASS: usize = usize::MAX;
 const MISSED: f64 = 1e-6;
 /// What rests may close a gap that is wider than the touching layer, within one substep.
 pub(super) const LAYER: f64 = TOUCH;
-/// What rests at a bound comes so near to it, m or rad: a bound is one number, no surface, and asks for less of the layer.
-const BOUND_PLACE: f64 = 0.25 * LAYER;
+/// What rests stays where it is in the touching layer up to this height, m; so what is put exactly on a floor does not move. At a
+/// bound, which is one number and no surface, m or rad.
+const HIGHEST: f64 = 0.5 * LAYER;
+const HIGHEST_AT_BOUND: f64 = 0.25 * LAYER;
 /// What rests slides no farther than this in one substep, m.
 const SLIDE: f64 = 2e-3;
 /// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
@@ -40,8 +42,7 @@ const FINE: f64 = 1e-6;
 const SUNK: f64 = 2e-5;
 /// No approach is as fast as this, m/s.
 const FREE: f64 = 1e9;
-/// Time in which what rests rises to the middle of the touching layer, s: at micrometres a second, and its work is
-/// known.
+/// Time in which what has sunk rises into the touching layer, s: at micrometres a second, and its work is known.
 const RISE: f64 = 0.02;
 /// Farthest that sunken bodies are moved out in one substep, m.
 pub(super) const MOST_PUSH: f64 = 1e-3;
@@ -226,9 +227,9 @@ impl Contacts {
         }
         self.push_clutches(h, system);
         for touch in self.problem.touches.iter_mut().filter(|touch| touch.pushes()) {
-            // Gently to its place in the layer; a wider gap may close within the substep.
-            let place = if matches!(touch.source, Source::Bound(_)) { BOUND_PLACE } else { 0.5 * LAYER };
-            let sunk = (place - touch.gap).clamp(-0.5 * LAYER, LAYER);
+            // What has sunk rises gently, and what is higher in the layer comes down; a wider gap may close within the substep.
+            let highest = if matches!(touch.source, Source::Bound(_)) { HIGHEST_AT_BOUND } else { HIGHEST };
+            let sunk = (touch.gap.clamp(0.0, highest) - touch.gap).clamp(-0.5 * LAYER, LAYER);
             touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
         }
         self.warm_start(h, system, bodies)
