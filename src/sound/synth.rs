@@ -3,7 +3,8 @@
 //! Time is the sample counter [`Synth::position`]. A block is cut at commands and at the points of the control grid,
 //! so each hit starts on its own sample, and the output does not depend on how the caller cuts its blocks.
 //!
-//! Invariant: same rate, instruments, seed and commands → the same bits, in debug and release.
+//! Invariant: same rate, instruments, seed and commands → the same bits, in debug and release, on all processors that
+//! fuse multiply-adds and on all that do not ([`fuses`](super::modal::fuses)).
 //!
 //! What rings belongs to bodies and adds up there; what else a hit is heard by has a voice of its own.
 //!

@@ -12,7 +12,7 @@ use crate::commands::failure::{Failure, Outcome};
 use soffio_math::noise::Random;
 use soffio_math::{PI, exp, ln, sin};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use soffio_sound::modal::{BLOCK, Bank, Partial};
+use soffio_sound::modal::{BLOCK, Bank, Partial, fuses};
 use soffio_sound::{
     InstrumentSpec, Preset, Room, RoomSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
 };
@@ -48,7 +48,9 @@ struct Row {
     partials: usize,
     /// Partials that one core plays in real time.
     partials_real_time: f64,
-    /// Share of the processor's fused multiply-adds that reach the sound: two a partial and sample.
+    /// Whether the level rounds a multiply-add once, which decides the bits.
+    fused: bool,
+    /// Share of the processor's multiply-adds that reach the sound: two a partial and sample.
     share_of_ceiling: f64,
 }
 
@@ -74,18 +76,20 @@ struct RoomCost {
 /// Measures and prints.
 pub fn run(json: bool) -> Outcome {
     if !json {
-        println!("{:<10} {:>9} {:>18} {:>18}", "level", "partials", "x real time", "share of ceiling");
+        println!("{:<8} {:<6} {:>9} {:>18} {:>18}", "level", "fused", "partials", "x real time", "share of ceiling");
     }
     for level in levels() {
         let ceiling = (0..ROUNDS).map(|_| multiply_adds(level)).fold(0.0, f64::max);
         for partials in COUNTS {
             let rate = (0..ROUNDS).map(|_| bank(level, partials)).fold(0.0, f64::max);
             let share_of_ceiling = 2.0 * rate * f64::from(SAMPLE_RATE) / ceiling;
-            let row = Row { level: name(level), partials, partials_real_time: rate, share_of_ceiling };
+            let fused = fuses(level);
+            let row = Row { level: name(level), fused, partials, partials_real_time: rate, share_of_ceiling };
             if json {
                 println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
             } else {
-                println!("{:<10} {:>9} {:>18.0} {:>16.0} %", row.level, partials, rate, 100.0 * share_of_ceiling);
+                let fused = if fused { "yes" } else { "no" };
+                println!("{:<8} {fused:<6} {partials:>9} {rate:>18.0} {:>16.0} %", row.level, 100.0 * share_of_ceiling);
             }
         }
     }
@@ -113,7 +117,8 @@ fn levels() -> Vec<Level> {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
         let mut levels = vec![best];
-        let below = [best.as_avx2().map(Simd::level), best.as_sse4_2().map(Simd::level)];
+        let below =
+            [best.as_avx2().map(Simd::level), best.as_sse4_2().map(Simd::level), best.as_sse2().map(Simd::level)];
         levels.extend(below.into_iter().flatten().filter(|level| name(*level) != name(best)));
         levels
     }
@@ -138,10 +143,11 @@ fn multiply_adds(level: Level) -> f64 {
             std::array::from_fn(|i| std::array::from_fn::<f32, 16, _>(|lane| (16 * i + lane) as f32).simd_into(simd));
         for _ in 0..rounds {
             for sum in &mut sums {
-                *sum = sum.mul_add_precise(factor, step);
+                *sum = sum.mul_add(factor, step);
             }
         }
-        sums.iter().map(|sum| sum[0]).sum()
+        // All lanes, or those that nothing reads would not be computed.
+        sums.iter().map(|sum| <[f32; 16]>::from(*sum).iter().sum::<f32>()).sum()
     }
     const TURNS: usize = 400_000;
     let start = ThreadTime::now();

@@ -12,4 +12,4 @@ mod kernel;
 mod pulse;
 
 pub use bank::{Bank, Partial};
-pub use kernel::{BLOCK, FRAME, GROUP};
+pub use kernel::{BLOCK, FRAME, GROUP, fuses};
