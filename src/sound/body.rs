@@ -9,6 +9,7 @@ use super::graph::{Block, CONTROL, Part, State};
 use super::instrument::Instrument;
 use super::modal::{BLOCK, Bank};
 use super::timbre::{Inputs, MAX_NODES};
+use super::true_peak::peak;
 use super::voice::BROKEN;
 
 const _: () = assert!(BLOCK == CONTROL, "banks are rendered on the control grid");
@@ -188,11 +189,11 @@ impl Body {
         }
         self.ready = kept.max(BLOCK);
         // Not a number is not below either.
-        if !block.iter().all(|y| y.abs() < BROKEN) {
+        if block.iter().fold(false, |broken, y| broken | !(y.abs() < BROKEN)) {
             self.rest();
             return false;
         }
-        let quiet = std::mem::take(&mut self.peak) < INAUDIBLE as f32 && !self.operators.iter().any(State::holds);
+        let quiet = std::mem::take(&mut self.peak) < INAUDIBLE as f32 && !instrument.graph.holds(&self.operators);
         let silent = self.bank.ringing() == 0 && quiet;
         self.quiet = if silent { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
@@ -229,14 +230,32 @@ impl Body {
         let n = left.len();
         let ringing = &self.ahead[at..at + n];
         let (out, _) = instrument.graph.render(Part::Body, &mut self.operators, ringing, blocks, n);
-        for ((sample, l), r) in out.iter().zip(left).zip(right) {
-            let faded = sample * self.fade;
-            *l += faded * self.gains[0];
-            *r += faded * self.gains[1];
-            self.gains[0] += self.steps[0];
-            self.gains[1] += self.steps[1];
-            self.fade = (self.fade + self.fade_step).clamp(0.0, 1.0);
-            self.peak = self.peak.max(sample.abs());
+        self.peak = self.peak.max(peak(out));
+        let mut faded = [0.0; CONTROL];
+        let faded = &mut faded[..n];
+        faded.copy_from_slice(out);
+        if self.fade != 1.0 || self.fade_step != 0.0 {
+            for sample in &mut *faded {
+                *sample *= self.fade;
+                self.fade = (self.fade + self.fade_step).clamp(0.0, 1.0);
+            }
         }
+        for ((mix, gain), step) in [left, right].into_iter().zip(&mut self.gains).zip(self.steps) {
+            add_gliding(faded, gain, step, mix);
+        }
+    }
+}
+
+/// Adds samples at a gain that grows by `step` from one to the next.
+fn add_gliding(samples: &[f32], gain: &mut f32, step: f32, mix: &mut [f32]) {
+    if *gain + step == *gain {
+        // It has arrived, to the last bit: nothing waits for the sample before.
+        let gain = *gain;
+        mix.iter_mut().zip(samples).for_each(|(y, x)| *y += x * gain);
+        return;
+    }
+    for (y, x) in mix.iter_mut().zip(samples) {
+        *y += x * *gain;
+        *gain += step;
     }
 }

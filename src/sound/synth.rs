@@ -377,8 +377,8 @@ impl Synth {
             self.used -= 1;
         }
         for voice in self.voices[..self.used].iter_mut().filter(|voice| voice.state != VoiceState::Free) {
-            voice.grid_point();
             let graph = &self.instruments[voice.instrument].graph;
+            voice.grid_point(graph);
             graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
         self.motion.glide();

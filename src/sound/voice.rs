@@ -1,8 +1,9 @@
 //! One voice: what a hit sounds like apart from what it sets ringing, or one instrument that the wind plays.
 
-use super::graph::{Block, CONTROL, Part, State};
+use super::graph::{Block, CONTROL, Graph, Part, State};
 use super::instrument::Instrument;
 use super::timbre::{Inputs, MAX_NODES};
+use super::true_peak::peak;
 
 /// Below this a voice is silent: −100 dB of full scale.
 const INAUDIBLE: f32 = 1e-5;
@@ -73,8 +74,8 @@ impl Voice {
     }
 
     /// A grid point: is it over?
-    pub fn grid_point(&mut self) {
-        let silent = self.peak < INAUDIBLE && !self.operators.iter().any(State::holds);
+    pub fn grid_point(&mut self, graph: &Graph) {
+        let silent = self.peak < INAUDIBLE && !graph.holds(&self.operators);
         self.quiet = if silent { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
             self.state = VoiceState::Free;
@@ -95,28 +96,26 @@ impl Voice {
     ) -> bool {
         let n = left.len();
         let (out, push) = instrument.graph.render(Part::Hit, &mut self.operators, &[0.0; CONTROL][..n], blocks, n);
-        let mut peak = 0.0f32;
-        for sample in out.iter().chain(push.unwrap_or_default()) {
-            if !sample.is_finite() || sample.abs() > BROKEN {
-                self.state = VoiceState::Free;
-                return false;
-            }
-            peak = peak.max(sample.abs());
+        let push = push.unwrap_or_default();
+        // What is not a number is not within it either.
+        if [out, push].into_iter().flatten().fold(false, |broken, x| broken | !(x.abs() <= BROKEN)) {
+            self.state = VoiceState::Free;
+            return false;
         }
-        self.peak = self.peak.max(peak);
-        let fade = self.fade;
-        for ((sample, l), r) in out.iter().zip(left).zip(right) {
-            let faded = sample * self.fade;
-            *l += faded * self.gains[0];
-            *r += faded * self.gains[1];
-            self.fade = (self.fade + self.fade_step).max(0.0);
-        }
-        if let (Some(push), Some(force)) = (push, force) {
-            let mut fade = fade;
-            for (f, x) in force.iter_mut().zip(push) {
-                *f += x * fade;
-                fade = (fade + self.fade_step).max(0.0);
+        self.peak = self.peak.max(peak(out)).max(peak(push));
+        let mut fades = [1.0; CONTROL];
+        let fades = &mut fades[..n];
+        if self.fade != 1.0 || self.fade_step != 0.0 {
+            for fade in &mut *fades {
+                *fade = self.fade;
+                self.fade = (self.fade + self.fade_step).max(0.0);
             }
+        }
+        for (mix, gain) in [left, right].into_iter().zip(self.gains) {
+            mix.iter_mut().zip(out).zip(&*fades).for_each(|((y, x), fade)| *y += x * fade * gain);
+        }
+        for ((f, x), fade) in force.unwrap_or_default().iter_mut().zip(push).zip(fades) {
+            *f += x * *fade;
         }
         if self.fade == 0.0 {
             self.state = VoiceState::Free;

@@ -32,26 +32,39 @@ impl StateVariable {
         }
     }
 
-    /// One sample of the state-variable filter by trapezoidal integration (Zavalishin, "The Art of VA Filter Design",
+    /// A block of the state-variable filter by trapezoidal integration (Zavalishin, "The Art of VA Filter Design",
     /// 2018, 4.1): stable under any change of its coefficients. g = tan(π f/fs), damping = 1/Q,
     /// shrink = 1/(1 + g (damping + g)). The one-pole is the same with one integrator.
-    pub fn next(&mut self, x: f64, kind: FilterKind) -> f64 {
-        let [s1, s2] = self.integrators;
-        let (g, damping) = (self.g, self.damping);
-        if kind == FilterKind::OnePole {
-            let v = (x - s1) * g / (1.0 + g);
-            let low = v + s1;
-            self.integrators[0] = low + v;
-            return low;
-        }
-        let high = (x - (damping + g) * s1 - s2) * self.shrink;
-        let band = g * high + s1;
-        let low = g * band + s2;
-        self.integrators = [2.0 * band - s1, 2.0 * low - s2];
+    pub fn render(&mut self, kind: FilterKind, input: &[f32], out: &mut [f32]) {
         match kind {
-            FilterKind::LowPass | FilterKind::OnePole => low,
-            FilterKind::BandPass => damping * band,
-            FilterKind::HighPass => high,
+            FilterKind::OnePole => self.one_pole(input, out),
+            FilterKind::LowPass => self.two_poles(input, out, |_, _, low, _| low),
+            FilterKind::BandPass => self.two_poles(input, out, |_, band, _, damping| damping * band),
+            FilterKind::HighPass => self.two_poles(input, out, |high, _, _, _| high),
         }
+    }
+
+    fn one_pole(&mut self, input: &[f32], out: &mut [f32]) {
+        let (mut s1, g) = (self.integrators[0], self.g);
+        for (y, x) in out.iter_mut().zip(input) {
+            let v = (f64::from(*x) - s1) * g / (1.0 + g);
+            let low = v + s1;
+            s1 = low + v;
+            *y = low as f32;
+        }
+        self.integrators[0] = s1;
+    }
+
+    /// `pick` makes the output of high, band, low and the damping.
+    fn two_poles(&mut self, input: &[f32], out: &mut [f32], pick: impl Fn(f64, f64, f64, f64) -> f64) {
+        let ([mut s1, mut s2], g, damping, shrink) = (self.integrators, self.g, self.damping, self.shrink);
+        for (y, x) in out.iter_mut().zip(input) {
+            let high = (f64::from(*x) - (damping + g) * s1 - s2) * shrink;
+            let band = g * high + s1;
+            let low = g * band + s2;
+            (s1, s2) = (2.0 * band - s1, 2.0 * low - s2);
+            *y = pick(high, band, low, damping) as f32;
+        }
+        self.integrators = [s1, s2];
     }
 }

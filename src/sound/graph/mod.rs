@@ -83,6 +83,12 @@ impl Graph {
         self.force().is_some()
     }
 
+    /// Whether something is still to come out that went in.
+    pub fn holds(&self, states: &[State; MAX_NODES]) -> bool {
+        let mut delays = self.operators.iter().zip(states);
+        delays.any(|(operator, state)| matches!(operator.kind, Kind::Delay { .. }) && state.holds())
+    }
+
     /// The operator whose samples are the force in N that drives what rings.
     fn force(&self) -> Option<usize> {
         let modal = self.operators.iter().find(|operator| matches!(operator.kind, Kind::Modal))?;
@@ -129,7 +135,8 @@ impl Graph {
 
     /// What an envelope that is over would shape need not be made: soon after a hit only its partials are left to do.
     fn find_needed(&self, part: Part, states: &mut [State; MAX_NODES]) {
-        states.iter_mut().for_each(|state| state.needed = false);
+        // States behind the operators' are another timbre's: left alone, they stay out of the cache.
+        states[..self.operators.len()].iter_mut().for_each(|state| state.needed = false);
         let force = if part == Part::Hit { self.force() } else { None };
         for (i, operator) in self.operators.iter().enumerate().rev() {
             let out = i + 1 == self.operators.len() && operator.is_in(part);

@@ -137,11 +137,7 @@ impl Kind {
             (Self::Slow(slow), _) => slow.render(state, out),
             (Self::Texture { line, .. }, _) => line.render(state, out),
             (Self::Value, _) => out.fill(1.0),
-            (Self::Filter { kind, .. }, Some(input)) => {
-                for (y, x) in out.iter_mut().zip(input) {
-                    *y = state.filter.next(f64::from(*x), *kind) as f32;
-                }
-            }
+            (Self::Filter { kind, .. }, Some(input)) => state.filter.render(*kind, input, out),
             (Self::Env { .. }, Some(_)) if state.value == 0.0 => out.fill(0.0),
             (Self::Env { .. }, Some(input)) => {
                 for (y, x) in out.iter_mut().zip(input) {

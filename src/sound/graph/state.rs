@@ -63,7 +63,7 @@ impl State {
     }
 
     /// Whether something is still to come out that went in.
-    pub fn holds(&self) -> bool {
+    pub(super) fn holds(&self) -> bool {
         self.delay.holds()
     }
 

@@ -39,7 +39,8 @@ const WINDOW: f64 = 7.9;
 
 /// A closed line of a surface at all scales.
 pub(crate) struct Pyramid {
-    /// Finest first, each half as long; mean 0, mean square about 1 before anything was filtered away.
+    /// Finest first, each half as long; mean 0, mean square about 1 before anything was filtered away. As many points of
+    /// the other end stand before and behind as the kernel reaches, so that every reading is of one piece.
     levels: Vec<Vec<f32>>,
     /// Distance between points of the finest, m.
     spacing: f64,
@@ -93,12 +94,16 @@ impl Pyramid {
         while levels[levels.len() - 1].len() >= 2 * FEWEST {
             levels.push(low_passed(&levels[levels.len() - 1], 0.125, 2));
         }
+        for level in &mut levels {
+            let n = level.len();
+            *level = (0..n + TAPS - 1).map(|i| level[(i + n + 1 - TAPS / 2) % n]).collect();
+        }
         Self { levels, spacing, kernel: reading_kernel(), endless: false }
     }
 
     /// Points of the finest level.
     pub fn points(&self) -> usize {
-        self.levels[0].len()
+        self.levels[0].len() + 1 - TAPS
     }
 
     /// Points of the finest level per sample at a speed in m/s.
@@ -157,9 +162,9 @@ impl Pyramid {
         let phase = (x - cell as f64) * PHASES as f64;
         let (p, t) = (phase as usize, (phase - (phase as usize) as f64) as f32);
         let (a, b) = (&self.kernel[p], &self.kernel[p + 1]);
-        let mask = line.len() - 1;
-        let start = cell + line.len() + 1 - TAPS / 2;
-        (0..TAPS).map(|k| (a[k] + t * (b[k] - a[k])) * line[(start + k) & mask]).sum()
+        let Some(points) = line.get(cell..).and_then(|rest| rest.first_chunk::<TAPS>()) else { return 0.0 };
+        let taps: [f32; TAPS] = std::array::from_fn(|k| (a[k] + t * (b[k] - a[k])) * points[k]);
+        taps.iter().sum()
     }
 }
 

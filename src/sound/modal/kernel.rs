@@ -173,33 +173,28 @@ pub(super) fn ring<S: Simd>(simd: S, group: &mut Group, sums: &mut Sums<S>) {
 #[inline(always)]
 pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLOCK], sums: &mut Sums<S>) {
     let mut states = turn(simd, &mut group.state, &group.turns);
-    let mut driven: Phasors<f32> = [[0.0; GROUP]; 2];
-    let frame = &group.turns.steps[0];
-    let rho: Phasors<f32> = std::array::from_fn(|part| std::array::from_fn(|i| group.rows[i][part][1]));
+    let load = |x: &Phasors<f32>| x.map(|part| -> f32x16<S> { part.simd_into(simd) });
+    let silence = [f32x16::splat(simd, 0.0); 2];
+    let mut driven = silence;
+    let frame = load(&group.turns.steps[0]);
+    let rho = load(&std::array::from_fn(|part| std::array::from_fn(|i| group.rows[i][part][1])));
+    let push = load(&group.push);
     for (m, force) in force.as_chunks::<FRAME>().0.iter().enumerate() {
         if m > 0 {
-            for i in 0..GROUP {
-                states.0[m][0][i] += driven[0][i];
-                states.0[m][1][i] += driven[1][i];
-            }
+            let [re, im] = load(&states.0[m]);
+            states.0[m] = [(re + driven[0]).into(), (im + driven[1]).into()];
         }
         let on_the_way = m as f32 / FRAMES as f32;
-        let mut d: Phasors<f32> = [[0.0; GROUP]; 2];
+        let mut d = silence;
         for f in force {
-            for i in 0..GROUP {
-                let re = d[0][i] + f;
-                let im = d[1][i];
-                d[0][i] = re * rho[0][i] - im * rho[1][i];
-                d[1][i] = re * rho[1][i] + im * rho[0][i];
-            }
+            let [re, im] = [d[0] + *f, d[1]];
+            d = [re * rho[0] - im * rho[1], re * rho[1] + im * rho[0]];
         }
-        for i in 0..GROUP {
-            let (re, im) = (driven[0][i], driven[1][i]);
-            let b = group.push[0][i] + on_the_way * (group.push[1][i] - group.push[0][i]);
-            driven[0][i] = re * frame[0][i] - im * frame[1][i] + b * d[0][i];
-            driven[1][i] = re * frame[1][i] + im * frame[0][i] + b * d[1][i];
-        }
+        let [re, im] = driven;
+        let b = push[0] + (push[1] - push[0]) * on_the_way;
+        driven = [re * frame[0] - im * frame[1] + b * d[0], re * frame[1] + im * frame[0] + b * d[1]];
     }
+    let driven: Phasors<f32> = driven.map(Into::into);
     for part in 0..2 {
         for i in 0..GROUP {
             group.state[part][i] += f64::from(driven[part][i]);
