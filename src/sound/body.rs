@@ -189,7 +189,7 @@ impl Body {
         }
         self.ready = kept.max(BLOCK);
         // Not a number is not below either.
-        if block.iter().fold(false, |broken, y| broken | !(y.abs() < BROKEN)) {
+        if !block.iter().fold(true, |fine, y| fine & (y.abs() < BROKEN)) {
             self.rest();
             return false;
         }

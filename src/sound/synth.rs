@@ -215,10 +215,14 @@ impl Synth {
         self.instruments.get(usize::from(instrument)).map(|i| i.contact_time(mass, speed))
     }
 
-    /// Takes a command for its own time; one whose time is over is carried out at once.
+    /// Takes a command for its own time; one whose time has come or is over is carried out at once, and needs no room: a
+    /// burst of late ones is heard, however many wait for their time.
     pub fn command(&mut self, command: SoundCommand) {
         if !is_finite(&command) {
             self.faults += 1;
+        } else if command.sample() <= self.position {
+            self.carry_out_due();
+            self.carry_out(command);
         } else if self.commands.len() == MAX_COMMANDS {
             self.lost += 1;
         } else {
@@ -254,17 +258,21 @@ impl Synth {
 
     /// Carries out what is due now and tells how many frames there are until the next thing is.
     fn next_cut(&mut self, most: usize) -> usize {
-        while self.commands.front().is_some_and(|command| command.sample() <= self.position) {
-            if let Some(command) = self.commands.pop_front() {
-                self.carry_out(command);
-            }
-        }
+        self.carry_out_due();
         let since_grid = (self.position % CONTROL as u64) as usize;
         if since_grid == 0 {
             self.grid_point();
         }
         let to_command = self.commands.front().map_or(u64::MAX, |command| command.sample() - self.position);
         most.min(CONTROL - since_grid).min(usize::try_from(to_command).unwrap_or(usize::MAX))
+    }
+
+    fn carry_out_due(&mut self) {
+        while self.commands.front().is_some_and(|command| command.sample() <= self.position) {
+            if let Some(command) = self.commands.pop_front() {
+                self.carry_out(command);
+            }
+        }
     }
 
     fn carry_out(&mut self, command: SoundCommand) {

@@ -98,7 +98,7 @@ impl Voice {
         let (out, push) = instrument.graph.render(Part::Hit, &mut self.operators, &[0.0; CONTROL][..n], blocks, n);
         let push = push.unwrap_or_default();
         // What is not a number is not within it either.
-        if [out, push].into_iter().flatten().fold(false, |broken, x| broken | !(x.abs() <= BROKEN)) {
+        if ![out, push].into_iter().flatten().fold(true, |fine, x| fine & (x.abs() <= BROKEN)) {
             self.state = VoiceState::Free;
             return false;
         }

@@ -48,7 +48,7 @@ pub struct Args {
     /// What the wind costs on 10,000 patches among 5,000 triangles, beside asking every triangle.
     #[arg(long, conflicts_with_all = ["scene", "linear"])]
     wind: bool,
-    /// What partials cost, at each level of instructions, and the heaviest scene: 48 bodies of 6,328 partials.
+    /// What partials cost, at each level of instructions, and the heaviest scene: 48 bodies of 6,328 partials, and slides of 235.
     #[arg(long, conflicts_with_all = ["scene", "linear", "wind"])]
     sound: bool,
     /// What motion by places costs: a mobile of 127 joints dragged by hand, and exhibits beside the laws.

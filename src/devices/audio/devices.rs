@@ -51,6 +51,8 @@ pub struct Chosen {
     pub config: StreamConfig,
     /// Type of its samples.
     pub format: SampleFormat,
+    /// Shortest block that the driver offers, frames; `None` where it does not say.
+    pub shortest_block: Option<u32>,
 }
 
 /// From now on what ALSA's library has to say on this thread is kept in memory instead of written to the terminal, which
@@ -200,7 +202,10 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
         };
         let Some(device) = device else { continue };
         match configure(&device, direction, block_ms) {
-            Ok((config, format)) => return Ok(Chosen { id: id(&device), name: name(&device), device, config, format }),
+            Ok((config, format, shortest_block)) => {
+                let (id, name) = (id(&device), name(&device));
+                return Ok(Chosen { id, name, device, config, format, shortest_block });
+            }
             Err(error) => problem = format!("{}: {error}", name(&device)),
         }
     }
@@ -212,7 +217,7 @@ fn configure(
     device: &Device,
     direction: Direction,
     block_ms: f64,
-) -> Result<(StreamConfig, SampleFormat), cpal::Error> {
+) -> Result<(StreamConfig, SampleFormat, Option<u32>), cpal::Error> {
     let (own, ranges): (_, Vec<SupportedStreamConfigRange>) = match direction {
         Direction::Input => (device.default_input_config()?, device.supported_input_configs()?.collect()),
         Direction::Output => (device.default_output_config()?, device.supported_output_configs()?.collect()),
@@ -223,9 +228,11 @@ fn configure(
     let preferred = ranges.iter().filter(same).find_map(|range| range.try_with_sample_rate(PREFERRED_RATE));
     let chosen = preferred.unwrap_or(own);
     let frames = (block_ms.clamp(1.0, 200.0) * f64::from(chosen.sample_rate()) / 1000.0).round() as u32;
-    let buffer_size = match *chosen.buffer_size() {
-        cpal::SupportedBufferSize::Range { min, max } if min <= max => BufferSize::Fixed(frames.clamp(min, max)),
-        _ => BufferSize::Default,
+    let (buffer_size, shortest) = match *chosen.buffer_size() {
+        cpal::SupportedBufferSize::Range { min, max } if min <= max => {
+            (BufferSize::Fixed(frames.clamp(min, max)), Some(min))
+        }
+        _ => (BufferSize::Default, None),
     };
-    Ok((StreamConfig { buffer_size, ..chosen.config() }, chosen.sample_format()))
+    Ok((StreamConfig { buffer_size, ..chosen.config() }, chosen.sample_format(), shortest))
 }

@@ -62,6 +62,32 @@ pub struct AudioStatus {
     pub openings: u64,
     /// Capsules of the microphone that listen: 0 without one.
     pub capsules: usize,
+    /// From a step to the air; `None` until the loudspeaker has played.
+    pub delay: Option<SoundDelay>,
+    /// Shortest block that the loudspeaker's driver offers, s; `None` where it does not say.
+    pub shortest_block_s: Option<f64>,
+    /// Commands that were not heard: more than the rings hold.
+    pub lost: u64,
+}
+
+/// What a sound waits for between the step that causes it and the air, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoundDelay {
+    /// The step: a hit may be as old as its step when it is sent.
+    pub step_s: f64,
+    /// The longest block so far: a sound starts on its own sample of the next one.
+    pub block_s: f64,
+    /// The limiter's look-ahead.
+    pub limiter_s: f64,
+    /// What the device itself reports, from the callback to the converter; `None` where it reports nothing.
+    pub device_s: Option<f64>,
+}
+
+impl SoundDelay {
+    /// All of it, s.
+    pub fn total_s(&self) -> f64 {
+        self.step_s + self.block_s + self.limiter_s + self.device_s.unwrap_or(0.0)
+    }
 }
 
 /// How one device is.
@@ -203,7 +229,8 @@ impl AudioIo {
 
     /// How the devices are.
     pub fn status(&self) -> AudioStatus {
-        self.status.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        let status = self.status.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        AudioStatus { lost: self.loudspeaker.as_ref().map_or(0, output::Voice::lost), ..status }
     }
 
     /// Volume and night, and how loud it was.

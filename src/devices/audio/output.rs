@@ -1,5 +1,6 @@
 //! The loudspeaker: a real-time thread that owns the synth.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
@@ -52,6 +53,8 @@ pub struct Shared {
     pub generation: AtomicU64,
     /// Are words being said?
     pub speaks: AtomicBool,
+    /// Commands that the instruments had no room for.
+    pub lost: AtomicU64,
 }
 
 /// The real-time end: everything that the loudspeaker's callback touches.
@@ -122,6 +125,8 @@ pub struct Voice {
     shared: Arc<Shared>,
     clock: ClockMap,
     sample_rate: u32,
+    /// Commands that found no room in the ring.
+    lost: u64,
 }
 
 /// The supervisor's end: engines go in, retired ones come out.
@@ -164,7 +169,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         frame: 0,
     };
     let clock = ClockMap::new(sample_rate);
-    let voice = Voice { commands: to_player, prompter, reference: from_player, shared, clock, sample_rate };
+    let voice = Voice { commands: to_player, prompter, reference: from_player, shared, clock, sample_rate, lost: 0 };
     (player, voice, Workshop { engines: new_engines, retired: old_engines, tails: to_tails, spent_tails: old_tails })
 }
 
@@ -200,6 +205,8 @@ impl Player {
         self.shared.played.store(self.frame, Ordering::Release);
         self.shared.block.store(frames as u32, Ordering::Relaxed);
         self.shared.speaks.store(self.mouth.speaks(), Ordering::Relaxed);
+        let lost = self.engine.as_ref().map_or(0, |engine| engine.synth.lost());
+        self.shared.lost.store(lost, Ordering::Relaxed);
     }
 
     /// Frees nothing: what is over goes back through a ring. Without room there, everything stays as it is.
@@ -281,16 +288,39 @@ impl Voice {
         }
     }
 
-    /// Sends commands with sample times of the simulation, whose present is `now`.
+    /// Commands lost so far: in the ring, or where the instruments that play had no room.
+    pub fn lost(&self) -> u64 {
+        self.lost + self.shared.lost.load(Ordering::Relaxed)
+    }
+
+    /// Sends commands with sample times of the simulation, whose present is `now`. Those of late steps are heard at once;
+    /// where the steps made up for are so many that the ring has no room, only the last word of what goes on is sent.
     pub fn send(&mut self, now: u64, commands: &[SoundCommand], generation: u64) {
         let (played, block) = (self.shared.played.load(Ordering::Acquire), self.shared.block.load(Ordering::Relaxed));
         self.clock.look(now, played, block);
-        for command in commands {
+        let last = (commands.len() > self.commands.slots()).then(|| last_words(commands));
+        for command in last.as_deref().unwrap_or(commands) {
             let command = command.at(self.clock.frame(command.sample()));
-            // A full ring means that the device stands still; what it missed is not wanted later.
-            let _ = self.commands.push(Timed { command, generation });
+            // A ring that is full even so means that the device stands still; what it missed is not wanted later.
+            self.lost += u64::from(self.commands.push(Timed { command, generation }).is_err());
         }
     }
+}
+
+/// Of many commands those that are still to be heard when all are late: each hit, touch and silence, and of the wind and
+/// of what slides the last word for each instrument.
+fn last_words(commands: &[SoundCommand]) -> Vec<SoundCommand> {
+    let goes_on = |command: &SoundCommand| match command {
+        SoundCommand::Wind(_) => Some((0, 0)),
+        SoundCommand::Across(across) => Some((1, across.instrument)),
+        SoundCommand::Slide(slide) => Some((2, slide.instrument)),
+        SoundCommand::Strike(_) | SoundCommand::Touch(_) | SoundCommand::Silence { .. } => None,
+    };
+    let mut said = BTreeSet::new();
+    let from_the_end = commands.iter().rev().filter(|command| goes_on(command).is_none_or(|key| said.insert(key)));
+    let mut last: Vec<SoundCommand> = from_the_end.copied().collect();
+    last.reverse();
+    last
 }
 
 impl Workshop {
@@ -314,5 +344,82 @@ impl Workshop {
     pub fn clear(&mut self) {
         while self.spent_tails.pop().is_ok() {}
         while self.retired.pop().is_ok() {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use soffio_simulation::SAMPLES_PER_STEP;
+    use soffio_sound::{InstrumentSpec, SoundBody, SoundMaterial, Strike, WindSound};
+
+    const RATE: u32 = 48_000;
+    const BLOCK: usize = 480;
+
+    fn plate() -> Synth {
+        let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
+        let body = SoundBody { half_extents: [0.06; 2], thickness: 5e-4, area: 0.0113, mass: 0.044 };
+        let spec = InstrumentSpec { timbre: "plate".into(), body, material, surface: None, gain: 1.0, max_voices: 8 };
+        Synth::new(RATE, &[spec], 1).expect("a shipped timbre")
+    }
+
+    fn hit(sample: u64) -> SoundCommand {
+        let position = [0.5, 0.1];
+        let (impulse, speed, mass) = (1e-2, 1.0, 0.02);
+        SoundCommand::Strike(Strike { sample, instrument: 0, impulse, speed, mass, position, pan: 0.0, distance: 1.0 })
+    }
+
+    fn play(player: &mut Player) -> f32 {
+        let mut stereo = [0.0f32; 2 * BLOCK];
+        player.play(&mut stereo);
+        stereo.iter().fold(0.0, |most, x| most.max(x.abs()))
+    }
+
+    /// Steps of 4.17 ms beside blocks of 10 ms until both clocks are known; the sample at which it ends.
+    fn settled(player: &mut Player, voice: &mut Voice) -> u64 {
+        let mut now = 0;
+        for _ in 0..100 {
+            for _ in 0..2 {
+                now += SAMPLES_PER_STEP;
+                voice.send(now, &[], 0);
+            }
+            // 2.4 steps a block.
+            now += 80;
+            assert_eq!(play(player), 0.0);
+        }
+        now
+    }
+
+    #[test]
+    fn hits_of_steps_that_end_late_sound_in_the_next_block() {
+        // Steps that are late: one, a fifth of a second, and as many as the pacer makes up for; commands of each.
+        for (steps, winds) in [(1u64, 1usize), (48, 30), (60, 60)] {
+            let (mut player, mut voice, mut workshop) = open(RATE, 2, Arc::new(Knobs::new(1.0)));
+            workshop.exchange(Some(Engine { synth: Box::new(plate()), generation: 0 }));
+            let now = settled(&mut player, &mut voice);
+            let late = steps * SAMPLES_PER_STEP;
+            // The loudspeaker goes on while they are computed.
+            for _ in 0..=late / BLOCK as u64 {
+                assert_eq!(play(&mut player), 0.0);
+            }
+            let mut commands = Vec::new();
+            for step in 0..steps {
+                let sample = now + step * SAMPLES_PER_STEP;
+                commands.extend((0..winds).map(|_| SoundCommand::Wind(WindSound { sample, ..WindSound::default() })));
+            }
+            // Within the last late step, behind all that goes on.
+            commands.push(hit(now + late - 150));
+            voice.send(now + late, &commands, 0);
+            let heard = play(&mut player).max(play(&mut player));
+            assert!(heard > 0.01, "{steps} late steps: {heard}");
+            assert_eq!(voice.lost(), 0, "{steps} late steps");
+        }
+    }
+
+    #[test]
+    fn the_last_word_of_what_goes_on_is_kept_with_every_hit_in_order() {
+        let wind = |sample| SoundCommand::Wind(WindSound { sample, ..WindSound::default() });
+        let all = [wind(1), hit(2), wind(3), hit(4), wind(5), hit(6)];
+        assert_eq!(last_words(&all), [hit(2), hit(4), wind(5), hit(6)]);
     }
 }

@@ -16,9 +16,10 @@ use super::devices::{Chosen, Direction, choose, is_present};
 use super::hearing::{self, Hearing};
 use super::input::{self, Ears, Recorder};
 use super::output::{self, Engine, Player, Voice, Workshop};
-use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SynthFactory};
+use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SoundDelay, SynthFactory};
 use soffio_config::remedies;
 use soffio_math::from_decibels;
+use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 
 /// Between two looks at the devices.
 const LOOK: Duration = Duration::from_millis(100);
@@ -58,6 +59,8 @@ struct Health {
     blocks: AtomicU64,
     /// Frames of the longest block.
     longest: AtomicU64,
+    /// What the device reports from the last callback to the converter, ns; 0 where it reports nothing.
+    device: AtomicU64,
     /// Gaps so far.
     xruns: AtomicU64,
     /// Greatest share of its own time that a block took of a processor, millionths; only where it is measured.
@@ -145,6 +148,18 @@ impl Line {
         Some(1e3 * self.health.longest.load(Ordering::Relaxed) as f64 / f64::from(self.sample_rate))
     }
 
+    /// What a sound waits for on the way to this loudspeaker, whose limiter looks ahead by `limiter_s`.
+    fn delay(&self, limiter_s: f64) -> Option<SoundDelay> {
+        let longest = self.health.longest.load(Ordering::Relaxed);
+        let device = self.health.device.load(Ordering::Relaxed);
+        (self.stream.is_some() && longest > 0).then(|| SoundDelay {
+            step_s: SAMPLES_PER_STEP as f64 / f64::from(SAMPLE_RATE),
+            block_s: longest as f64 / f64::from(self.sample_rate),
+            limiter_s,
+            device_s: (device > 0).then_some(1e-9 * device as f64),
+        })
+    }
+
     /// Why the stream is over, if it is.
     fn lost(&mut self) -> Option<String> {
         self.stream.as_ref()?;
@@ -204,6 +219,8 @@ pub(super) struct Supervisor {
     follows: u64,
     openings: u64,
     workshop: Option<(Workshop, u32)>,
+    /// Look-ahead of the limiter of what plays, s.
+    limiter_s: f64,
 }
 
 impl Supervisor {
@@ -230,6 +247,7 @@ impl Supervisor {
             follows: 0,
             openings: 0,
             workshop: None,
+            limiter_s: 0.0,
         }
     }
 
@@ -245,7 +263,8 @@ impl Supervisor {
                 }
             }
             let xruns = self.microphone.xruns() + self.loudspeaker.xruns();
-            self.tell(|status| status.xruns = xruns);
+            let delay = self.loudspeaker.delay(self.limiter_s);
+            self.tell(|status| (status.xruns, status.delay) = (xruns, delay));
             match self.inbox.recv_timeout(LOOK) {
                 Ok(Request::Instruments { synth, generation }) => {
                     (self.synth, self.generation) = (synth, generation);
@@ -281,6 +300,7 @@ impl Supervisor {
     fn install_synth(&mut self) {
         if let Some((workshop, rate)) = &mut self.workshop {
             let synth = Box::new((self.synth)(*rate));
+            self.limiter_s = synth.latency() as f64 / f64::from(*rate);
             workshop.exchange(Some(Engine { synth, generation: self.generation }));
         }
     }
@@ -297,7 +317,7 @@ impl Supervisor {
             return;
         }
         let result = choose(Direction::Output, &self.settings.loudspeaker, self.settings.block_ms).and_then(|chosen| {
-            let Chosen { device, id, name, config, format } = chosen;
+            let Chosen { device, id, name, config, format, shortest_block } = chosen;
             let open = |config: StreamConfig| {
                 let (player, voice, workshop) =
                     output::open(config.sample_rate, config.channels.into(), self.knobs.clone());
@@ -305,10 +325,10 @@ impl Supervisor {
                 Ok((stream, voice, workshop))
             };
             let (stream, voice, workshop) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
-            Ok((stream, voice, workshop, id, name, config.sample_rate))
+            Ok((stream, (voice, workshop), id, name, config.sample_rate, shortest_block))
         });
         match result {
-            Ok((stream, voice, workshop, id, name, sample_rate)) => {
+            Ok((stream, (voice, workshop), id, name, sample_rate, shortest)) => {
                 tracing::info!("loudspeaker: {name}, {sample_rate} Hz");
                 self.loudspeaker.opened(stream, id, sample_rate);
                 self.workshop = Some((workshop, sample_rate));
@@ -318,6 +338,7 @@ impl Supervisor {
                 self.tell(|status| {
                     status.output = DeviceState::Ok { name, sample_rate };
                     status.openings += 1;
+                    status.shortest_block_s = shortest.map(|frames| f64::from(frames) / f64::from(sample_rate));
                 });
             }
             Err(reason) => {
@@ -349,7 +370,7 @@ impl Supervisor {
         let Some((workshop, from_rate)) = self.workshop.as_mut().filter(|_| self.hearing_loop.due()) else { return };
         let gain = from_decibels(self.settings.hearing_loop_db) as f32;
         let result = choose(Direction::Output, wanted, self.settings.block_ms).and_then(|chosen| {
-            let Chosen { device, id, name, config, format } = chosen;
+            let Chosen { device, id, name, config, format, .. } = chosen;
             let open = |config: StreamConfig| {
                 let (tail, hearing) = hearing::open(*from_rate, config.sample_rate, config.channels.into(), gain);
                 Ok((play(&device, config, format, hearing, self.hearing_loop.health.clone())?, tail))
@@ -386,7 +407,7 @@ impl Supervisor {
             return;
         }
         let result = choose(Direction::Input, &self.settings.microphone, self.settings.block_ms).and_then(|chosen| {
-            let Chosen { device, id, name, config, format } = chosen;
+            let Chosen { device, id, name, config, format, .. } = chosen;
             let open = |config: StreamConfig| {
                 let wanted = [self.settings.microphone_channel, self.settings.second_capsule_channel];
                 let (recorder, ears) = input::open(config.sample_rate, config.channels.into(), wanted);
@@ -469,11 +490,15 @@ fn play(
         let channels = usize::from(config.channels).max(1);
         // Asking the time of a thread is a system call, so it is asked only in a test of it.
         let measured = std::env::var_os(MEASURE).is_some();
-        let callback = move |data: &mut [T], _: &cpal::OutputCallbackInfo| {
+        let callback = move |data: &mut [T], info: &cpal::OutputCallbackInfo| {
             let before = measured.then(ThreadTime::now);
             player.play(data);
             if let Some(before) = before {
                 health.worked(before.elapsed().as_secs_f64(), data.len() / channels, config.sample_rate);
+            }
+            let time = info.timestamp();
+            if let Some(ahead) = time.playback.checked_duration_since(time.callback) {
+                health.device.store(ahead.as_nanos() as u64, Ordering::Relaxed);
             }
             health.block(data.len() / channels);
         };

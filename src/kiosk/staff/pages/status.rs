@@ -6,9 +6,12 @@ use super::style::{BAD, ROW, row};
 use crate::staff::sight::Sight;
 use crate::staff::wish::Wish;
 use crate::venue::loudness::NightBy;
-use soffio_devices::audio::DeviceState;
+use soffio_devices::audio::{DeviceState, SoundDelay};
 use soffio_devices::controllers::State;
 use soffio_simulation::MotionMode;
+
+/// Block that the panel proposes where the device offers it, ms: half of the default, and still longer than a step.
+const SHORT_BLOCK_MS: f64 = 5.0;
 
 /// The buttons of every day, then all numbers.
 pub fn show(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
@@ -143,7 +146,32 @@ fn loudspeaker(ui: &mut Ui, sight: &Sight) {
     if let Some(state) = &audio.hearing_loop {
         row(ui, "hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
     }
+    if let Some(delay) = &audio.delay {
+        row(ui, "step to sound", sound_delay(delay), false);
+        row(ui, "block", block(delay.block_s, sight.site.audio.block_ms, audio.shortest_block_s), false);
+    }
     row(ui, "late blocks", audio.xruns.to_string(), audio.xruns > 0);
+    row(ui, "sounds lost", audio.lost.to_string(), audio.lost > 0);
+}
+
+/// What a sound waits for, part by part.
+fn sound_delay(delay: &SoundDelay) -> String {
+    let ms = |seconds: f64| format!("{:.1}", 1e3 * seconds);
+    let device = delay.device_s.map_or("device says nothing".into(), |device| format!("device {}", ms(device)));
+    let (step, block, limiter) = (ms(delay.step_s), ms(delay.block_s), ms(delay.limiter_s));
+    format!("{} ms: step {step}, block {block}, limiter {limiter}, {device}", ms(delay.total_s()))
+}
+
+/// The block that plays, beside the one asked for and a shorter one that the device offers.
+fn block(plays_s: f64, wanted_ms: f64, shortest_s: Option<f64>) -> String {
+    let said = format!("{:.1} ms, {wanted_ms:.1} wanted", 1e3 * plays_s);
+    match shortest_s.map(|shortest| 1e3 * shortest) {
+        Some(shortest) if shortest <= SHORT_BLOCK_MS && wanted_ms > SHORT_BLOCK_MS => {
+            format!("{said}; audio.block_ms = {SHORT_BLOCK_MS:.0} is possible here")
+        }
+        Some(shortest) if shortest > wanted_ms => format!("{said}; the device's shortest is {shortest:.1}"),
+        _ => said,
+    }
 }
 
 fn loudness(ui: &mut Ui, sight: &Sight) {

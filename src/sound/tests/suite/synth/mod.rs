@@ -14,8 +14,8 @@ use soffio_math::noise::Random;
 use soffio_math::{PI, StateHash, decibels};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
-    CEILING, FADING_VOICES, InstrumentSpec, MAX_VOICES, Preset, SoundBody, SoundCommand, SoundMaterial, Strike, Synth,
-    Touch, WindSound, free_plate_modes, timbre,
+    CEILING, FADING_VOICES, InstrumentSpec, MAX_COMMANDS, MAX_VOICES, Preset, SoundBody, SoundCommand, SoundMaterial,
+    Strike, Synth, Touch, WindSound, free_plate_modes, timbre,
 };
 
 const RATE: u32 = 48_000;
@@ -316,6 +316,25 @@ fn a_hit_starts_on_its_own_sample() {
         // A partial begins with sine phase, so its own first sample is 0; the click's is not.
         assert!(first == sample || first == sample + 1, "asked for {sample}, heard at {first}");
     }
+}
+
+#[test]
+fn late_hits_are_heard_though_nothing_more_can_wait() {
+    let mut synth = synth(&[spec("plate")]);
+    synth.set_dry(true);
+    render(&mut synth, 1000);
+    for later in 0..MAX_COMMANDS as u64 {
+        synth.command(SoundCommand::Wind(WindSound { sample: 90_000 + later, ..WindSound::default() }));
+    }
+    for _ in 0..2 * MAX_COMMANDS {
+        synth.command(SoundCommand::Wind(WindSound { sample: 10, ..WindSound::default() }));
+    }
+    synth.command(SoundCommand::Strike(strike(10, 1e-3)));
+    assert_eq!(synth.lost(), 0);
+    assert!(peak(&render(&mut synth, 200)) > 0.01);
+    // One more that must wait finds no room.
+    synth.command(SoundCommand::Strike(strike(80_000, 1e-3)));
+    assert_eq!(synth.lost(), 1);
 }
 
 #[test]
