@@ -4,8 +4,7 @@
 use std::hint::black_box;
 
 use cpu_time::ThreadTime;
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x16};
+use fearless_simd::{Level, Simd};
 use serde::Serialize;
 
 use crate::commands::failure::{Failure, Outcome};
@@ -134,26 +133,11 @@ fn name(level: Level) -> String {
 
 /// Multiply-adds of numbers per second of thread time with nothing to read or write.
 fn multiply_adds(level: Level) -> f64 {
-    #[inline(always)]
-    fn turn<S: Simd>(simd: S, rounds: usize) -> f32 {
-        let factor = f32x16::splat(simd, black_box(0.999));
-        let step = f32x16::splat(simd, black_box(0.001));
-        // No two lanes alike, or the halves of a vector that the processor has not would be one.
-        let mut sums: [f32x16<S>; 12] =
-            std::array::from_fn(|i| std::array::from_fn::<f32, 16, _>(|lane| (16 * i + lane) as f32).simd_into(simd));
-        for _ in 0..rounds {
-            for sum in &mut sums {
-                *sum = sum.mul_add(factor, step);
-            }
-        }
-        // All lanes, or those that nothing reads would not be computed.
-        sums.iter().map(|sum| <[f32; 16]>::from(*sum).iter().sum::<f32>()).sum()
-    }
-    const TURNS: usize = 400_000;
+    const ROUNDS: usize = 400_000;
     let start = ThreadTime::now();
-    let sum = dispatch!(level, simd => turn(simd, TURNS));
+    let (count, sum) = soffio_sound::modal::multiply_adds(level, black_box(ROUNDS));
     black_box(sum);
-    (TURNS * 12 * 16) as f64 / start.elapsed().as_secs_f64()
+    count as f64 / start.elapsed().as_secs_f64()
 }
 
 fn table(count: usize, (low, high): (f64, f64), seed: u64) -> Vec<Partial> {
