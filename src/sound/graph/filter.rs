@@ -58,12 +58,17 @@ impl StateVariable {
     /// `pick` makes the output of high, band, low and the damping.
     fn two_poles(&mut self, input: &[f32], out: &mut [f32], pick: impl Fn(f64, f64, f64, f64) -> f64) {
         let ([mut s1, mut s2], g, damping, shrink) = (self.integrators, self.g, self.damping, self.shrink);
+        // The next integrators, 2 band − s₁ and 2 low − s₂, straight from these and x: the way from sample to sample is one
+        // product and two sums long, and the outputs beside it need not wait.
+        let (to_band, to_low) = (2.0 * g * shrink, 2.0 * g * g * shrink);
+        let (a11, a21) = (1.0 - to_band * (damping + g), 2.0 * g - to_low * (damping + g));
         for (y, x) in out.iter_mut().zip(input) {
-            let high = (f64::from(*x) - (damping + g) * s1 - s2) * shrink;
+            let x = f64::from(*x);
+            let high = (x - (damping + g) * s1 - s2) * shrink;
             let band = g * high + s1;
             let low = g * band + s2;
-            (s1, s2) = (2.0 * band - s1, 2.0 * low - s2);
             *y = pick(high, band, low, damping) as f32;
+            (s1, s2) = (a11 * s1 + to_band * (x - s2), a21 * s1 + (s2 + to_low * (x - s2)));
         }
         self.integrators = [s1, s2];
     }
