@@ -179,10 +179,12 @@ impl Graph {
             if state.gain == 1.0 && state.gain_step == 0.0 {
                 continue;
             }
+            let (mut gain, step) = (state.gain, state.gain_step);
             for sample in out {
-                *sample = (f64::from(*sample) * state.gain) as f32;
-                state.gain += state.gain_step;
+                *sample = (f64::from(*sample) * gain) as f32;
+                gain += step;
             }
+            state.gain = gain;
         }
         let last = self.operators.len() - 1;
         if !states[last].needed {
