@@ -73,3 +73,35 @@ fn a_short_run_of_every_small_scene_stands() {
         assert_eq!(watched.times.us().len(), 12, "{}: a step for each time", scene.name);
     }
 }
+
+#[test]
+fn of_a_cradle_the_last_ball_leaves_as_the_first_one_came() {
+    /// Share of the first ball's speed that the last one may lack, and that ten strikes may differ by: balls with gaps between them
+    /// do not hang still, and take a little.
+    const LEAVES: f64 = 0.02;
+    const STRIKES: f64 = 0.05;
+    for scene in soffio_scenes::measured().into_iter().filter(|scene| scene.name.starts_with("cradle")) {
+        let mut dynamics = scene.dynamics(Integrator::Auto, Solver::Sparse);
+        let (still, mut impacts) = (vec![[0.0; 6]; scene.bodies.len()], Vec::new());
+        let last = scene.bodies.len() - 1;
+        let (mut strikes, mut quiet, mut leaves) = (Vec::new(), 0.0, 0.0_f64);
+        for step in 0..1440 {
+            impacts.clear();
+            dynamics.step(DT, &still, &mut impacts);
+            let hardest = impacts.iter().map(|impact| impact.speed).fold(0.0, f64::max);
+            if hardest > 0.5 && f64::from(step) * DT - quiet > 0.2 {
+                strikes.push(hardest);
+            }
+            if hardest > 0.5 {
+                quiet = f64::from(step) * DT;
+            }
+            if strikes.len() == 1 {
+                leaves = leaves.max(dynamics.bodies[last].velocity.length());
+            }
+        }
+        let share = |speed: f64| (speed / strikes[0] - 1.0).abs();
+        assert!(share(leaves) < LEAVES, "{}: {leaves} of {} m/s", scene.name, strikes[0]);
+        assert!(strikes.len() >= 10, "{}: {strikes:?}", scene.name);
+        assert!(strikes[..10].iter().all(|speed| share(*speed) < STRIKES), "{}: {strikes:?}", scene.name);
+    }
+}

@@ -48,6 +48,23 @@ fn a_tower_of_ten_boxes_stands_and_sleeps() {
     assert!((0..10).all(|body| dynamics.sleeps(body)));
 }
 
+#[test]
+fn a_tower_of_twenty_put_exactly_on_each_other_stays_where_it_is() {
+    /// m: it has nowhere to fall, and what the solver leaves over is less than the touching layer.
+    const STAYS: f64 = 1e-5;
+    let scene = boxes(0.05, (0..20).map(|i| DVec3::Y * (0.05 + 0.1 * f64::from(i))));
+    let mut dynamics = scene.dynamics();
+    let before = dynamics.bodies.clone();
+    let (still, mut impacts) = (vec![[0.0; 6]; 20], Vec::new());
+    for step in 0..1200 {
+        dynamics.step(DT, &still, &mut impacts);
+        let way = drift(&dynamics, &before);
+        assert!(way < STAYS, "step {step}: {way} m");
+    }
+    assert!((0..20).all(|body| dynamics.sleeps(body)), "it sleeps after five seconds");
+    assert!(impacts.is_empty(), "what touches from the beginning does not hit");
+}
+
 /// Boxes that fall on each other from a column.
 fn heap(count: usize) -> Scene {
     let mut random = Random::new(3);
