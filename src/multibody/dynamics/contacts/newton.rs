@@ -44,9 +44,7 @@ const HARDEST: f64 = 1e-7;
 const HARDER: f64 = 1e-2;
 /// A leap that leaves more than this share of what was missed helps little.
 const ENOUGH: f64 = 0.3;
-/// Kinds of leaps; where none helps, sweeps are made.
-const KINDS: usize = 2;
-/// Sweeps at first and where no leap helps, and leaps at most; then the best impulses so far are taken.
+/// Sweeps at first and after such a leap, and leaps at most; then the best impulses so far are taken.
 const SWEEPS: usize = 5;
 const MOST_LEAPS: usize = 6;
 /// A touch on the way to its impulse.
@@ -166,36 +164,32 @@ impl Newton {
         };
         let cheap = self.step_effort(view, island) <= CHEAP;
         let mut left = if cheap { MOST_STEPS } else { FEW_STEPS };
-        let (mut softness, mut kind, mut idle) = (SOFTEST, Leap::Convex, 0);
-        // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
-        best = self.sweeps(view, own, best);
+        let (mut softness, mut kind, mut helps) = (SOFTEST, Leap::Convex, false);
         for _ in 0..MOST_LEAPS {
-            if best <= SETTLED {
-                break;
-            }
-            if left == 0 || !(cheap || best <= NEAR) {
-                best = self.sweeps(view, own, best);
-                continue;
+            // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
+            if !helps {
+                let mut missed = best;
+                for _ in 0..SWEEPS {
+                    if missed <= SETTLED {
+                        break;
+                    }
+                    missed = self.sweep(view, own);
+                }
+                best = self.keep_better(own, missed, best);
             }
             let begun = best;
-            own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].best);
-            let better = self.leap(view, island, (kind, softness), &mut left);
-            if better {
-                best = self.missed(view, own);
-                self.keep(own);
+            let mut better = false;
+            if best > SETTLED && left > 0 && (cheap || best <= NEAR) {
+                better = self.leap(view, island, (kind, softness), &mut left);
+                softness = if better { (softness * HARDER).max(HARDEST) } else { SOFTEST };
+                let missed = self.missed(view, own);
+                best = self.keep_better(own, missed, best);
             }
-            softness = if better { (softness * HARDER).max(HARDEST) } else { SOFTEST };
-            if better && best <= ENOUGH * begun {
-                idle = 0;
-                continue;
+            helps = better && (best <= ENOUGH * begun || best <= NEARLY);
+            if !helps {
+                kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
-            idle += 1;
-            kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
-            if idle == KINDS {
-                idle = 0;
-                best = self.sweeps(view, own, best);
-            }
-            if !cheap && !better && best <= NEARLY + NEARLY_SHARE * scale(self) {
+            if best <= SETTLED || (!cheap && !better && best <= NEARLY + NEARLY_SHARE * scale(self)) {
                 break;
             }
         }
@@ -204,15 +198,8 @@ impl Newton {
         best <= GOOD + NEARLY_SHARE * scale(self)
     }
 
-    /// Sweeps, and keeps what misses the laws by less than the best so far. Answers what the best miss.
-    fn sweeps(&mut self, view: View, own: &[usize], best: f64) -> f64 {
-        let mut missed = best;
-        for _ in 0..SWEEPS {
-            if missed <= SETTLED {
-                break;
-            }
-            missed = self.sweep(view, own);
-        }
+    /// Keeps the impulses as they are if they miss the laws by less than the best so far. Answers what the best miss.
+    fn keep_better(&mut self, own: &[usize], missed: f64, best: f64) -> f64 {
         if missed < best {
             self.keep(own);
         }
