@@ -112,8 +112,8 @@ impl Law {
             }
             let speed = slip.length();
             let e = if speed > 0.0 && slip.dot(rub) < 0.0 { -slip / speed } else { rub.normalize_or_zero() };
-            // Friction turns against what is across it.
-            Some((e, (DMat2::IDENTITY - outer(e)) * (most / speed.max(f64::MIN_POSITIVE))))
+            // Friction turns against what is across it; what hardly slides does so as if it stuck.
+            Some((e, (DMat2::IDENTITY - outer(e)) * (most / speed.max(SLIDES * answer.across * most))))
         };
         match self {
             Self::Still => Doing::Given(p, DMat3::ZERO),
@@ -139,8 +139,9 @@ impl Law {
             }
             Self::Clutch(most) if to.x.abs() <= most => Doing::Holds([true, false]),
             Self::Clutch(most) => {
-                let grease = most / GREASE;
-                Doing::Given(DVec3::X * to.x, DMat3::from_diagonal(DVec3::X * grease))
+                // P = −τ h (sign w + u/ω₁) at the present velocity, whatever a light body of its own would slow it to.
+                let (sign, grease) = ((p.x - u.x / answer.k.x_axis.x).signum(), most / GREASE);
+                Doing::Given(DVec3::X * (most * sign - grease * u.x), DMat3::from_diagonal(DVec3::X * grease))
             }
         }
     }

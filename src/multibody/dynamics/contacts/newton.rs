@@ -225,7 +225,7 @@ impl Newton {
         for &touch in own {
             self.renew_law(view, touch);
             let iterate = &self.iterates[touch];
-            most = most.max(iterate.misses(iterate.law.relax(&iterate.answer, iterate.p, iterate.over(iterate.u))));
+            most = worse(most, iterate.misses(iterate.law.relax(&iterate.answer, iterate.p, iterate.over(iterate.u))));
         }
         most
     }
@@ -239,7 +239,7 @@ impl Newton {
             self.iterates[touch].u = self.iterates[touch].start + times(view, touch, &self.z);
             let iterate = &mut self.iterates[touch];
             let to = iterate.law.relax(&iterate.answer, iterate.p, iterate.over(iterate.u));
-            most = most.max(iterate.misses(to));
+            most = worse(most, iterate.misses(to));
             let change = to - iterate.p;
             iterate.p = to;
             add_transposed(view, touch, change, &mut self.z);
@@ -258,6 +258,17 @@ impl Newton {
         for &touch in own {
             self.iterates[touch].u = self.iterates[touch].start + times(view, touch, &self.z);
         }
+    }
+}
+
+/// The larger of two; what is no number is larger than any.
+fn worse(most: f64, other: f64) -> f64 {
+    if other <= most {
+        most
+    } else if other.is_nan() {
+        f64::INFINITY
+    } else {
+        other
     }
 }
 
