@@ -18,7 +18,6 @@ use super::islands::{Island, Islands};
 use super::law::{Answer, Doing, Law};
 use super::leap::Leap;
 use super::touch::{ROUNDING, Touch};
-use crate::dynamics::effort::SWEPT;
 use soffio_math::{DMat3, DVec3};
 
 /// Touches agree with their laws when none would change a velocity of its own by more than this, m/s (a resting body creeps by
@@ -119,8 +118,6 @@ pub(super) struct Newton {
     pub(super) gradient: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) h: Envelope,
-    /// Operations so far (`dynamics/effort.rs`).
-    pub effort: u64,
 }
 
 impl Newton {
@@ -133,7 +130,6 @@ impl Newton {
             gradient: Vec::with_capacity(coordinates),
             step: Vec::with_capacity(coordinates),
             h: Envelope::with_room(coordinates, 6 * coordinates.min(16)),
-            effort: 0,
         }
     }
 
@@ -233,7 +229,6 @@ impl Newton {
     /// Lets touch after touch satisfy its law. Answers by how much they missed it at most, m/s.
     fn sweep(&mut self, view: View, own: &[usize]) -> f64 {
         let mut most: f64 = 0.0;
-        self.effort += SWEPT * own.len() as u64;
         for &touch in own {
             self.renew_law(view, touch);
             self.iterates[touch].u = self.iterates[touch].start + times(view, touch, &self.z);
