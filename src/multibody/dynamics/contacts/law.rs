@@ -18,7 +18,7 @@
 //! P_T = μ P_n e − μ N/|u_T| (1 − e eᵀ) Δu_T        e = −u_T/|u_T|
 //! ```
 //!
-//! so that D = −∂P⁺/∂u is not symmetric.
+//! so that D = −∂P⁺/∂u is not symmetric. A couple at its bound goes with the normal impulse of its point likewise.
 
 use super::touch::{GREASE, LOCKED, Resistance, Touch};
 use soffio_math::{DMat2, DMat3, DVec2, DVec3};
@@ -35,8 +35,8 @@ pub(super) enum Law {
     Contact(f64),
     /// Friction of at most this, N s, the normal impulse given.
     Friction(f64),
-    /// About the normal and across it, at most (N m s).
-    Couple(DVec2),
+    /// d and b, m, and the impulse N that presses its point, N s.
+    Couple(DVec2, f64),
     /// τ h (N m s).
     Clutch(f64),
 }
@@ -49,6 +49,9 @@ pub(super) struct Answer {
     pub inverse: DMat3,
     /// Largest answer across the normal, 1/kg.
     pub across: f64,
+    /// What turns it is missed by a velocity at this distance, m: that of a couple, where it is as hard to turn as to push. All
+    /// else counts as it is.
+    pub arm: f64,
 }
 
 impl Answer {
@@ -71,7 +74,8 @@ impl Law {
                 let rub = pull.clamp_length_max(most);
                 DVec3::new(p.x, rub.x, rub.y)
             }
-            Self::Couple(most) => {
+            Self::Couple(arms, press) => {
+                let most = press * arms;
                 let stuck = p - answer.inverse * u;
                 let free = |k: f64| k > LOCKED;
                 if free(k) && free(answer.across) && within(stuck, most) {
@@ -97,6 +101,13 @@ impl Law {
     pub fn may_do(self, answer: &Answer, p: DVec3, u: DVec3) -> Doing {
         match self {
             Self::Contact(mu) => Doing::Cone(mu),
+            Self::Couple(..) => match self.doing(answer, p, u) {
+                Doing::Follows { holds: [false, false], turn, .. } => {
+                    Doing::Given(self.relax(answer, p, u), join(0.0, turn))
+                }
+                Doing::Follows { holds, .. } => Doing::Holds(holds),
+                other => other,
+            },
             _ => self.doing(answer, p, u),
         }
     }
@@ -127,14 +138,15 @@ impl Law {
                 Some((e, turn)) => Doing::Given(DVec3::new(p.x, most * e.x, most * e.y), join(0.0, turn)),
                 None => Doing::Holds([false, true]),
             },
-            Self::Couple(most) => {
-                let spins = to.x.abs() >= most.x * (1.0 - SLIDES);
-                match rubs(most.y) {
-                    Some((e, turn)) if spins => {
-                        Doing::Given(DVec3::new(to.x, most.y * e.x, most.y * e.y), join(0.0, turn))
-                    }
-                    Some(_) => Doing::Holds([true, false]),
-                    None => Doing::Holds([!spins, true]),
+            Self::Couple(arms, press) => {
+                let spins = to.x.abs() >= press * arms.x * (1.0 - SLIDES);
+                let (roll, turn) = rubs(press * arms.y).unwrap_or((DVec2::ZERO, DMat2::ZERO));
+                let rolls = roll != DVec2::ZERO;
+                let spin = if spins { arms.x.copysign(to.x) } else { 0.0 };
+                Doing::Follows {
+                    along: DVec3::new(spin, arms.y * roll.x, arms.y * roll.y),
+                    turn,
+                    holds: [!spins, !rolls],
                 }
             }
             Self::Clutch(most) if to.x.abs() <= most => Doing::Holds([true, false]),
@@ -153,7 +165,7 @@ impl Law {
             Self::Bound => DVec3::X * p.x.max(0.0),
             Self::Contact(mu) => rubbed(p.x.max(0.0), p, mu * p.x.max(0.0)),
             Self::Friction(most) => rubbed(p.x, p, most),
-            Self::Couple(most) => bounded(p, most),
+            Self::Couple(arms, press) => bounded(p, press * arms),
         }
     }
 }
@@ -171,6 +183,8 @@ pub(super) enum Doing {
     Cone(f64),
     /// It presses along this direction, its normal part one, or opens.
     Slides { along: DVec3, turn: DMat2 },
+    /// A couple goes along this with the normal impulse of its point, m; it holds its first row, the others, or neither.
+    Follows { along: DVec3, turn: DMat2, holds: [bool; 2] },
 }
 
 impl Default for Doing {
@@ -180,14 +194,20 @@ impl Default for Doing {
 }
 
 impl Doing {
-    /// P⁺ and D = −∂P⁺/∂u of a touch with the impulse P that gives way by (P − P⁺)/ρ; `slid` is how its velocity has changed since.
-    pub fn soft(&self, rho: f64, p: DVec3, u: DVec3, slid: DVec3) -> (DVec3, DMat3) {
+    /// P⁺ and D = −∂P⁺/∂u of a touch with the impulse P that gives way by (P − P⁺)/ρ; `slid` is how its velocity has changed since,
+    /// and `press` is P⁺_n of a couple's point.
+    pub fn soft(&self, rho: f64, p: DVec3, (u, slid): (DVec3, DVec3), press: f64) -> (DVec3, DMat3) {
         let a = p - rho * u;
+        let held = |[first, others]: [bool; 2]| DVec3::new(f64::from(first), f64::from(others), f64::from(others));
         match *self {
             Self::Given(p, d) => (p - d * slid, d),
-            Self::Holds([first, others]) => {
-                let d = DVec3::new(f64::from(first), f64::from(others), f64::from(others));
+            Self::Holds(holds) => {
+                let d = held(holds);
                 (d * a + (DVec3::ONE - d) * p, DMat3::from_diagonal(d * rho))
+            }
+            Self::Follows { along, turn, holds } => {
+                let (d, turn) = (held(holds), join(0.0, turn));
+                (d * a + press * along - turn * slid, DMat3::from_diagonal(d * rho) + turn)
             }
             Self::Cone(mu) => {
                 let (to, turn) = on_cone(a, mu);
@@ -216,7 +236,7 @@ impl Touch {
         }
         if let Some(twist) = &self.twist {
             let Resistance { rolling, spinning } = twist.resistance;
-            return Law::Couple(normal.max(0.0) * DVec2::new(spinning, rolling));
+            return Law::Couple(DVec2::new(spinning, rolling), normal.max(0.0));
         }
         match &self.grip {
             Some(grip) => Law::Clutch(if grip.slips { grip.most } else { f64::INFINITY }),
@@ -229,7 +249,7 @@ impl Touch {
 
 /// Signorini's and Coulomb's laws of one touch.
 fn contact(answer: &Answer, mu: f64, p: DVec3, u: DVec3) -> DVec3 {
-    let Answer { k, inverse, across } = answer;
+    let Answer { k, inverse, across, .. } = answer;
     let stuck = p - *inverse * u;
     if stuck.x >= 0.0 && DVec2::new(stuck.y, stuck.z).length_squared() <= (mu * stuck.x) * (mu * stuck.x) {
         return stuck;
@@ -307,7 +327,8 @@ mod tests {
         let l = DVec3::new(random.signed(), random.signed(), random.signed());
         let k = DMat3::IDENTITY - soffio_math::skew(l) * soffio_math::skew(l);
         let (a, d, b) = (k.y_axis.y, k.z_axis.z, k.y_axis.z);
-        Answer { k, inverse: k.inverse(), across: 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt() }
+        let across = 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt();
+        Answer { k, inverse: k.inverse(), across, arm: 1.0 }
     }
 
     #[test]
@@ -351,7 +372,7 @@ mod tests {
 
     #[test]
     fn a_clutch_carries_more_the_faster_it_slips() {
-        let one = Answer { k: DMat3::IDENTITY, inverse: DMat3::IDENTITY, across: 1.0 };
+        let one = Answer { k: DMat3::IDENTITY, inverse: DMat3::IDENTITY, across: 1.0, arm: 1.0 };
         let (most, u) = (0.1, DVec3::X * 2.0);
         let to = Law::Clutch(most).relax(&one, DVec3::ZERO, u);
         let rate = (u + to).x;

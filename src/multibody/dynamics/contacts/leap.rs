@@ -17,6 +17,7 @@
 //! and convergence quadratic; but a step may be too long, and is halved until g gets less.
 
 use super::islands::Island;
+use super::law::Doing;
 use super::newton::{Iterate, Newton, View, add_transposed, times};
 use crate::dynamics::effort::SOLVED;
 use soffio_math::{DMat3, DVec3};
@@ -24,6 +25,9 @@ use soffio_math::{DMat3, DVec3};
 /// Newton's steps of a leap at most, and the share of what was missed that a gradient may leave.
 const LEAP_STEPS: usize = 20;
 const FLAT: f64 = 0.01;
+/// It stands still, or has come to rounding, where so many steps each leave more than this share of it.
+const IDLE: usize = 2;
+const LITTLE: f64 = 0.5;
 /// A step is halved so often until it takes this share off the gradient; or trials of a search for where a slope along it is left
 /// with this share.
 const HALVINGS: usize = 4;
@@ -61,11 +65,12 @@ impl Newton {
             (iterate.from, iterate.rho) = (iterate.u, (softness * iterate.answer.most()).recip());
         }
         let mut size = self.find_gradient(view, island);
+        let (mut least, mut idle) = (size, 0);
         // A velocity of touches is at most √k times what z lacks.
         let k = own.iter().fold(0.0, |most: f64, &touch| most.max(self.iterates[touch].answer.most()));
         let flat = FLAT * missed / k.sqrt();
         for step in 0..LEAP_STEPS {
-            if size <= flat || *left == 0 {
+            if size <= flat || *left == 0 || idle == IDLE {
                 break;
             }
             *left -= 1;
@@ -84,8 +89,11 @@ impl Newton {
                 Leap::Convex => self.go_down(view, island),
                 Leap::AsNow => self.go(view, island, size),
             };
+            idle = if size > LITTLE * least { idle + 1 } else { 0 };
+            least = least.min(size);
         }
         for &touch in own {
+            self.renew_law(view, touch);
             let iterate = &mut self.iterates[touch];
             (iterate.p, iterate.plus) = (iterate.law.allowed(iterate.plus), iterate.p);
         }
@@ -103,9 +111,11 @@ impl Newton {
         let all = island.coordinates.clone();
         self.gradient[all.clone()].fill(0.0);
         for &touch in &view.islands.touches[island.touches.clone()] {
+            // A point stands before its couple.
+            let press = view.touches[touch].twist.map_or(0.0, |twist| self.iterates[twist.of].plus.x);
             let iterate = &mut self.iterates[touch];
             let Iterate { rho, p, u, from, .. } = *iterate;
-            (iterate.plus, iterate.d) = iterate.doing.soft(rho, p, iterate.over(u), u - from);
+            (iterate.plus, iterate.d) = iterate.doing.soft(rho, p, (iterate.over(u), u - from), press);
             add_transposed(view, touch, iterate.before - iterate.plus, &mut self.gradient);
         }
         let mut square = 0.0;
@@ -153,7 +163,7 @@ impl Newton {
             own.iter().fold(linear + far * square, |sum, &touch| {
                 let i = &iterates[touch];
                 let u = i.u + far * i.along;
-                let (plus, _) = i.doing.soft(i.rho, i.p, i.over(u), u - i.from);
+                let (plus, _) = i.doing.soft(i.rho, i.p, (i.over(u), u - i.from), 0.0);
                 sum - i.along.dot(plus - i.before)
             })
         };
@@ -213,43 +223,59 @@ impl Newton {
             self.h.arms(row, row).1[0] = 1.0;
         }
         for &touch in &islands.touches[island.touches.clone()] {
-            let iterate = &mut self.iterates[touch];
-            iterate.factored = iterate.d;
-            let d = iterate.d;
-            if d == DMat3::ZERO {
-                continue;
+            self.iterates[touch].factored = self.iterates[touch].d;
+            let Iterate { d, doing, .. } = self.iterates[touch];
+            if d != DMat3::ZERO {
+                self.add_product(view, base, (touch, touch), d);
             }
-            let own = &view.touches[touch];
-            let parts = coordinates.parts_of(own);
-            for p in parts {
-                let (of_p, size_p) = (coordinates.block(p, own.rows), coordinates.nodes[p.node].size);
-                let at_p = islands.place[p.node] - base;
-                for q in parts {
-                    let at_q = islands.place[q.node] - base;
-                    let (of_q, size_q) = (coordinates.block(q, own.rows), coordinates.nodes[q.node].size);
-                    // A mechanism that joints hold fast has no coordinates.
-                    if at_q > at_p || size_q == 0 {
-                        continue;
+            if let (Some(twist), Doing::Follows { along, .. }) = (view.touches[touch].twist, doing)
+                && along != DVec3::ZERO
+            {
+                let press = self.iterates[twist.of].d.row(0);
+                let with_press = DMat3::from_cols(press.x * along, press.y * along, press.z * along);
+                self.add_product(view, base, (touch, twist.of), with_press);
+            }
+        }
+        self.h.factor();
+    }
+
+    /// Adds Bₐᵀ D B_b of two touches with the same parts to H, whose coordinates begin at `base`.
+    fn add_product(
+        &mut self,
+        View { touches, coordinates, islands }: View,
+        base: usize,
+        (a, b): (usize, usize),
+        d: DMat3,
+    ) {
+        let (a, b) = (&touches[a], &touches[b]);
+        let [parts_a, parts_b] = [a, b].map(|touch| coordinates.parts_of(touch));
+        for (p, p_b) in parts_a.iter().zip(parts_b) {
+            debug_assert_eq!(p.node, p_b.node);
+            let size_p = coordinates.nodes[p.node].size;
+            let at_p = islands.place[p.node] - base;
+            let (left, left_b) = (coordinates.block(p, a.rows), coordinates.block(p_b, b.rows));
+            for (q, q_b) in parts_a.iter().zip(parts_b) {
+                let (at_q, size_q) = (islands.place[q.node] - base, coordinates.nodes[q.node].size);
+                // A mechanism that joints hold fast has no coordinates.
+                if at_q > at_p || size_q == 0 {
+                    continue;
+                }
+                let (right, right_b) = (coordinates.block(q, a.rows), coordinates.block(q_b, b.rows));
+                for i in 0..size_p {
+                    // Row i of Bₚᵀ D and column i of D Bₚ.
+                    let before = d.transpose() * take(left, a.rows, size_p, i);
+                    let after = d * take(left_b, b.rows, size_p, i);
+                    let end = if at_p == at_q { i + 1 } else { size_q };
+                    let (row, upright) = self.h.arms(at_p + i, at_q);
+                    for (k, own) in right_b.chunks_exact(size_q).enumerate() {
+                        row[..end].iter_mut().zip(own).for_each(|(row, own)| *row += before[k] * own);
                     }
-                    for i in 0..size_p {
-                        let column = take(of_p, own.rows, size_p, i);
-                        // Row i of Bₚᵀ D and column i of D Bₚ.
-                        let (before, after) = (d.transpose() * column, d * column);
-                        let end = if at_p == at_q { i + 1 } else { size_q };
-                        let (row, upright) = self.h.arms(at_p + i, at_q);
-                        let (row, upright) = (&mut row[..end], &mut upright[..end]);
-                        for (k, b) in of_q.chunks_exact(size_q).enumerate() {
-                            let (before, after) = (before[k], after[k]);
-                            for ((row, upright), b) in row.iter_mut().zip(&mut *upright).zip(b) {
-                                *row += before * b;
-                                *upright += after * b;
-                            }
-                        }
+                    for (k, own) in right.chunks_exact(size_q).enumerate() {
+                        upright[..end].iter_mut().zip(own).for_each(|(upright, own)| *upright += after[k] * own);
                     }
                 }
             }
         }
-        self.h.factor();
     }
 }
 

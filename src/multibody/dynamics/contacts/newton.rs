@@ -43,6 +43,8 @@ const HARDEST: f64 = 1e-7;
 const HARDER: f64 = 1e-2;
 /// A leap that leaves more than this share of what was missed helps little.
 const ENOUGH: f64 = 0.3;
+/// Kinds of leaps: where none helps what nearly agrees, it is left at that.
+const KINDS: usize = 2;
 /// Sweeps at first and after such a leap, and leaps at most; then the best impulses so far are taken.
 const SWEEPS: usize = 5;
 const MOST_LEAPS: usize = 6;
@@ -97,7 +99,7 @@ impl Iterate {
     /// By how much an impulse would change the touch's own velocity beyond what is rounding, m/s.
     fn misses(&self, to: DVec3) -> f64 {
         let change = (self.answer.k * (to - self.p)).abs().max_element();
-        change - AGREES * self.u.length() - ROUNDING * self.answer.k.x_axis.x * self.p.x
+        self.answer.arm * (change - AGREES * self.u.length() - ROUNDING * self.answer.k.x_axis.x * self.p.x)
     }
 }
 
@@ -160,17 +162,12 @@ impl Newton {
         };
         let cheap = self.step_effort(view, island) <= CHEAP;
         let mut left = if cheap { MOST_STEPS } else { FEW_STEPS };
-        let (mut softness, mut kind, mut helps) = (SOFTEST, Leap::Convex, false);
+        let (mut softness, mut kind, mut idle) = (SOFTEST, Leap::AsNow, KINDS);
         for _ in 0..MOST_LEAPS {
             // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
-            if !helps {
-                let mut missed = best;
-                for _ in 0..SWEEPS {
-                    if missed <= SETTLED {
-                        break;
-                    }
-                    missed = self.sweep(view, own);
-                }
+            if idle > 0 {
+                let _ = (0..SWEEPS).find(|_| self.sweep(view, own) <= SETTLED);
+                let missed = self.missed(view, own);
                 best = self.keep_better(own, missed, best);
             }
             let begun = best;
@@ -181,11 +178,14 @@ impl Newton {
                 let missed = self.missed(view, own);
                 best = self.keep_better(own, missed, best);
             }
-            helps = better && (best <= ENOUGH * begun || best <= NEARLY);
-            if !helps {
+            if better && (best <= ENOUGH * begun || best <= NEARLY) {
+                idle = 0;
+            } else {
+                idle += 1;
                 kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
-            if best <= SETTLED || (!cheap && !better && best <= NEARLY + NEARLY_SHARE * scale(self)) {
+            let nearly = best <= NEARLY + NEARLY_SHARE * scale(self);
+            if best <= SETTLED || (nearly && idle >= if cheap { KINDS } else { 1 }) {
                 break;
             }
         }
@@ -207,8 +207,8 @@ impl Newton {
     }
 
     /// Takes a couple's bounds from its point's impulse.
-    fn renew_law(&mut self, view: View, touch: usize) {
-        if let Law::Couple(_) = self.iterates[touch].law
+    pub(super) fn renew_law(&mut self, view: View, touch: usize) {
+        if let Law::Couple(..) = self.iterates[touch].law
             && let Some(twist) = view.touches[touch].twist
         {
             self.iterates[touch].law = view.touches[touch].law(self.iterates[twist.of].p.x);

@@ -83,8 +83,13 @@ impl Problem {
         self.effort += TOUCH * touches.len() as u64;
         newton.begin(coordinates.nodes.iter().map(|node| node.size).sum());
         newton.iterates.clear();
-        for touch in touches.iter_mut() {
-            touch.weigh(coordinates);
+        for index in 0..touches.len() {
+            touches[index].weigh(coordinates);
+            if let Some(twist) = touches[index].twist {
+                let push = touches[twist.of].k().x_axis.x;
+                touches[index].answer.arm = (push / touches[index].answer.most().max(LOCKED)).sqrt();
+            }
+            let touch = &touches[index];
             let rate = |k: usize| if k < touch.rows { rows[touch.first + k].rate(bodies) } else { 0.0 };
             let start = DVec3::new(rate(0), rate(1), rate(2));
             newton.iterates.push(Iterate::new(touch, start));
@@ -284,6 +289,7 @@ impl Touch {
         let (a, d, b) = (k[1][1], k[2][2], k[1][2]);
         let (k, trace) = (DMat3::from_cols_array_2d(&k), k[0][0] + a + d);
         let inverse = (k + DMat3::from_diagonal(DVec3::splat(PROXIMAL * trace.max(LOCKED)))).inverse();
-        self.answer = Answer { k, inverse, across: 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt() };
+        let across = 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt();
+        self.answer = Answer { k, inverse, across, arm: 1.0 };
     }
 }

@@ -38,6 +38,11 @@ const HIGHEST_AT_BOUND: f64 = 0.25 * LAYER;
 const SLIDE: f64 = 2e-3;
 /// What sinks deeper than this in a substep asks for a shorter one, m: as teeth do that go round an edge.
 const FINE: f64 = 1e-6;
+/// The same while joints are open, where impulses at the end of a substep hold what falls in it, m.
+const FALL: f64 = 1e-5;
+/// The next substep is to sink this share of it.
+const SAFELY: f64 = 0.6;
+const FASTEST_GROWTH: f64 = 2.0;
 /// What rests does not sink deeper than this in one substep, m.
 const SUNK: f64 = 2e-5;
 /// No approach is as fast as this, m/s.
@@ -77,7 +82,7 @@ impl Contacts {
         if self.resting.at_rest.iter().all(|&pair| self.sleepers.sleep(self.surfaces.bodies_of(pair))) {
             return f64::INFINITY;
         }
-        (SLIDE / self.slip).min(self.forces.longest_substep())
+        (SLIDE / self.slip).min(self.forces.longest_substep()).min(self.fine)
     }
 
     /// Lays the forces that hold what rests out for a substep of `h` seconds. While joints are open there are none: the
@@ -119,8 +124,13 @@ impl Contacts {
         let settled = self.problem.solve();
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
         let last = pass >= PASSES || !missed || self.problem.has_open_joints();
-        if last && shortens && settled && self.sinks(FINE) {
-            return Verdict::Shorter;
+        if last {
+            // What sinks grows as the substep's square.
+            let (sunk, fine) = (self.deepest_sinking(), if self.problem.has_open_joints() { FALL } else { FINE });
+            self.fine = h * (SAFELY * fine / sunk).sqrt().min(FASTEST_GROWTH);
+            if shortens && settled && sunk > fine {
+                return Verdict::Shorter;
+            }
         }
         let stands = pass > PASSES || (last && !self.releases_sunken());
         if stands {
@@ -147,12 +157,13 @@ impl Contacts {
         Verdict::Stands { moved }
     }
 
-    /// Has anything that rests sunk in by more than this within the substep?
-    fn sinks(&self, most: f64) -> bool {
-        self.problem.touches.iter().any(|touch| match touch.source {
-            Source::Pair(pair) => touch.gap < self.resting.depth[pair] - most,
-            Source::Bound(_) => false,
-        })
+    /// How deep what rests has sunk in within the substep, m.
+    fn deepest_sinking(&self) -> f64 {
+        let sunk = |touch: &Touch| match touch.source {
+            Source::Pair(pair) => self.resting.depth[pair] - touch.gap,
+            Source::Bound(_) => 0.0,
+        };
+        self.problem.touches.iter().map(sunk).fold(0.0, f64::max)
     }
 
     /// What was taken to rest and has sunk in within this substep met where nobody looked: it is apart, so that its

@@ -45,6 +45,8 @@ pub struct Contacts {
     pub(super) clock: f64,
     /// Slip of the fastest touch that rests, m/s.
     pub(super) slip: f64,
+    /// Longest substep in which what rests sinks in by little, by the last one, s.
+    pub(super) fine: f64,
     /// Hits that may yet be resolved in the present step.
     pub(super) impacts_left: usize,
 }
@@ -88,6 +90,7 @@ impl Contacts {
             gathering_time: joints.1,
             clock: 0.0,
             slip: 0.0,
+            fine: f64::INFINITY,
             impacts_left: MOST_IMPACTS,
         }
     }
@@ -164,6 +167,7 @@ impl Contacts {
         self.resting.forget();
         self.forces.forget();
         self.sleepers.at_rest = 0;
+        self.fine = f64::INFINITY;
         self.limits.forget(bodies);
     }
 
