@@ -3,8 +3,8 @@
 //! Along the contact normal n each core shows a point, an edge or a face (what leans by little counts as lying,
 //! `geometry::support`). A face is clipped by the side planes of the other (I. Sutherland and G. Hodgman 1974), an
 //! edge by a face or by a parallel edge; what is left are points of one surface, each with the point of the other
-//! straight across, and a gap along n between. Four are kept of more: the deepest, the farthest from it, and the
-//! farthest off their line on either side.
+//! straight across, and a gap along n between. Four are kept of more: the outermost of the deepest, the farthest from it, and
+//! the farthest off their line on either side.
 
 use super::proximity::{Proximity, of_placed};
 use super::shape::Collider;
@@ -17,6 +17,9 @@ const ALONG: f64 = 0.01;
 const LEVEL: f64 = 1e-9;
 /// Features that miss the nearest gap by more than this do not hold the nearest point, m.
 const MISSED: f64 = 1e-7;
+/// Corners are kept so far outside the other face, m: where two faces end together, a corner stays the point of contact, and does
+/// not jump to where edges cross.
+const OUTSIDE: f64 = 1e-8;
 /// Points nearer to each other than this are one, m.
 const SAME: f64 = 1e-9;
 
@@ -146,10 +149,10 @@ impl Corners {
     }
 }
 
-/// What of a polygon (or an edge) lies on the inner side of the plane through `p` across `inward`.
+/// What of a polygon (or an edge) lies on the inner side of the plane through `p` across `inward`, about.
 fn clip(polygon: &[DVec3], p: DVec3, inward: DVec3, edge: bool, out: &mut Vec<DVec3>) {
     out.clear();
-    let inside = |q: DVec3| (q - p).dot(inward);
+    let inside = |q: DVec3| (q - p).dot(inward) + OUTSIDE * inward.length();
     let last = if edge { polygon.len().saturating_sub(1) } else { polygon.len() };
     for k in 0..last {
         let (q, r) = (polygon[k], polygon[(k + 1) % polygon.len()]);
@@ -210,7 +213,10 @@ fn four_of(points: &[ManifoldPoint], normal: DVec3) -> Manifold {
     let best = |of: &dyn Fn(&ManifoldPoint) -> f64, margin: f64| {
         (1..points.len()).fold(0, |best, i| if of(&points[i]) > of(&points[best]) + margin { i } else { best })
     };
-    let first = best(&|p| -p.gap, LEVEL);
+    // Of two squares that lie on each other almost as one, corners rather than where edges cross.
+    let least = points.iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
+    let middle = points.iter().map(|p| p.point).sum::<DVec3>() / points.len() as f64;
+    let first = best(&|p| if p.gap <= least + LEVEL { p.point.distance(middle) } else { -1.0 }, LEVEL);
     let from = points[first].point;
     let second = best(&|p| p.point.distance(from), LEVEL);
     let line = points[second].point - from;

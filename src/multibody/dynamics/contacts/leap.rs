@@ -64,6 +64,7 @@ impl Newton {
             };
             (iterate.from, iterate.rho) = (iterate.u, (softness * iterate.answer.most()).recip());
         }
+        let effort = self.step_effort(view, island);
         let mut size = self.find_gradient(view, island);
         let (mut least, mut idle) = (size, 0);
         // A velocity of touches is at most √k times what z lacks.
@@ -74,6 +75,7 @@ impl Newton {
                 break;
             }
             *left -= 1;
+            self.effort += effort;
             let same = |touch: &usize| self.iterates[*touch].d == self.iterates[*touch].factored;
             if step == 0 || !own.iter().all(same) {
                 self.factor(view, island);

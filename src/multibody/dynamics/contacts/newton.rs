@@ -18,6 +18,7 @@ use super::islands::{Island, Islands};
 use super::law::{Answer, Doing, Law};
 use super::leap::Leap;
 use super::touch::{ROUNDING, Touch};
+use crate::dynamics::effort::SWEPT;
 use soffio_math::{DMat3, DVec3};
 
 /// Touches agree with their laws when none would change a velocity of its own by more than this, m/s (a resting body creeps by
@@ -39,12 +40,13 @@ const MOST_STEPS: usize = 40;
 const FEW_STEPS: usize = 2;
 /// Softness of touches in shares of their own answer: of the first leap, the least, and what it falls by with each leap that helps.
 const SOFTEST: f64 = 1e-3;
-const HARDEST: f64 = 1e-7;
+const HARDEST: f64 = 1e-5;
 const HARDER: f64 = 1e-2;
 /// A leap that leaves more than this share of what was missed helps little.
 const ENOUGH: f64 = 0.3;
-/// Kinds of leaps: where none helps what nearly agrees, it is left at that.
+/// Kinds of leaps: where none helps, what misses its law by less than this share of the fastest velocity is left at that.
 const KINDS: usize = 2;
+const UNSEEN: f64 = 1e-3;
 /// Sweeps at first and after such a leap, and leaps at most; then the best impulses so far are taken.
 const SWEEPS: usize = 5;
 const MOST_LEAPS: usize = 6;
@@ -120,6 +122,8 @@ pub(super) struct Newton {
     pub(super) gradient: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) h: Envelope,
+    /// Operations so far (`dynamics/effort.rs`).
+    pub effort: u64,
 }
 
 impl Newton {
@@ -132,6 +136,7 @@ impl Newton {
             gradient: Vec::with_capacity(coordinates),
             step: Vec::with_capacity(coordinates),
             h: Envelope::with_room(coordinates, 6 * coordinates.min(16)),
+            effort: 0,
         }
     }
 
@@ -162,10 +167,10 @@ impl Newton {
         };
         let cheap = self.step_effort(view, island) <= CHEAP;
         let mut left = if cheap { MOST_STEPS } else { FEW_STEPS };
-        let (mut softness, mut kind, mut idle) = (SOFTEST, Leap::AsNow, KINDS);
-        for _ in 0..MOST_LEAPS {
+        let (mut softness, mut kind, mut idle) = (SOFTEST, Leap::AsNow, 0);
+        for leap in 0..MOST_LEAPS {
             // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
-            if idle > 0 {
+            if leap == 0 || idle > 0 {
                 let _ = (0..SWEEPS).find(|_| self.sweep(view, own) <= SETTLED);
                 let missed = self.missed(view, own);
                 best = self.keep_better(own, missed, best);
@@ -184,14 +189,24 @@ impl Newton {
                 idle += 1;
                 kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
-            let nearly = best <= NEARLY + NEARLY_SHARE * scale(self);
-            if best <= SETTLED || (nearly && idle >= if cheap { KINDS } else { 1 }) {
+            let ends = if cheap {
+                idle >= KINDS && best <= UNSEEN * self.fastest(own)
+            } else {
+                idle > 0 && best <= NEARLY + NEARLY_SHARE * scale(self)
+            };
+            if best <= SETTLED || ends {
                 break;
             }
         }
         own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].best);
         self.follow(view, island);
         best <= GOOD + NEARLY_SHARE * scale(self)
+    }
+
+    /// The fastest velocity of these touches, m/s.
+    fn fastest(&self, own: &[usize]) -> f64 {
+        let speed = |touch: &usize| self.iterates[*touch].answer.arm * self.iterates[*touch].u.length();
+        own.iter().map(speed).fold(0.0, f64::max)
     }
 
     /// Keeps the impulses as they are if they miss the laws by less than the best so far. Answers what the best miss.
@@ -229,6 +244,7 @@ impl Newton {
     /// Lets touch after touch satisfy its law. Answers by how much they missed it at most, m/s.
     fn sweep(&mut self, view: View, own: &[usize]) -> f64 {
         let mut most: f64 = 0.0;
+        self.effort += SWEPT * own.len() as u64;
         for &touch in own {
             self.renew_law(view, touch);
             self.iterates[touch].u = self.iterates[touch].start + times(view, touch, &self.z);

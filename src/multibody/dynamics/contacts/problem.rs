@@ -151,7 +151,7 @@ impl Problem {
             iterate.begin(touch, law(touch, touches));
         }
         let settled = newton.solve(View { touches, coordinates, islands });
-
+        self.effort += std::mem::take(&mut newton.effort);
         for (touch, iterate) in touches.iter_mut().zip(&newton.iterates) {
             touch.impulse = iterate.p;
         }
