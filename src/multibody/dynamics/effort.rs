@@ -48,4 +48,7 @@ impl Effort {
     }
 }
 
-fn allowed() -> u64 { static A: std::sync::OnceLock<u64> = std::sync::OnceLock::new(); *A.get_or_init(|| std::env::var("ALLOWED").map_or(ALLOWED, |s| s.parse().unwrap())) }
+fn allowed() -> u64 {
+    static A: std::sync::OnceLock<u64> = std::sync::OnceLock::new();
+    *A.get_or_init(|| std::env::var("ALLOWED").map_or(ALLOWED, |s| s.parse().unwrap()))
+}

@@ -180,24 +180,17 @@ impl HeldForces {
         work
     }
 
-    /// Remembers the forces, to begin the next substep or this one anew; those of rounds that did not settle are no
-    /// place to begin from.
-    pub fn remember(
-        &mut self,
-        problem: &Problem,
-        (h, settled, stands): (f64, bool, bool),
-        start: &[RigidBody],
-        bodies: &[RigidBody],
-    ) {
+    /// Remembers the forces, to begin the next substep or this one anew, as far as they are good enough to begin from.
+    pub fn remember(&mut self, problem: &Problem, (h, stands): (f64, bool), start: &[RigidBody], bodies: &[RigidBody]) {
         self.former.clear();
         std::mem::swap(&mut self.former, &mut self.held);
         self.tips = 0.0;
-        if !settled || problem.has_open_joints() {
+        if problem.has_open_joints() {
             return;
         }
         self.tipping.fill(0.0);
-        for touch in &problem.touches {
-            if touch.impulse == DVec3::ZERO {
+        for (index, touch) in problem.touches.iter().enumerate() {
+            if touch.impulse == DVec3::ZERO || !problem.is_good(index) {
                 continue;
             }
             let former = self.former.iter().find(|held| held.belongs_to(touch) && touch.follows == Some(held.point));

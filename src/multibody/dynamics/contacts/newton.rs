@@ -28,8 +28,9 @@ const AGREES: f64 = 1e-8;
 /// They nearly do by this, or by this share of the velocities that impulses make alone: where steps are dear, that will do.
 const NEARLY: f64 = 1e-5;
 const NEARLY_SHARE: f64 = 1e-7;
-/// What moves may miss them by this: a third of a micrometre a step.
+/// Impulses that miss them by this, or by this share of the velocities that they make alone, are better to begin from than none.
 const GOOD: f64 = 1e-4;
+const GOOD_SHARE: f64 = 0.01;
 /// Dear leaps are worth it from here on.
 const NEAR: f64 = 1e-3;
 /// Operations of a step of Newton's method up to which it is cheap: in towers, walls and all that a visitor moves at once. A heap of
@@ -74,6 +75,8 @@ pub(super) struct Iterate {
     /// D, and that of the factor at hand.
     pub(super) d: DMat3,
     pub(super) factored: DMat3,
+    /// Is P good enough to begin from next time?
+    pub good: bool,
 }
 
 impl Iterate {
@@ -148,11 +151,15 @@ impl Newton {
         }
     }
 
-    /// Solves for all impulses from where they stand. Answers whether they agree with the laws.
-    pub fn solve(&mut self, view: View) -> bool {
-        view.islands.islands.iter().fold(true, |settled, island| settled & self.solve_island(view, island))
+    /// Solves for all impulses from where they stand.
+    pub fn solve(&mut self, view: View) {
+        for island in &view.islands.islands {
+            let good = self.solve_island(view, island);
+            view.islands.touches[island.touches.clone()].iter().for_each(|&touch| self.iterates[touch].good = good);
+        }
     }
 
+    /// Answers whether the impulses are good enough to begin from next time.
     fn solve_island(&mut self, view: View, island: &Island) -> bool {
         let own = &view.islands.touches[island.touches.clone()];
         self.follow(view, island);
@@ -200,7 +207,7 @@ impl Newton {
         }
         own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].best);
         self.follow(view, island);
-        best <= GOOD + NEARLY_SHARE * scale(self)
+        best <= GOOD + GOOD_SHARE * scale(self)
     }
 
     /// The fastest velocity of these touches, m/s.

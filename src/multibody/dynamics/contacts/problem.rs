@@ -106,6 +106,12 @@ impl Problem {
         self.newton.iterates[touch].u
     }
 
+    /// How fast a touch of what met at the share `s` of a substep that began so approached there, m/s; forces change that evenly.
+    pub fn approach(&self, touch: usize, s: f64, start: &[RigidBody]) -> f64 {
+        let (first, last) = (self.rows[self.touches[touch].first].rate(start), self.velocity(touch).x);
+        -(first + s * (last - first))
+    }
+
     /// Lets all velocities follow from the impulses as they are.
     pub fn follow(&mut self) {
         for (touch, iterate) in self.touches.iter().zip(&mut self.newton.iterates) {
@@ -118,12 +124,10 @@ impl Problem {
     }
 
     /// Solves for all impulses from where they stand: first as if all clutches took hold, then with those slipping that would carry
-    /// too much. Where teeth jam, both may be possible; then they hold. Answers whether the impulses are good enough to begin from
-    /// next time.
-    pub fn solve(&mut self) -> bool {
+    /// too much. Where teeth jam, both may be possible; then they hold.
+    pub fn solve(&mut self) {
         loop {
-            let settled =
-                self.solve_by(|touch, touches| touch.law(touch.twist.map_or(0.0, |twist| touches[twist.of].impulse.x)));
+            self.solve_by(|touch, touches| touch.law(touch.twist.map_or(0.0, |twist| touches[twist.of].impulse.x)));
             let mut gives = false;
             for touch in &mut self.touches {
                 let Some(grip) = &mut touch.grip else { continue };
@@ -132,36 +136,40 @@ impl Problem {
                 }
             }
             if !gives {
-                return settled;
+                return;
             }
         }
     }
 
     /// Solves for friction alone, the normal impulses given.
-    pub fn solve_friction(&mut self) -> bool {
+    pub fn solve_friction(&mut self) {
         self.solve_by(|touch, _| {
             let free = touch.rows == 3 && touch.answer.across > LOCKED;
             if free { Law::Friction(touch.friction * touch.impulse.x) } else { Law::Still }
         })
     }
 
-    fn solve_by(&mut self, law: impl Fn(&Touch, &[Touch]) -> Law) -> bool {
+    fn solve_by(&mut self, law: impl Fn(&Touch, &[Touch]) -> Law) {
         let Self { touches, coordinates, islands, newton, .. } = self;
         for (touch, iterate) in touches.iter().zip(&mut newton.iterates) {
             iterate.begin(touch, law(touch, touches));
         }
-        let settled = newton.solve(View { touches, coordinates, islands });
+        newton.solve(View { touches, coordinates, islands });
         self.effort += std::mem::take(&mut newton.effort);
         for (touch, iterate) in touches.iter_mut().zip(&newton.iterates) {
             touch.impulse = iterate.p;
         }
-        settled
     }
 
     /// Change of kinetic energy by the impulses so far, of which P₀ acted earlier, J: (P − P₀)·(u₀ + u)/2.
     pub fn work(&self) -> f64 {
         let work = |touch: &Iterate| (touch.p - touch.before).dot(0.5 * (touch.start + touch.u));
         self.newton.iterates.iter().map(work).sum()
+    }
+
+    /// Is the impulse of a touch good enough to begin from next time?
+    pub fn is_good(&self, touch: usize) -> bool {
+        self.newton.iterates[touch].good
     }
 
     fn points(&self) -> impl Iterator<Item = &Iterate> {

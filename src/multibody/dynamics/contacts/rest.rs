@@ -121,14 +121,14 @@ impl Contacts {
         let lost = self.gather(h, system, bodies);
         self.problem.assemble(system, bodies);
         self.problem.begin();
-        let settled = self.problem.solve();
+        self.problem.solve();
         let missed = lost || 0.5 * h * self.problem.largest_change() > MISSED;
         let last = pass >= PASSES || !missed || self.problem.has_open_joints();
         if last {
             // What sinks grows as the substep's square.
             let (sunk, fine) = (self.deepest_sinking(), if self.problem.has_open_joints() { FALL } else { FINE });
             self.fine = h * (SAFELY * fine / sunk).sqrt().min(FASTEST_GROWTH);
-            if shortens && settled && sunk > fine {
+            if shortens && sunk > fine && (0..self.problem.touches.len()).all(|touch| self.problem.is_good(touch)) {
                 return Verdict::Shorter;
             }
         }
@@ -146,7 +146,7 @@ impl Contacts {
         if stands {
             self.resting.note_depths(&self.problem.touches, &self.surfaces, &self.sleepers);
         }
-        self.forces.remember(&self.problem, (h, settled, stands), start, bodies);
+        self.forces.remember(&self.problem, (h, stands), start, bodies);
         if !stands {
             return Verdict::Again;
         }

@@ -5,7 +5,7 @@
 //! Moreau, "Unilateral contact and dry friction in finite freedom dynamics", 1988), with
 //!
 //! ```text
-//! u_n ≥ −e u_n⁻      for what met, u_n⁻ the velocity at which it came (Newton's restitution)
+//! u_n ≥ −e u_n⁻      for what met, u_n⁻ the velocity at which it came when it met (Newton's restitution)
 //! u_n ≥ t            for what rests, as in `rest.rs`
 //! ```
 //!
@@ -78,25 +78,24 @@ impl Contacts {
         let mut met = std::mem::take(&mut self.encounters);
         for encounter in &mut met {
             let (first, end) = encounter.touches;
-            let approach = |touch: usize| -self.problem.velocity(touch).x;
-            encounter.speed = (first..end).fold(0.0, |most: f64, touch| most.max(approach(touch)));
-            let at = begun + encounter.s * h;
-            let (e, rests) = self.judge(encounter.source, at, encounter.speed);
-            (encounter.e, encounter.rests) = (e, rests);
             for touch in first..end {
-                let back = e * (-self.problem.velocity(touch).x).max(0.0);
-                self.problem.touches[touch].least = back;
+                self.problem.touches[touch].least = self.problem.approach(touch, encounter.s, start).max(0.0);
             }
+            encounter.speed =
+                self.problem.touches[first..end].iter().fold(0.0, |most: f64, touch| most.max(touch.least));
+            let at = begun + encounter.s * h;
+            (encounter.e, encounter.rests) = self.judge(encounter.source, at, encounter.speed);
+            self.problem.touches[first..end].iter_mut().for_each(|touch| touch.least *= encounter.e);
         }
         self.problem.begin();
-        let mut settled = self.problem.solve();
+        self.problem.solve();
         if !met.is_empty() && self.problem.work() > 0.0 {
             for touch in &mut self.problem.touches[resting..] {
                 touch.least = 0.0;
             }
             met.iter_mut().for_each(|encounter| encounter.e = 0.0);
             self.problem.begin();
-            settled = self.problem.solve();
+            self.problem.solve();
         }
         self.slip = self.problem.largest_slip();
         self.work.recent = self.forces.work(start, bodies) + straightened + self.problem.work();
@@ -118,7 +117,7 @@ impl Contacts {
                 .for_each(|touch| touch.gap -= since);
         }
         self.problem.hide_struck(met.iter().filter(|encounter| !encounter.rests).map(|encounter| encounter.touches.0));
-        self.forces.remember(&self.problem, (h, settled, true), start, bodies);
+        self.forces.remember(&self.problem, (h, true), start, bodies);
         if self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
             self.problem.push_out(-0.5 * LAYER, FARTHEST, system, bodies);
         }
