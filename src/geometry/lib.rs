@@ -29,6 +29,7 @@
 //! ```
 
 pub mod bodies;
+mod boxes;
 pub mod convex;
 pub mod hull;
 pub mod mass;

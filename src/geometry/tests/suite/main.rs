@@ -1,0 +1,3 @@
+//! Geometry: rays against moving meshes, measured against every triangle.
+
+mod rays;
