@@ -1,22 +1,16 @@
-//! Surfaces that feel the wind: their patches, how they stand on a moving body, and which of them see where a wind comes from.
+//! Surfaces that feel the wind: their patches, and how they stand on a moving body.
 
 use std::cell::Cell;
 use std::ops::Range;
 
 use super::Surface;
 use super::drag::{Coefficients, Quad};
-use super::patches::{Face, Patch, split};
-use super::weather::Upwind;
+use super::patches::{Patch, split};
 use soffio_geometry::bodies::RigidBody;
-use soffio_geometry::rays::{Hint, Occluders};
+use soffio_geometry::rays::Hint;
 use soffio_math::lanes::WIDTH;
 use soffio_math::spatial::matrix;
 use soffio_math::{DMat3, DVec3};
-
-/// Rays start this far off their own face, m.
-const RAY_START: f64 = 1e-4;
-/// What stands farther off than this shelters from no wind, m.
-const FAR: f64 = 50.0;
 
 /// A surface's patches and coefficients.
 #[derive(Clone)]
@@ -25,16 +19,16 @@ pub(crate) struct Feeler {
     pub patches: Vec<Patch>,
     /// The same by fours.
     pub quads: Vec<Quad>,
-    /// What hid each patch the last time.
-    pub hints: Vec<Cell<Hint>>,
+    /// What hid each patch the last time from the breath, and from each of the other winds.
+    hints: Vec<Cell<Hint>>,
     /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
     pub groups: Vec<(DVec3, Range<usize>)>,
     coefficients: Coefficients,
 }
 
 impl Feeler {
-    /// Patches within `alike` metres of each other's middle are one group.
-    pub fn new(surface: &Surface, alike: f64) -> Self {
+    /// Patches within `alike` metres of each other's middle are one group; `winds` blow on it, the breath not counted.
+    pub fn new(surface: &Surface, alike: f64, winds: usize) -> Self {
         let mut patches = split(surface);
         let mut groups = Vec::new();
         gather(&mut patches, 0, alike, &mut groups);
@@ -42,12 +36,19 @@ impl Feeler {
             Coefficients { normal: surface.drag_normal, tangential: surface.drag_tangential, gain: surface.gain };
         Self {
             body: surface.body,
-            hints: vec![Cell::default(); patches.len()],
+            hints: vec![Cell::default(); (winds + 1) * patches.len()],
             groups,
             quads: patches.chunks(WIDTH).map(|four| Quad::new(four, &coefficients)).collect(),
             patches,
             coefficients,
         }
+    }
+
+    /// What hid each patch the last time from a wind (`None`: from the breath).
+    #[inline(always)]
+    pub fn hints(&self, wind: Option<usize>) -> &[Cell<Hint>] {
+        let count = self.patches.len();
+        &self.hints[wind.map_or(0, |wind| wind + 1) * count..][..count]
     }
 
     /// H g: what a patch takes of the turbulence `g` (in the body's frame), never more than all of it.
@@ -82,7 +83,6 @@ fn gather(patches: &mut [Patch], start: usize, alike: f64, groups: &mut Vec<(DVe
 pub(crate) struct Standing<'a> {
     pub feeler: &'a Feeler,
     pub body: &'a RigidBody,
-    occluders: &'a Occluders,
     /// From the body's frame to the world, and back.
     pub frame: DMat3,
     pub inward: DMat3,
@@ -90,9 +90,9 @@ pub(crate) struct Standing<'a> {
 
 impl<'a> Standing<'a> {
     #[inline(always)]
-    pub fn new(feeler: &'a Feeler, body: &'a RigidBody, occluders: &'a Occluders) -> Self {
+    pub fn new(feeler: &'a Feeler, body: &'a RigidBody) -> Self {
         let frame = matrix(body.rotation);
-        Self { feeler, body, occluders, frame, inward: frame.transpose() }
+        Self { feeler, body, frame, inward: frame.transpose() }
     }
 
     /// World point and axis of a patch, m.
@@ -101,44 +101,4 @@ impl<'a> Standing<'a> {
         let arm = patch.point - self.body.properties.center;
         (self.body.position + self.frame * arm, self.frame * patch.axis)
     }
-
-    /// Does a patch face and see where a wind comes from?
-    #[inline(always)]
-    pub fn open(&self, index: usize, from: Upwind) -> bool {
-        let patch = &self.feeler.patches[index];
-        let (point, axis) = self.place(patch);
-        open(self.occluders, &self.feeler.hints[index], patch.face, point, axis, from)
-    }
-}
-
-/// Does a patch face and see where a wind comes from?
-pub(crate) fn open(
-    occluders: &Occluders,
-    hint: &Cell<Hint>,
-    face: Face,
-    point: DVec3,
-    axis: DVec3,
-    from: Upwind,
-) -> bool {
-    let toward = match from {
-        Upwind::Place(place) => place - point,
-        Upwind::Afar(direction) => direction,
-        Upwind::Everywhere => return true,
-    };
-    let facing = axis.dot(toward);
-    let lift = match face {
-        Face::Side if facing <= 0.0 => return false,
-        Face::Side | Face::Sheet => axis * (RAY_START * facing.signum()),
-        Face::Wire => DVec3::ZERO,
-    };
-    let start = point + lift;
-    let (direction, far) = match from {
-        Upwind::Place(place) => {
-            let way = place - start;
-            let far = way.length();
-            (way / far, far)
-        }
-        _ => (toward, FAR),
-    };
-    !occluders.block(start, direction, far, hint)
 }

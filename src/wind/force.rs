@@ -33,11 +33,12 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
+use super::airs::{Airs, STILL_AIR};
 use super::breath::Breath;
 use super::drag::{all, by_lane, lane, sum};
-use super::feeler::{Feeler, Standing, open};
+use super::feeler::{Feeler, Standing};
 use super::front::Front;
-use super::patches::Face;
+use super::patches::{Face, Patch};
 use super::weather::{Upwind, Weather, Wind};
 use super::{Shelter, Surface};
 use soffio_geometry::bodies::RigidBody;
@@ -57,8 +58,6 @@ const EDDY_SPEED: f64 = 0.5;
 const EDDY_CHANGE: f64 = 0.37;
 /// The noise is drawn out by this before it is bent below 1: else it would hardly ever come near.
 const EDDY_STRENGTH: f64 = 2.0;
-/// Wind below this needs no ray, m/s.
-const STILL_AIR: f64 = 0.01;
 /// Patches that say how much of a surface is seen, at most.
 const LOOKED_AT: usize = 16;
 /// The breath of one step.
@@ -74,7 +73,7 @@ pub struct Blown<'a> {
 impl Blown<'_> {
     /// Velocity of the breath's air at a point without gusts, and the speed at which it left the lips, m/s.
     #[inline]
-    fn air(&self, point: DVec3) -> (DVec3, f64) {
+    pub(crate) fn air(&self, point: DVec3) -> (DVec3, f64) {
         let Some((x, share)) = self.breath.share(point) else { return (DVec3::ZERO, 0.0) };
         let source = match self.front {
             Some(front) => front.speed_at(x, self.breath.lip_diameter),
@@ -126,10 +125,7 @@ pub struct WindField {
     occluders: Occluders,
     seed: u64,
     blown: Vec<Vec6>,
-    /// Air at the patches of the surface in hand.
-    winds: Vec<DVec3>,
-    /// The part of it that comes from all sides.
-    stirred: Vec<DVec3>,
+    airs: Airs,
     /// Which instructions there are.
     level: Level,
 }
@@ -138,15 +134,16 @@ impl WindField {
     /// Surfaces, shelters and winds of an exhibit with `bodies` bodies.
     pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
         let weather = Weather::new(winds);
-        let feelers: Vec<_> = surfaces.iter().map(|surface| Feeler::new(surface, weather.alike())).collect();
+        let occluders = Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh)));
+        let feeler = |surface| Feeler::new(surface, weather.alike(), weather.len());
+        let feelers: Vec<_> = surfaces.iter().map(feeler).collect();
         let most = feelers.iter().map(|feeler| feeler.quads.len() * WIDTH).max().unwrap_or(0);
         Self {
             weather,
-            occluders: Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh))),
+            occluders,
             seed,
             blown: vec![[0.0; 6]; bodies],
-            winds: Vec::with_capacity(most),
-            stirred: Vec::with_capacity(most),
+            airs: Airs::with_capacity(most),
             feelers,
             level: Level::new(),
         }
@@ -173,7 +170,7 @@ impl WindField {
         let still = blown.is_none() && self.weather.is_empty();
         let mut report = WindReport::default();
         let mut pushed = Pushed::default();
-        let [mut winds, mut stirred] = [&mut self.winds, &mut self.stirred].map(std::mem::take);
+        let mut airs = std::mem::take(&mut self.airs);
         for feeler in &self.feelers {
             let body = &bodies[feeler.body];
             // What stands still in still air feels nothing.
@@ -181,11 +178,14 @@ impl WindField {
             if stands && still {
                 continue;
             }
-            let standing = Standing::new(feeler, body, &self.occluders);
+            let standing = Standing::new(feeler, body);
             if !still {
-                self.feel(feeler, body, (&mut winds, &mut stirred), |index, from| standing.open(index, from));
+                airs.feel(&standing, &self.weather, &self.occluders);
             }
-            let air = (!still).then_some((&winds[..], &stirred[..]));
+            if let Some(blown) = blown {
+                airs.feel_breath(&standing, blown, &self.occluders);
+            }
+            let air = (!still).then_some(&airs);
             let (own, sum_blown) = self.push_on(simd, &standing, air, blown, &mut pushed);
             for k in 0..6 {
                 out[feeler.body][k] += own[k];
@@ -193,7 +193,7 @@ impl WindField {
             }
             report.force += linear(&own);
         }
-        (self.winds, self.stirred) = (winds, stirred);
+        self.airs = airs;
         if let Some(blown) = blown {
             self.push_breath(blown, &pushed, out, &mut report);
         }
@@ -207,7 +207,7 @@ impl WindField {
         &self,
         simd: S,
         standing: &Standing,
-        air: Option<(&[DVec3], &[DVec3])>,
+        air: Option<&Airs>,
         blown: Option<&Blown>,
         pushed: &mut Pushed,
     ) -> (Vec6, Vec6) {
@@ -223,19 +223,19 @@ impl WindField {
             let calm = -quad.velocities(simd, origin, spin);
             let room = match air {
                 None => calm,
-                Some((winds, _)) => calm + by_lane(simd, |k| inward * winds[first + k]),
+                Some(air) => calm + by_lane(simd, |k| inward * air.winds[first + k]),
             };
             let dragged = quad.drag(simd, room);
             force += dragged;
             moment += quad.moments(simd, dragged);
-            let Some(blown) = blown else { continue };
-            let airs = standing.airs(blown, first);
+            let (Some(blown), Some(air)) = (blown, air) else { continue };
+            let airs = &air.breath[first..first + WIDTH];
             if airs.iter().all(|(_, source)| *source == 0.0) {
                 continue;
             }
             let (mut wind, mut before) = (room, dragged);
-            if let Some((_, stirred)) = air.filter(|_| beside < 1.0) {
-                wind -= by_lane(simd, |k| (1.0 - beside) * (inward * stirred[first + k]));
+            if beside < 1.0 {
+                wind -= by_lane(simd, |k| (1.0 - beside) * (inward * air.stirred[first + k]));
                 before = quad.drag(simd, wind);
             }
             let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
@@ -270,50 +270,17 @@ impl WindField {
         report.gust = self.eddy(&blown.breath, ahead).dot(blown.breath.direction);
     }
 
-    /// The air of all winds but the breath at each patch of a surface, and what of it comes from all sides, world, m/s; nothing
-    /// where a quad has no patch.
-    fn feel(
-        &self,
-        feeler: &Feeler,
-        body: &RigidBody,
-        (winds, stirred): (&mut Vec<DVec3>, &mut Vec<DVec3>),
-        open: impl Fn(usize, Upwind) -> bool,
-    ) {
-        let place = |point: DVec3| body.position + body.rotation * (point - body.properties.center);
-        winds.clear();
-        stirred.clear();
-        for (center, range) in &feeler.groups {
-            let aimless = self.stirs(place(*center));
-            let patches = range.clone().map(|index| (index, place(feeler.patches[index].point)));
-            winds.extend(patches.map(|(index, point)| aimless + self.aimed(point, |from| open(index, from))));
-            stirred.resize(winds.len(), aimless);
-        }
-        [winds, stirred].into_iter().for_each(|air| air.resize(feeler.quads.len() * WIDTH, DVec3::ZERO));
-    }
-
     /// Velocity at a point of the winds that come from all sides, m/s.
     pub fn stirs(&self, point: DVec3) -> DVec3 {
-        let aimless = (0..self.weather.len()).filter(|&index| self.weather.is_aimless(index));
-        aimless.map(|index| self.weather.air(index, point).0).sum()
-    }
-
-    /// Air of all other winds at a patch that sees where they come from, m/s.
-    fn aimed(&self, point: DVec3, open: impl Fn(Upwind) -> bool) -> DVec3 {
-        let mut wind = DVec3::ZERO;
-        for index in 0..self.weather.len() {
-            if !self.weather.is_aimless(index) {
-                let (air, from) = self.weather.air(index, point);
-                if air.length_squared() > STILL_AIR * STILL_AIR && open(from) {
-                    wind += air;
-                }
-            }
-        }
-        wind
+        self.weather.stirs(point)
     }
 
     /// Velocity at a point of the breath and of all winds that go somewhere, m/s.
     pub fn streams(&self, blown: Option<&Blown>, point: DVec3) -> DVec3 {
-        self.aimed(point, |_| true) + blown.map_or(DVec3::ZERO, |blown| self.breath_at(blown, point))
+        let winds = (0..self.weather.len()).filter(|&wind| self.weather.upwind(wind).is_some());
+        let airs = winds.map(|wind| self.weather.air(wind, point));
+        let aimed: DVec3 = airs.filter(|air| air.length_squared() > STILL_AIR * STILL_AIR).sum();
+        aimed + blown.map_or(DVec3::ZERO, |blown| self.breath_at(blown, point))
     }
 
     /// Velocity of the breath's air at a point, gusts included, m/s. Force goes with its square, so half of the force's
@@ -337,14 +304,26 @@ impl WindField {
     /// Every patch, and whether it sees the breath.
     pub fn samples(&mut self, bodies: &[RigidBody], breath: &Breath) -> Vec<Sample> {
         self.occluders.refit(|body| bodies[body].pose());
-        let mut samples = Vec::new();
+        let mut samples: Vec<Sample> = Vec::new();
         for (surface, feeler) in self.feelers.iter().enumerate() {
             let pose = bodies[feeler.body].pose();
-            for (index, patch) in feeler.patches.iter().enumerate() {
-                let (point, axis) = (pose.point(patch.point), pose.vector(patch.axis));
-                let from = Upwind::Place(breath.origin(point));
-                let seen = open(&self.occluders, &feeler.hints[index], patch.face, point, axis, from);
-                samples.push(Sample { surface, patch: index, point, axis, area: patch.area, seen });
+            let first = samples.len();
+            samples.extend(feeler.patches.iter().enumerate().map(|(patch, Patch { point, axis, area, .. })| Sample {
+                surface,
+                patch,
+                point: pose.point(*point),
+                axis: pose.vector(*axis),
+                area: *area,
+                seen: false,
+            }));
+            let own = &samples[first..];
+            let lines = own.iter().enumerate().filter_map(|(index, sample)| {
+                let from = Upwind::Place(breath.origin(sample.point));
+                Some((index, feeler.facing(index, (sample.point, sample.axis), from)?.line()))
+            });
+            self.airs.sight.take(lines);
+            for index in self.airs.sight.open(&self.occluders, feeler.hints(None)) {
+                samples[first + index].seen = true;
             }
         }
         samples
@@ -355,17 +334,18 @@ impl WindField {
         self.occluders.refit(|body| bodies[body].pose());
         let feeler = &self.feelers[surface];
         let pose = bodies[feeler.body].pose();
-        let (mut faced, mut seen) = (0, 0);
-        for index in (0..feeler.patches.len()).step_by(feeler.patches.len().div_ceil(LOOKED_AT)) {
+        let mut faced = 0;
+        let some = (0..feeler.patches.len()).step_by(feeler.patches.len().div_ceil(LOOKED_AT));
+        let lines = some.filter_map(|index| {
             let patch = &feeler.patches[index];
-            let (point, axis) = (pose.point(patch.point), pose.vector(patch.axis));
-            if patch.face != Face::Side || axis.dot(from - point) > 0.0 {
-                faced += 1;
-                let sees = open(&self.occluders, &feeler.hints[index], patch.face, point, axis, Upwind::Place(from));
-                seen += i32::from(sees);
-            }
-        }
-        if faced > 0 { f64::from(seen) / f64::from(faced) } else { 0.0 }
+            let place = (pose.point(patch.point), pose.vector(patch.axis));
+            let line = feeler.facing(index, place, Upwind::Place(from))?.line();
+            faced += 1;
+            Some((index, line))
+        });
+        self.airs.sight.take(lines);
+        let seen = self.airs.sight.open(&self.occluders, feeler.hints(None)).count();
+        if faced > 0 { seen as f64 / f64::from(faced) } else { 0.0 }
     }
 
     /// Patches of all surfaces.
@@ -390,18 +370,4 @@ impl WindField {
 struct Pushed {
     total: f64,
     fastest: f64,
-}
-
-impl Standing<'_> {
-    /// Air of the breath at the patches of a quad, and the speed at which it left the lips, m/s; nothing where it does not arrive.
-    #[inline(always)]
-    fn airs(&self, blown: &Blown, first: usize) -> [(DVec3, f64); WIDTH] {
-        std::array::from_fn(|k| {
-            let Some(patch) = self.feeler.patches.get(first + k) else { return (DVec3::ZERO, 0.0) };
-            let (air, source) = blown.air(self.place(patch).0);
-            let origin = || Upwind::Place(blown.breath.origin(self.place(patch).0));
-            let arrives = source > 0.0 && self.open(first + k, origin());
-            if arrives { (air, source) } else { (DVec3::ZERO, 0.0) }
-        })
-    }
 }

@@ -32,12 +32,14 @@
 
 use soffio_geometry::TriangleMesh;
 
+mod airs;
 pub mod breath;
 mod drag;
 mod feeler;
 pub mod force;
 pub mod front;
 pub mod patches;
+mod sight;
 pub mod weather;
 
 /// A surface that feels the wind.

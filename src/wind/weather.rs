@@ -167,8 +167,6 @@ pub enum Upwind {
     Place(DVec3),
     /// From afar, unit, against the wind.
     Afar(DVec3),
-    /// From all sides: nothing shelters.
-    Everywhere,
 }
 
 /// All winds of an exhibit, and how fast they are now.
@@ -219,41 +217,45 @@ impl Weather {
         self.winds.iter().map(scale).fold(f64::INFINITY, f64::min)
     }
 
-    /// Does a wind come from all sides, so that nothing shelters from it?
-    pub fn is_aimless(&self, index: usize) -> bool {
-        matches!(self.winds[index].kind, WindKind::Room { .. })
+    /// From where a wind comes; `None`: from all sides, so that nothing shelters from it.
+    pub fn upwind(&self, index: usize) -> Option<Upwind> {
+        match self.winds[index].kind {
+            WindKind::Fan { at, .. } => Some(Upwind::Place(at)),
+            WindKind::Draught { direction, .. } => Some(Upwind::Afar(-direction)),
+            WindKind::Room { .. } => None,
+        }
     }
 
-    /// Velocity of a wind at a point (m/s), and from where it comes.
-    pub fn air(&self, index: usize, point: DVec3) -> (DVec3, Upwind) {
+    /// Velocity at a point of the winds that come from all sides, m/s.
+    pub fn stirs(&self, point: DVec3) -> DVec3 {
+        (0..self.len()).filter(|&index| self.upwind(index).is_none()).map(|index| self.air(index, point)).sum()
+    }
+
+    /// Velocity of a wind at a point, m/s.
+    pub fn air(&self, index: usize, point: DVec3) -> DVec3 {
         let (wind, (speed, carried)) = (&self.winds[index], self.speeds[index]);
-        let still = (DVec3::ZERO, Upwind::Everywhere);
         if speed <= 0.0 {
-            return still;
+            return DVec3::ZERO;
         }
         let beat = |way: f64| beat(&wind.rhythm, self.time - way / carried);
         match wind.kind {
             WindKind::Fan { at, direction, diameter } => {
                 let jet = Breath { mouth: at, direction, lip_diameter: diameter, speed, law: Law::Jet };
-                let Some((x, share)) = jet.share(point) else { return still };
-                (jet.flow_direction(point) * (speed * share * beat(x)), Upwind::Place(at))
+                let Some((x, share)) = jet.share(point) else { return DVec3::ZERO };
+                jet.flow_direction(point) * (speed * share * beat(x))
             }
-            WindKind::Draught { direction, place: None } => {
-                (direction * (speed * beat(point.dot(direction))), Upwind::Afar(-direction))
-            }
+            WindKind::Draught { direction, place: None } => direction * (speed * beat(point.dot(direction))),
             WindKind::Draught { direction, place: Some((at, width)) } => {
                 let from = point - at;
                 let along = from.dot(direction);
                 if along <= 0.0 {
-                    return still;
+                    return DVec3::ZERO;
                 }
                 let off = 4.0 * (from - along * direction).length_squared() / (width * width);
                 let share = exp(-std::f64::consts::LN_2 * off);
-                (direction * (speed * share * beat(along)), Upwind::Afar(-direction))
+                direction * (speed * share * beat(along))
             }
-            WindKind::Room { scale, period, seed } => {
-                (speed * beat(0.0) * eddies(point, self.time, scale, period, seed), Upwind::Everywhere)
-            }
+            WindKind::Room { scale, period, seed } => speed * beat(0.0) * eddies(point, self.time, scale, period, seed),
         }
     }
 }
@@ -271,7 +273,7 @@ mod tests {
 
     fn at(weather: &mut Weather, time: f64, point: DVec3) -> DVec3 {
         weather.turn_to(time);
-        (0..weather.len()).map(|index| weather.air(index, point).0).sum()
+        (0..weather.len()).map(|index| weather.air(index, point)).sum()
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod bodies;
 mod depth_buffer;
 mod forces;
 mod sight;
+mod sight_by_each;
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
