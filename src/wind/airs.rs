@@ -1,7 +1,7 @@
 //! What air arrives at the patches of a surface.
 //!
-//! Patches that face a wind look where it comes from, all of one surface together; what arrives at a patch is the sum of those
-//! that it sees.
+//! A wind whose cone a ball around the surface does not touch is asked no further. Patches in the others' cones that face
+//! them look where they come from, all of one surface together; what arrives at a patch is the sum of those that it sees.
 
 use super::feeler::Standing;
 use super::force::Blown;
@@ -45,7 +45,8 @@ impl Airs {
         let count = feeler.quads.len() * WIDTH;
         winds.clear();
         winds.resize(count, DVec3::ZERO);
-        for wind in 0..weather.len() {
+        let (center, radius) = (place(feeler.ball.0), feeler.ball.1);
+        for wind in (0..weather.len()).filter(|&wind| weather.reaches(wind, center, radius)) {
             let Some(from) = weather.upwind(wind) else { continue };
             sight.take(feeler.patches.iter().enumerate().filter_map(|(index, patch)| {
                 let facing = feeler.facing(index, standing.place(patch), from)?;
@@ -66,9 +67,13 @@ impl Airs {
         stirred.resize(count, DVec3::ZERO);
     }
 
-    /// The breath's air.
-    pub fn feel_breath(&mut self, standing: &Standing, blown: &Blown, occluders: &Occluders) {
-        let Standing { feeler, .. } = standing;
+    /// The breath's air, unless the surface is out of its reach; says whether it is within.
+    pub fn feel_breath(&mut self, standing: &Standing, blown: &Blown, occluders: &Occluders) -> bool {
+        let Standing { feeler, body, frame, .. } = standing;
+        let center = body.position + *frame * (feeler.ball.0 - body.properties.center);
+        if !blown.breath.reaches(center, feeler.ball.1) {
+            return false;
+        }
         let Self { breath, one, sight, .. } = self;
         breath[..feeler.quads.len() * WIDTH].fill((DVec3::ZERO, 0.0));
         sight.take(feeler.patches.iter().enumerate().filter_map(|(index, patch)| {
@@ -80,5 +85,6 @@ impl Airs {
         for index in sight.open(occluders, feeler.hints(None)) {
             breath[index] = one[index];
         }
+        true
     }
 }

@@ -106,6 +106,19 @@ impl Breath {
         Some((x, share))
     }
 
+    /// May [`Self::share`] be something somewhere in this ball (m)? The ball is outside where it lies behind the lips, or where
+    /// its nearest point to the axis is outside the breath at its farthest.
+    pub fn reaches(&self, center: DVec3, radius: f64) -> bool {
+        let from = center - self.mouth;
+        let x = from.dot(self.direction);
+        let edge = match self.law {
+            Law::Jet => EDGE,
+            Law::Cone => 1.0,
+        };
+        let off = (from - x * self.direction).length() - radius;
+        x > -radius && off <= edge * self.half_width(x + radius)
+    }
+
     /// Velocity of the air at a point, its front long past and without gusts, m/s.
     pub fn velocity(&self, point: DVec3) -> DVec3 {
         self.share(point).map_or(DVec3::ZERO, |(_, share)| self.flow_direction(point) * (share * self.speed))
@@ -120,6 +133,7 @@ impl Breath {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use soffio_math::noise::Random;
 
     fn breath(law: Law, speed: f64) -> Breath {
         Breath { mouth: DVec3::ZERO, direction: DVec3::Z, lip_diameter: 0.01, speed, law }
@@ -184,6 +198,30 @@ mod tests {
             let breath = breath(law, 9.0);
             assert_eq!(breath.velocity(DVec3::new(0.0, 0.0, -0.01)), DVec3::ZERO);
             assert_eq!(breath.velocity(DVec3::new(0.3, 0.0, 0.5)), DVec3::ZERO);
+        }
+    }
+
+    #[test]
+    fn no_air_moves_in_a_ball_out_of_reach() {
+        const SEED: u64 = 12;
+        let mut random = Random::new(SEED);
+        let mut any = |size: f64| DVec3::new(random.signed(), random.signed(), random.signed()) * size;
+        for law in [Law::Cone, Law::Jet] {
+            let (breath, mut out, mut in_reach) = (breath(law, 9.0), 0, 0);
+            for _ in 0..2000 {
+                let (center, radius) = (any(0.3), any(0.1).length());
+                let moves = (0..20).any(|_| {
+                    let point = center + any(1.0).normalize() * (radius * any(1.0).x.abs());
+                    breath.velocity(point) != DVec3::ZERO
+                });
+                if breath.reaches(center, radius) {
+                    in_reach += 1;
+                } else {
+                    out += 1;
+                    assert!(!moves, "seed {SEED}, {law:?}: air moves within {radius} m of {center}");
+                }
+            }
+            assert!(out > 100 && in_reach > 100, "{law:?}: {out} out of reach, {in_reach} in reach");
         }
     }
 }

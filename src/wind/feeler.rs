@@ -12,6 +12,9 @@ use soffio_math::lanes::WIDTH;
 use soffio_math::spatial::matrix;
 use soffio_math::{DMat3, DVec3};
 
+/// Balls around patches are larger by this, in m and as a share: more than double precision rounds within kilometres.
+const BALL_MARGIN: f64 = 1e-9;
+
 /// A surface's patches and coefficients.
 #[derive(Clone)]
 pub(crate) struct Feeler {
@@ -19,6 +22,8 @@ pub(crate) struct Feeler {
     pub patches: Vec<Patch>,
     /// The same by fours.
     pub quads: Vec<Quad>,
+    /// A ball that holds all patches: its centre in the node frame, and its radius, m.
+    pub ball: (DVec3, f64),
     /// What hid each patch the last time from the breath, and from each of the other winds.
     hints: Vec<Cell<Hint>>,
     /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
@@ -32,10 +37,13 @@ impl Feeler {
         let mut patches = split(surface);
         let mut groups = Vec::new();
         gather(&mut patches, 0, alike, &mut groups);
+        let middle = patches.iter().map(|patch| patch.point).sum::<DVec3>() / patches.len().max(1) as f64;
+        let radius = patches.iter().map(|patch| patch.point.distance(middle)).fold(0.0, f64::max);
         let coefficients =
             Coefficients { normal: surface.drag_normal, tangential: surface.drag_tangential, gain: surface.gain };
         Self {
             body: surface.body,
+            ball: (middle, (1.0 + BALL_MARGIN) * radius + BALL_MARGIN),
             hints: vec![Cell::default(); (winds + 1) * patches.len()],
             groups,
             quads: patches.chunks(WIDTH).map(|four| Quad::new(four, &coefficients)).collect(),

@@ -182,9 +182,7 @@ impl WindField {
             if !still {
                 airs.feel(&standing, &self.weather, &self.occluders);
             }
-            if let Some(blown) = blown {
-                airs.feel_breath(&standing, blown, &self.occluders);
-            }
+            let blown = blown.filter(|blown| airs.feel_breath(&standing, blown, &self.occluders));
             let air = (!still).then_some(&airs);
             let (own, sum_blown) = self.push_on(simd, &standing, air, blown, &mut pushed);
             for k in 0..6 {

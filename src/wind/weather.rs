@@ -160,6 +160,11 @@ fn eddies(point: DVec3, time: f64, scale: f64, period: f64, seed: u64) -> DVec3 
     sum
 }
 
+/// The jet of a fan.
+fn fan(at: DVec3, direction: DVec3, diameter: f64, speed: f64) -> Breath {
+    Breath { mouth: at, direction, lip_diameter: diameter, speed, law: Law::Jet }
+}
+
 /// From where a wind comes to a point: what stands in that way shelters it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Upwind {
@@ -226,6 +231,16 @@ impl Weather {
         }
     }
 
+    /// May a wind be felt somewhere in this ball (m)? Where it says no, the air is still.
+    pub fn reaches(&self, index: usize, center: DVec3, radius: f64) -> bool {
+        self.speeds[index].0 > 0.0
+            && match self.winds[index].kind {
+                WindKind::Fan { at, direction, diameter } => fan(at, direction, diameter, 0.0).reaches(center, radius),
+                WindKind::Draught { direction, place: Some((at, _)) } => (center - at).dot(direction) > -radius,
+                WindKind::Draught { place: None, .. } | WindKind::Room { .. } => true,
+            }
+    }
+
     /// Velocity at a point of the winds that come from all sides, m/s.
     pub fn stirs(&self, point: DVec3) -> DVec3 {
         (0..self.len()).filter(|&index| self.upwind(index).is_none()).map(|index| self.air(index, point)).sum()
@@ -240,7 +255,7 @@ impl Weather {
         let beat = |way: f64| beat(&wind.rhythm, self.time - way / carried);
         match wind.kind {
             WindKind::Fan { at, direction, diameter } => {
-                let jet = Breath { mouth: at, direction, lip_diameter: diameter, speed, law: Law::Jet };
+                let jet = fan(at, direction, diameter, speed);
                 let Some((x, share)) = jet.share(point) else { return DVec3::ZERO };
                 jet.flow_direction(point) * (speed * share * beat(x))
             }
@@ -360,5 +375,28 @@ mod tests {
         let mut weather = Weather::new(&[wind]);
         assert_eq!(at(&mut weather, 0.0, DVec3::ZERO), DVec3::ZERO);
         assert_eq!(at(&mut weather, 3.0, DVec3::ZERO), DVec3::X);
+    }
+
+    #[test]
+    fn a_wind_blows_only_within_its_reach() {
+        const SEED: u64 = 13;
+        let mut random = Random::new(SEED);
+        let fan = WindKind::Fan { at: DVec3::ZERO, direction: DVec3::Z, diameter: 0.1 };
+        let door = WindKind::Draught { direction: DVec3::X, place: Some((DVec3::Y, 0.5)) };
+        for (kind, speed) in [(fan, 1.0), (door, 1.0), (EAST, 0.0)] {
+            let mut weather = weather(kind, speed, Rhythm::Even);
+            weather.turn_to(0.0);
+            let mut out = 0;
+            for _ in 0..2000 {
+                let mut any = |size: f64| DVec3::new(random.signed(), random.signed(), random.signed()) * size;
+                let (center, beside) = (any(2.0), any(0.3));
+                if !weather.reaches(0, center, beside.length()) {
+                    out += 1;
+                    let air = [center, center + beside, center - beside].map(|point| weather.air(0, point));
+                    assert_eq!(air, [DVec3::ZERO; 3], "seed {SEED}, {kind:?} about {center}");
+                }
+            }
+            assert!(out > 400 && (out < 2000 || speed == 0.0), "{kind:?}: {out} of 2000 are out of reach");
+        }
     }
 }
