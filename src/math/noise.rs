@@ -1,5 +1,7 @@
 //! Seeded randomness: hashes, a small generator and gradient noise. The same seed gives the same bits for ever.
 
+use std::cell::Cell;
+
 /// Mixes a 64-bit word (the finaliser of SplitMix64, Steele et al. 2014): neighbouring inputs give unrelated outputs.
 #[inline]
 pub fn hash(mut x: u64) -> u64 {
@@ -56,11 +58,50 @@ impl Random {
 /// Perlin's gradient noise on the line: zero at the integers, about ±1 between, C² (quintic fade, Perlin 2002).
 #[inline]
 pub fn perlin1(x: f64, seed: u64) -> f64 {
-    let cell = x.floor();
-    let t = x - cell;
-    let gradient = |i: f64| (hash(seed ^ hash(i as i64 as u64)) >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0;
-    let (a, b) = (gradient(cell) * t, gradient(cell + 1.0) * (t - 1.0));
-    2.0 * (a + fade(t) * (b - a))
+    Perlin1::new(seed).at(x)
+}
+
+/// [`perlin1`] of one seed, to be asked at many places of which most share a cell with the one before: it remembers the
+/// gradients at that cell's ends.
+///
+/// ```
+/// use soffio_math::noise::{Perlin1, perlin1};
+///
+/// let noise = Perlin1::new(7);
+/// for x in [0.3, 0.9, 1.1, 0.2, -3.5] {
+///     assert_eq!(noise.at(x), perlin1(x, 7));
+/// }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Perlin1 {
+    seed: u64,
+    /// The cell that was asked last, and the gradients.
+    last: Cell<(f64, [f64; 2])>,
+}
+
+impl Perlin1 {
+    /// The noise of `seed`.
+    #[inline]
+    pub fn new(seed: u64) -> Self {
+        Self { seed, last: Cell::new((f64::NAN, [0.0; 2])) }
+    }
+
+    /// Its value at `x`.
+    #[inline]
+    pub fn at(&self, x: f64) -> f64 {
+        let cell = x.floor();
+        if self.last.get().0 != cell {
+            self.last.set((cell, [cell, cell + 1.0].map(|end| self.gradient(end))));
+        }
+        let (t, [low, high]) = (x - cell, self.last.get().1);
+        let (a, b) = (low * t, high * (t - 1.0));
+        2.0 * (a + fade(t) * (b - a))
+    }
+
+    #[inline]
+    fn gradient(&self, end: f64) -> f64 {
+        (hash(self.seed ^ hash(end as i64 as u64)) >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
+    }
 }
 
 /// Perlin's gradient noise in space, about ±1, C².

@@ -23,7 +23,7 @@
 
 use super::breath::{Breath, Law};
 use soffio_math::Function;
-use soffio_math::noise::{hash_words, perlin1, perlin3_vector};
+use soffio_math::noise::{Perlin1, hash_words, perlin3_vector};
 use soffio_math::{DVec3, PI, exp, sin};
 
 /// A wind that blows by itself.
@@ -96,7 +96,7 @@ pub enum Rhythm {
 }
 
 /// Octaves of a spectrum.
-const OCTAVES: i32 = 3;
+const OCTAVES: usize = 3;
 /// 2^(−1/3): speed of an octave over that of the one before it.
 const FALL: f64 = 0.793_700_525_984_099_7;
 /// 2^(2/3): how much quicker an octave changes.
@@ -119,14 +119,14 @@ fn greatest(function: &Function) -> f64 {
     }
 }
 
-/// The wind's speed over its function, at the time t' = `left` at which air left.
-fn beat(rhythm: &Rhythm, left: f64) -> f64 {
+/// The wind's speed over its function, at the time t' = `left` at which air left; `gusts` are its octaves of noise.
+fn beat(rhythm: &Rhythm, gusts: &[Perlin1; OCTAVES], left: f64) -> f64 {
     match *rhythm {
         Rhythm::Even => 1.0,
-        Rhythm::Gusty { strength, period, seed } => {
+        Rhythm::Gusty { strength, period, .. } => {
             let (mut sum, mut whole, mut share, mut pace) = (0.0, 0.0, 1.0, 1.0 / period);
-            for octave in 0..OCTAVES {
-                sum += share * perlin1(left * pace, hash_words(&[seed, octave as u64]));
+            for gust in gusts {
+                sum += share * gust.at(left * pace);
                 whole += share;
                 share *= FALL;
                 pace *= 2.0;
@@ -180,6 +180,8 @@ pub struct Weather {
     winds: Vec<Wind>,
     /// U of each, m/s, and U_c.
     speeds: Vec<(f64, f64)>,
+    /// Octaves of each one's gusts.
+    gusts: Vec<[Perlin1; OCTAVES]>,
     time: f64,
 }
 
@@ -187,7 +189,11 @@ impl Weather {
     /// These winds, before anything blows.
     pub fn new(winds: &[Wind]) -> Self {
         let speeds = winds.iter().map(|wind| (0.0, greatest(&wind.speed).max(SLOWEST))).collect();
-        Self { winds: winds.to_vec(), speeds, time: 0.0 }
+        let gusts = winds.iter().map(|wind| {
+            let seed = if let Rhythm::Gusty { seed, .. } = wind.rhythm { seed } else { 0 };
+            std::array::from_fn(|octave| Perlin1::new(hash_words(&[seed, octave as u64])))
+        });
+        Self { winds: winds.to_vec(), speeds, gusts: gusts.collect(), time: 0.0 }
     }
 
     /// Looks up what blows at a time, s since the exhibit's reset.
@@ -252,7 +258,7 @@ impl Weather {
         if speed <= 0.0 {
             return DVec3::ZERO;
         }
-        let beat = |way: f64| beat(&wind.rhythm, self.time - way / carried);
+        let beat = |way: f64| beat(&wind.rhythm, &self.gusts[index], self.time - way / carried);
         match wind.kind {
             WindKind::Fan { at, direction, diameter } => {
                 let jet = fan(at, direction, diameter, speed);
