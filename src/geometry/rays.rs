@@ -50,6 +50,8 @@ pub struct Line {
     pub direction: DVec3,
     /// Length, m.
     pub far: f64,
+    /// A body of which it is known that it is not in the way.
+    pub past: Option<usize>,
     /// What is in the way, or was the last time.
     pub hint: Hint,
 }
@@ -175,6 +177,15 @@ impl Occluders {
         }));
     }
 
+    /// From where to where the triangles that a body carries reach along a direction (unit, the body's frame), m from its
+    /// frame's origin.
+    pub fn extent(&self, body: usize, along: DVec3) -> (f64, f64) {
+        let parts = self.parts.iter().filter(|part| part.body == Some(body));
+        let corners = parts.flat_map(|part| &part.triangles).flat_map(|Triangle(corners)| corners);
+        let ways = corners.map(|corner| corner.as_dvec3().dot(along));
+        ways.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), way| (low.min(way), high.max(way)))
+    }
+
     /// Finds a triangle that blocks each line, if any does. The one that its hint names is asked first. Lines that lie side
     /// by side and follow each other cost least.
     pub fn look(&self, lines: &mut [Line]) {
@@ -215,6 +226,9 @@ impl Occluders {
                 for place in places(met & node.met(&beams[bit], 1.0)) {
                     let index = node.index(place);
                     let part = &self.parts[index];
+                    if line.past.is_some() && part.body == line.past {
+                        continue;
+                    }
                     let blocker = part.blocker(line.origin, line.direction, line.far as f32);
                     if let Some(triangle) = blocker {
                         line.hint = Hint(Some((index as u32, triangle)));
@@ -241,7 +255,7 @@ impl Occluders {
     /// Is there a triangle between `origin` and the point `far` metres away along `direction` (unit, world)? The one
     /// that `hint` names is asked first, and the hint is set to the one that was found.
     pub fn block(&self, origin: DVec3, direction: DVec3, far: f64, hint: &Cell<Hint>) -> bool {
-        let mut line = [Line { origin, direction, far, hint: hint.get() }];
+        let mut line = [Line { origin, direction, far, past: None, hint: hint.get() }];
         self.look(&mut line);
         hint.set(line[0].hint);
         !line[0].hint.is_open()

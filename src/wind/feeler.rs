@@ -6,8 +6,9 @@ use std::ops::Range;
 use super::Surface;
 use super::drag::{Coefficients, Quad};
 use super::patches::{Patch, split};
+use super::sight::overlooks;
 use soffio_geometry::bodies::RigidBody;
-use soffio_geometry::rays::Hint;
+use soffio_geometry::rays::{Hint, Occluders};
 use soffio_math::lanes::WIDTH;
 use soffio_math::spatial::matrix;
 use soffio_math::{DMat3, DVec3};
@@ -24,6 +25,8 @@ pub(crate) struct Feeler {
     pub quads: Vec<Quad>,
     /// A ball that holds all patches: its centre in the node frame, and its radius, m.
     pub ball: (DVec3, f64),
+    /// Before which of its sides, front and back, each patch has nothing of its own body.
+    pub overlooks: Vec<[bool; 2]>,
     /// What hid each patch the last time from the breath, and from each of the other winds.
     hints: Vec<Cell<Hint>>,
     /// Neighbours that move in the same air of the room: their middle in the node frame (m), and which.
@@ -33,7 +36,7 @@ pub(crate) struct Feeler {
 
 impl Feeler {
     /// Patches within `alike` metres of each other's middle are one group; `winds` blow on it, the breath not counted.
-    pub fn new(surface: &Surface, alike: f64, winds: usize) -> Self {
+    pub fn new(surface: &Surface, alike: f64, winds: usize, occluders: &Occluders) -> Self {
         let mut patches = split(surface);
         let mut groups = Vec::new();
         gather(&mut patches, 0, alike, &mut groups);
@@ -44,6 +47,7 @@ impl Feeler {
         Self {
             body: surface.body,
             ball: (middle, (1.0 + BALL_MARGIN) * radius + BALL_MARGIN),
+            overlooks: patches.iter().map(|patch| overlooks(occluders, surface.body, patch)).collect(),
             hints: vec![Cell::default(); (winds + 1) * patches.len()],
             groups,
             quads: patches.chunks(WIDTH).map(|four| Quad::new(four, &coefficients)).collect(),

@@ -135,7 +135,7 @@ impl WindField {
     pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
         let weather = Weather::new(winds);
         let occluders = Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh)));
-        let feeler = |surface| Feeler::new(surface, weather.alike(), weather.len());
+        let feeler = |surface| Feeler::new(surface, weather.alike(), weather.len(), &occluders);
         let feelers: Vec<_> = surfaces.iter().map(feeler).collect();
         let most = feelers.iter().map(|feeler| feeler.quads.len() * WIDTH).max().unwrap_or(0);
         Self {

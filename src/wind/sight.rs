@@ -6,21 +6,32 @@
 use std::cell::Cell;
 
 use super::feeler::Feeler;
-use super::patches::Face;
+use super::patches::{Face, Patch};
 use super::weather::Upwind;
 use soffio_geometry::rays::{Hint, Line, Occluders};
 use soffio_math::DVec3;
 
 /// Lines start this far off their own face, m.
 const LINE_START: f64 = 1e-4;
+/// What of its own body rises less before a patch is not in its way, m: it is passed by more than single precision rounds.
+const PASSED: f64 = 0.5 * LINE_START;
 /// What stands farther off than this shelters from no wind, m.
 const FAR: f64 = 50.0;
+
+/// Does a patch have nothing of its own body before its front, and before its back?
+pub(crate) fn overlooks(occluders: &Occluders, body: usize, patch: &Patch) -> [bool; 2] {
+    let height = patch.point.dot(patch.axis);
+    let (low, high) = occluders.extent(body, patch.axis);
+    [high - height, height - low].map(|rises| patch.face != Face::Wire && rises < PASSED)
+}
 
 /// A patch that faces where a wind comes from.
 pub(crate) struct Facing {
     /// Where its line of sight starts, world, m.
     start: DVec3,
     from: Upwind,
+    /// The patch's body, if nothing of it can be in the way.
+    past: Option<usize>,
 }
 
 impl Feeler {
@@ -37,7 +48,9 @@ impl Feeler {
             Face::Side | Face::Sheet => axis * (LINE_START * facing.signum()),
             Face::Wire => DVec3::ZERO,
         };
-        Some(Facing { start: point + lift, from })
+        // A line that does not sink passes over whatever is lower than its start.
+        let over = facing.abs() >= LINE_START && self.overlooks[index][usize::from(facing < 0.0)];
+        Some(Facing { start: point + lift, from, past: over.then_some(self.body) })
     }
 }
 
@@ -45,7 +58,7 @@ impl Facing {
     /// Its line of sight.
     #[inline(always)]
     pub fn line(self) -> Line {
-        let Self { start, from } = self;
+        let Self { start, from, past } = self;
         let (direction, far) = match from {
             Upwind::Place(place) => {
                 let way = place - start;
@@ -55,7 +68,7 @@ impl Facing {
             }
             Upwind::Afar(direction) => (direction, FAR),
         };
-        Line { origin: start, direction, far, hint: Hint::default() }
+        Line { origin: start, direction, far, past, hint: Hint::default() }
     }
 }
 

@@ -54,7 +54,7 @@ fn bundle(random: &mut Random, spread: f64, hints: &[Hint]) -> Vec<Line> {
             let origin = middle + 0.05 * any(random);
             let (direction, far) =
                 if parallel { (way, 50.0) } else { ((to - origin).normalize(), to.distance(origin)) };
-            Line { origin, direction, far, hint: any_hint(random) }
+            Line { origin, direction, far, past: None, hint: any_hint(random) }
         })
         .collect()
 }
@@ -107,4 +107,20 @@ fn the_first_triangle_is_the_nearest_of_all() {
         }
         assert!(met > 20, "{count} parts: {met} met");
     }
+}
+
+#[test]
+fn a_line_passes_what_it_is_told_to_pass() {
+    let mut occluders = parts(3);
+    occluders.refit(|body| Pose { position: DVec3::Z * body as f64, ..Pose::default() });
+    // Down the z axis through part 1 at 1 m, part 0 at the origin, and part 2, which stands still there too.
+    let look = |from: f64, far: f64, past: Option<usize>| {
+        let mut line = [Line { origin: DVec3::Z * from, direction: DVec3::NEG_Z, far, past, hint: Hint::default() }];
+        occluders.look(&mut line);
+        line[0].hint.is_open()
+    };
+    assert!(!look(1.5, 1.0, None), "part 1 is in the way");
+    assert!(look(1.5, 1.0, Some(1)), "and passed");
+    assert!(!look(1.5, 1.0, Some(0)), "which another is not");
+    assert!(!look(1.5, 2.0, Some(1)), "nor what stands behind it");
 }
