@@ -46,6 +46,34 @@ pub struct Ball<T> {
     point_mass: Sym3<T>,
 }
 
+/// What is known of the points by which four bodies hang, as seen from them, and what goes through them in a solve.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Points {
+    /// C at the last evaluation.
+    pub value: V3<Four>,
+    /// J̇ẋ there.
+    pub bias: V3<Four>,
+    /// g, where it is neither of these.
+    pub wanted: V3<Four>,
+    /// τ' on the way up.
+    pub torque: V3<Four>,
+    /// w on the way up, then λ.
+    pub force: V3<Four>,
+}
+
+/// What the points are to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// To close: g = −C.
+    Closed,
+    /// To stay: g = −J̇ẋ.
+    Still,
+    /// Nothing: g = 0.
+    Nothing,
+    /// What they have been told.
+    Told,
+}
+
 /// Force and torque, or the linear and angular parts of an acceleration.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Twist<T> {
@@ -93,11 +121,11 @@ impl<T: Real> Ball<T> {
         Articulated { a: n, b, c }
     }
 
-    /// Towards the root: the wrench `b` on the body and the wanted `g` become the force w on the parent's point.
+    /// Towards the root: the wrench `b` on the body and the wanted `g` become τ' and the force w on the parent's point.
     #[inline(always)]
-    pub fn up(&self, b: Twist<T>, g: V3<T>) -> V3<T> {
+    pub fn up(&self, b: Twist<T>, g: V3<T>) -> (V3<T>, V3<T>) {
         let torque = b.angular - self.arms.own.cross(b.linear);
-        b.linear - self.lever.mul(torque) - self.point_mass.mul(g)
+        (torque, b.linear - self.lever.mul(torque) - self.point_mass.mul(g))
     }
 
     /// Wrench on the parent of a force at the point.
@@ -106,13 +134,12 @@ impl<T: Real> Ball<T> {
         Twist { linear: w, angular: self.arms.parent.cross(w) }
     }
 
-    /// Towards the leaves: the body's acceleration and λ from the parent's `a`, the body's own `b`, `g` and w.
+    /// Towards the leaves: the body's acceleration and λ from the parent's `a`, the body's own `g`, τ' and w.
     #[inline(always)]
-    pub fn down(&self, b: Twist<T>, g: V3<T>, w: V3<T>, parent: Twist<T>) -> (Twist<T>, V3<T>) {
+    pub fn down(&self, g: V3<T>, (torque, w): (V3<T>, V3<T>), parent: Twist<T>) -> (Twist<T>, V3<T>) {
         let carried = parent.linear + parent.angular.cross(self.arms.parent);
         let lambda = self.point_mass.mul(carried) - w;
         let u = g + carried;
-        let torque = b.angular - self.arms.own.cross(b.linear);
         let turn = self.free.mul(torque) - self.lever.transposed_mul(u);
         (Twist { linear: u - turn.cross(self.arms.own), angular: turn }, lambda)
     }
@@ -146,6 +173,22 @@ impl Twist<Four> {
     pub fn put<L: Lanes>(&mut self, lanes: L, twist: &Twist<L::T>) {
         self.linear.put(lanes, twist.linear);
         self.angular.put(lanes, twist.angular);
+    }
+}
+
+impl Points {
+    /// g.
+    #[inline(always)]
+    pub fn wanted<L: Lanes>(&self, lanes: L, wanted: Wanted) -> V3<L::T> {
+        match wanted {
+            Wanted::Closed => -self.value.get(lanes),
+            Wanted::Still => -self.bias.get(lanes),
+            Wanted::Nothing => {
+                let zero = lanes.gather(|_| 0.0);
+                V3 { x: zero, y: zero, z: zero }
+            }
+            Wanted::Told => self.wanted.get(lanes),
+        }
     }
 }
 

@@ -45,6 +45,8 @@ pub(super) struct Hooks {
     pub signs: Four,
     /// Where the joints' numbers begin.
     pub at: [usize; WIDTH],
+    /// Does nothing hang on any of the bodies?
+    pub leaves: bool,
 }
 
 /// One step of the elimination.
@@ -204,6 +206,7 @@ pub(super) fn hooks(hang: &[Hang], members: &[Members]) -> (Vec<Slot>, Vec<Hooks
         slots: four.bodies.map(|body| hang[body].parent.map_or(world, |parent| slots[parent])),
         signs: Four(four.bodies.map(|body| hang[body].sign())),
         at: four.bodies.map(|body| hang[body].at),
+        leaves: four.all().iter().all(|&body| hang[body].leaf),
     };
     let hooks = members.iter().map(of_quad).collect();
     (slots, hooks)

@@ -10,12 +10,12 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use super::ball::Arms;
+use super::ball::{Arms, Points};
 use super::quads::{Homes, Quad, Slot};
 use super::system::RowState;
 use super::tree::Tree;
 use soffio_math::DVec3;
-use soffio_math::lanes::{All, Four, Lanes, One, V3, WIDTH};
+use soffio_math::lanes::{All, Four, One, V3, WIDTH};
 
 /// The points by which the bodies of each quad hang.
 #[derive(Clone, Debug)]
@@ -30,9 +30,24 @@ struct Ends {
     parent: V3<Four>,
     /// Which of the bodies hang like this.
     hang: [bool; WIDTH],
-    /// C and J̇ẋ at the last evaluation, as seen from the joints' first bodies.
-    value: V3<Four>,
-    bias: V3<Four>,
+}
+
+/// One joint of those of a quad.
+struct OnePoint<'a> {
+    /// Where its numbers begin.
+    at: usize,
+    /// Sign of its rows as seen from the body that hangs.
+    sign: f64,
+    lane: usize,
+    points: &'a Points,
+}
+
+impl OnePoint<'_> {
+    /// A vector of it, as its rows have it.
+    #[inline(always)]
+    fn seen(&self, of: &V3<Four>) -> [f64; 3] {
+        [&of.x, &of.y, &of.z].map(|part| part.0[self.lane] * self.sign)
+    }
 }
 
 impl Hung {
@@ -52,46 +67,85 @@ impl Hung {
 
     /// C into the rows' numbers.
     pub fn tell_values(&self, tree: &Tree, states: &mut [RowState]) {
-        self.each(tree, |at, lane, ends| {
-            for (state, value) in states[at..at + 3].iter_mut().zip([&ends.value.x, &ends.value.y, &ends.value.z]) {
-                state.value = value.0[lane];
+        self.each(tree, |joint| {
+            for (state, value) in states[joint.at..].iter_mut().zip(joint.seen(&joint.points.value)) {
+                state.value = value;
             }
         });
     }
 
     /// J̇ẋ into the rows' numbers.
     pub fn tell_biases(&self, tree: &Tree, states: &mut [RowState]) {
-        self.each(tree, |at, lane, ends| {
-            for (state, bias) in states[at..at + 3].iter_mut().zip([&ends.bias.x, &ends.bias.y, &ends.bias.z]) {
-                state.bias = bias.0[lane];
+        self.each(tree, |joint| {
+            for (state, bias) in states[joint.at..].iter_mut().zip(joint.seen(&joint.points.bias)) {
+                state.bias = bias;
             }
         });
     }
 
-    /// −J̇ẋ into `g`.
-    pub fn want_still(&self, tree: &Tree, g: &mut [f64]) {
-        self.each(tree, |at, lane, ends| {
-            for (g, bias) in g[at..at + 3].iter_mut().zip([&ends.bias.x, &ends.bias.y, &ends.bias.z]) {
-                *g = -bias.0[lane];
-            }
+    /// Ċ into `g`, where the points are told to come to rest.
+    pub fn tell_rates(&self, tree: &Tree, g: &mut [f64]) {
+        self.each(tree, |joint| {
+            let rates = joint.seen(&joint.points.wanted).map(|wanted| -wanted);
+            g[joint.at..joint.at + 3].copy_from_slice(&rates);
         });
     }
 
-    /// Goes through the joints: where the numbers of each begin, its lane, its quad.
-    #[inline(always)]
-    fn each(&self, tree: &Tree, mut joint: impl FnMut(usize, usize, &Ends)) {
-        for (ends, hooks) in self.ends.iter().zip(&tree.hooks) {
+    /// The answers into `lambda`.
+    pub fn tell_forces(&self, tree: &Tree, lambda: &mut [f64]) {
+        self.each(tree, |joint| lambda[joint.at..joint.at + 3].copy_from_slice(&joint.seen(&joint.points.force)));
+    }
+
+    /// Tells the points what to do, from `g`.
+    pub fn want(&self, tree: &mut Tree, g: &[f64]) {
+        for ((ends, hooks), points) in self.ends.iter().zip(&tree.hooks).zip(&mut tree.points) {
             for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
-                joint(hooks.at[lane], lane, ends);
+                let g = DVec3::from_slice(&g[hooks.at[lane]..]) * hooks.signs.0[lane];
+                points.wanted.put(One(lane), g.into());
+            }
+        }
+    }
+
+    /// Largest |C| of any point, m.
+    pub fn largest(&self, tree: &Tree) -> f64 {
+        let mut largest = 0.0;
+        for (ends, Points { value, .. }) in self.ends.iter().zip(&tree.points) {
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
+                largest = value.x.0[lane].abs().max(value.y.0[lane].abs()).max(value.z.0[lane].abs()).max(largest);
+            }
+        }
+        largest
+    }
+
+    /// The points are closed; where some are being drawn together, all but these.
+    pub fn close(&self, tree: &mut Tree, gathering: Option<&[RowState]>) {
+        let Some(states) = gathering else {
+            tree.points.iter_mut().for_each(|points| points.value = V3::default());
+            return;
+        };
+        for ((ends, hooks), Points { value, .. }) in self.ends.iter().zip(&tree.hooks).zip(&mut tree.points) {
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
+                let rows = states[hooks.at[lane]..].iter().zip([&mut value.x, &mut value.y, &mut value.z]);
+                rows.filter(|(state, _)| !state.gathers).for_each(|(_, value)| value.0[lane] = 0.0);
+            }
+        }
+    }
+
+    /// Goes through the joints.
+    #[inline(always)]
+    fn each<'a>(&self, tree: &'a Tree, mut joint: impl FnMut(OnePoint<'a>)) {
+        for ((ends, hooks), points) in self.ends.iter().zip(&tree.hooks).zip(&tree.points) {
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
+                joint(OnePoint { at: hooks.at[lane], sign: hooks.signs.0[lane], lane, points });
             }
         }
     }
 
     /// Arms (into the tree), C and J̇ẋ for bodies that stand like this.
     #[inline(always)]
-    pub fn evaluate<S: Simd>(&mut self, simd: S, quads: &[Quad], tree: &mut Tree) {
+    pub fn evaluate<S: Simd>(&self, simd: S, quads: &[Quad], tree: &mut Tree) {
         let lanes = All(simd);
-        for (quad, ends) in self.ends.iter_mut().enumerate() {
+        for (quad, ends) in self.ends.iter().enumerate() {
             if ends.hang == [false; WIDTH] {
                 continue;
             }
@@ -104,36 +158,30 @@ impl Hung {
             let value = own.state.position.get(lanes) + r - (parent.vector(lanes, |quad| &quad.state.position) + s);
             let (spin, other) = (own.state.spin.get(lanes), parent.vector(lanes, |quad| &quad.state.spin));
             let bias = spin.cross(spin.cross(r)) - other.cross(other.cross(s));
-            let sign = lanes.get(&hooks.signs);
-            ends.value.put(lanes, value * sign);
-            ends.bias.put(lanes, bias * sign);
+            let points = &mut tree.points[quad];
+            points.value.put(lanes, value);
+            points.bias.put(lanes, bias);
         }
     }
 
-    /// Ċ of the rows into `g`.
-    pub fn rates(&self, quads: &[Quad], tree: &Tree, g: &mut [f64]) {
-        dispatch!(tree.level, simd => self.rates_in(simd, quads, tree, g));
+    /// Tells the points to come to rest: g = −Ċ.
+    pub fn want_rest(&self, quads: &[Quad], tree: &mut Tree) {
+        dispatch!(tree.level, simd => self.want_rest_in(simd, quads, tree));
     }
 
     #[inline(always)]
-    fn rates_in<S: Simd>(&self, simd: S, quads: &[Quad], tree: &Tree, g: &mut [f64]) {
+    fn want_rest_in<S: Simd>(&self, simd: S, quads: &[Quad], tree: &mut Tree) {
         let lanes = All(simd);
         for (quad, ends) in self.ends.iter().enumerate() {
             if ends.hang == [false; WIDTH] {
                 continue;
             }
-            let hooks = &tree.hooks[quad];
-            let (own, parent) = (&quads[quad].state, Homes::new(quads, &hooks.slots));
+            let (own, parent) = (&quads[quad].state, Homes::new(quads, &tree.hooks[quad].slots));
             let arms = tree.balls[quad].arms.get(lanes);
             let own = own.velocity.get(lanes) + own.spin.get(lanes).cross(arms.own);
             let spin = parent.vector(lanes, |quad| &quad.state.spin);
             let rate = own - (parent.vector(lanes, |quad| &quad.state.velocity) + spin.cross(arms.parent));
-            let rate = rate * lanes.get(&hooks.signs);
-            lanes.scatter(WIDTH, &[rate.x, rate.y, rate.z], |lane, rate| {
-                if ends.hang[lane] {
-                    g[hooks.at[lane]..hooks.at[lane] + 3].copy_from_slice(rate);
-                }
-            });
+            tree.points[quad].wanted.put(lanes, -rate);
         }
     }
 }

@@ -5,14 +5,15 @@
 
 use fearless_simd::Simd;
 
-use super::ball::{Arms, Ball, Twist};
+use super::ball::{Arms, Ball, Twist, Wanted};
 use super::block::{MAX_ROWS, for_rows};
 use super::hang::Step;
 use super::loops::Loops;
 use super::quads::{Quad, Slot};
 use super::trains::Trains;
 use super::tree::{Form, JointRows, Tree};
-use soffio_math::lanes::{All, Four, Lanes, One, V3};
+use soffio_math::DVec3;
+use soffio_math::lanes::{All, Lanes, One};
 use soffio_math::spatial::Articulated;
 use soffio_math::spatial::{Vec6, add_scaled, dot, inverse, mul};
 
@@ -37,20 +38,37 @@ impl Tree {
         }
         for index in (0..self.awake.len()).rev() {
             match self.awake[index] {
-                Step::Quad(quad) => self.factor_balls(All(simd), quad),
-                Step::Point(Slot { quad, lane }) => self.factor_balls(One(lane), quad),
+                Step::Quad(quad) if self.hooks[quad].leaves => {
+                    let Quad { mass, inertia, .. } = &quads[quad];
+                    let alone = Articulated::alone(All(simd).get(mass), inertia.get(All(simd)));
+                    self.factor_balls(All(simd), quad, &alone);
+                }
+                Step::Quad(quad) => {
+                    let mass = self.articulated(All(simd), quad);
+                    self.factor_balls(All(simd), quad, &mass);
+                }
+                Step::Point(Slot { quad, lane }) => {
+                    let mass = self.articulated(One(lane), quad);
+                    self.factor_balls(One(lane), quad, &mass);
+                }
                 Step::Body(body) => self.factor_one(body, form),
                 Step::Loops(component) => loops.factor(component, &mut self.articulated, of_loops),
             }
         }
     }
 
-    /// Eliminates these bodies of a quad; their arms are known.
+    /// Articulated masses of these bodies of a quad.
     #[inline(always)]
-    fn factor_balls<L: Lanes>(&mut self, lanes: L, quad: usize) {
+    fn articulated<L: Lanes>(&self, lanes: L, quad: usize) -> Articulated<L::T> {
+        let members = &self.members[quad];
+        Articulated::of_numbers(&lanes.rows(|k| &self.articulated[members.bodies[k]]))
+    }
+
+    /// Eliminates these bodies of a quad, of these articulated masses; their arms are known.
+    #[inline(always)]
+    fn factor_balls<L: Lanes>(&mut self, lanes: L, quad: usize, mass: &Articulated<L::T>) {
         let (members, parents) = (&self.members[quad], &self.hooks[quad].parents);
-        let mass = lanes.rows(|k| &self.articulated[members.bodies[k]]);
-        let ball = Ball::factor(self.balls[quad].arms.get(lanes), &Articulated::of_numbers(&mass));
+        let ball = Ball::factor(self.balls[quad].arms.get(lanes), mass);
         self.balls[quad].put_factor(lanes, &ball);
         let articulated = &mut self.articulated;
         lanes.scatter(
@@ -71,7 +89,8 @@ impl Tree {
             hang.ball = true;
             let (own, parent) = if hang.first { (a, b) } else { (b, a) };
             self.balls[quad].arms.put(One(lane), &Arms { own: own.into(), parent: parent.into() });
-            return self.factor_balls(One(lane), quad);
+            let mass = self.articulated(One(lane), quad);
+            return self.factor_balls(One(lane), quad, &mass);
         }
         hang.ball = false;
         general.rows = 0;
@@ -87,57 +106,52 @@ impl Tree {
         }
     }
 
-    /// The way up: h of the joints into `lambda`, what they push into `b`. `a` has what is given.
+    /// The way up: h of the joints into `lambda`, what they push into `b`. `a` has what is given; `wanted` says what points
+    /// by which bodies hang are to do.
     #[inline(always)]
     pub fn sweep_up<S: Simd>(
-        &self,
+        &mut self,
         simd: S,
         loops: &mut Loops,
         (b, g, a): (&mut [Vec6], &[f64], &[Vec6]),
-        lambda: &mut [f64],
+        (wanted, lambda): (Wanted, &mut [f64]),
     ) {
-        for step in self.awake.iter().rev() {
-            match *step {
-                Step::Quad(quad) => self.up_balls(All(simd), quad, b, Some(g), lambda),
-                Step::Point(Slot { quad, lane }) => self.up_balls(One(lane), quad, b, Some(g), lambda),
+        for index in (0..self.awake.len()).rev() {
+            match self.awake[index] {
+                Step::Quad(quad) => self.up_balls(All(simd), quad, b, wanted),
+                Step::Point(Slot { quad, lane }) => self.up_balls(One(lane), quad, b, wanted),
                 Step::Body(body) => self.up(body, b, Some(g), lambda),
                 Step::Loops(component) => loops.up(component, b, g, a),
             }
         }
     }
 
-    /// The way down: the accelerations and the final `lambda`.
+    /// The way down: the accelerations and the final `lambda`, but of the points by which bodies hang.
     #[inline(always)]
     pub fn sweep_down<S: Simd>(
-        &self,
+        &mut self,
         simd: S,
         loops: &mut Loops,
-        (b, g): (&[Vec6], &[f64]),
+        (b, wanted): (&[Vec6], Wanted),
         (lambda, a): (&mut [f64], &mut [Vec6]),
     ) {
-        for step in &self.awake {
-            match *step {
-                Step::Quad(quad) => self.down_balls(All(simd), quad, b, Some(g), lambda, a),
-                Step::Point(Slot { quad, lane }) => self.down_balls(One(lane), quad, b, Some(g), lambda, a),
-                Step::Body(body) => self.down(body, b, Some(g), lambda, a),
+        for index in 0..self.awake.len() {
+            match self.awake[index] {
+                Step::Quad(quad) => self.down_balls(All(simd), quad, wanted, a),
+                Step::Point(Slot { quad, lane }) => self.down_balls(One(lane), quad, wanted, a),
+                Step::Body(body) => self.down(body, b, Wanted::Told, lambda, a),
                 Step::Loops(component) => loops.down(component, b, lambda, a),
             }
         }
     }
 
     #[inline(always)]
-    fn up_balls<L: Lanes>(&self, lanes: L, quad: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
-        let (members, hooks) = (&self.members[quad], &self.hooks[quad]);
+    fn up_balls<L: Lanes>(&mut self, lanes: L, quad: usize, b: &mut [Vec6], wanted: Wanted) {
+        let (members, hooks, points) = (&self.members[quad], &self.hooks[quad], &mut self.points[quad]);
         let ball = self.balls[quad].get(lanes);
-        let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
-        let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
-        let w = ball.up(wrench, wanted);
-        lanes.scatter(
-            members.count,
-            &[w.x, w.y, w.z],
-            #[inline(always)]
-            |lane, w| put(lambda, hooks.at[lane], w),
-        );
+        let (torque, w) = ball.up(Twist::gather(lanes, |k| &b[members.bodies[k]]), points.wanted(lanes, wanted));
+        points.torque.put(lanes, torque);
+        points.force.put(lanes, w);
         lanes.scatter(
             members.count,
             &ball.wrench(w).numbers(),
@@ -151,31 +165,15 @@ impl Tree {
     }
 
     #[inline(always)]
-    fn down_balls<L: Lanes>(
-        &self,
-        lanes: L,
-        quad: usize,
-        b: &[Vec6],
-        g: Option<&[f64]>,
-        lambda: &mut [f64],
-        a: &mut [Vec6],
-    ) {
+    fn down_balls<L: Lanes>(&mut self, lanes: L, quad: usize, wanted: Wanted, a: &mut [Vec6]) {
         const STILL: Vec6 = [0.0; 6];
-        let (members, hooks) = (&self.members[quad], &self.hooks[quad]);
+        let (members, hooks, points) = (&self.members[quad], &self.hooks[quad], &mut self.points[quad]);
         let ball = self.balls[quad].get(lanes);
-        let wrench = Twist::gather(lanes, |k| &b[members.bodies[k]]);
-        let wanted = wanted(lanes, g, &hooks.at, &hooks.signs);
-        let w = triples(lanes, lambda, &hooks.at);
         let parent = |k: usize| a.get(hooks.parents[k]).unwrap_or(&STILL);
         let carried = Twist::gather(lanes, parent);
-        let (acceleration, l) = ball.down(wrench, wanted, w, carried);
-        let l = l * lanes.get(&hooks.signs);
-        lanes.scatter(
-            members.count,
-            &[l.x, l.y, l.z],
-            #[inline(always)]
-            |lane, l| put(lambda, hooks.at[lane], l),
-        );
+        let up = (points.torque.get(lanes), points.force.get(lanes));
+        let (acceleration, lambda) = ball.down(points.wanted(lanes, wanted), up, carried);
+        points.force.put(lanes, lambda);
         lanes.scatter(
             members.count,
             &acceleration.numbers(),
@@ -186,11 +184,14 @@ impl Tree {
 
     /// The way up for one body. Without `g`, g is 0.
     #[inline(always)]
-    pub fn up(&self, body: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
+    pub fn up(&mut self, body: usize, b: &mut [Vec6], g: Option<&[f64]>, lambda: &mut [f64]) {
         let hang = &self.hang[body];
         if hang.ball {
             let Slot { quad, lane } = self.slots[body];
-            return self.up_balls(One(lane), quad, b, g, lambda);
+            let Some(g) = g else { return self.up_balls(One(lane), quad, b, Wanted::Nothing) };
+            let g = DVec3::from_slice(&g[hang.at..]) * hang.sign();
+            self.points[quad].wanted.put(One(lane), g.into());
+            return self.up_balls(One(lane), quad, b, Wanted::Told);
         }
         let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
         let (lambda, push) = (&mut lambda[hang.at..hang.at + f.rows], b[body]);
@@ -211,14 +212,18 @@ impl Tree {
         });
     }
 
-    /// The way down for one body, after its parent.
+    /// The way down for one body, after its parent. Where it hangs by a point, this was `wanted` on the way up.
     #[inline(always)]
-    pub fn down(&self, body: usize, b: &[Vec6], g: Option<&[f64]>, lambda: &mut [f64], a: &mut [Vec6]) {
-        let hang = &self.hang[body];
-        if hang.ball {
+    pub fn down(&mut self, body: usize, b: &[Vec6], wanted: Wanted, lambda: &mut [f64], a: &mut [Vec6]) {
+        if self.hang[body].ball {
             let Slot { quad, lane } = self.slots[body];
-            return self.down_balls(One(lane), quad, b, g, lambda, a);
+            self.down_balls(One(lane), quad, wanted, a);
+            let force: DVec3 = self.points[quad].force.get(One(lane)).into();
+            let hang = &self.hang[body];
+            (force * hang.sign()).write_to_slice(&mut lambda[hang.at..]);
+            return;
         }
+        let hang = &self.hang[body];
         let Some(f) = self.general[body].as_ref().filter(|_| !self.driven[body]) else { return };
         let mut out = mul(&f.inverse, &b[body]);
         let lambda = &mut lambda[hang.at..hang.at + f.rows];
@@ -241,28 +246,4 @@ fn add<const N: usize>(x: &mut [f64; N], y: &[f64; N]) {
     for k in 0..N {
         x[k] += y[k];
     }
-}
-
-/// The wanted g of point joints, as seen from their bodies.
-#[inline(always)]
-fn wanted<L: Lanes>(lanes: L, g: Option<&[f64]>, at: &[usize; 4], signs: &Four) -> V3<L::T> {
-    match g {
-        Some(g) => triples(lanes, g, at) * lanes.get(signs),
-        None => {
-            let zero = lanes.gather(|_| 0.0);
-            V3 { x: zero, y: zero, z: zero }
-        }
-    }
-}
-
-/// Three numbers of each body.
-#[inline(always)]
-fn triples<L: Lanes>(lanes: L, v: &[f64], at: &[usize; 4]) -> V3<L::T> {
-    let [x, y, z] = lanes.rows(|k| v[at[k]..].first_chunk().unwrap_or(&[0.0; 3]));
-    V3 { x, y, z }
-}
-
-#[inline(always)]
-fn put(v: &mut [f64], at: usize, x: &[f64; 3]) {
-    v[at..at + 3].copy_from_slice(x);
 }

@@ -32,7 +32,7 @@
 use fearless_simd::Level;
 
 use super::Groups;
-use super::ball::Ball;
+use super::ball::{Ball, Points};
 use super::block::{MAX_ROWS, RowBlock, RowSquare, for_rows, pseudo_inverse};
 use super::hang::{Hang, Hooks, Link, Step, by_quads, hangs, hooks};
 use super::loops::graph::{Component, Graph};
@@ -110,6 +110,7 @@ pub struct Tree {
     pub(super) articulated: Vec<[f64; NUMBERS]>,
     /// By quads.
     pub(super) balls: Vec<Ball<Four>>,
+    pub(super) points: Vec<Points>,
     /// Per body, where its joint is ever anything but a point.
     pub(super) general: Vec<Option<Box<General>>>,
 }
@@ -150,6 +151,7 @@ impl Tree {
             slots,
             articulated: vec![[0.0; NUMBERS]; bodies + 1],
             balls: vec![Ball::default(); members.len()],
+            points: vec![Points::default(); members.len()],
             members,
             order,
             hang,
@@ -179,18 +181,21 @@ impl Tree {
     fn look_who_begins(&mut self) {
         let Self { awake, members, slots, hooks, components, begun, needed, .. } = self;
         needed.fill(false);
-        let mut needs = |slot: Slot| {
-            needed[slot.quad] = true;
+        let mut needs = |slot: Slot, itself: bool| {
+            needed[slot.quad] |= itself;
             needed[hooks[slot.quad].slots[slot.lane].quad] = true;
         };
         for step in awake.iter() {
             match *step {
-                Step::Quad(quad) => (0..members[quad].count).for_each(|lane| needs(Slot { quad, lane })),
-                Step::Point(slot) => needs(slot),
-                Step::Body(body) => needs(slots[body]),
+                // Leaves carry themselves alone.
+                Step::Quad(quad) => {
+                    (0..members[quad].count).for_each(|lane| needs(Slot { quad, lane }, !hooks[quad].leaves));
+                }
+                Step::Point(slot) => needs(slot, true),
+                Step::Body(body) => needs(slots[body], true),
                 Step::Loops(index) => {
                     let Component { bodies, top, .. } = &components[index];
-                    bodies.iter().chain(top).for_each(|&body| needs(slots[body]));
+                    bodies.iter().chain(top).for_each(|&body| needs(slots[body], true));
                 }
             }
         }
@@ -235,6 +240,12 @@ impl Tree {
         let arms = self.balls[quad].arms.get(One(lane));
         let (own, parent) = (arms.own.into(), arms.parent.into());
         if self.hang[body].first { (own, parent) } else { (parent, own) }
+    }
+
+    /// What the point by which a body hangs carries by the last solve, as seen from the body, N.
+    pub fn force(&self, body: usize) -> DVec3 {
+        let Slot { quad, lane } = self.slots[body];
+        self.points[quad].force.get(One(lane)).into()
     }
 
     /// Bodies on the ways from these to their roots, roots first, into `ways`; `on` lends a flag a body. In loops there are no ways.

@@ -88,9 +88,12 @@ impl Rows {
         let (mut various, of_trains): (Vec<usize>, Vec<usize>) = various.partition(|&joint| !joints[joint].in_train);
         let outside_trains = various.len();
         various.extend(of_trains);
-        let of_joints = joints.iter().filter(|joint| !joint.in_train).map(|joint| joint.at..joint.at + joint.capacity);
-        let of_couplings = couplings.iter().filter(|c| !trains.owns(c.constraint)).map(|c| c.at..c.at + 1);
-        let lean = merged(of_joints.chain(of_couplings));
+        let rows = |hung: bool| {
+            let joints = joints.iter().filter(move |joint| !joint.in_train && (hung || joint.hangs.is_none()));
+            let couplings = couplings.iter().filter(|c| !trains.owns(c.constraint)).map(|c| c.at..c.at + 1);
+            merged(joints.map(|joint| joint.at..joint.at + joint.capacity).chain(couplings))
+        };
+        let (lean, aside) = (rows(true), rows(false));
         let asked = !(various.is_empty() && couplings.is_empty());
         let is_lean = |constraint: usize| !trains.owns(constraint);
         let of_rows = |&body: &usize| {
@@ -112,6 +115,7 @@ impl Rows {
             various,
             outside_trains,
             lean,
+            aside,
             couplings,
             blocks,
             states,

@@ -11,6 +11,7 @@
 
 use super::System;
 use super::joint::PROJECTION_REACH;
+use crate::articulation::ball::Wanted;
 use crate::articulation::trains::Asked;
 use soffio_math::exp;
 use soffio_math::spatial::Vec6;
@@ -61,7 +62,7 @@ impl System {
             self.factor.tree.up(body, &mut self.b, None, &mut self.lambda);
         }
         for &body in ways {
-            self.factor.tree.down(body, &self.b, None, &mut self.lambda, &mut self.a);
+            self.factor.tree.down(body, &self.b, Wanted::Nothing, &mut self.lambda, &mut self.a);
         }
     }
 

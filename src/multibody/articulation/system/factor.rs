@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::rows::Rows;
+use crate::articulation::ball::Wanted;
 use crate::articulation::dense::Dense;
 use crate::articulation::hung::Hung;
 use crate::articulation::loops::{LoopRow, Loops};
@@ -65,13 +66,14 @@ impl Factor {
         self.tree.factor(simd, quads.all(), &form, &mut self.loops, of_loops);
     }
 
-    /// Solves for `a` and `lambda` from `b` and `g`, by the best instructions there are.
+    /// Solves for `a` and `lambda` from `b` and `g`, by the best instructions there are. `wanted` stands for the `g` of points by
+    /// which bodies hang; what these carry is in the tree.
     #[inline(always)]
     pub fn solve<S: Simd>(
         &mut self,
         simd: S,
         quads: &Quads,
-        (b, g): (&mut [Vec6], &[f64]),
+        (b, g, wanted): (&mut [Vec6], &[f64], Wanted),
         (a, lambda): (&mut [Vec6], &mut [f64]),
     ) {
         if let Some(dense) = &mut self.dense {
@@ -80,8 +82,8 @@ impl Factor {
         }
         self.trains.solve(self.asked, quads, b, a);
         self.loops.begin_solve();
-        self.tree.sweep_up(simd, &mut self.loops, (b, g, a), lambda);
-        self.tree.sweep_down(simd, &mut self.loops, (b, g), (lambda, a));
+        self.tree.sweep_up(simd, &mut self.loops, (b, g, a), (wanted, lambda));
+        self.tree.sweep_down(simd, &mut self.loops, (b, wanted), (lambda, a));
         self.trains.push(self.loops.pushes(), a);
     }
 }

@@ -64,7 +64,7 @@ pub struct RowState {
     /// Share of the force that would hold it.
     pub(in crate::articulation) share: f64,
     /// Is it drawn together by the stabiliser: far from closed, or held in part only?
-    pub(super) gathers: bool,
+    pub(in crate::articulation) gathers: bool,
 }
 
 impl RowState {

@@ -106,8 +106,9 @@ impl System {
 
     fn largest_of<'a>(&'a self, joints: impl Iterator<Item = &'a Joint>) -> f64 {
         joints
+            .filter(|joint| joint.hangs.is_none())
             .flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard])
-            .fold(0.0, |worst, state| worst.max(state.value.abs()))
+            .fold(self.factor.hung.largest(&self.factor.tree), |worst, state| worst.max(state.value.abs()))
     }
 
     /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,
@@ -157,8 +158,8 @@ impl System {
     /// The force that a joint's length rows carried in the last solve of forces, N.
     pub fn load(&self, joint: usize) -> f64 {
         let j = &self.rows.joints[joint];
-        if j.hangs.is_some() {
-            return linear_length(&self.lambda[j.at..j.at + 3]);
+        if let Some(body) = j.hangs {
+            return self.factor.tree.force(body).length();
         }
         let mut sum = 0.0;
         for row in (j.at..j.at + j.hard).filter(|&row| self.rows.states[row].length) {
@@ -214,9 +215,4 @@ impl System {
         }
         (force.sqrt(), torque.sqrt())
     }
-}
-
-/// |v|.
-fn linear_length(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }

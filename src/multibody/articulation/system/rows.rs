@@ -38,8 +38,9 @@ pub(super) struct Rows {
     pub various: Vec<usize>,
     /// How many of them are no train's.
     pub outside_trains: usize,
-    /// Numbers of all rows that are no train's.
+    /// Numbers of all rows that are no train's; of those of them that are not of points by which bodies hang.
     pub lean: Vec<Range<usize>>,
+    pub aside: Vec<Range<usize>>,
     pub couplings: Vec<Coupling>,
     pub blocks: Vec<JointRows>,
     pub states: Vec<RowState>,
@@ -124,14 +125,23 @@ impl Rows {
 
     /// Notes which rows are drawn together by the stabiliser: those far from closed, and those of a share below 1.
     pub fn look_for_gaps(&mut self, factor: &Factor) {
-        self.tell_values(factor);
+        let reach = factor.hung.largest(&factor.tree) > PROJECTION_REACH;
+        if reach || self.gathering {
+            self.tell_values(factor);
+        }
+        let rows = if reach || self.gathering { &self.lean } else { &self.aside };
         self.gathering = false;
-        for rows in &self.lean {
+        for rows in rows {
             for state in &mut self.states[rows.clone()] {
                 state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
                 self.gathering |= state.gathers;
             }
         }
+    }
+
+    /// Numbers of the rows that are asked by `g`.
+    pub fn asked(&self) -> &[Range<usize>] {
+        if self.gathering { &self.lean } else { &self.aside }
     }
 
     /// Writes Γ = D K D among these rows of one joint or of a coupling, D diagonal.

@@ -3,6 +3,7 @@
 use fearless_simd::dispatch;
 
 use super::System;
+use crate::articulation::ball::Wanted;
 use crate::articulation::trains::Asked;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{angular, dot, linear, vec6};
@@ -10,8 +11,20 @@ use soffio_math::spatial::{angular, dot, linear, vec6};
 impl System {
     /// Solves for `a` and `lambda` from `b` and `g`.
     pub fn solve(&mut self) {
+        self.factor.hung.want(&mut self.factor.tree, &self.g);
+        self.solve_for(Wanted::Told);
+        self.factor.hung.tell_forces(&self.factor.tree, &mut self.lambda);
+    }
+
+    /// The same where nobody asks for the `lambda` of points by which bodies hang, and `wanted` is their `g`. While rows are
+    /// drawn together all asks are in `g`.
+    fn solve_as(&mut self, wanted: Wanted) {
+        if self.rows.gathering { self.solve() } else { self.solve_for(wanted) }
+    }
+
+    fn solve_for(&mut self, wanted: Wanted) {
         let Self { factor, quads, sleepers, b, g, a, lambda, .. } = self;
-        dispatch!(quads.level(), simd => factor.solve(simd, quads, (b, g), (a, lambda)));
+        dispatch!(quads.level(), simd => factor.solve(simd, quads, (b, g, wanted), (a, lambda)));
         for &body in &sleepers.still {
             a[body] = [0.0; 6];
         }
@@ -37,28 +50,29 @@ impl System {
                 *g = -state.bias - drawn;
             }
         } else {
-            self.factor.hung.want_still(&self.factor.tree, &mut self.g);
             let various = self.rows.various[..self.rows.outside_trains].iter().map(|&joint| &self.rows.joints[joint]);
             let rows = various.flat_map(|joint| joint.at..joint.at + joint.rows);
             for row in rows.chain(self.rows.couplings.iter().map(|coupling| coupling.at)) {
                 self.g[row] = -self.rows.states[row].bias;
             }
         }
-        self.solve();
+        self.solve_as(Wanted::Still);
     }
 
     /// Solves for the displacement that closes the joints' position error: J δ = −C, least in kinetic energy.
     pub fn solve_displacement(&mut self) {
         self.factor.asked = Asked::Place;
-        self.rows.tell_values(&self.factor);
+        if self.rows.gathering {
+            self.rows.tell_values(&self.factor);
+        }
         self.b.fill([0.0; 6]);
         self.still();
-        for rows in &self.rows.lean {
+        for rows in self.rows.asked() {
             for (g, state) in self.g[rows.clone()].iter_mut().zip(&self.rows.states[rows.clone()]) {
                 *g = if state.gathers { 0.0 } else { -state.value };
             }
         }
-        self.solve();
+        self.solve_as(Wanted::Closed);
     }
 
     /// Solves for the velocity change that makes J (v + δ) + Γ λ = ḟ: joints hold, soft rows resist. What is still
@@ -84,21 +98,21 @@ impl System {
         self.factor.asked = Asked::Velocity;
         self.still();
         self.rates(bodies);
-        for rows in &self.rows.lean {
+        for rows in self.rows.asked() {
             for (g, state) in self.g[rows.clone()].iter_mut().zip(&self.rows.states[rows.clone()]) {
                 *g = if state.gathers { 0.0 } else { -*g };
             }
         }
-        self.solve();
+        self.solve_as(Wanted::Told);
     }
 
     /// Solves for the velocity change after impulses `b`, joints held: J δ = 0.
     pub fn solve_impulse(&mut self) {
-        for rows in &self.rows.lean {
+        for rows in self.rows.asked() {
             self.g[rows.clone()].fill(0.0);
         }
         self.still();
-        self.solve();
+        self.solve_as(Wanted::Nothing);
     }
 
     /// Driven bodies do not give way.
@@ -110,10 +124,13 @@ impl System {
         }
     }
 
-    /// Ċ of every row into `g`.
+    /// Ċ of every row into `g`; points by which bodies hang are told to come to rest.
     fn rates(&mut self, bodies: &[RigidBody]) {
         let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
-        self.factor.hung.rates(self.quads.all(), &self.factor.tree, &mut self.g);
+        self.factor.hung.want_rest(self.quads.all(), &mut self.factor.tree);
+        if self.rows.gathering {
+            self.factor.hung.tell_rates(&self.factor.tree, &mut self.g);
+        }
         for joint in self.rows.various[..self.rows.outside_trains].iter().map(|&joint| &self.rows.joints[joint]) {
             let at = joint.at;
             match (joint.arms, joint.block) {
@@ -161,7 +178,10 @@ impl System {
     /// Closes the joints: adds the answer of [`System::solve_displacement`] to the quads' places.
     pub fn close_quads(&mut self) {
         self.quads.displace(&self.a);
-        for rows in &self.rows.lean {
+        self.rows.told = false;
+        let gathering = self.rows.gathering.then_some(&self.rows.states[..]);
+        self.factor.hung.close(&mut self.factor.tree, gathering);
+        for rows in &self.rows.aside {
             for state in self.rows.states[rows.clone()].iter_mut().filter(|state| !state.gathers) {
                 state.value = 0.0;
             }
