@@ -15,7 +15,7 @@ use super::quads::{Homes, Quad, Slot};
 use super::system::RowState;
 use super::tree::Tree;
 use soffio_math::DVec3;
-use soffio_math::lanes::{All, Four, One, V3, WIDTH};
+use soffio_math::lanes::{All, Four, Lanes, One, V3, WIDTH};
 
 /// The points by which the bodies of each quad hang.
 #[derive(Clone, Debug)]
@@ -28,8 +28,11 @@ pub struct Hung {
 struct Ends {
     own: V3<Four>,
     parent: V3<Four>,
-    /// Which of the bodies hang like this.
+    /// Which of the bodies hang like this, and each one's joint.
     hang: [bool; WIDTH],
+    joints: [usize; WIDTH],
+    /// 1 for those that do, 0 for others.
+    counts: Four,
 }
 
 /// One joint of those of a quad.
@@ -51,16 +54,16 @@ impl OnePoint<'_> {
 }
 
 impl Hung {
-    /// `points` gives both ends of a body's joint where it is one point always: the body's and its parent's.
-    pub fn new(tree: &Tree, points: impl Fn(usize) -> Option<(DVec3, DVec3)>) -> Self {
+    /// `points` gives a body's joint where it is one point always, and both ends of it: the body's and its parent's.
+    pub fn new(tree: &Tree, points: impl Fn(usize) -> Option<(usize, (DVec3, DVec3))>) -> Self {
         let mut ends = vec![Ends::default(); tree.members().len()];
         for &body in tree.order() {
             let Slot { quad, lane } = tree.slot(body);
-            let Some((own, parent)) = points(body) else { continue };
+            let Some((joint, (own, parent))) = points(body) else { continue };
             let lanes = One(lane);
             ends[quad].own.put(lanes, own.into());
             ends[quad].parent.put(lanes, parent.into());
-            ends[quad].hang[lane] = true;
+            (ends[quad].hang[lane], ends[quad].joints[lane], ends[quad].counts.0[lane]) = (true, joint, 1.0);
         }
         Self { ends }
     }
@@ -108,13 +111,27 @@ impl Hung {
 
     /// Largest |C| of any point, m.
     pub fn largest(&self, tree: &Tree) -> f64 {
-        let mut largest = 0.0;
-        for (ends, Points { value, .. }) in self.ends.iter().zip(&tree.points) {
-            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
-                largest = value.x.0[lane].abs().max(value.y.0[lane].abs()).max(value.z.0[lane].abs()).max(largest);
+        let mut largest = [0.0; WIDTH];
+        for Points { value, .. } in &tree.points {
+            for part in [&value.x, &value.y, &value.z] {
+                for (largest, value) in largest.iter_mut().zip(part.0) {
+                    let size = value.abs();
+                    *largest = if size > *largest { size } else { *largest };
+                }
             }
         }
-        largest
+        largest.into_iter().fold(0.0, f64::max)
+    }
+
+    /// What the joints of bodies that are awake carry, into `loads`, N.
+    pub fn weigh(&self, tree: &Tree, asleep: &[bool], loads: &mut [f64]) {
+        for ((ends, members), Points { force, .. }) in self.ends.iter().zip(&tree.members).zip(&tree.points) {
+            let (x, y, z) = (&force.x.0, &force.y.0, &force.z.0);
+            let all: [f64; WIDTH] = std::array::from_fn(|k| (x[k] * x[k] + y[k] * y[k] + z[k] * z[k]).sqrt());
+            for lane in (0..WIDTH).filter(|&lane| ends.hang[lane] && !asleep[members.bodies[lane]]) {
+                loads[ends.joints[lane]] = all[lane];
+            }
+        }
     }
 
     /// The points are closed; where some are being drawn together, all but these.
@@ -159,7 +176,7 @@ impl Hung {
             let (spin, other) = (own.state.spin.get(lanes), parent.vector(lanes, |quad| &quad.state.spin));
             let bias = spin.cross(spin.cross(r)) - other.cross(other.cross(s));
             let points = &mut tree.points[quad];
-            points.value.put(lanes, value);
+            points.value.put(lanes, value * lanes.get(&ends.counts));
             points.bias.put(lanes, bias);
         }
     }

@@ -267,12 +267,6 @@ impl Quads {
         let (moving, members, quads) = (&self.moving, &self.members, &mut self.quads);
         dispatch!(self.level, simd => displace(simd, moving, members, quads, by));
     }
-
-    /// Adds to the velocities.
-    pub fn push(&mut self, by: &[Vec6]) {
-        let (moving, members, quads) = (&self.moving, &self.members, &mut self.quads);
-        dispatch!(self.level, simd => push(simd, moving, members, quads, by));
-    }
 }
 
 #[inline(always)]
@@ -303,19 +297,6 @@ fn displace<S: Simd>(simd: S, moving: &[usize], members: &[Members], quads: &mut
         let rotation = Quat::of_turn(lanes, by.angular).times(state.rotation.get(lanes)).renormalized();
         state.position.put(lanes, position);
         state.rotation.put(lanes, &rotation);
-    }
-}
-
-#[inline(always)]
-fn push<S: Simd>(simd: S, moving: &[usize], members: &[Members], quads: &mut [Quad], by: &[Vec6]) {
-    let lanes = All(simd);
-    for &index in moving {
-        let (four, quad) = (&members[index], &mut quads[index]);
-        let by = Twist::gather(lanes, |k| &by[four.bodies[k]]);
-        let state = &mut quad.state;
-        let (velocity, spin) = (state.velocity.get(lanes) + by.linear, state.spin.get(lanes) + by.angular);
-        state.velocity.put(lanes, velocity);
-        state.spin.put(lanes, spin);
     }
 }
 

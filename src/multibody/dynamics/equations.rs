@@ -4,7 +4,7 @@
 
 use super::Drive;
 use super::forces::{Damping, Springs, Wrenches};
-use super::passes::{Push, Show, by_quads};
+use super::passes::{Push, Settle, Show, by_quads};
 use crate::articulation::System;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
@@ -183,9 +183,10 @@ impl Equations {
         }
         if in_speed {
             self.system.solve_velocity_quads(bodies);
-            self.system.apply_velocity_quads();
+            by_quads(&mut self.system, Settle { bodies });
+        } else {
+            by_quads(&mut self.system, Show { bodies });
         }
-        by_quads(&mut self.system, Show { bodies });
     }
 
     /// Evaluates the rows at the quads' present state.

@@ -32,11 +32,7 @@ impl JointLoads {
 
     /// Notes what the joints carry by the last solve.
     pub fn weigh(&mut self, system: &System) {
-        for (joint, load) in self.loads.iter_mut().enumerate() {
-            if system.is_weighed(joint) {
-                *load = system.load(joint);
-            }
-        }
+        system.weigh(&mut self.loads);
     }
 
     /// Forgets it.

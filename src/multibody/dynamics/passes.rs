@@ -98,6 +98,26 @@ impl Pass for Show<'_> {
     }
 }
 
+/// Adds the change of velocities found last; the bodies follow.
+pub(super) struct Settle<'a> {
+    pub bodies: &'a mut [RigidBody],
+}
+
+impl Pass for Settle<'_> {
+    #[inline(always)]
+    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+        let (members, quad) = quad(system, index);
+        let by = accelerations(lanes, system, &members);
+        let mut state = quad.state.get(lanes);
+        state.velocity += by.linear;
+        state.spin += by.angular;
+        state.put(lanes, &members, self.bodies);
+        let quad = &mut system.quads_mut().all_mut()[index].state;
+        quad.velocity.put(lanes, state.velocity);
+        quad.spin.put(lanes, state.spin);
+    }
+}
+
 /// From one Runge–Kutta stage to the next: takes the rate at this one, of this weight, and goes on with it from the
 /// start over `h`.
 pub(super) struct Stage<'a> {

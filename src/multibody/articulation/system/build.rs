@@ -219,10 +219,11 @@ fn couplings(
     (couplings, count)
 }
 
-/// Both ends of the joint by which a body hangs, where it is one point always: the body's and its parent's.
-fn ends(tree: &Tree, joints: &[Joint], body: usize) -> Option<(DVec3, DVec3)> {
-    let joint = tree.joint_of(body).map(|joint| &joints[joint]).filter(|joint| joint.hangs == Some(body))?;
-    joint.point.map(|(a, b)| if joint.link.a == body { (a, b) } else { (b, a) })
+/// The joint by which a body hangs, where it is one point always, and both ends of it: the body's and its parent's.
+fn ends(tree: &Tree, joints: &[Joint], body: usize) -> Option<(usize, (DVec3, DVec3))> {
+    let index = tree.joint_of(body).filter(|&joint| joints[joint].hangs == Some(body))?;
+    let joint = &joints[index];
+    joint.point.map(|(a, b)| (index, if joint.link.a == body { (a, b) } else { (b, a) }))
 }
 
 /// Ranges that follow each other as one.

@@ -184,12 +184,6 @@ impl System {
         }
     }
 
-    /// Is what a joint carries known: is it awake, and no train's?
-    pub fn is_weighed(&self, joint: usize) -> bool {
-        let Joint { in_train, link, .. } = self.rows.joints[joint];
-        !in_train && !self.sleepers.bodies[link.a]
-    }
-
     /// Does what a constraint is between sleep?
     pub fn constraint_sleeps(&self, constraint: usize) -> bool {
         self.sleepers.constraints[constraint]

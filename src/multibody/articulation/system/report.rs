@@ -155,17 +155,17 @@ impl System {
         }
     }
 
-    /// The force that a joint's length rows carried in the last solve of forces, N.
-    pub fn load(&self, joint: usize) -> f64 {
-        let j = &self.rows.joints[joint];
-        if let Some(body) = j.hangs {
-            return self.factor.tree.force(body).length();
+    /// The force that each joint's length rows carried in the last solve of forces, into `loads`, N. What sleeps, and what a
+    /// train holds itself, keeps its own.
+    pub fn weigh(&self, loads: &mut [f64]) {
+        self.factor.hung.weigh(&self.factor.tree, &self.sleepers.bodies, loads);
+        for &index in &self.rows.various[..self.rows.outside_trains] {
+            let joint = &self.rows.joints[index];
+            if !self.sleepers.bodies[joint.link.a] {
+                let lengths = (joint.at..joint.at + joint.hard).filter(|&row| self.rows.states[row].length);
+                loads[index] = lengths.fold(0.0, |sum, row| sum + self.lambda[row] * self.lambda[row]).sqrt();
+            }
         }
-        let mut sum = 0.0;
-        for row in (j.at..j.at + j.hard).filter(|&row| self.rows.states[row].length) {
-            sum += self.lambda[row] * self.lambda[row];
-        }
-        sum.sqrt()
     }
 
     /// World arms from a joint's bodies to its point at the last evaluation, for stiffness estimates, m.

@@ -170,11 +170,6 @@ impl System {
         }
     }
 
-    /// Adds the answer `a` to the quads' velocities.
-    pub fn apply_velocity_quads(&mut self) {
-        self.quads.push(&self.a);
-    }
-
     /// Closes the joints: adds the answer of [`System::solve_displacement`] to the quads' places.
     pub fn close_quads(&mut self) {
         self.quads.displace(&self.a);
