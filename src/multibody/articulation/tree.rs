@@ -242,6 +242,12 @@ impl Tree {
         if self.hang[body].first { (own, parent) } else { (parent, own) }
     }
 
+    /// What the point by which a body hangs carries by the last solve, as seen from the body, N.
+    pub fn force(&self, body: usize) -> DVec3 {
+        let Slot { quad, lane } = self.slots[body];
+        self.points[quad].force.get(One(lane)).into()
+    }
+
     /// Bodies on the ways from these to their roots, roots first, into `ways`; `on` lends a flag a body. In loops there are no ways.
     pub fn paths_into(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
         on.fill(false);

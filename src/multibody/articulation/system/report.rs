@@ -202,15 +202,19 @@ impl System {
     pub fn carried(&self, constraint: usize) -> (f64, f64) {
         let (mut force, mut torque) = (0.0, 0.0);
         let joints = self.rows.joints.iter().filter(|joint| joint.constraints.contains(&constraint));
-        let rows = joints.flat_map(|joint| joint.at..joint.at + joint.hard);
+        let of_joint = |joint: &'_ Joint| {
+            let hung = joint.hangs.map(|body| self.factor.tree.force(body).to_array());
+            let at = joint.at;
+            (0..joint.hard).map(move |k| (at + k, hung.map_or_else(|| self.lambda[at + k], |hung| hung[k])))
+        };
         let couplings = self.rows.couplings.iter().filter(|c| c.constraint == constraint).map(|c| c.at);
-        let couplings = couplings.filter(|_| self.activity.share(constraint) > 0.0);
-        let own = |&row: &usize| {
+        let couplings = couplings.filter(|_| self.activity.share(constraint) > 0.0).map(|at| (at, self.lambda[at]));
+        let own = |&(row, _): &(usize, f64)| {
             let state = &self.rows.states[row];
             state.constraint == constraint && state.value.abs() <= PROJECTION_REACH
         };
-        for row in rows.chain(couplings).filter(own) {
-            let square = self.lambda[row] * self.lambda[row];
+        for (row, lambda) in joints.flat_map(of_joint).chain(couplings).filter(own) {
+            let square = lambda * lambda;
             if self.rows.states[row].length { force += square } else { torque += square }
         }
         (force.sqrt(), torque.sqrt())

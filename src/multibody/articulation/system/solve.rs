@@ -13,6 +13,11 @@ impl System {
     pub fn solve(&mut self) {
         self.factor.hung.want(&mut self.factor.tree, &self.g);
         self.solve_for(Wanted::Told);
+        self.tell_multipliers();
+    }
+
+    /// Tells `lambda` what points by which bodies hang carry by the last solve.
+    pub fn tell_multipliers(&mut self) {
         self.factor.hung.tell_forces(&self.factor.tree, &mut self.lambda);
     }
 

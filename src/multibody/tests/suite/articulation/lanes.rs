@@ -58,12 +58,14 @@ fn solved(system: &mut System, bodies: &[RigidBody], gathers: bool, random: &mut
     system.solve();
     let (mut a, mut lambda) = (system.a.clone(), system.lambda.clone());
     system.solve_velocity(bodies);
+    system.tell_multipliers();
     a.extend(&system.a);
     lambda.extend(&system.lambda);
     for wrench in &mut system.b {
         *wrench = [0.0, -1.0, 0.0, 0.1, 0.0, 0.0];
     }
     system.solve_acceleration(bodies, 10.0);
+    system.tell_multipliers();
     a.extend(&system.a);
     lambda.extend(&system.lambda);
     (a, lambda)
