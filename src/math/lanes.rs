@@ -140,8 +140,10 @@ impl<S: Simd> Lanes for All<S> {
             }
             n += 1;
         }
-        for lane in (0..count.min(WIDTH)).rev() {
-            to(lane, &out[lane]);
+        for lane in (0..WIDTH).rev() {
+            if lane < count {
+                to(lane, &out[lane]);
+            }
         }
     }
 
