@@ -6,13 +6,13 @@
 //! gone through once and as long as the joints' error and the spin allow.
 //!
 //! Work is counted in operations, not in time: the same run takes the same way on every machine. The numbers were measured by
-//! counting instructions of towers, heaps and pegs; they need to be right to a factor of two. What the contact solver does beyond
-//! one look at each touch is not counted: with it balls that roll against each other hurry so often that they do not come to rest. So
-//! passes are bounded, and a pass by the solver's own bounds (`contacts/newton.rs`).
+//! counting instructions of towers, heaps and pegs; they need to be right to a factor of two. One solve of the contact problem
+//! has bounds of its own (`contacts/newton.rs`).
 
 /// Operations of a step, at most, but for the substep that ends it: a millisecond of a processor of 2020.
 const ALLOWED: u64 = 1_500_000;
-/// Operations of a pass over one body, of a touch with its points, and of a touch in a step of Newton's method beside the factor.
+/// Operations of a pass over one body, of a touch with its points, of a touch in a step of Newton's method beside the factor, and
+/// in a sweep.
 const BODY: u64 = 2_500;
 pub(super) const TOUCH: u64 = 2_500;
 pub(super) const SOLVED: u64 = 1_500;
@@ -44,11 +44,6 @@ impl Effort {
 
     /// Would a substep with all its passes be too much?
     pub fn is_spent(&self) -> bool {
-        self.spent + PASSES * self.pass > allowed()
+        self.spent + PASSES * self.pass > ALLOWED
     }
-}
-
-fn allowed() -> u64 {
-    static A: std::sync::OnceLock<u64> = std::sync::OnceLock::new();
-    *A.get_or_init(|| std::env::var("ALLOWED").map_or(ALLOWED, |s| s.parse().unwrap()))
 }
