@@ -55,6 +55,8 @@ pub struct Diagnostics {
     pub faults: u64,
     /// Integration substeps of the last step.
     pub substeps: u32,
+    /// Operations of motion in the last step, about: the same on every machine.
+    pub operations: u64,
     /// Sum of the wind's forces, N.
     pub wind_force: DVec3,
     /// What moved the figure in the last step.
@@ -139,6 +141,7 @@ impl Simulation {
                 impacts: self.emitter.impacts,
                 faults: self.emitter.faults,
                 substeps: self.motion.dynamics.substeps(),
+                operations: self.motion.dynamics.operations(),
                 wind_force: self.air.report.force,
                 mode: self.motion.mode,
                 hands: self.motion.hands.count(),

@@ -18,6 +18,7 @@ mod expected;
 mod files;
 mod gather;
 mod hands;
+mod loads;
 mod motion;
 mod repeatable;
 mod robust;
@@ -50,7 +51,7 @@ macro_rules! properties {
     (@ ignored) => { true };
 }
 
-const PROPERTIES: [Property; 19] = properties![
+const PROPERTIES: [Property; 20] = properties![
     files::loads_without_a_warning,
     files::has_its_picture_in_the_readme,
     files::its_model_reads_back_as_it_was_written,
@@ -71,6 +72,7 @@ const PROPERTIES: [Property; 19] = properties![
     robust::a_hundred_times_the_gravity_is_borne,
     hands::the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle,
     hands::no_handling_breaks_anything,
+    loads::no_step_does_more_than_fits_into_it,
 ];
 
 /// Parts `hands` and `places` of tests/check.sh --long.

@@ -46,8 +46,9 @@ struct Row {
     all: Option<LoadReport>,
 }
 
-/// Measures the named exhibits, or all that are shipped.
-pub fn run(names: &[String], seconds: f64, seeds: u64, json: bool) -> Outcome {
+/// Measures the named exhibits, or all that are shipped, for so many seconds under so many seeds. Fails where a step takes longer
+/// than `within` ms.
+pub fn run(names: &[String], (seconds, seeds): (f64, u64), within: Option<f64>, json: bool) -> Outcome {
     let names = if names.is_empty() { soffio_exhibit::ids() } else { names.to_vec() };
     if names.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
@@ -70,8 +71,14 @@ pub fn run(names: &[String], seconds: f64, seeds: u64, json: bool) -> Outcome {
             "p100"
         );
     }
+    let mut late = Vec::new();
     for name in names {
         let row = measure(&open(&name)?, seconds, seeds)?;
+        if let (Some(within), Some(all)) = (within, &row.all)
+            && all.times.p100_us > 1e3 * within
+        {
+            late.push(format!("{} ({:.2} ms in a {})", row.exhibit, 1e-3 * all.times.p100_us, all.worst_load));
+        }
         if json {
             println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
         } else {
@@ -96,6 +103,9 @@ pub fn run(names: &[String], seconds: f64, seeds: u64, json: bool) -> Outcome {
                 None => println!("none"),
             }
         }
+    }
+    if let (Some(within), false) = (within, late.is_empty()) {
+        return Err(Failure::input(format!("steps take longer than {within} ms: {}", late.join(", "))));
     }
     Ok(())
 }

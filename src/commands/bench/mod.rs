@@ -31,7 +31,7 @@ const PICTURE_SECONDS: f64 = 2.0;
 /// thousands of partials that ring, of motion by places, or of pictures.
 #[derive(clap::Args, Debug)]
 #[command(
-    after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --seeds 100\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
+    after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --seeds 100 --within 4.17\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
                         soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound\n  \
                         soffio bench --procedural\n  soffio bench steel-fish --picture 1920x1080"
 )]
@@ -70,6 +70,9 @@ pub struct Args {
     /// Assemblies of an exhibit, each from parts scattered by a seed of its own.
     #[arg(long, value_name = "N", default_value_t = 5, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
     seeds: u64,
+    /// Milliseconds that no step of an exhibit may take longer than; the command fails where one does.
+    #[arg(long, value_name = "MS", conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
+    within: Option<f64>,
     /// Simulated seconds: of each measurement of an exhibit (10 if not given; 2 of pictures), at most of a scene.
     #[arg(long, value_parser = parse_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
@@ -114,7 +117,8 @@ pub fn run(args: Args) -> Outcome {
         return picture::run(&args.exhibits, size, args.seconds.unwrap_or(PICTURE_SECONDS), args.json);
     }
     if args.scene.is_empty() {
-        return exhibits::run(&args.exhibits, args.seconds.unwrap_or(EXHIBIT_SECONDS), args.seeds, args.json);
+        let seconds = args.seconds.unwrap_or(EXHIBIT_SECONDS);
+        return exhibits::run(&args.exhibits, (seconds, args.seeds), args.within, args.json);
     }
     let integrator = match args.integrator {
         IntegratorArg::Auto => Integrator::Auto,

@@ -42,6 +42,11 @@ impl Effort {
         self.spent += self.pass;
     }
 
+    /// Operations of the step so far.
+    pub fn spent(&self) -> u64 {
+        self.spent
+    }
+
     /// Would a substep with all its passes be too much?
     pub fn is_spent(&self) -> bool {
         self.spent + PASSES * self.pass > ALLOWED

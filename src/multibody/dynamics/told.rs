@@ -96,4 +96,9 @@ impl Dynamics {
     pub fn substeps(&self) -> u32 {
         self.substeps
     }
+
+    /// Operations of the last step, about: the same on every machine (`effort.rs`).
+    pub fn operations(&self) -> u64 {
+        self.effort.spent()
+    }
 }
