@@ -19,7 +19,7 @@ const LEVEL: f64 = 1e-9;
 const MISSED: f64 = 1e-7;
 /// Corners are kept so far outside the other face, m: where two faces end together, a corner stays the point of contact, and does
 /// not jump to where edges cross.
-const OUTSIDE: f64 = 1e-8;
+const OUTSIDE: f64 = 1e-6;
 /// Points nearer to each other than this are one, m.
 const SAME: f64 = 1e-9;
 
@@ -150,26 +150,27 @@ impl Corners {
 }
 
 /// What of a polygon (or an edge) lies on the inner side of the plane through `p` across `inward`, about.
-fn clip(polygon: &[DVec3], p: DVec3, inward: DVec3, edge: bool, out: &mut Vec<DVec3>) {
-    out.clear();
-    let inside = |q: DVec3| (q - p).dot(inward) + OUTSIDE * inward.length();
+fn clip(polygon: &[DVec3], p: DVec3, inward: DVec3, edge: bool, left: &mut Vec<DVec3>) {
+    left.clear();
+    let inside = |q: DVec3| (q - p).dot(inward);
+    let out = |at: f64| at < -OUTSIDE * inward.length();
     let last = if edge { polygon.len().saturating_sub(1) } else { polygon.len() };
     for k in 0..last {
         let (q, r) = (polygon[k], polygon[(k + 1) % polygon.len()]);
         let (at_q, at_r) = (inside(q), inside(r));
-        if at_q >= 0.0 {
-            out.push(q);
+        if !out(at_q) {
+            left.push(q);
         }
-        if (at_q < 0.0) != (at_r < 0.0) {
-            out.push(q + (r - q) * (at_q / (at_q - at_r)));
+        if out(at_q) != out(at_r) && (at_q < 0.0) != (at_r < 0.0) {
+            left.push(q + (r - q) * (at_q / (at_q - at_r)));
         }
     }
     if edge
         && let Some(&r) = polygon.last()
-        && inside(r) >= 0.0
+        && !out(inside(r))
         && last > 0
     {
-        out.push(r);
+        left.push(r);
     }
 }
 

@@ -286,16 +286,14 @@ impl Dynamics {
         integration.back_to_start(&mut moving);
     }
 
-    /// Longest substep that follows the fastest motion: the tension modes, the free spin, what the last error allowed and, unless
-    /// contact is solved `together`, what slides.
+    /// Longest substep that follows the fastest motion: the tension modes, the free spin, what the last error allowed, what tips and,
+    /// unless contact is solved `together`, what slides.
     fn substep_length(&self, dt: f64, together: bool) -> f64 {
         let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let spin = spins.fold(0.0, f64::max);
         let mut longest =
             (TENSION_PHASE / self.loads.stiffest().sqrt()).min(SPIN_PHASE / spin.sqrt()).min(self.integration.stride);
-        if !together {
-            longest = longest.min(self.contacts.longest_substep());
-        }
+        longest = longest.min(self.contacts.longest_substep(together));
         longest.max(dt / MOST_SUBSTEPS)
     }
 

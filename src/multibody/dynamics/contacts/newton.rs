@@ -41,16 +41,17 @@ const MOST_STEPS: usize = 40;
 const FEW_STEPS: usize = 2;
 /// Softness of touches in shares of their own answer: of the first leap, the least, and what it falls by with each leap that helps.
 const SOFTEST: f64 = 1e-3;
-const HARDEST: f64 = 1e-5;
+const HARDEST: f64 = 1e-7;
 const HARDER: f64 = 1e-2;
 /// A leap that leaves more than this share of what was missed helps little.
 const ENOUGH: f64 = 0.3;
-/// Kinds of leaps: where none helps, what misses its law by less than this share of the fastest velocity is left at that.
+/// Kinds of leaps.
 const KINDS: usize = 2;
-const UNSEEN: f64 = 1e-3;
-/// Sweeps at first and after such a leap, and leaps at most; then the best impulses so far are taken.
+/// Sweeps at first and after a leap that helps little, and leaps at most, where steps are cheap and where they are dear; then the
+/// best impulses so far are taken.
 const SWEEPS: usize = 5;
-const MOST_LEAPS: usize = 6;
+const MOST_LEAPS: usize = 12;
+const FEW_LEAPS: usize = 6;
 /// A touch on the way to its impulse.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Iterate {
@@ -173,9 +174,9 @@ impl Newton {
             own.iter().map(alone).fold(0.0, f64::max)
         };
         let cheap = self.step_effort(view, island) <= CHEAP;
-        let mut left = if cheap { MOST_STEPS } else { FEW_STEPS };
-        let (mut softness, mut kind, mut idle) = (SOFTEST, Leap::AsNow, 0);
-        for leap in 0..MOST_LEAPS {
+        let (mut left, leaps) = if cheap { (MOST_STEPS, MOST_LEAPS) } else { (FEW_STEPS, FEW_LEAPS) };
+        let (mut softness, mut kind, mut idle, mut mark) = (SOFTEST, Leap::AsNow, 0, best);
+        for leap in 0..leaps {
             // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
             if leap == 0 || idle > 0 {
                 let _ = (0..SWEEPS).find(|_| self.sweep(view, own) <= SETTLED);
@@ -190,14 +191,15 @@ impl Newton {
                 let missed = self.missed(view, own);
                 best = self.keep_better(own, missed, best);
             }
-            if better && (best <= ENOUGH * begun || best <= NEARLY) {
+            if better && best <= ENOUGH * begun {
                 idle = 0;
             } else {
                 idle += 1;
                 kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
             let ends = if cheap {
-                idle >= KINDS && best <= UNSEEN * self.fastest(own)
+                // Both kinds and the sweeps between them have brought little: rounding, or touches that have no answer.
+                idle > 0 && idle % KINDS == 0 && best > ENOUGH * std::mem::replace(&mut mark, best)
             } else {
                 idle > 0 && best <= NEARLY + NEARLY_SHARE * scale(self)
             };
@@ -208,12 +210,6 @@ impl Newton {
         own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].best);
         self.follow(view, island);
         best <= GOOD + GOOD_SHARE * scale(self)
-    }
-
-    /// The fastest velocity of these touches, m/s.
-    fn fastest(&self, own: &[usize]) -> f64 {
-        let speed = |touch: &usize| self.iterates[*touch].answer.arm * self.iterates[*touch].u.length();
-        own.iter().map(speed).fold(0.0, f64::max)
     }
 
     /// Keeps the impulses as they are if they miss the laws by less than the best so far. Answers what the best miss.

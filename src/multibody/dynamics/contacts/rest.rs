@@ -77,12 +77,14 @@ impl Contacts {
         rests || !self.forces.held.is_empty() || self.clutches.slipping().next().is_some()
     }
 
-    /// Longest substep in which what rests passes no feature of what it slides on, s.
-    pub(in crate::dynamics) fn longest_substep(&self) -> f64 {
+    /// Longest substep in which what rests tips little and, unless contact is solved `together`, passes no feature of what it slides
+    /// on, s.
+    pub(in crate::dynamics) fn longest_substep(&self, together: bool) -> f64 {
         if self.resting.at_rest.iter().all(|&pair| self.sleepers.sleep(self.surfaces.bodies_of(pair))) {
             return f64::INFINITY;
         }
-        (SLIDE / self.slip).min(self.forces.longest_substep()).min(self.fine)
+        let sliding = if together { f64::INFINITY } else { (SLIDE / self.slip).min(self.fine) };
+        sliding.min(self.forces.longest_substep())
     }
 
     /// Lays the forces that hold what rests out for a substep of `h` seconds. While joints are open there are none: the
@@ -127,7 +129,7 @@ impl Contacts {
         if last {
             // What sinks grows as the substep's square.
             let (sunk, fine) = (self.deepest_sinking(), if self.problem.has_open_joints() { FALL } else { FINE });
-            self.fine = h * (SAFELY * fine / sunk).sqrt().min(FASTEST_GROWTH);
+            self.fine = (h * (SAFELY * fine / sunk).sqrt()).min(FASTEST_GROWTH * self.fine);
             if shortens && sunk > fine && (0..self.problem.touches.len()).all(|touch| self.problem.is_good(touch)) {
                 return Verdict::Shorter;
             }
