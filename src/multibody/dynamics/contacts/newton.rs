@@ -187,14 +187,14 @@ impl Newton {
             let mut better = false;
             if best > SETTLED && left > 0 && (cheap || best <= NEAR) {
                 better = self.leap(view, island, (kind, softness), &mut left);
-                softness = if better { (softness * HARDER).max(HARDEST) } else { SOFTEST };
                 let missed = self.missed(view, own);
                 best = self.keep_better(own, missed, best);
             }
             if better && best <= ENOUGH * begun {
-                idle = 0;
+                (idle, softness) = (0, (softness * HARDER).max(HARDEST));
             } else {
-                idle += 1;
+                // Hard touches make much of rounding.
+                (idle, softness) = (idle + 1, SOFTEST);
                 kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
             }
             let ends = if cheap {
