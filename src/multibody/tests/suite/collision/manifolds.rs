@@ -51,6 +51,23 @@ fn assert_points(m: &Manifold, gap: f64, expected: &[[f64; 3]]) {
 }
 
 #[test]
+fn equal_faces_touch_at_their_corners_however_little_they_are_turned() {
+    /// A point of contact jumps from a corner to where edges cross by no more than this, m.
+    const NEAR: f64 = 1e-3;
+    let half = 0.05;
+    let cube = block(half, half, half);
+    for turn in [0.0, 1e-14, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3] {
+        let m = manifold(&cube, &tilted(DVec3::Y, turn, 2.0 * half), &cube, &at(0.0, 0.0, 0.0));
+        let corners: Vec<_> = m.points().iter().map(|p| [p.point.x > 0.0, p.point.z > 0.0]).collect();
+        assert!((0..4).all(|k| (0..k).all(|j| corners[j] != corners[k])), "turned by {turn}: {m:?}");
+        for p in m.points() {
+            let off = (p.point.x.abs() - half).abs().max((p.point.z.abs() - half).abs());
+            assert!(off < NEAR, "turned by {turn}: {} is {off} m from its corner", p.point);
+        }
+    }
+}
+
+#[test]
 fn a_face_on_a_face_touches_at_the_corners_of_what_they_share() {
     let small = block(0.1, 0.05, 0.1);
     // Half over the edge of a larger block, apart, touching and sunk in.

@@ -97,6 +97,22 @@ fn a_heap_comes_to_rest_and_gains_no_energy() {
 }
 
 #[test]
+fn a_heap_that_is_too_much_for_a_step_comes_to_rest_and_sleeps() {
+    /// Operations of a step that no longer follows each impact.
+    const HURRIED: u64 = 3_000_000;
+    let mut dynamics = heap(50).dynamics();
+    let (still, mut impacts) = (vec![[0.0; 6]; 50], Vec::new());
+    let mut most = 0;
+    for _ in 0..2400 {
+        assert_eq!(dynamics.step(DT, &still, &mut impacts), None);
+        most = most.max(dynamics.operations());
+    }
+    assert!(most > HURRIED, "{most} operations are none too many");
+    let awake = (0..50).filter(|&body| !dynamics.sleeps(body)).count();
+    assert_eq!(awake, 0, "all sleep after ten seconds");
+}
+
+#[test]
 fn the_same_heap_ends_in_the_same_bits() {
     let ends = || {
         let mut dynamics = heap(12).dynamics();
