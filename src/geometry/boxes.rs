@@ -13,8 +13,8 @@
 //! lose none: h is wider than what single precision rounds.
 //!
 //! A node has the boxes of a half of a half, split along the longest way of their middles. Boxes that move are refitted from
-//! the leaves to the root. How many nodes a ray meets goes with the surface of the boxes above the leaves; when that has grown
-//! by half since they were split, they are split anew. What a beam meets is the same, however they are split.
+//! the leaves to the root. How many nodes a ray meets grows with the surface of the boxes above the leaves. When that surface has
+//! grown by half since the last build, the tree is built again. A beam meets the same boxes whatever the tree.
 //!
 //! | symbol | here | unit |
 //! |---|---|---|
@@ -29,7 +29,7 @@ use glam::{Vec3A, Vec4};
 const OUTWARDS: f32 = 8.0 * f32::EPSILON;
 /// A beam that goes along an axis goes so far along the others, m: its inverse is finite.
 const LEAST_WAY: f32 = 1e-30;
-/// The boxes above the leaves are split anew when their surface has grown by this factor.
+/// The tree is built again when the surface of the boxes above the leaves has grown by this factor.
 const GROWN: f32 = 1.5;
 /// Boxes of a node.
 const WIDTH: usize = 4;
@@ -187,7 +187,7 @@ impl Boxes {
         }
     }
 
-    /// Splits all anew.
+    /// Builds the tree from the leaves' present boxes.
     fn build(&mut self) {
         self.nodes.clear();
         if !self.boxes.is_empty() {
@@ -249,8 +249,8 @@ impl Boxes {
         area
     }
 
-    /// Goes through the boxes that a beam meets. `ask` is told a node and which places of it are such boxes, and answers at
-    /// which share of its way the beam ends for all that follows: below 0 ends the search.
+    /// Visits the boxes that a beam meets. `ask` gets a node and a mask of the boxes in it that the beam meets. It returns the
+    /// share of the beam's length at which the search ends from then on; below 0 ends it at once.
     #[inline(always)]
     pub fn meet(&self, beam: &Beam, mut ask: impl FnMut(&Node, u32) -> f32) {
         let mut waiting = [0; WAITING];

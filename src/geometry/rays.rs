@@ -5,7 +5,8 @@
 //! moved. Lines that are asked about together go through the upper one in the world as one beam, and each is carried into
 //! the frames of the few parts whose boxes it meets, instead of carrying triangles into the world.
 //!
-//! Whoever asks again keeps the [`Hint`] of what stood in the way: as a rule it still does, and no hierarchy is asked.
+//! A caller keeps a [`Hint`] of the triangle that blocked a line. It is tested first the next time; as a rule it still blocks, and
+//! the hierarchies are not searched.
 //!
 //! Triangles and boxes are single precision; boxes are rounded outwards. A shadow's edge is off by less than a micrometre
 //! a metre from the origin.

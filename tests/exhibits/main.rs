@@ -72,7 +72,7 @@ const PROPERTIES: [Property; 20] = properties![
     robust::a_hundred_times_the_gravity_is_borne,
     hands::the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle,
     hands::no_handling_breaks_anything,
-    loads::no_step_does_more_than_fits_into_it,
+    loads::no_step_does_more_work_than_the_bound,
 ];
 
 /// Parts `hands` and `places` of tests/check.sh --long.

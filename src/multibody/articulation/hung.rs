@@ -99,7 +99,7 @@ impl Hung {
         self.each(tree, |joint| lambda[joint.at..joint.at + 3].copy_from_slice(&joint.seen(&joint.points.force)));
     }
 
-    /// Tells the points what to do, from `g`.
+    /// Sets what the points must do, from the right-hand side `g`.
     pub fn want(&self, tree: &mut Tree, g: &[f64]) {
         for ((ends, hooks), points) in self.ends.iter().zip(&tree.hooks).zip(&mut tree.points) {
             for lane in (0..WIDTH).filter(|&lane| ends.hang[lane]) {
@@ -181,7 +181,7 @@ impl Hung {
         }
     }
 
-    /// Tells the points to come to rest: g = −Ċ.
+    /// Sets the points' required velocity changes so that their errors stop growing: g = −Ċ.
     pub fn want_rest(&self, quads: &[Quad], tree: &mut Tree) {
         dispatch!(tree.level, simd => self.want_rest_in(simd, quads, tree));
     }

@@ -31,7 +31,7 @@ fn parts(count: usize) -> Occluders {
     Occluders::new(meshes.iter().enumerate().map(|(body, mesh)| ((body + 1 < count).then_some(body), mesh)))
 }
 
-/// Where bodies are: the farther apart the later, so that boxes are split anew on the way.
+/// Moves bodies apart as time goes on, so that the tree of boxes is built again on the way.
 fn scatter(occluders: &mut Occluders, random: &mut Random, count: usize, spread: f64) {
     let poses: Vec<Pose> =
         (0..count).map(|_| Pose { rotation: rotation(3.0 * any(random)), position: spread * any(random) }).collect();

@@ -57,8 +57,7 @@ pub struct System {
     pub g: Vec<f64>,
     /// Answer per body: acceleration, velocity change or displacement. Of driven bodies it is given.
     pub a: Vec<Vec6>,
-    /// Answer per row: force or impulse. Of points by which bodies hang the tree has it until it is told, which
-    /// [`System::solve`] does.
+    /// Answer per row: force or impulse. The tree keeps those of points by which bodies hang until [`System::solve`] copies them here.
     pub lambda: Vec<f64>,
 }
 
