@@ -11,9 +11,9 @@
 
 /// Operations of a step, at most, but for the substep that ends it: one to two milliseconds of a processor of 2020.
 const ALLOWED: u64 = 3_000_000;
-/// Operations of a pass over one body, of a touch with its points, of a touch in a step of Newton's method beside the factor, and
+/// Operations of a pass over one body with its joints, of a touch with its points, of a touch in a step of Newton's method beside the factor, and
 /// in a sweep.
-const BODY: u64 = 2_500;
+const BODY: u64 = 4_000;
 pub(super) const TOUCH: u64 = 2_500;
 pub(super) const SOLVED: u64 = 1_500;
 pub(super) const SWEPT: u64 = 500;

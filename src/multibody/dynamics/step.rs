@@ -18,6 +18,9 @@ const TENSION_PHASE: f64 = 3.2;
 const SPIN_PHASE: f64 = 0.25;
 /// Most substeps of one step: beyond it motion is followed less finely.
 const MOST_SUBSTEPS: f64 = 64.0;
+/// The same while joints are open. How they close is made up, not physics: nothing is gained by following it closely, and a
+/// scattered clock would need all of the above at every step.
+const MOST_SUBSTEPS_OPEN: f64 = 16.0;
 /// Most edges of windows that one step stops at; those nearer to each other are stepped over.
 const MOST_EDGES: f64 = 1024.0;
 /// A hit's time is aimed at this often, until it is right to this, s.
@@ -119,7 +122,7 @@ impl Dynamics {
             self.before.copy_from_slice(&self.bodies);
         }
         let now = self.time + done;
-        let least = dt / MOST_SUBSTEPS;
+        let least = self.shortest_substep(dt);
         let mut used = self.hold(now, h, least, false);
         if collides {
             if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
@@ -144,6 +147,7 @@ impl Dynamics {
     /// or rests, and returns the time used.
     fn substep_together(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
         let now = self.time + done;
+        let least = self.shortest_substep(dt);
         let (integration, mut moving) = self.moving();
         integration.begin_substep(&mut moving);
         self.before.copy_from_slice(&self.bodies);
@@ -151,7 +155,7 @@ impl Dynamics {
         self.contacts.lay_out_once(h, &self.equations.system);
         self.press();
         let (integration, mut moving) = self.moving();
-        let h = integration.integrate(&mut moving, now, h, dt / MOST_SUBSTEPS);
+        let h = integration.integrate(&mut moving, now, h, least);
         while self.sleep.any()
             && let Some(body) = self.contacts.met_asleep(&self.before, &self.bodies)
         {
@@ -294,7 +298,12 @@ impl Dynamics {
         let mut longest =
             (TENSION_PHASE / self.loads.stiffest().sqrt()).min(SPIN_PHASE / spin.sqrt()).min(self.integration.stride);
         longest = longest.min(self.contacts.longest_substep(together));
-        longest.max(dt / MOST_SUBSTEPS)
+        longest.max(self.shortest_substep(dt))
+    }
+
+    /// The shortest substep of a step of `dt` seconds, s.
+    fn shortest_substep(&self, dt: f64) -> f64 {
+        dt / if self.equations.system.gathers() { MOST_SUBSTEPS_OPEN } else { MOST_SUBSTEPS }
     }
 
     /// Joints or what acts on them have changed: all wake, and nothing goes on from what was.

@@ -43,6 +43,8 @@ const FALL: f64 = 1e-5;
 /// The next substep is to sink this share of it.
 const SAFELY: f64 = 0.6;
 const FASTEST_GROWTH: f64 = 2.0;
+/// Less sinking than this says nothing of longer substeps, m: a hit cuts a substep at its time, right to some nanometres.
+const SEEN: f64 = 1e-9;
 /// What rests does not sink deeper than this in one substep, m.
 const SUNK: f64 = 2e-5;
 /// No approach is as fast as this, m/s.
@@ -129,7 +131,8 @@ impl Contacts {
         if last {
             // What sinks grows as the substep's square.
             let (sunk, fine) = (self.deepest_sinking(), if self.problem.has_open_joints() { FALL } else { FINE });
-            self.fine = (h * (SAFELY * fine / sunk).sqrt()).min(FASTEST_GROWTH * self.fine);
+            let square = if sunk > SEEN { SAFELY * fine / sunk } else { f64::INFINITY };
+            self.fine = (h * square.sqrt()).min(FASTEST_GROWTH * self.fine);
             if shortens && sunk > fine && (0..self.problem.touches.len()).all(|touch| self.problem.is_good(touch)) {
                 return Verdict::Shorter;
             }
