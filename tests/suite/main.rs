@@ -10,6 +10,7 @@ mod clock;
 mod curator;
 #[cfg(feature = "kiosk")]
 mod details;
+mod documents;
 mod exhibit;
 mod exhibits_in_motion;
 mod exports;
