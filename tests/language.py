@@ -5,14 +5,15 @@
   tests/language.py PATH …          of these files and folders alone
   tests/language.py --names PATH …  only names          tests/language.py --prose PATH …  only sentences
   tests/language.py --all …         every finding, not only the first of each kind
+  tests/language.py --items SEED    60 public items drawn with this seed and their documentation, to be read by somebody
 
-Names: no identifier, file or phrase of the left column of tests/glossary.toml.
+Names: no identifier, file or phrase of the left column of tests/glossary.toml, and each term to be found leads to its file.
 Sentences: of all Markdown, doc comments and messages; 20 words on average at most, none over 40.
 
 A sentence ends at `.`, `?` or `!`, at the end of a paragraph and of a list item. Code, tables, headings and formulas
 are no sentences. A piece of code within a sentence counts as one word.
 """
-import fnmatch, os, re, subprocess, sys, tomllib
+import fnmatch, os, random, re, subprocess, sys, tomllib
 
 MEAN, LONGEST = 20, 40
 # Fewer words than this are a label, not a message.
@@ -219,8 +220,45 @@ def check_names(listed, everything):
     return not found
 
 
+def check_terms():
+    """Each term that somebody would search for is in the name of its file, or of a type or function in it."""
+    good = True
+    for one in tomllib.load(open(os.path.join(HERE, "glossary.toml"), "rb")).get("find", []):
+        parts = one["term"].lower().split()
+        path = os.path.join(ROOT, one["file"])
+        text = open(path, encoding="utf-8").read() if os.path.isfile(path) else ""
+        names = [one["file"]] + re.findall(r"\b(?:struct|enum|trait|fn|type|mod) (\w+)", text)
+        if not text or not any("".join(parts) in name.lower().replace("_", "").replace("-", "") for name in names):
+            print(f"“{one['term']}” does not lead to {one['file']}")
+            good = False
+    return good
+
+
+def draw_items(seed, number=60):
+    """Public items and their documentation, drawn at random."""
+    items = []
+    for path in files(["src"]):
+        if not path.endswith(".rs") or "/tests/" in path or "/examples/" in path:
+            continue
+        documentation = []
+        for number_of_line, line in enumerate(open(os.path.join(ROOT, path), encoding="utf-8").read().split("\n"), 1):
+            found = re.match(r"\s*///\s?(.*)", line)
+            if found:
+                documentation.append(found.group(1))
+            elif re.match(r"\s*pub (?:const fn|fn|struct|enum|trait|const|type|static|\w+:)", line):
+                items.append((f"{path}:{number_of_line}", " ".join(documentation), line.strip().rstrip("{").strip()))
+                documentation = []
+            elif not re.match(r"\s*#\[", line):
+                documentation = []
+    for where, documentation, item in random.Random(seed).sample(items, number):
+        print(f"{where}\n    {item}\n    {documentation}")
+
+
 def main():
     arguments = sys.argv[1:]
+    if arguments[:1] == ["--items"]:
+        draw_items(int(arguments[1]))
+        return 0
     if "-h" in arguments or "--help" in arguments:
         print(__doc__)
         return 0
@@ -229,7 +267,7 @@ def main():
     everything = "--all" in options
     good = True
     if "--prose" not in options:
-        good &= check_names(listed, everything)
+        good &= check_names(listed, everything) & check_terms()
     if "--names" not in options:
         good &= check_prose(listed, everything)
     return 0 if good else 1
