@@ -2,7 +2,7 @@
 
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DVec3, Pose};
-use soffio_multibody::dynamics::Resistance;
+use soffio_multibody::dynamics::RollingResistance;
 
 /// Physical material of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Material {
     /// Installed loss factor η.
     pub loss_factor: f64,
     /// Its part in what resists rolling and spinning on it.
-    pub resistance: Resistance,
+    pub resistance: RollingResistance,
 }
 
 /// Override of the combine rule for one pair of materials.

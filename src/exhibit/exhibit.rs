@@ -13,7 +13,7 @@ use super::shapes;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
 use soffio_multibody::collision::{Collider, Exclusion, Pair};
-use soffio_multibody::dynamics::{Drive, Integrator, Resistance, Solver, SurfacePair};
+use soffio_multibody::dynamics::{Integrator, KinematicBody, RollingResistance, Solver, SurfacePair};
 use soffio_sound::InstrumentSpec;
 use soffio_wind::weather::Wind;
 use soffio_wind::{Shelter, Surface};
@@ -47,7 +47,7 @@ pub struct Exhibit {
     /// Springs and dampers.
     pub springs: Vec<Spring>,
     /// Bodies that follow key frames or a path.
-    pub drives: Vec<Drive>,
+    pub drives: Vec<KinematicBody>,
     /// Key frames of shapes, which the picture alone shows.
     pub shapes: Vec<shapes::ShapeTrack>,
     /// Length of one run, s; may be infinite.
@@ -118,7 +118,7 @@ impl Exhibit {
         let restitution = own.and_then(|p| p.restitution).unwrap_or((x.restitution * y.restitution).sqrt());
         let friction = own.and_then(|p| p.dynamic_friction).unwrap_or((x.dynamic_friction * y.dynamic_friction).sqrt());
         let (r, s) = (&x.resistance, &y.resistance);
-        let resistance = Resistance {
+        let resistance = RollingResistance {
             rolling: own.and_then(|p| p.rolling_resistance).unwrap_or(r.rolling + s.rolling),
             spinning: own.and_then(|p| p.spin_resistance).unwrap_or(r.spinning + s.spinning),
         };

@@ -7,7 +7,7 @@
 //! that of small hits (some 0.1 m/s). What rolls and spins does so freely. A curator who has measured better writes better.
 
 use super::Material;
-use soffio_multibody::dynamics::Resistance;
+use soffio_multibody::dynamics::RollingResistance;
 
 /// One row: name, kg/m³, μ static, μ sliding, restitution, E in GPa, Poisson's ratio, installed loss factor.
 type Row = (&'static str, f64, f64, f64, f64, f64, f64, f64);
@@ -47,6 +47,6 @@ pub fn builtin(name: &str) -> Option<Material> {
         youngs_modulus: gigapascals * 1e9,
         poisson,
         loss_factor,
-        resistance: Resistance::default(),
+        resistance: RollingResistance::default(),
     })
 }

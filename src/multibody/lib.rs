@@ -22,20 +22,20 @@
 //! use soffio_math::{DMat3, DVec3, Pose};
 //! use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind};
 //! use soffio_multibody::dynamics::forces::Damping;
-//! use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Settings, Solver};
+//! use soffio_multibody::dynamics::{Dynamics, Articulation, Integrator, Settings, Solver};
 //!
 //! // A ball of 1 kg, one metre beside the point of the world that it hangs from.
 //! let ball = MassProperties { mass: 1.0, center: DVec3::ZERO, inertia: DMat3::from_diagonal(DVec3::splat(1e-3)) };
 //! let bodies = vec![RigidBody::at_rest(ball, Pose { position: DVec3::X, ..Pose::IDENTITY })];
 //! let (a, b) = (Anchor { body: Some(0), point: DVec3::NEG_X }, Anchor { body: None, point: DVec3::ZERO });
 //! let constraints = [Constraint::new("hook", ConstraintKind::PointToPoint { a, b })];
-//! let figure = Figure {
+//! let figure = Articulation {
 //!     bodies,
 //!     damping: vec![Damping::default()],
 //!     constraints: &constraints,
 //!     limits: &[],
 //!     springs: &[],
-//!     drives: &[],
+//!     kinematic_bodies: &[],
 //!     colliders: &[],
 //!     pairs: Vec::new(),
 //! };

@@ -50,7 +50,7 @@ impl AimTarget {
         let (center, radius) = mesh.ball();
         let at = dynamics.bodies[body].pose().point(center);
         let mut answer = [DMat3::ZERO];
-        dynamics.answers(&[(body, at)], &mut answer);
+        dynamics.effective_inverse_mass(&[(body, at)], &mut answer);
         let [w] = answer.map(|w| (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0);
         let (faces, answers) = (mesh.orientation(), (w * mesh.area()).max(0.0).sqrt().sqrt());
         let normal = first_eigenvector(faces);

@@ -100,9 +100,9 @@ impl Carrying {
         self.place = (self.place.max(turned) + PACE * dt).min(turned + LEAD).min(goal);
         let body = &dynamics.bodies[clock.hand];
         let axis = body.rotation * clock.axis;
-        let share = if dynamics.slips(clock.hand) {
+        let share = if dynamics.clutch_slips(clock.hand) {
             let (rate, each) =
-                (body.angular_velocity.dot(axis), dynamics.turns(clock.hand, axis) * dt * clock.friction);
+                (body.angular_velocity.dot(axis), dynamics.angular_response(clock.hand, axis) * dt * clock.friction);
             self.load = (self.load + (self.wish - rate) / each).clamp(-STRONGEST, STRONGEST);
             self.wish = ((self.place - turned) / FOLLOWS).min(FASTEST);
             self.pull = 1.0;

@@ -26,7 +26,7 @@ use soffio_exhibit::{Exhibit, SoundTrigger};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::LimitKind;
-use soffio_multibody::dynamics::{Impact, ImpactKind, Touching};
+use soffio_multibody::dynamics::{ContactReport, Impact, ImpactKind};
 use soffio_sound::{Slide, SoundCommand, Strike, Touch};
 
 /// Impacts softer than this make no sound, N s: a milligram at walking pace.
@@ -104,7 +104,7 @@ struct Pressed {
 }
 
 impl Pressed {
-    fn add(&mut self, touch: &Touching) {
+    fn add(&mut self, touch: &ContactReport) {
         let n = touch.normal_force;
         if n > 0.0 {
             self.force += n;
@@ -246,7 +246,7 @@ impl ContactSound {
 
     /// A hit.
     pub fn hit(&mut self, impact: &Impact, sample: u64, scene: &Scene, out: &mut Vec<SoundCommand>) {
-        let rests = impact.kind == ImpactKind::Rest;
+        let rests = impact.kind == ImpactKind::RestingContact;
         if impact.impulse < SILENT || (rests && (impact.speed < AUDIBLE || impact.colliders.is_none())) {
             return;
         }
@@ -277,7 +277,7 @@ impl ContactSound {
     pub fn advance(
         &mut self,
         sample: u64,
-        touching: impl Iterator<Item = Touching>,
+        touching: impl Iterator<Item = ContactReport>,
         scene: &Scene,
         out: &mut Vec<SoundCommand>,
     ) {

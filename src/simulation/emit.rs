@@ -70,7 +70,7 @@ impl Emitter {
             enter(&mut self.events, event);
         }
         let sample = (step + 1) * SAMPLES_PER_STEP;
-        self.contact_sound.advance(sample, dynamics.touching(), &scene, &mut self.sounds);
+        self.contact_sound.advance(sample, dynamics.contact_reports(), &scene, &mut self.sounds);
         self.emit_parts(began, exhibit, dynamics);
         if let Some(body) = fault {
             self.faults += 1;

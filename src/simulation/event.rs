@@ -136,7 +136,7 @@ impl Event {
             sample: sample_at(t),
             kind: match impact.kind {
                 ImpactKind::Impact | ImpactKind::Stop => EventKind::Impact,
-                ImpactKind::Rest => EventKind::Rest,
+                ImpactKind::RestingContact => EventKind::Rest,
             },
             bodies: impact.bodies,
             point: impact.point,

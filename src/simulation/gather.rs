@@ -33,7 +33,7 @@ use soffio_math::spatial::{Vec6, add_wrench};
 use soffio_math::{DQuat, DVec3, Pose, exp, rotation, rotation_vector};
 use soffio_multibody::articulation::{Constraint, ConstraintKind, Schedule};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{self, Drive, Dynamics, Figure, Motion};
+use soffio_multibody::dynamics::{self, Articulation, Dynamics, KeyframeMotion, KinematicBody};
 
 /// Ω, 1/s.
 const HOME: f64 = 2.5;
@@ -75,18 +75,21 @@ impl Gathering {
             ..constraint.clone()
         };
         let constraints: Vec<Constraint> = exhibit.constraints.iter().filter(acts).map(held).collect();
-        let still = |drive: &Drive| {
+        let still = |drive: &KinematicBody| {
             let keys = drive.motion.keys.first().map(|&(_, pose): &(f64, Pose)| vec![(0.0, pose)]).unwrap_or_default();
-            Drive { body: drive.body, motion: Motion { keys, interpolation: Interpolation::Step, repeat: false } }
+            KinematicBody {
+                body: drive.body,
+                motion: KeyframeMotion { keys, interpolation: Interpolation::Step, repeat: false },
+            }
         };
-        let drives: Vec<Drive> = exhibit.drives.iter().map(still).collect();
-        let figure = Figure {
+        let drives: Vec<KinematicBody> = exhibit.drives.iter().map(still).collect();
+        let figure = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &constraints,
             limits: &[],
             springs: &[],
-            drives: &drives,
+            kinematic_bodies: &drives,
             colliders: &[],
             pairs: Vec::new(),
         };

@@ -191,7 +191,7 @@ impl Hands {
             return;
         }
         let answers = &mut self.answers[..n * n];
-        dynamics.answers(&self.points, answers);
+        dynamics.effective_inverse_mass(&self.points, answers);
         let mut impulses = [DVec3::ZERO; MOST_GRIPS];
         for _ in 0..ROUNDS {
             for i in 0..n {

@@ -81,7 +81,7 @@ impl Simulation {
     fn joint_states(&self) -> Vec<JointState> {
         let gaps = self.motion.dynamics.system().gaps(&self.motion.dynamics.bodies);
         let states =
-            self.motion.dynamics.loads().into_iter().zip(gaps).zip(self.motion.dynamics.system().constraints());
+            self.motion.dynamics.joint_loads().into_iter().zip(gaps).zip(self.motion.dynamics.system().constraints());
         states
             .map(|((load, error), constraint)| {
                 let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });

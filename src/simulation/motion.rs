@@ -107,7 +107,7 @@ impl Motion {
             self.wrenches.fill([0.0; 6]);
             if self.mode != MotionMode::Dynamic {
                 let (dynamics, impacts) = (&mut self.dynamics, &mut self.impacts);
-                return dynamics.step_by(DT, &self.wrenches, impacts, |moved| gathering.carry(DT, moved.bodies));
+                return dynamics.position_step(DT, &self.wrenches, impacts, |moved| gathering.carry(DT, moved.bodies));
             }
             gathering.call(&self.dynamics.bodies, &mut self.wrenches);
             return self.dynamics.step(DT, &self.wrenches, &mut self.impacts);

@@ -5,7 +5,7 @@ use super::input::Settings;
 use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{self, Dynamics, Figure};
+use soffio_multibody::dynamics::{self, Articulation, Dynamics};
 
 /// The exhibit's bodies as they start, a clock's at the hour.
 pub(super) fn start_bodies(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidBody> {
@@ -29,7 +29,7 @@ pub(super) fn start_carrying(exhibit: &Exhibit, settings: &Settings, bodies: &[R
 
 /// The exhibit's figure at its start, to be moved by itself: without air, hands and sound.
 pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
-    let figure = Figure {
+    let figure = Articulation {
         bodies: start_bodies(exhibit, settings),
         damping: exhibit
             .bodies
@@ -39,7 +39,7 @@ pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
         constraints: &exhibit.constraints,
         limits: &exhibit.limits,
         springs: &exhibit.springs,
-        drives: &exhibit.drives,
+        kinematic_bodies: &exhibit.drives,
         colliders: &exhibit.colliders,
         pairs: exhibit.pairs().meet.into_iter().map(|pair| exhibit.surface_pair(pair)).collect(),
     };

@@ -16,7 +16,7 @@ use super::start::start_dynamics;
 use soffio_exhibit::{Exhibit, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::StateHash;
-use soffio_multibody::dynamics::Touching;
+use soffio_multibody::dynamics::ContactReport;
 use soffio_multibody::procedural::Reach;
 use soffio_sound::SoundCommand;
 
@@ -99,11 +99,11 @@ impl Simulation {
         }
         self.breathing.advance(input);
         // Whoever set bodies may have set them wrong; air and hands are not to see that.
-        let set_wrong = self.motion.dynamics.mend();
+        let set_wrong = self.motion.dynamics.recover();
         self.take_aim(input);
         self.blow();
         self.motion.come_to_rest(&self.exhibit, &self.settings, self.breathing.speed > 0.0);
-        self.motion.dynamics.breathe(self.breathing.speed);
+        self.motion.dynamics.set_breath_speed(self.breathing.speed);
         let elapsed = self.clock.elapsed();
         let gone_wrong = self.motion.advance(input, (&self.exhibit, elapsed), &self.eye, &mut self.air.wind);
         self.tell(set_wrong.or(gone_wrong));
@@ -248,7 +248,7 @@ impl Simulation {
 
     /// Does a body sleep: at rest, and left out until something touches or pushes it?
     pub fn sleeps(&self, body: usize) -> bool {
-        self.motion.dynamics.sleeps(body)
+        self.motion.dynamics.is_asleep(body)
     }
 
     /// The bodies' state, for tests that push a sculpture by hand.
@@ -258,8 +258,8 @@ impl Simulation {
     }
 
     /// Surfaces that press on each other at the end of the last step.
-    pub fn touching(&self) -> impl Iterator<Item = Touching> + '_ {
-        self.motion.dynamics.touching()
+    pub fn touching(&self) -> impl Iterator<Item = ContactReport> + '_ {
+        self.motion.dynamics.contact_reports()
     }
 
     /// Largest distance between the two points of any joint now, m.

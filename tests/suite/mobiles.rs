@@ -9,7 +9,7 @@ use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, add_wrench};
 use soffio_math::{DMat3, DVec3, PI, atan2, rotation};
 use soffio_multibody::articulation::{Anchor, ConstraintKind};
-use soffio_multibody::dynamics::{Dynamics, Figure, Settings as Laws};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as Laws};
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_wind::SurfaceShape;
 use soffio_wind::breath::{Breath, Law};
@@ -100,13 +100,13 @@ fn twelve_moons_has_the_inertias_and_periods_of_its_design_sheet() {
 /// The laws alone: no wind, no friction, no hits.
 fn frictionless(exhibit: &Exhibit) -> Dynamics {
     let bodies = exhibit.bodies.iter().map(|body| RigidBody::at_rest(body.properties, body.pose)).collect();
-    let figure = Figure {
+    let figure = Articulation {
         bodies,
         damping: exhibit.bodies.iter().map(|_| Default::default()).collect(),
         constraints: &exhibit.constraints,
         limits: &exhibit.limits,
         springs: &exhibit.springs,
-        drives: &exhibit.drives,
+        kinematic_bodies: &exhibit.drives,
         colliders: &[],
         pairs: Vec::new(),
     };

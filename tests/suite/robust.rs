@@ -8,7 +8,7 @@ use soffio_math::Interpolation;
 use soffio_math::{DMat3, DQuat, DVec3, Pose};
 use soffio_multibody::articulation::{Anchor, Breaking, Constraint, ConstraintKind, Schedule, Trigger, Window};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{self, Drive, Dynamics, Figure, Integrator, Motion, Solver};
+use soffio_multibody::dynamics::{self, Articulation, Dynamics, Integrator, KeyframeMotion, KinematicBody, Solver};
 use soffio_offline::scene::make;
 use soffio_offline::scene::run::{self, Limits, watch};
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
@@ -31,10 +31,18 @@ fn joint(name: &str, a: (Option<usize>, DVec3), b: (Option<usize>, DVec3)) -> Co
     Constraint::new(name, ConstraintKind::PointToPoint { a: anchor(a), b: anchor(b) })
 }
 
-fn figure(bodies: Vec<RigidBody>, constraints: &[Constraint], drives: &[Drive]) -> Dynamics {
+fn figure(bodies: Vec<RigidBody>, constraints: &[Constraint], drives: &[KinematicBody]) -> Dynamics {
     let damping = vec![Damping::default(); bodies.len()];
-    let figure =
-        Figure { bodies, damping, constraints, limits: &[], springs: &[], drives, colliders: &[], pairs: Vec::new() };
+    let figure = Articulation {
+        bodies,
+        damping,
+        constraints,
+        limits: &[],
+        springs: &[],
+        kinematic_bodies: drives,
+        colliders: &[],
+        pairs: Vec::new(),
+    };
     let settings = dynamics::Settings {
         gravity: DVec3::new(0.0, -G, 0.0),
         friction: true,
@@ -89,9 +97,12 @@ fn two_nails_that_contradict_each_other_hold_the_body_between_them() {
 fn a_body_that_two_hands_pull_apart_stays_with_numbers() {
     let hand = |body: usize, side: f64| {
         let key = |t: f64, x: f64| (t, Pose { rotation: DQuat::IDENTITY, position: DVec3::X * x * side });
-        let motion =
-            Motion { keys: vec![key(0.0, 0.1), key(4.0, 2.0)], interpolation: Interpolation::Linear, repeat: false };
-        Drive { body, motion }
+        let motion = KeyframeMotion {
+            keys: vec![key(0.0, 0.1), key(4.0, 2.0)],
+            interpolation: Interpolation::Linear,
+            repeat: false,
+        };
+        KinematicBody { body, motion }
     };
     let held = |point: f64| {
         [

@@ -11,7 +11,7 @@ use super::super::paths::SIDECAR;
 use super::super::sidecar::Sidecar;
 use super::super::source::Source;
 use soffio_math::Pose;
-use soffio_multibody::dynamics::Drive;
+use soffio_multibody::dynamics::KinematicBody;
 
 /// What all stages share.
 pub(super) struct Context<'a> {
@@ -31,7 +31,7 @@ pub(super) struct Context<'a> {
     /// Pose of each moving body at the start: that of the model, or another that the sidecar or a path gives.
     pub(super) starts: Vec<Pose>,
     /// Bodies that follow a given motion.
-    pub(super) drives: Vec<Drive>,
+    pub(super) drives: Vec<KinematicBody>,
     /// Moving body, the model's animation that it follows, and whether over and over.
     pub(super) followed: Vec<(usize, usize, bool)>,
     /// Moving body that each node belongs to.

@@ -5,7 +5,7 @@ use super::super::quantity::Length;
 use super::super::source::join;
 use super::super::{Material, MaterialPair, codes, materials};
 use super::context::Context;
-use soffio_multibody::dynamics::Resistance;
+use soffio_multibody::dynamics::RollingResistance;
 
 impl Context<'_> {
     pub(super) fn materials(&mut self) {
@@ -22,7 +22,7 @@ impl Context<'_> {
                 youngs_modulus: 0.0,
                 poisson: 0.3,
                 loss_factor: 0.01,
-                resistance: Resistance::default(),
+                resistance: RollingResistance::default(),
             });
             let [rolling, spinning] =
                 self.resistances([given.rolling_resistance, given.spin_resistance], &at).map(Option::unwrap_or_default);
@@ -35,7 +35,7 @@ impl Context<'_> {
                 youngs_modulus: given.youngs_modulus.map_or(default.youngs_modulus, |v| v.0),
                 poisson: given.poisson.unwrap_or(default.poisson),
                 loss_factor: given.loss_factor.unwrap_or(default.loss_factor),
-                resistance: Resistance { rolling, spinning },
+                resistance: RollingResistance { rolling, spinning },
             };
             for (key, value) in [("density", material.density), ("youngs_modulus", material.youngs_modulus)] {
                 if value <= 0.0 {

@@ -9,7 +9,7 @@ use super::joints::interpolation;
 use super::nodes::rigid;
 use soffio_math::Interpolation;
 use soffio_math::{DQuat, DVec3, Pose};
-use soffio_multibody::dynamics::{Drive, Motion};
+use soffio_multibody::dynamics::{KeyframeMotion, KinematicBody};
 
 /// Curves of the model are followed through this many poses a second.
 const SAMPLES_PER_SECOND: f64 = 60.0;
@@ -73,7 +73,7 @@ impl Context<'_> {
         self.trace(&of, "motion", shown, &format!("{at}/motion"), "");
         let repeat = body.animation.as_ref().is_none_or(|a| a.repeat);
         self.followed.push((self.body_nodes.len() - 1, found, repeat));
-        self.push_drive(Motion { keys, interpolation, repeat })
+        self.push_drive(KeyframeMotion { keys, interpolation, repeat })
     }
 
     /// World poses of a node that an animation moves.
@@ -110,12 +110,12 @@ impl Context<'_> {
             self.report(&format!("{at}/points"), problem.help("repeat the first point at the end"));
         }
         let interpolation = path.interpolation.map_or(Interpolation::Spline, interpolation);
-        self.push_drive(Motion { keys, interpolation, repeat: path.repeat })
+        self.push_drive(KeyframeMotion { keys, interpolation, repeat: path.repeat })
     }
 
-    fn push_drive(&mut self, motion: Motion) -> Pose {
+    fn push_drive(&mut self, motion: KeyframeMotion) -> Pose {
         let start = motion.at(0.0).pose;
-        self.drives.push(Drive { body: self.body_nodes.len() - 1, motion });
+        self.drives.push(KinematicBody { body: self.body_nodes.len() - 1, motion });
         start
     }
 }

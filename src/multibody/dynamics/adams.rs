@@ -20,9 +20,9 @@
 //! once is in `a`, and no difference knows of it. Whatever changes the joints, a hit, and a step of another length end the smooth
 //! run; Runge–Kutta begins the next. What else may happen to bodies the error tells.
 
-use super::course::{Course, ENOUGH, KEPT, SLOWEST, less, norm};
 use super::equations::Equations;
-use super::passes::{Pass, accelerations, by_quads, put, quad};
+use super::lane_kernels::{Pass, accelerations, by_quads, put, quad};
+use super::substep_state::{Course, ENOUGH, KEPT, SLOWEST, less, norm};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::State;
@@ -216,7 +216,7 @@ mod tests {
     use crate::articulation::{Anchor, Constraint, ConstraintKind};
     use crate::collision::{Collider, Reach, Shape, pairs};
     use crate::dynamics::forces::Damping;
-    use crate::dynamics::{Dynamics, Figure, Integrator, Resistance, Settings, Solver, SurfacePair};
+    use crate::dynamics::{Articulation, Dynamics, Integrator, RollingResistance, Settings, Solver, SurfacePair};
     use soffio_geometry::bodies::MassProperties;
     use soffio_math::noise::Random;
     use soffio_math::{DMat3, DVec3, Pose, rotation};
@@ -229,7 +229,8 @@ mod tests {
         let far = Shape::plane(DVec3::Y * -100.0, DVec3::Y);
         let collider = |body, shape| Collider { body, shape, material: 0, node: String::new() };
         let colliders = [collider(Some(0), Shape::sphere(DVec3::ZERO, 1e-3)), collider(None, far)];
-        let surface = |pair| SurfacePair { pair, restitution: 0.0, friction: 0.0, resistance: Resistance::default() };
+        let surface =
+            |pair| SurfacePair { pair, restitution: 0.0, friction: 0.0, resistance: RollingResistance::default() };
         let settings = Settings {
             gravity: DVec3::Y * -gravity,
             friction: false,
@@ -237,13 +238,13 @@ mod tests {
             integrator,
             solver: Solver::Sparse,
         };
-        let figure = Figure {
+        let figure = Articulation {
             bodies: vec![body],
             damping: vec![Damping::default()],
             constraints,
             limits: &[],
             springs: &[],
-            drives: &[],
+            kinematic_bodies: &[],
             pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
             colliders: &colliders,
         };

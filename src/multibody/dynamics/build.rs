@@ -1,15 +1,15 @@
 //! A figure at its start.
 
 use super::contacts::Contacts;
-use super::effort::Effort;
 use super::equations::Equations;
-use super::faults::Recovery;
 use super::forces::{Damping, Springs};
 use super::integrate::Integration;
-use super::loads::JointLoads;
-use super::settings::{Figure, Integrator, Settings, Solver};
+use super::joint_loads::JointLoads;
+use super::recovery::Recovery;
+use super::settings::{Articulation, Integrator, Settings, Solver};
 use super::sleep::Sleep;
 use super::step::Dynamics;
+use super::work_budget::Effort;
 use crate::articulation::System;
 
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
@@ -18,18 +18,18 @@ const FEW: usize = 8;
 
 impl Dynamics {
     /// A figure at its start.
-    pub fn new(figure: Figure, settings: Settings) -> Self {
+    pub fn new(figure: Articulation, settings: Settings) -> Self {
         let n = figure.bodies.len();
         let mut driven = vec![false; n];
-        for drive in figure.drives {
+        for drive in figure.kinematic_bodies {
             driven[drive.body] = true;
         }
         let mut bodies = figure.bodies;
-        for drive in figure.drives {
+        for drive in figure.kinematic_bodies {
             drive.motion.at(0.0).carry(&mut bodies[drive.body]);
         }
         let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
-        let plain = system
+        let without_trains = system
             .has_trains()
             .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
@@ -56,7 +56,7 @@ impl Dynamics {
         Self {
             loads: JointLoads::new(&system, &bodies, figure.constraints, settings.friction),
             integration: Integration::new(settings.integrator, precise, n, system.quads().members().len()),
-            equations: Equations::new((system, plain), springs, figure.drives, &damping, laws),
+            equations: Equations::new((system, without_trains), springs, figure.kinematic_bodies, &damping, laws),
             contacts,
             effort: Effort::default(),
             sleep: Sleep::new(&bodies, &driven, ties, sleeps),

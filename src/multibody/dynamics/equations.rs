@@ -2,9 +2,9 @@
 //!
 //! A state is that of the bodies in the quads of the tree; `bodies` follow where they are asked for.
 
-use super::Drive;
+use super::KinematicBody;
 use super::forces::{Damping, Springs, Wrenches};
-use super::passes::{Push, Settle, Show, by_quads};
+use super::lane_kernels::{Push, Settle, Show, by_quads};
 use crate::articulation::System;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
@@ -31,9 +31,9 @@ pub(super) struct Equations {
     /// The joints.
     pub system: System,
     /// The same joints without trains, for movers by places.
-    pub plain: Option<Box<System>>,
+    pub without_trains: Option<Box<System>>,
     pub springs: Springs,
-    pub drives: Vec<Drive>,
+    pub kinematic_bodies: Vec<KinematicBody>,
     /// Body and acceleration of each drive at the time last asked for.
     driven_accelerations: Vec<(usize, Vec6)>,
     /// Rates of damping by quads, linear and angular, 1/s.
@@ -50,9 +50,9 @@ pub(super) struct Equations {
 impl Equations {
     /// Those of joints that have been evaluated at the figure's start, under no wrenches yet.
     pub fn new(
-        (system, plain): (System, Option<Box<System>>),
+        (system, without_trains): (System, Option<Box<System>>),
         springs: Springs,
-        drives: &[Drive],
+        kinematic_bodies: &[KinematicBody],
         damping: &[Damping],
         (gravity, stabilization_time): (DVec3, f64),
     ) -> Self {
@@ -62,12 +62,12 @@ impl Equations {
         };
         Self {
             damping: system.quads().members().iter().map(|members| of_bodies(members.bodies)).collect(),
-            driven_accelerations: drives.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
+            driven_accelerations: kinematic_bodies.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
             wrenches: Wrenches::new(damping.len()),
             system,
-            plain,
+            without_trains,
             springs,
-            drives: drives.to_vec(),
+            kinematic_bodies: kinematic_bodies.to_vec(),
             gravity,
             stabilization_time,
             known: Known::Nothing,
@@ -119,7 +119,7 @@ impl Equations {
     /// Puts driven bodies where they belong at the time `t`.
     pub fn carry_driven(&mut self, bodies: &mut [RigidBody], t: f64) {
         self.system.activity.set_time(t);
-        for (drive, (body, a)) in self.drives.iter().zip(&mut self.driven_accelerations) {
+        for (drive, (body, a)) in self.kinematic_bodies.iter().zip(&mut self.driven_accelerations) {
             let (acceleration, turn) = drive.motion.at(t).carry(&mut bodies[*body]);
             self.system.quads_mut().look_at(*body, &bodies[*body]);
             *a = vec6(acceleration, turn);

@@ -28,10 +28,10 @@
 use super::Integrator;
 use super::adams::Run;
 use super::contacts::Contacts;
-use super::course::{Course, Rate, SLOWEST};
 use super::equations::{Equations, Known};
-use super::pace;
-use super::passes::{Begin, Compare, Estimate, Guess, Last, Mean, Return, Stage, Stages, by_quads};
+use super::lane_kernels::{Begin, Compare, Estimate, Guess, Last, Mean, Return, Stage, Stages, by_quads};
+use super::step_size_controller;
+use super::substep_state::{Course, Rate, SLOWEST};
 use soffio_geometry::bodies::RigidBody;
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
@@ -156,7 +156,7 @@ impl Integration {
                 (settled, if settled { f64::INFINITY } else { 0.5 * h })
             } else {
                 let error = self.runge_kutta(moving, t, h);
-                pace::judge(h, self.dt, error)
+                step_size_controller::judge(h, self.dt, error)
             };
             moving.equations.known = Known::Rates;
             self.stride = wish;

@@ -13,33 +13,34 @@
 //! from then on projection keeps the joints closed to rounding.
 
 mod adams;
-mod answers;
 mod build;
 mod clutches;
 mod contacts;
-mod course;
-mod drive;
-mod effort;
+mod effective_inverse_mass;
 mod equations;
-mod faults;
 pub mod forces;
 pub mod impulse;
 mod integrate;
+mod joint_loads;
+mod kinematic;
+mod lane_kernels;
 mod limits;
-mod loads;
-mod moved;
-mod pace;
-mod passes;
+mod position_step;
+mod queries;
+mod recovery;
 mod settings;
 mod sleep;
 mod step;
-mod told;
+mod step_size_controller;
+mod substep_state;
 mod waking;
+mod work_budget;
 
 pub use contacts::{
-    Contacts, ENDS, Impact, ImpactKind, Met, Resistance, Strike, Struck, SurfacePair, Touching, couple_rows, strike,
+    ContactReport, Contacts, Impact, ImpactKind, MAX_ROW_BODIES, PointImpact, PointImpactResult, RollingResistance,
+    SurfacePair, SweptContact, resolve_point_impact, rolling_rows,
 };
-pub use drive::{Drive, Instant, Motion};
-pub use moved::Moved;
-pub use settings::{Figure, Integrator, Settings, Solver};
+pub use kinematic::{KeyframeMotion, KinematicBody, KinematicState};
+pub use position_step::PositionStep;
+pub use settings::{Articulation, Integrator, Settings, Solver};
 pub use step::Dynamics;

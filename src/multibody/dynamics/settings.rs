@@ -7,8 +7,8 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 
 use super::contacts::SurfacePair;
-use super::drive::Drive;
 use super::forces::Damping;
+use super::kinematic::KinematicBody;
 
 /// How time is advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub struct Settings {
 }
 
 /// Everything a figure needs to move.
-pub struct Figure<'a> {
+pub struct Articulation<'a> {
     /// Bodies in their start state.
     pub bodies: Vec<RigidBody>,
     /// Damping per body.
@@ -53,7 +53,7 @@ pub struct Figure<'a> {
     /// Springs.
     pub springs: &'a [Spring],
     /// Bodies that follow a given motion.
-    pub drives: &'a [Drive],
+    pub kinematic_bodies: &'a [KinematicBody],
     /// Collision shapes, materials resolved per pair.
     pub colliders: &'a [Collider],
     /// Pairs that can meet and what their surfaces do.

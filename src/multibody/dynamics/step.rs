@@ -1,13 +1,13 @@
 //! One step of a figure, stage by stage.
 
 use super::contacts::{Contacts, Hit, Impact, LAST_PASS, Verdict};
-use super::effort::Effort;
 use super::equations::{Equations, Known};
-use super::faults::Recovery;
 use super::integrate::{Integration, Moving};
-use super::loads::JointLoads;
+use super::joint_loads::JointLoads;
+use super::recovery::Recovery;
 use super::settings::Settings;
 use super::sleep::Sleep;
+use super::work_budget::Effort;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
@@ -371,7 +371,7 @@ impl Dynamics {
 
     /// Puts the figure back to where the last step began if a body has bad numbers; returns the first such body. A step
     /// begins with it: whoever looks at the bodies before that, and may have set them, calls it himself.
-    pub fn mend(&mut self) -> Option<usize> {
+    pub fn recover(&mut self) -> Option<usize> {
         self.restore_bad_bodies()
     }
 
@@ -396,7 +396,7 @@ impl Dynamics {
     }
 
     /// Sets the breath's speed at the lips from the next step on, m/s; triggers wait for it.
-    pub fn breathe(&mut self, speed: f64) {
+    pub fn set_breath_speed(&mut self, speed: f64) {
         self.breath[1] = speed;
     }
 

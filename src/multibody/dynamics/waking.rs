@@ -7,7 +7,7 @@ use soffio_math::DVec3;
 
 impl Dynamics {
     /// Does a body sleep: at rest, and left out until something touches or pushes it?
-    pub fn sleeps(&self, body: usize) -> bool {
+    pub fn is_asleep(&self, body: usize) -> bool {
         self.sleep.asleep()[body]
     }
 

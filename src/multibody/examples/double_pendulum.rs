@@ -6,7 +6,7 @@ use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose};
 use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Settings, Solver};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, Settings, Solver};
 
 /// Length of each rod, m, and its mass, kg.
 const LENGTH: f64 = 0.5;
@@ -33,13 +33,13 @@ fn hinge(name: &str, rod: usize, other: Option<usize>) -> Constraint {
 
 fn main() {
     let constraints = [hinge("nail", 0, None), hinge("joint", 1, Some(0))];
-    let figure = Figure {
+    let figure = Articulation {
         bodies: vec![rod(0.0), rod(LENGTH)],
         damping: vec![Damping::default(); 2],
         constraints: &constraints,
         limits: &[],
         springs: &[],
-        drives: &[],
+        kinematic_bodies: &[],
         colliders: &[],
         pairs: Vec::new(),
     };

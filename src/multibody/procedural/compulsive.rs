@@ -16,7 +16,7 @@ use super::pair::Stage;
 use super::rule::{Turning, common_point};
 use super::walk::{Start, Walk, Walks};
 use crate::articulation::{Joint, System};
-use crate::dynamics::{Contacts, Dynamics, Met, Moved};
+use crate::dynamics::{Contacts, Dynamics, PositionStep, SweptContact};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::matrix;
 use soffio_math::{DMat3, DVec3, tangents};
@@ -41,7 +41,7 @@ pub(super) struct Compulsive {
 
 impl Compulsive {
     pub fn new(dynamics: &Dynamics) -> Self {
-        let (system, contacts) = (dynamics.plain_system(), dynamics.contacts());
+        let (system, contacts) = (dynamics.system_without_trains(), dynamics.contacts());
         let mut bounds = vec![Vec::new(); system.joints().len()];
         let mut strays = Vec::new();
         for bound in 0..contacts.bounds() {
@@ -65,7 +65,7 @@ impl Compulsive {
 
     /// Closes the joints of bodies where an update left them; with a first round by the source's rule where it has a
     /// control.
-    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], left: &[f64], control: Option<f64>) -> Reach {
+    pub fn adjust(&mut self, moved: &mut PositionStep, grips: &[Grip], left: &[f64], control: Option<f64>) -> Reach {
         let (bodies, system, contacts) = (&mut *moved.bodies, &mut *moved.system, &*moved.contacts);
         self.walks.lay_out(system, |body| bodies[body].properties.mass, grips.iter().map(|grip| grip.body));
         for (frame, body) in self.frames.iter_mut().zip(bodies.iter()) {
@@ -99,7 +99,7 @@ impl Compulsive {
 
     /// Moves what met out along the normal: the bodies themselves, two free ones in inverse proportion to their masses; a
     /// limit by its row.
-    pub fn back_up(&mut self, met: &Met, system: &System, contacts: &Contacts, bodies: &mut [RigidBody]) {
+    pub fn back_up(&mut self, met: &SweptContact, system: &System, contacts: &Contacts, bodies: &mut [RigidBody]) {
         let masses = met.bodies.map(|body| body.filter(|&b| !system.driven()[b]).map(|b| bodies[b].properties.mass));
         if met.colliders.is_none() {
             let mut stage = Stage { bodies, frames: &mut self.frames, system, contacts, left: &[] };

@@ -15,7 +15,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, State, gather};
-use crate::dynamics::{Dynamics, Moved};
+use crate::dynamics::{Dynamics, PositionStep};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::lanes::{All, Four, Lanes, Quat, Real, V3, WIDTH};
 use soffio_math::spatial::{M3, Sym3};
@@ -42,18 +42,18 @@ impl Fours {
             let damping = members.bodies.map(|body| dynamics.damping(body));
             [Four(damping.map(|d| d.linear)), Four(damping.map(|d| d.angular))]
         };
-        let system = dynamics.plain_system();
+        let system = dynamics.system_without_trains();
         Self { damping: system.quads().members().iter().map(rates).collect(), driven: system.driven().to_vec() }
     }
 
     /// The update: each body alone for `dt` s; driven ones stay.
-    pub fn update(&self, moved: &mut Moved, dt: f64, retention: f64, gyrates: bool) {
+    pub fn update(&self, moved: &mut PositionStep, dt: f64, retention: f64, gyrates: bool) {
         moved.system.quads_mut().look(moved.bodies);
         dispatch!(moved.system.quads().level(), simd => self.update_in(simd, moved, (dt, retention), gyrates));
     }
 
     #[inline(always)]
-    fn update_in<S: Simd>(&self, simd: S, moved: &mut Moved, (dt, retention): (f64, f64), gyrates: bool) {
+    fn update_in<S: Simd>(&self, simd: S, moved: &mut PositionStep, (dt, retention): (f64, f64), gyrates: bool) {
         let lanes = All(simd);
         for (index, damping) in self.damping.iter().enumerate() {
             let quads = moved.system.quads_mut();

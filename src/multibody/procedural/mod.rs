@@ -34,7 +34,7 @@ mod touch;
 mod tree;
 pub mod walk;
 
-use crate::dynamics::{Dynamics, Impact, Moved};
+use crate::dynamics::{Dynamics, Impact, PositionStep};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
@@ -77,7 +77,7 @@ impl Procedural {
             before: bodies.clone(),
             kept: bodies.clone(),
             compulsive: Compulsive::new(dynamics),
-            tree: TreeSolve::new(dynamics.plain_system(), bodies.len()),
+            tree: TreeSolve::new(dynamics.system_without_trains(), bodies.len()),
             touches: Touches::new(dynamics),
             reach: Reach::default(),
             ended: f64::NAN,
@@ -107,12 +107,12 @@ impl Procedural {
     ) -> Option<usize> {
         let grips = &grips[..grips.len().min(MOST_GRIPS)];
         let follows = dynamics.time() == self.ended;
-        let restored = dynamics.step_by(dt, external, impacts, |moved| self.carry_out(moved, dt, grips, follows));
+        let restored = dynamics.position_step(dt, external, impacts, |moved| self.carry_out(moved, dt, grips, follows));
         self.ended = dynamics.time();
         restored
     }
 
-    fn carry_out(&mut self, mut moved: Moved, dt: f64, grips: &[Grip], follows: bool) {
+    fn carry_out(&mut self, mut moved: PositionStep, dt: f64, grips: &[Grip], follows: bool) {
         self.before.copy_from_slice(moved.bodies);
         self.leave_open(&mut moved, dt, follows);
         moved.system.activity.set_time(moved.until);
@@ -147,7 +147,7 @@ impl Procedural {
     }
 
     /// Says what the joints may keep open: what is open at a step's start is drawn together over time, not in one step.
-    fn leave_open(&mut self, moved: &mut Moved, dt: f64, follows: bool) {
+    fn leave_open(&mut self, moved: &mut PositionStep, dt: f64, follows: bool) {
         let closed = follows && !moved.changed && self.reach.residual <= REACHED;
         if closed {
             self.tree.left.fill(0.0);
@@ -158,17 +158,17 @@ impl Procedural {
     }
 
     /// The update: each body alone.
-    fn update(&self, moved: &mut Moved, dt: f64) {
+    fn update(&self, moved: &mut PositionStep, dt: f64) {
         let Settings { method, retention, .. } = self.settings;
         self.fours.update(moved, dt, retention, method == Method::TreeSolve);
-        for drive in moved.drives {
+        for drive in moved.kinematic_bodies {
             drive.motion.at(moved.until).carry(&mut moved.bodies[drive.body]);
             moved.system.quads_mut().look_at(drive.body, &moved.bodies[drive.body]);
         }
     }
 
     /// Brings the bodies, where the quads have them, back to where the joints hold.
-    fn adjust(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
+    fn adjust(&mut self, moved: &mut PositionStep, grips: &[Grip]) -> Reach {
         if self.settings.method == Method::Compulsive {
             return self.adjust_by_rule(moved, grips);
         }
@@ -203,7 +203,7 @@ impl Procedural {
     }
 
     /// By the source's rule. What hands ask in vain is given up, as the joints go before them.
-    fn adjust_by_rule(&mut self, moved: &mut Moved, grips: &[Grip]) -> Reach {
+    fn adjust_by_rule(&mut self, moved: &mut PositionStep, grips: &[Grip]) -> Reach {
         let mut reach = self.compulsive.adjust(moved, grips, &self.tree.left, Some(self.settings.control));
         for stays in [false, true] {
             // What is open by little without hands is drawn together in the next steps.
@@ -230,7 +230,7 @@ impl Procedural {
     }
 
     /// What cannot be done is not done: the figure stays where it stood.
-    fn stay(&self, moved: &mut Moved) {
+    fn stay(&self, moved: &mut PositionStep) {
         let free = moved.system.driven().iter().map(|driven| !driven);
         for ((body, before), free) in moved.bodies.iter_mut().zip(&self.before).zip(free) {
             if free {
@@ -240,7 +240,13 @@ impl Procedural {
     }
 
     /// All joints at once another time, from where passes left them; back to there unless the outcome is good.
-    fn again(&mut self, moved: &mut Moved, grips: &[Grip], passed: Reach, good: impl Fn(&Reach) -> bool) -> Reach {
+    fn again(
+        &mut self,
+        moved: &mut PositionStep,
+        grips: &[Grip],
+        passed: Reach,
+        good: impl Fn(&Reach) -> bool,
+    ) -> Reach {
         self.kept.copy_from_slice(moved.bodies);
         moved.system.quads_mut().look(moved.bodies);
         let reach = self.tree.adjust(moved, grips, &self.fours);

@@ -18,12 +18,12 @@
 //! The law is integrated over the step's budget q = μ P_n in [`PIECES`] pieces by its midpoint, u fading by
 //! exp(−K_T q/|v_t|) in each, which never overshoots.
 //!
-//! **Resistance.** Couples up to b P_n against rolling and d P_n against spin (`dynamics::Resistance`). A ball that rolls goes
+//! **Resistance.** Couples up to b P_n against rolling and d P_n against spin (`dynamics::RollingResistance`). A ball that rolls goes
 //! on rolling while it slows down: the couple M comes with the friction −K_T⁻¹ K_Tω M that leaves the slip as it is (the
 //! source's velocity matching), as far as friction reaches. While it slides under Coulomb's law the couple acts alone; under the source's
 //! law it grows with 1 − s.
 
-use crate::dynamics::Met;
+use crate::dynamics::SweptContact;
 use soffio_math::{DMat2, DMat3, DVec2, DVec3, exp};
 
 /// Pieces of a step's friction.
@@ -76,7 +76,7 @@ impl Push {
 }
 
 /// The whole impulse of a resting point: `answer` is Coulomb's, `moves` are the velocities before it.
-pub(super) fn resist(met: &Met, patch: &Patch, mut moves: Moves, answer: DVec3, by_ratio: bool) -> Push {
+pub(super) fn resist(met: &SweptContact, patch: &Patch, mut moves: Moves, answer: DVec3, by_ratio: bool) -> Push {
     let mut whole = Push::default();
     let most = met.friction * answer.z;
     let mut rolling = met.resistance.rolling * answer.z;

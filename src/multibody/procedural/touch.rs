@@ -25,7 +25,7 @@ use super::compulsive::Compulsive;
 use super::sphere::{Moves, Patch, Push, resist};
 use crate::articulation::System;
 use crate::dynamics::impulse::impulse;
-use crate::dynamics::{Contacts, Dynamics, ENDS, Impact, ImpactKind, Met, couple_rows};
+use crate::dynamics::{Contacts, Dynamics, Impact, ImpactKind, MAX_ROW_BODIES, SweptContact, rolling_rows};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, angular, dot, linear, vec6};
 use soffio_math::{DMat3, DVec3, tangents};
@@ -55,7 +55,7 @@ struct Law {
 
 impl Law {
     /// Do the laws of `sphere.rs` answer what met?
-    fn resists(&self, met: &Met) -> bool {
+    fn resists(&self, met: &SweptContact) -> bool {
         self.rests && (!met.resistance.is_none() || (self.by_ratio && rolling_ball(met).is_some()))
     }
 }
@@ -64,10 +64,10 @@ impl Law {
 #[derive(Clone, Debug)]
 pub(super) struct Touches {
     /// At the end of the joints' adjustment, and those of a later look.
-    met: Vec<Met>,
-    again: Vec<Met>,
+    met: Vec<SweptContact>,
+    again: Vec<SweptContact>,
     /// What met in the step before.
-    last: Vec<Met>,
+    last: Vec<SweptContact>,
     /// Answers to the three rows of a point, and to those of its couple.
     columns: [Vec<Vec6>; 3],
     turns: [Vec<Vec6>; 3],
@@ -93,8 +93,8 @@ impl Touches {
     }
 
     /// Has this touched in the step before?
-    fn lies(&self, met: &Met) -> bool {
-        let same_side = |last: &Met| {
+    fn lies(&self, met: &SweptContact) -> bool {
+        let same_side = |last: &SweptContact| {
             met.colliders.is_some() && last.bodies == met.bodies && last.normal.dot(met.normal) > SAME_SIDE
         };
         self.last.iter().any(|last| last.source == met.source || same_side(last))
@@ -103,9 +103,10 @@ impl Touches {
     /// Looks what met on the way between two states; true where something has to be moved out.
     pub fn look(&mut self, contacts: &mut Contacts, before: &[RigidBody], after: &[RigidBody], first: bool) -> bool {
         let met = if first { &mut self.met } else { &mut self.again };
-        contacts.meet_on_the_way(before, after, met);
-        let order =
-            |a: &Met, b: &Met| a.s.total_cmp(&b.s).then(a.source.cmp(&b.source)).then(b.depth.total_cmp(&a.depth));
+        contacts.find_swept_contacts(before, after, met);
+        let order = |a: &SweptContact, b: &SweptContact| {
+            a.s.total_cmp(&b.s).then(a.source.cmp(&b.source)).then(b.depth.total_cmp(&a.depth))
+        };
         met.sort_unstable_by(order);
         met.iter().any(|met| met.depth > LEVEL)
     }
@@ -152,7 +153,7 @@ impl Touches {
             let depth = met.depth - met.ends.iter().flatten().map(way).sum::<f64>();
             // The deepest point of a pair stands for it.
             if done != Some(met.source) && depth > LEVEL {
-                mover.back_up(&Met { depth, ..*met }, system, contacts, bodies);
+                mover.back_up(&SweptContact { depth, ..*met }, system, contacts, bodies);
             }
             done = Some(met.source);
         }
@@ -195,7 +196,7 @@ impl Touches {
                     None => impacts.push(Impact {
                         time: met.s * dt,
                         kind: match (rests, met.colliders) {
-                            (true, _) => ImpactKind::Rest,
+                            (true, _) => ImpactKind::RestingContact,
                             (false, Some(_)) => ImpactKind::Impact,
                             (false, None) => ImpactKind::Stop,
                         },
@@ -215,7 +216,14 @@ impl Touches {
     }
 
     /// The impulse of one point or bound, given to the bodies; its size (N s) and the effective mass (kg).
-    fn push(&mut self, system: &mut System, met: &Met, law: &Law, speed: f64, bodies: &mut [RigidBody]) -> (f64, f64) {
+    fn push(
+        &mut self,
+        system: &mut System,
+        met: &SweptContact,
+        law: &Law,
+        speed: f64,
+        bodies: &mut [RigidBody],
+    ) -> (f64, f64) {
         if met.colliders.is_none() {
             let answer = answer(system, &met.ends);
             if answer <= LOCKED {
@@ -237,7 +245,7 @@ impl Touches {
         if k.z_axis.z <= LOCKED {
             return (0.0, 0.0);
         }
-        let velocity = DVec3::from_array(rows.map(|row| Met { ends: row, ..*met }.rate(bodies)));
+        let velocity = DVec3::from_array(rows.map(|row| SweptContact { ends: row, ..*met }.rate(bodies)));
         let p = impulse(&k, velocity, met.friction, law.restitution);
         if !law.resists(met) {
             add(bodies, &self.columns, p);
@@ -263,12 +271,12 @@ impl Touches {
     fn resist(
         &mut self,
         system: &mut System,
-        met: &Met,
+        met: &SweptContact,
         (point, slip, p): (DMat3, DVec3, DVec3),
         by_ratio: bool,
         bodies: &[RigidBody],
     ) -> Push {
-        let [n, t, b] = couple_rows(met);
+        let [n, t, b] = rolling_rows(met);
         let rows = [t, b, n];
         let (mut mixed, mut turn, mut center) = (DMat3::ZERO, DMat3::ZERO, DMat3::ZERO);
         let axes = {
@@ -291,7 +299,7 @@ impl Touches {
             self.turns[index].copy_from_slice(&system.a);
             *center.col_mut(index) = DVec3::from_array(middles.map(|row| along(&row, &self.columns[index])));
         }
-        let rate = |row| Met { ends: row, ..*met }.rate(bodies);
+        let rate = |row| SweptContact { ends: row, ..*met }.rate(bodies);
         let moves =
             Moves { slip, center: DVec3::from_array(middles.map(rate)), turn: DVec3::from_array(rows.map(rate)) };
         resist(met, &Patch { point, mixed, turn, center }, moves, p, by_ratio)
@@ -299,7 +307,7 @@ impl Touches {
 }
 
 /// The body that is a ball on something that is none.
-fn rolling_ball(met: &Met) -> Option<usize> {
+fn rolling_ball(met: &SweptContact) -> Option<usize> {
     match met.balls {
         [Some(_), None] => met.bodies[0],
         [None, Some(_)] => met.bodies[1],
@@ -308,7 +316,7 @@ fn rolling_ball(met: &Met) -> Option<usize> {
 }
 
 /// Where a ball touches now that it has been moved out.
-fn on_the_ball(met: &Met, bodies: &[RigidBody]) -> Option<DVec3> {
+fn on_the_ball(met: &SweptContact, bodies: &[RigidBody]) -> Option<DVec3> {
     let place = |side: usize| {
         let ((center, radius), body) = (met.balls[side]?, met.bodies[side]?);
         let inward = if side == 0 { -radius } else { radius };
@@ -336,7 +344,7 @@ fn sum(columns: &[Vec<Vec6>; 3], p: DVec3, index: usize) -> (DVec3, DVec3) {
 }
 
 /// Solves for what the figure answers to a unit impulse along a row; how far that goes along the row itself.
-fn answer(system: &mut System, ends: &[Option<(usize, Vec6)>; ENDS]) -> f64 {
+fn answer(system: &mut System, ends: &[Option<(usize, Vec6)>; MAX_ROW_BODIES]) -> f64 {
     system.b.fill([0.0; 6]);
     for (body, block) in ends.iter().flatten() {
         system.push_impulse(*body, block, 1.0);
@@ -346,12 +354,12 @@ fn answer(system: &mut System, ends: &[Option<(usize, Vec6)>; ENDS]) -> f64 {
 }
 
 /// A row times the bodies' coordinates.
-fn along(ends: &[Option<(usize, Vec6)>; ENDS], a: &[Vec6]) -> f64 {
+fn along(ends: &[Option<(usize, Vec6)>; MAX_ROW_BODIES], a: &[Vec6]) -> f64 {
     ends.iter().flatten().map(|(body, block)| dot(block, &a[*body])).sum()
 }
 
 /// The row of a point along an axis.
-fn point_row(met: &Met, axis: DVec3, bodies: &[RigidBody]) -> [Option<(usize, Vec6)>; ENDS] {
+fn point_row(met: &SweptContact, axis: DVec3, bodies: &[RigidBody]) -> [Option<(usize, Vec6)>; MAX_ROW_BODIES] {
     let end = |body: Option<usize>, sign: f64| {
         let along = sign * axis;
         body.map(|i| (i, vec6(along, (met.point - bodies[i].position).cross(along))))

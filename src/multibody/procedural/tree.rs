@@ -27,7 +27,7 @@ use super::compulsive::farthest;
 use super::fours::Fours;
 use super::grip::{Grip, MOST_GRIPS, REACHED, Reach};
 use crate::articulation::{Cholesky, System};
-use crate::dynamics::{Contacts, ENDS, Moved};
+use crate::dynamics::{Contacts, MAX_ROW_BODIES, PositionStep};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::spatial::{Vec6, dot, vec6};
@@ -72,7 +72,7 @@ pub(super) struct TreeSolve {
 /// A row beside the tree.
 #[derive(Clone, Copy, Debug)]
 struct Beside {
-    ends: [Option<(usize, Vec6)>; ENDS],
+    ends: [Option<(usize, Vec6)>; MAX_ROW_BODIES],
     way: f64,
     limit: bool,
     on: bool,
@@ -98,7 +98,7 @@ impl TreeSolve {
     }
 
     /// Closes the joints of bodies where the quads have them. What is still open after that leapt too far for tangents.
-    pub fn adjust(&mut self, moved: &mut Moved, grips: &[Grip], fours: &Fours) -> Reach {
+    pub fn adjust(&mut self, moved: &mut PositionStep, grips: &[Grip], fours: &Fours) -> Reach {
         let (bodies, system, contacts) = (&mut *moved.bodies, &mut *moved.system, &*moved.contacts);
         let mut reach = Reach::default();
         let mut before = f64::INFINITY;

@@ -18,7 +18,7 @@ use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, L
 use soffio_multibody::collision::reach::JointEnd;
 use soffio_multibody::collision::{Collider, Excluded, Exclusion, Reach, pairs};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Settings, Solver, SurfacePair};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, Settings, Solver, SurfacePair};
 
 /// Time in which the field draws a drifted joint together, as exhibits have it, s.
 const STABILIZATION_TIME: f64 = 0.04;
@@ -112,13 +112,13 @@ impl Scene {
     pub fn dynamics(&self, integrator: Integrator, solver: Solver) -> Dynamics {
         let bodies = self.rigid_bodies();
         let colliders = self.colliders();
-        let figure = Figure {
+        let figure = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &self.constraints(),
             limits: &self.limits(),
             springs: &[],
-            drives: &[],
+            kinematic_bodies: &[],
             pairs: self.surface_pairs(&colliders),
             colliders: &colliders,
         };

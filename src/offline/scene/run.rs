@@ -62,7 +62,7 @@ impl Engine for Soffio {
     }
 
     fn asleep(&self) -> usize {
-        (0..self.dynamics.bodies.len()).filter(|&body| self.dynamics.sleeps(body)).count()
+        (0..self.dynamics.bodies.len()).filter(|&body| self.dynamics.is_asleep(body)).count()
     }
 
     fn states(&self, out: &mut Vec<State>) {

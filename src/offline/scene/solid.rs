@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use soffio_math::{DQuat, DVec3, Pose};
 use soffio_multibody::collision::{Collider, Shape};
-use soffio_multibody::dynamics::Resistance;
+use soffio_multibody::dynamics::RollingResistance;
 
 use super::valid::{Fault, finite, positive, unit};
 
@@ -140,10 +140,10 @@ pub struct Surface {
 
 impl Surface {
     /// Restitution, friction and resistance of two surfaces.
-    pub fn with(&self, other: &Self) -> (f64, f64, Resistance) {
+    pub fn with(&self, other: &Self) -> (f64, f64, RollingResistance) {
         let rolling = self.rolling_resistance + other.rolling_resistance;
         let mean = |a: f64, b: f64| if a == b { a } else { (a * b).sqrt() };
-        let resistance = Resistance { rolling, ..Resistance::default() };
+        let resistance = RollingResistance { rolling, ..RollingResistance::default() };
         (mean(self.restitution, other.restitution), mean(self.friction, other.friction), resistance)
     }
 

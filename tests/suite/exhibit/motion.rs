@@ -4,7 +4,7 @@ use soffio_exhibit::{self as exhibit, Exhibit, codes};
 use soffio_math::Interpolation;
 use soffio_math::{DVec3, PI, Pose, cos, rotation, rotation_vector, sin};
 use soffio_multibody::articulation::ConstraintKind;
-use soffio_multibody::dynamics::Motion;
+use soffio_multibody::dynamics::KeyframeMotion;
 
 use super::glb::{Folder, Scene, cuboid};
 
@@ -150,7 +150,7 @@ fn a_splines_velocities_and_accelerations_are_those_of_its_poses() {
         (3.0, pose(0.0, 0.0, DVec3::ZERO)),
     ];
     for repeat in [false, true] {
-        let motion = Motion { keys: keys.clone(), interpolation: Interpolation::Spline, repeat };
+        let motion = KeyframeMotion { keys: keys.clone(), interpolation: Interpolation::Spline, repeat };
         for (t, wanted) in &keys[..4] {
             assert!(motion.at(*t).pose.position.distance(wanted.position) < SINGLE);
             let (before, after) = (motion.at(t + 3.0 - 1e-9), motion.at(t + 3.0 + 1e-9));

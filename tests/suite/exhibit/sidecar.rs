@@ -11,7 +11,7 @@ use soffio_geometry::support::Core;
 use soffio_math::{DVec3, PI};
 use soffio_multibody::articulation::{ConstraintKind, LimitKind};
 use soffio_multibody::collision::{Collider, Excluded, Pair};
-use soffio_multibody::dynamics::Resistance;
+use soffio_multibody::dynamics::RollingResistance;
 use soffio_wind::SurfaceShape;
 
 use super::glb::{Folder, Scene, boom_and_plate as model, cuboid};
@@ -178,7 +178,7 @@ fn resistances_of_surfaces_add_unless_their_pair_says_otherwise() {
                 inertia = { diagonal = [1, 1, 1] }\n";
     let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let of = |a: usize, b: usize| exhibit.surface_pair(Pair { a, b }).resistance;
-    let same = |found: Resistance, rolling: f64, spinning: f64| {
+    let same = |found: RollingResistance, rolling: f64, spinning: f64| {
         assert!((found.rolling - rolling).abs() < 1e-12 && (found.spinning - spinning).abs() < 1e-12, "{found:?}");
     };
     same(of(0, 1), 5e-4, 1e-4);

@@ -7,7 +7,7 @@ use super::super::bodies::meters;
 use super::super::context::Context;
 use soffio_math::PI;
 use soffio_multibody::articulation::{Constraint, ConstraintKind};
-use soffio_multibody::dynamics::Drive;
+use soffio_multibody::dynamics::KinematicBody;
 
 /// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
 pub(super) const APART: f64 = 1e-4;
@@ -74,7 +74,7 @@ impl Context<'_> {
         &mut self,
         constraints: &[Constraint],
         bodies: &[Body],
-        drives: &[Drive],
+        drives: &[KinematicBody],
     ) {
         let mass = |body: Option<usize>| {
             let free = body.filter(|&b| !drives.iter().any(|drive| drive.body == b));

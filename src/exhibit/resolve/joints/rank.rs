@@ -15,7 +15,7 @@ use super::super::super::diagnostic::Diagnostic;
 use super::super::context::Context;
 use soffio_math::{DVec3, cos};
 use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind, Measure};
-use soffio_multibody::dynamics::Drive;
+use soffio_multibody::dynamics::KinematicBody;
 
 /// Sine of the angle below which a row lies in the span of the others: single-precision files give 10⁻⁷.
 const DEPENDENT: f64 = 1e-6;
@@ -42,7 +42,7 @@ enum Finding {
 
 impl Context<'_> {
     /// Warns of redundant rows, and reports contradicting ones.
-    pub(in super::super) fn check_rank(&mut self, constraints: &[Constraint], drives: &[Drive]) {
+    pub(in super::super) fn check_rank(&mut self, constraints: &[Constraint], drives: &[KinematicBody]) {
         let mut told: Vec<Vec<usize>> = Vec::new();
         for active in active_sets(constraints) {
             let rows = self.rows(constraints, &active, drives);
@@ -108,7 +108,7 @@ impl Context<'_> {
     }
 
     /// The rows of the constraints that act, at the poses of the model.
-    fn rows(&self, constraints: &[Constraint], active: &[usize], drives: &[Drive]) -> Vec<Row> {
+    fn rows(&self, constraints: &[Constraint], active: &[usize], drives: &[KinematicBody]) -> Vec<Row> {
         let moving = |body: Option<usize>| body.filter(|&b| drives.iter().any(|drive| drive.body == b));
         let points: Vec<DVec3> = self.poses.iter().map(|pose| pose.position).collect();
         let center = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
@@ -178,7 +178,7 @@ impl Context<'_> {
 }
 
 /// J v of a driven body at a time.
-fn driven_rate(drives: &[Drive], body: usize, t: f64, center: DVec3, force: DVec3, moment: DVec3) -> f64 {
+fn driven_rate(drives: &[KinematicBody], body: usize, t: f64, center: DVec3, force: DVec3, moment: DVec3) -> f64 {
     let Some(drive) = drives.iter().find(|drive| drive.body == body) else { return 0.0 };
     let now = drive.motion.at(t);
     let at_center = now.velocity + now.angular_velocity.cross(center - now.pose.position);

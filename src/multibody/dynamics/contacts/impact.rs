@@ -1,6 +1,6 @@
 //! What surfaces do to each other, and what a contact did.
 
-use super::touch::Resistance;
+use super::contact::RollingResistance;
 use crate::collision::Pair;
 use soffio_math::DVec3;
 
@@ -14,7 +14,7 @@ pub struct SurfacePair {
     /// Coulomb coefficient while sliding.
     pub friction: f64,
     /// Against rolling and spinning on each other.
-    pub resistance: Resistance,
+    pub resistance: RollingResistance,
 }
 
 /// What a contact did.
@@ -23,7 +23,7 @@ pub enum ImpactKind {
     /// A hit that bounces.
     Impact,
     /// The beginning of rest.
-    Rest,
+    RestingContact,
     /// A limit reached its bound.
     Stop,
 }

@@ -4,8 +4,8 @@
 //! nodes stand in the reverse order of E. Cuthill and J. McKee ("Reducing the bandwidth of sparse symmetric matrices", 1969):
 //! outwards from one end, layer by layer, so that the matrix of a tower, a wall or a heap is a band as wide as a layer.
 
-use super::coordinates::{Coordinates, Part};
-use super::touch::Touch;
+use super::contact::Touch;
+use super::reduced_coordinates::{Coordinates, Part};
 use std::ops::Range;
 
 /// One island: its coordinates, and its touches in [`Islands::touches`].

@@ -1,16 +1,16 @@
 //! All that can touch in a figure, and its state.
 
-use super::coordinates::Mechanisms;
-use super::held::HeldForces;
-use super::hit::REST_SPEED;
+use super::contact::{Source, Touch};
+use super::contact_forces::HeldForces;
+use super::contact_problem::Problem;
 use super::impact::SurfacePair;
-use super::near::Near;
-use super::problem::Problem;
-use super::resting::Resting;
-use super::sleepers::Sleepers;
+use super::impact_solver::REST_SPEED;
+use super::nearby_pairs::Near;
+use super::reduced_coordinates::Mechanisms;
+use super::resting_pairs::Resting;
+use super::sleeping_bodies::Sleepers;
 use super::surfaces::Surfaces;
-use super::together::Encounter;
-use super::touch::{Source, Touch};
+use super::time_stepping::Encounter;
 use crate::articulation::{Constraint, Limit};
 use crate::collision::{Collider, ManifoldPoint, Pair, TOUCH};
 use crate::dynamics::clutches::Clutches;

@@ -1,9 +1,9 @@
 //! The surfaces of a figure, and how its pairs lie to each other.
 
+use super::contact::{Source, Touch};
+use super::contact_problem::Problem;
 use super::impact::SurfacePair;
-use super::problem::Problem;
-use super::row::point_rows;
-use super::touch::{Source, Touch};
+use super::jacobian_row::point_rows;
 use crate::collision::{Collider, Corners, Manifold, Pair, Sweep, TOUCH};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, Pose};

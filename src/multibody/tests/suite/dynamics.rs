@@ -6,7 +6,7 @@ use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind, PivotFr
 use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
-    Dynamics, Figure, Impact, ImpactKind, Integrator, Resistance, Settings, Solver, SurfacePair,
+    Articulation, Dynamics, Impact, ImpactKind, Integrator, RollingResistance, Settings, Solver, SurfacePair,
 };
 
 const G: f64 = 9.81;
@@ -34,9 +34,18 @@ fn joint(name: &str, a: (Option<usize>, DVec3), b: (Option<usize>, DVec3)) -> Co
     Constraint::new(name, ConstraintKind::PointToPoint { a: anchor(a), b: anchor(b) })
 }
 
-fn figure<'a>(bodies: Vec<RigidBody>, constraints: &'a [Constraint]) -> Figure<'a> {
+fn figure<'a>(bodies: Vec<RigidBody>, constraints: &'a [Constraint]) -> Articulation<'a> {
     let damping = vec![Damping::default(); bodies.len()];
-    Figure { bodies, damping, constraints, limits: &[], springs: &[], drives: &[], colliders: &[], pairs: Vec::new() }
+    Articulation {
+        bodies,
+        damping,
+        constraints,
+        limits: &[],
+        springs: &[],
+        kinematic_bodies: &[],
+        colliders: &[],
+        pairs: Vec::new(),
+    }
 }
 
 fn run(dynamics: &mut Dynamics, seconds: f64) -> Vec<Impact> {
@@ -170,7 +179,7 @@ fn surfaces(colliders: &[Collider], restitution: f64, friction: f64) -> Vec<Surf
     pairs(colliders, &[], &Reach::default())
         .meet
         .into_iter()
-        .map(|pair| SurfacePair { pair, restitution, friction, resistance: Resistance::default() })
+        .map(|pair| SurfacePair { pair, restitution, friction, resistance: RollingResistance::default() })
         .collect()
 }
 
@@ -268,7 +277,7 @@ fn a_plate_that_leans_on_another_rests_without_jitter_or_sinking() {
     figure.pairs = surfaces(&colliders, 0.4, 0.3);
     let mut dynamics = Dynamics::new(figure, settings(true));
     let hits = run(&mut dynamics, 6.0);
-    assert!(hits.iter().any(|i| i.kind == ImpactKind::Rest), "it never came to rest: {hits:?}");
+    assert!(hits.iter().any(|i| i.kind == ImpactKind::RestingContact), "it never came to rest: {hits:?}");
     let place = dynamics.bodies[0].position;
     let later = run(&mut dynamics, 4.0);
     assert!(later.is_empty(), "{later:?}");

@@ -27,7 +27,9 @@ use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
 use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Dynamics, Figure, Impact, Integrator, Resistance, Settings, Solver, SurfacePair};
+use soffio_multibody::dynamics::{
+    Articulation, Dynamics, Impact, Integrator, RollingResistance, Settings, Solver, SurfacePair,
+};
 
 const G: f64 = 9.81;
 const DT: f64 = 1.0 / 240.0;
@@ -113,16 +115,16 @@ fn clock(swing: f64) -> Dynamics {
         pair,
         restitution: 0.2,
         friction: 0.1,
-        resistance: Resistance::default(),
+        resistance: RollingResistance::default(),
     });
     let rate = (G / LENGTH).sqrt() / QUALITY;
-    let figure = Figure {
+    let figure = Articulation {
         bodies,
         damping: vec![Damping::default(), Damping { linear: rate, angular: rate }],
         constraints: &constraints,
         limits: &[],
         springs: &[],
-        drives: &[],
+        kinematic_bodies: &[],
         pairs: pairs.collect(),
         colliders: &colliders,
     };

@@ -5,7 +5,7 @@ use soffio_math::noise::Random;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, System};
 use soffio_multibody::dynamics::impulse::from_rest;
-use soffio_multibody::dynamics::{Solver, Strike, strike};
+use soffio_multibody::dynamics::{PointImpact, Solver, resolve_point_impact};
 
 fn body(mass: f64, inertia: DVec3, position: DVec3) -> RigidBody {
     let properties = MassProperties { mass, center: DVec3::ZERO, inertia: DMat3::from_diagonal(inertia) };
@@ -93,10 +93,10 @@ fn assert_hits_keep_the_laws(count: u64) {
             normal = -normal;
         }
         let friction = 1.2 * random.unit();
-        let hit = Strike { point, normal, bodies: [Some(first), second], friction, restitution: random.unit() };
+        let hit = PointImpact { point, normal, bodies: [Some(first), second], friction, restitution: random.unit() };
         let before = bodies.clone();
         let began = std::time::Instant::now();
-        let Some(struck) = strike(&hit, &mut system, &mut bodies) else { continue };
+        let Some(struck) = resolve_point_impact(&hit, &mut system, &mut bodies) else { continue };
         seconds += began.elapsed().as_secs_f64();
         let energy = |bodies: &[RigidBody]| bodies.iter().map(RigidBody::kinetic_energy).sum::<f64>();
         let rise = (energy(&bodies) - energy(&before)) / energy(&before);

@@ -8,7 +8,7 @@ use assert_no_alloc::assert_no_alloc;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::collision::{Collider, Shape};
-use soffio_multibody::dynamics::{Dynamics, Impact, Resistance};
+use soffio_multibody::dynamics::{Dynamics, Impact, RollingResistance};
 use soffio_multibody::procedural::{Method, Procedural, Settings};
 
 use crate::motion::{DT, G, World, body};
@@ -59,7 +59,7 @@ fn floor() -> Collider {
 }
 
 fn surfaces(friction: f64, restitution: f64, rolling: f64, spinning: f64) -> Extras {
-    Extras { friction, restitution, resistance: Resistance { rolling, spinning }, ..Extras::default() }
+    Extras { friction, restitution, resistance: RollingResistance { rolling, spinning }, ..Extras::default() }
 }
 
 impl Table {

@@ -14,7 +14,7 @@ use soffio_math::{DMat3, Pose, rotation};
 use soffio_multibody::articulation::rows::coupling::{self, Gauge};
 use soffio_multibody::articulation::rows::{Row, Scene, orientation, plane, point};
 use soffio_multibody::articulation::{Constraint, ConstraintKind, Measure, Method, System};
-use soffio_multibody::dynamics::Motion;
+use soffio_multibody::dynamics::KeyframeMotion;
 
 use super::figures::{self, axis, below, body, unit, vector};
 
@@ -186,7 +186,7 @@ fn driven_bodies_have_the_velocities_and_accelerations_they_say() {
             })
             .collect();
         for interpolation in [Interpolation::Linear, Interpolation::Smooth, Interpolation::Spline] {
-            let motion = Motion { keys: keys.clone(), interpolation, repeat: false };
+            let motion = KeyframeMotion { keys: keys.clone(), interpolation, repeat: false };
             let key = below(&mut random, 4);
             let t = keys[key].0 + random.range(0.1, 0.9) * (keys[key + 1].0 - keys[key].0);
             let template = body(&mut random);

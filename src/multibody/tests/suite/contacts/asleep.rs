@@ -37,7 +37,7 @@ fn go_on(dynamics: &mut Dynamics, seconds: f64, (body, push): (usize, DVec3), aw
 }
 
 fn who_sleeps(dynamics: &Dynamics) -> Vec<bool> {
-    (0..dynamics.bodies.len()).map(|body| dynamics.sleeps(body)).collect()
+    (0..dynamics.bodies.len()).map(|body| dynamics.is_asleep(body)).collect()
 }
 
 /// Holds the ball up.
@@ -55,7 +55,7 @@ fn what_rests_falls_asleep_and_does_not_change_by_a_bit() {
     assert_eq!(yard.bodies, before);
     assert!(before.iter().all(|body| body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO));
     // What lies still presses all the same: the block and its ball, the ball alone, the block apart.
-    let weights: f64 = yard.touching().map(|touch| touch.normal_force).sum();
+    let weights: f64 = yard.contact_reports().map(|touch| touch.normal_force).sum();
     assert!((weights / (0.4 + BALL + BALL + 0.4) / G - 1.0).abs() < 1e-6, "{weights} N");
 }
 
@@ -122,7 +122,7 @@ fn a_window_that_closes_lets_fall_what_slept_under_it() {
     scene.constraints.push(Constraint { schedule, ..Constraint::new("nail", kind) });
     let mut hung = scene.dynamics();
     go_on(&mut hung, CLOSES - DT, (0, DVec3::ZERO), false);
-    assert!(hung.sleeps(0));
+    assert!(hung.is_asleep(0));
     assert_eq!(hung.bodies[0].position, place);
     go_on(&mut hung, 0.2 + DT, (0, DVec3::ZERO), false);
     let fallen = 0.5 - hung.bodies[0].position.y;

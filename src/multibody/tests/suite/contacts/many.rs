@@ -35,7 +35,7 @@ fn a_floor_bears_a_hundred_boxes() {
     let before = dynamics.bodies.clone();
     run(&mut dynamics, 5.0);
     assert!(drift(&dynamics, &before) < DRIFT, "{} m", drift(&dynamics, &before));
-    assert!((0..100).all(|body| dynamics.sleeps(body)), "what lies on a floor sleeps");
+    assert!((0..100).all(|body| dynamics.is_asleep(body)), "what lies on a floor sleeps");
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn a_tower_of_ten_boxes_stands_and_sleeps() {
     let before = dynamics.bodies.clone();
     run(&mut dynamics, 10.0);
     assert!(drift(&dynamics, &before) < DRIFT, "{} m", drift(&dynamics, &before));
-    assert!((0..10).all(|body| dynamics.sleeps(body)));
+    assert!((0..10).all(|body| dynamics.is_asleep(body)));
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn a_tower_of_twenty_put_exactly_on_each_other_stays_where_it_is() {
         let way = drift(&dynamics, &before);
         assert!(way < STAYS, "step {step}: {way} m");
     }
-    assert!((0..20).all(|body| dynamics.sleeps(body)), "it sleeps after five seconds");
+    assert!((0..20).all(|body| dynamics.is_asleep(body)), "it sleeps after five seconds");
     assert!(impacts.is_empty(), "what touches from the beginning does not hit");
 }
 
@@ -108,7 +108,7 @@ fn a_heap_that_is_too_much_for_a_step_comes_to_rest_and_sleeps() {
         most = most.max(dynamics.operations());
     }
     assert!(most > HURRIED, "{most} operations are none too many");
-    let awake = (0..50).filter(|&body| !dynamics.sleeps(body)).count();
+    let awake = (0..50).filter(|&body| !dynamics.is_asleep(body)).count();
     assert_eq!(awake, 0, "all sleep after ten seconds");
 }
 

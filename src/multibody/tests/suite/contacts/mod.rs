@@ -11,7 +11,7 @@ use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, L
 use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
-    Dynamics, Figure, Impact, ImpactKind, Integrator, Resistance, Settings, Solver, SurfacePair,
+    Articulation, Dynamics, Impact, ImpactKind, Integrator, RollingResistance, Settings, Solver, SurfacePair,
 };
 
 const G: f64 = 9.81;
@@ -96,16 +96,16 @@ impl Scene {
                 pair,
                 restitution: self.restitution,
                 friction: self.friction,
-                resistance: Resistance::default(),
+                resistance: RollingResistance::default(),
             })
             .collect();
-        let figure = Figure {
+        let figure = Articulation {
             bodies: self.bodies.clone(),
             damping: vec![Damping { linear: self.damping, angular: self.damping }; self.bodies.len()],
             constraints: &self.constraints,
             limits: &self.limits,
             springs: &[],
-            drives: &[],
+            kinematic_bodies: &[],
             colliders: &self.colliders,
             pairs: surfaces,
         };
@@ -163,7 +163,7 @@ fn a_ball_rolls_down_an_incline_at_five_sevenths() {
     let expected = 5.0 / 7.0 * G * angle.sin();
     assert!((found / expected - 1.0).abs() < RATE, "{found} m/s² against {expected}");
     assert!((ball.velocity.x + r * ball.angular_velocity.z).abs() < RATE * ball.velocity.x, "it slips");
-    let touch = dynamics.touching().next().expect("it rolls on the plane");
+    let touch = dynamics.contact_reports().next().expect("it rolls on the plane");
     assert!(touch.slip.length() < RATE * ball.velocity.x, "{touch:?}");
     for roll in touch.roll {
         assert!((roll.length() / ball.velocity.x - 1.0).abs() < 1e-2, "{touch:?} at {} m/s", ball.velocity.x);
@@ -220,11 +220,11 @@ fn a_block_sticks_below_the_angle_of_friction_and_slides_above() {
     let expected = G * (angle.sin() - mu * angle.cos());
     assert!((found / expected - 1.0).abs() < RATE, "{found} against {expected} m/s²");
     // All its corners together bear its weight, each slides as fast as it does, and none moves over the block itself.
-    let touching: Vec<_> = slides.touching().collect();
-    let pressed: f64 = touching.iter().map(|t| t.normal_force).sum();
+    let contact_reports: Vec<_> = slides.contact_reports().collect();
+    let pressed: f64 = contact_reports.iter().map(|t| t.normal_force).sum();
     assert!((pressed / (0.3 * G * angle.cos()) - 1.0).abs() < RATE, "{pressed} N");
     let speed = slides.bodies[0].velocity.x;
-    for touch in touching {
+    for touch in contact_reports {
         assert!((touch.slip.length() / speed - 1.0).abs() < RATE, "{touch:?} at {speed} m/s");
         let scraped = touch.roll.map(|roll| roll.length() / speed);
         assert!(scraped[0].min(scraped[1]) < 1e-3 && (scraped[0].max(scraped[1]) - 1.0).abs() < 1e-3, "{touch:?}");
@@ -243,7 +243,7 @@ fn a_stack_of_boxes_stays() {
     colliders.push(floor());
     let mut dynamics = Scene::new(bodies, colliders).dynamics();
     let landed = run(&mut dynamics, 2.0);
-    assert!(landed.iter().any(|i| i.kind == ImpactKind::Rest));
+    assert!(landed.iter().any(|i| i.kind == ImpactKind::RestingContact));
     assert_stays(&mut dynamics, 60.0);
 }
 
@@ -414,7 +414,7 @@ fn a_hinge_stops_at_its_range_bounces_and_rests_there() {
     // From bounce to bounce the speed falls by e.
     let ratio = impacts[1].speed / impacts[0].speed;
     assert!((ratio - 0.4).abs() < 1e-3, "bounced with {ratio}");
-    assert_eq!(impacts[impacts.len() - 1].kind, ImpactKind::Rest);
+    assert_eq!(impacts[impacts.len() - 1].kind, ImpactKind::RestingContact);
     assert_stays(&mut dynamics, 10.0);
     assert!(dynamics.joint_error() < 1e-9);
 }

@@ -3,7 +3,7 @@
 use soffio_math::{DVec3, atan2, exp};
 use soffio_multibody::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Dynamics, Figure, Integrator};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator};
 
 use super::{DT, ROUNDING, World, step, wheel};
 
@@ -113,13 +113,13 @@ fn a_light_disc_at_its_stop_feels_no_more_than_the_clutch_carries() {
     let kind = LimitKind::Range { measure, min: f64::NEG_INFINITY, max: 0.0 };
     let limit = Limit { name: "stop".to_owned(), kind, restitution: 0.0 };
     for integrator in [Integrator::RungeKutta, Integrator::Fast] {
-        let figure = Figure {
+        let figure = Articulation {
             bodies: world.bodies.clone(),
             damping: vec![Damping::default(); 2],
             constraints: &world.constraints,
             limits: std::slice::from_ref(&limit),
             springs: &[],
-            drives: &[],
+            kinematic_bodies: &[],
             colliders: &[],
             pairs: Vec::new(),
         };

@@ -5,7 +5,7 @@ use soffio_math::Function;
 use soffio_math::Interpolation;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
 use soffio_multibody::articulation::ConstraintKind;
-use soffio_multibody::dynamics::{Drive, Integrator, Motion};
+use soffio_multibody::dynamics::{Integrator, KeyframeMotion, KinematicBody};
 
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, accelerated, body, run, step, turning, wheel};
 
@@ -36,7 +36,7 @@ fn in_a_lift_that_is_accelerated_a_slope_is_steeper() {
     for integrator in INTEGRATORS {
         let mut world =
             World::new(vec![body(0.2, DVec3::splat(1e-4), DVec3::ZERO), body(1.0, DVec3::ONE, DVec3::ZERO)]);
-        world.drives.push(accelerated(1, DVec3::Y * lift));
+        world.kinematic_bodies.push(accelerated(1, DVec3::Y * lift));
         world.plane("floor", 0, Some(1), DVec3::ZERO, normal);
         let mut dynamics = world.start(integrator);
         run(&mut dynamics, SECOND, DT);
@@ -89,7 +89,7 @@ fn a_bead_on_a_turning_wire_is_thrown_out_by_the_hyperbolic_cosine() {
         bead.velocity = DVec3::Z * -omega * start;
         let mut world = World::new(vec![bead, body(1.0, DVec3::ONE, DVec3::ZERO)]);
         world.gravity = DVec3::ZERO;
-        world.drives.push(turning(1, DVec3::Y * omega));
+        world.kinematic_bodies.push(turning(1, DVec3::Y * omega));
         world.wire("wire", 0, Some(1), DVec3::X * start, DVec3::X);
         let mut dynamics = world.start(integrator);
         run(&mut dynamics, SECOND, DT);
@@ -190,7 +190,7 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
         sails.angular_velocity = DVec3::Z * spin + mast;
         sails.velocity = mast.cross(hub);
         let mut world = World::new(vec![sails, body(1.0, DVec3::ONE, DVec3::ZERO)]);
-        world.drives.push(turning(1, mast));
+        world.kinematic_bodies.push(turning(1, mast));
         world.pin("windmill/nail", 0, Some(1), hub);
         world.across("windmill/across-1", 0, DVec3::Z, Some(1), DVec3::X);
         world.across("windmill/across-2", 0, DVec3::Z, Some(1), DVec3::Y);
@@ -210,8 +210,8 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
             assert!((torque - inertia * spin * yaw).abs() < allowed, "{torque} N m");
         }
         // Now the mast is stopped, and a wind that also pushes and tilts blows.
-        world.drives[0].motion =
-            Motion { keys: vec![(0.0, Pose::IDENTITY)], interpolation: Interpolation::Step, repeat: false };
+        world.kinematic_bodies[0].motion =
+            KeyframeMotion { keys: vec![(0.0, Pose::IDENTITY)], interpolation: Interpolation::Step, repeat: false };
         world.bodies[0].angular_velocity = DVec3::ZERO;
         world.bodies[0].velocity = DVec3::ZERO;
         let mut dynamics = world.start(integrator);
@@ -283,7 +283,7 @@ fn bodies_are_where_their_keys_say_and_what_hangs_on_them_feels_it() {
     for (integrator, interpolation) in
         INTEGRATORS.into_iter().flat_map(|i| [(i, Interpolation::Smooth), (i, Interpolation::Spline)])
     {
-        let motion = Motion { keys: keys.clone(), interpolation, repeat: false };
+        let motion = KeyframeMotion { keys: keys.clone(), interpolation, repeat: false };
         let start = motion.at(0.0).pose;
         let mut block = body(0.2, DVec3::new(1e-4, 2e-4, 3e-4), start.point(DVec3::new(0.3, 0.1, -0.2)));
         block.rotation = start.rotation;
@@ -291,7 +291,7 @@ fn bodies_are_where_their_keys_say_and_what_hangs_on_them_feels_it() {
         (world.bodies[1].position, world.bodies[1].rotation) = (start.position, start.rotation);
         world.pin("weld", 0, Some(1), block.position);
         world.fix_turn("weld", 0, Some(1));
-        world.drives.push(Drive { body: 1, motion: motion.clone() });
+        world.kinematic_bodies.push(KinematicBody { body: 1, motion: motion.clone() });
         let mut dynamics = world.start(integrator);
         let still = [[0.0; 6]; 2];
         for index in 0..690 {

@@ -18,7 +18,7 @@ use soffio_math::Interpolation;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Spring};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Drive, Dynamics, Figure, Integrator, Motion, Settings, Solver};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, KeyframeMotion, KinematicBody, Settings, Solver};
 
 pub const G: f64 = 9.81;
 pub const DT: f64 = 1.0 / 240.0;
@@ -37,7 +37,7 @@ pub struct World {
     pub bodies: Vec<RigidBody>,
     pub constraints: Vec<Constraint>,
     pub springs: Vec<Spring>,
-    pub drives: Vec<Drive>,
+    pub kinematic_bodies: Vec<KinematicBody>,
     pub damping: Damping,
     pub gravity: DVec3,
     pub solver: Solver,
@@ -50,7 +50,7 @@ impl World {
             bodies,
             constraints: Vec::new(),
             springs: Vec::new(),
-            drives: Vec::new(),
+            kinematic_bodies: Vec::new(),
             damping: Damping::default(),
             gravity: DVec3::NEG_Y * G,
             solver: Solver::Sparse,
@@ -58,13 +58,13 @@ impl World {
     }
 
     pub fn start(&self, integrator: Integrator) -> Dynamics {
-        let figure = Figure {
+        let figure = Articulation {
             bodies: self.bodies.clone(),
             damping: vec![self.damping; self.bodies.len()],
             constraints: &self.constraints,
             limits: &[],
             springs: &self.springs,
-            drives: &self.drives,
+            kinematic_bodies: &self.kinematic_bodies,
             colliders: &[],
             pairs: Vec::new(),
         };
@@ -180,23 +180,23 @@ pub fn step(dynamics: &mut Dynamics, dt: f64, external: &[[f64; 6]]) {
 
 /// A body that is accelerated evenly from rest at the origin at t = 0, until t = 20 s: splines through a parabola's
 /// points are that parabola.
-pub fn accelerated(body: usize, acceleration: DVec3) -> Drive {
+pub fn accelerated(body: usize, acceleration: DVec3) -> KinematicBody {
     let key = |i: i32| {
         let t = f64::from(i);
         (t, Pose { rotation: DQuat::IDENTITY, position: 0.5 * t * t * acceleration })
     };
     let keys = (-2..=22).map(key).collect();
-    Drive { body, motion: Motion { keys, interpolation: Interpolation::Spline, repeat: false } }
+    KinematicBody { body, motion: KeyframeMotion { keys, interpolation: Interpolation::Spline, repeat: false } }
 }
 
 /// A body that turns about an axis through the origin at an even rate, until t = 100 radians.
-pub fn turning(body: usize, rate: DVec3) -> Drive {
+pub fn turning(body: usize, rate: DVec3) -> KinematicBody {
     let key = |i: i32| {
         let t = f64::from(i) / rate.length();
         (t, Pose { rotation: rotation(t * rate), position: DVec3::ZERO })
     };
     let keys = (-1..=100).map(key).collect();
-    Drive { body, motion: Motion { keys, interpolation: Interpolation::Linear, repeat: false } }
+    KinematicBody { body, motion: KeyframeMotion { keys, interpolation: Interpolation::Linear, repeat: false } }
 }
 
 /// Period of a physical pendulum with ω² = `square` at small swings, released at `angle`: T = (2π/ω)/agm(1, cos θ₀/2).

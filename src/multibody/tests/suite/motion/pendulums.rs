@@ -5,7 +5,7 @@ use soffio_math::Function;
 use soffio_math::Interpolation;
 use soffio_math::{DQuat, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Axis, ConstraintKind};
-use soffio_multibody::dynamics::{Drive, Dynamics, Integrator, Motion};
+use soffio_multibody::dynamics::{Dynamics, Integrator, KeyframeMotion, KinematicBody};
 
 use super::reference::flow;
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, accelerated, body, elliptic_period, period, rod, run, step};
@@ -85,7 +85,7 @@ fn a_nail_that_is_accelerated_tilts_and_hastens_its_pendulum() {
     for integrator in INTEGRATORS {
         for swing_by in [0.0, 0.4] {
             let mut world = World::new(vec![hanging(l, tilt + swing_by), body(1.0, DVec3::ONE, DVec3::ZERO)]);
-            world.drives.push(accelerated(1, DVec3::X * a));
+            world.kinematic_bodies.push(accelerated(1, DVec3::X * a));
             world.pin("nail", 0, Some(1), DVec3::ZERO);
             let mut dynamics = world.start(integrator);
             let read = |dynamics: &Dynamics| {
@@ -150,14 +150,14 @@ fn a_point_goes_along_its_path_and_feels_what_that_takes() {
             (t, Pose { rotation: DQuat::IDENTITY, position })
         })
         .collect();
-    let path = Motion { keys, interpolation: Interpolation::Spline, repeat: false };
+    let path = KeyframeMotion { keys, interpolation: Interpolation::Spline, repeat: false };
     let mass = 0.3;
     for integrator in INTEGRATORS {
         let mut world = World::new(vec![body(mass, DVec3::ONE, DVec3::ZERO), body(1.0, DVec3::ONE, DVec3::ZERO)]);
         world.bodies[0].position = path.at(0.0).pose.position;
         world.bodies[1].position = path.at(0.0).pose.position;
         world.pin("path", 0, Some(1), world.bodies[0].position);
-        world.drives.push(Drive { body: 1, motion: path.clone() });
+        world.kinematic_bodies.push(KinematicBody { body: 1, motion: path.clone() });
         let mut dynamics = world.start(integrator);
         let still = [[0.0; 6]; 2];
         for index in 0..1900 {
@@ -186,7 +186,7 @@ fn a_pendulum_in_a_turning_hinge_is_thrown_outwards() {
             (bob.angular_velocity, bob.velocity) = (spin, spin.cross(bob.position));
             let mut world = World::new(vec![bob, body(1.0, DVec3::ONE, DVec3::ZERO)]);
             world.hinge("axle", 0, Some(1), DVec3::ZERO, DVec3::Z);
-            world.drives.push(super::turning(1, spin));
+            world.kinematic_bodies.push(super::turning(1, spin));
             let mut dynamics = world.start(integrator);
             run(&mut dynamics, 2.0, DT);
             let r = dynamics.bodies[0].position;
@@ -210,9 +210,10 @@ fn an_axis_of_the_world_is_no_body() {
     world.hinge("axle", 0, None, DVec3::ZERO, DVec3::Z);
     driven.hinge("axle", 0, Some(1), DVec3::ZERO, DVec3::Z);
     let still = vec![(0.0, Pose::IDENTITY)];
-    driven
-        .drives
-        .push(Drive { body: 1, motion: Motion { keys: still, interpolation: Interpolation::Step, repeat: false } });
+    driven.kinematic_bodies.push(KinematicBody {
+        body: 1,
+        motion: KeyframeMotion { keys: still, interpolation: Interpolation::Step, repeat: false },
+    });
     let mut ends = Vec::new();
     for world in [world, driven] {
         assert!(matches!(world.constraints[1].kind, ConstraintKind::Orientation { a: Axis { body: Some(0), .. }, .. }));

@@ -8,7 +8,7 @@ use soffio_multibody::articulation::{
 };
 use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
-use soffio_multibody::dynamics::{Dynamics, Figure, Integrator, Resistance, SurfacePair};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, RollingResistance, SurfacePair};
 
 use super::reference::flow;
 use super::springs::spring;
@@ -267,7 +267,7 @@ fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
                 120..=130 => 6.0,
                 _ => 0.0,
             };
-            dynamics.breathe(breath);
+            dynamics.set_breath_speed(breath);
             step(&mut dynamics, DT, &[[0.0; 6]]);
             if index == 39 || index == 75 || index == 239 {
                 let expected = 2.0 * (-c / m * grips).exp();
@@ -306,17 +306,17 @@ fn a_hit_lets_go_what_waits_for_it() {
         node: String::new(),
     });
     let meet = pairs(&colliders, &[], &Reach::default()).meet;
-    let figure = Figure {
+    let figure = Articulation {
         bodies: world.bodies.clone(),
         damping: vec![Damping::default(); 2],
         constraints: &world.constraints,
         limits: &[],
         springs: &world.springs,
-        drives: &[],
+        kinematic_bodies: &[],
         colliders: &colliders,
         pairs: meet
             .into_iter()
-            .map(|pair| SurfacePair { pair, restitution: 1.0, friction: 0.0, resistance: Resistance::default() })
+            .map(|pair| SurfacePair { pair, restitution: 1.0, friction: 0.0, resistance: RollingResistance::default() })
             .collect(),
     };
     let mut dynamics = Dynamics::new(figure, world.settings(Integrator::RungeKutta));

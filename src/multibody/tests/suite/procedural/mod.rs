@@ -13,7 +13,7 @@ use soffio_multibody::articulation::{Constraint, Limit};
 use soffio_multibody::collision::{Collider, Reach, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
-    Drive, Dynamics, Figure, Integrator, Resistance, Settings as Laws, Solver, SurfacePair,
+    Articulation, Dynamics, Integrator, KinematicBody, RollingResistance, Settings as Laws, Solver, SurfacePair,
 };
 use soffio_multibody::procedural::{Grip, Method, Procedural, Settings};
 
@@ -35,7 +35,7 @@ pub struct Extras {
     pub colliders: Vec<Collider>,
     pub restitution: f64,
     pub friction: f64,
-    pub resistance: Resistance,
+    pub resistance: RollingResistance,
 }
 
 impl Hand {
@@ -62,16 +62,17 @@ impl Hand {
 
 /// The same figure under the laws.
 pub fn laws(world: &World, extras: &Extras) -> Dynamics {
-    let (constraints, drives): (&[Constraint], &[Drive]) = (&world.constraints, &world.drives);
+    let (constraints, kinematic_bodies): (&[Constraint], &[KinematicBody]) =
+        (&world.constraints, &world.kinematic_bodies);
     let Extras { restitution, friction, resistance, .. } = *extras;
     let surface = |pair| SurfacePair { pair, restitution, friction, resistance };
-    let figure = Figure {
+    let figure = Articulation {
         bodies: world.bodies.clone(),
         damping: vec![world.damping; world.bodies.len()],
         constraints,
         limits: &extras.limits,
         springs: &world.springs,
-        drives,
+        kinematic_bodies,
         pairs: pairs(&extras.colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
         colliders: &extras.colliders,
     };

@@ -2,7 +2,7 @@
 
 use soffio_math::Interpolation;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose};
-use soffio_multibody::dynamics::{Drive, Motion};
+use soffio_multibody::dynamics::{KeyframeMotion, KinematicBody};
 use soffio_multibody::procedural::rule::{Turning, common_point, compulsive_rotation, compulsive_translation, turn};
 use soffio_multibody::procedural::{Method, Settings};
 
@@ -91,7 +91,10 @@ fn a_step_moves_the_second_object_by_the_rule() {
     world.pin("joint", 1, Some(0), DVec3::X * 0.1);
     let key = |t: f64, position: DVec3| (t, Pose { rotation: DQuat::IDENTITY, position });
     let keys = vec![key(0.0, DVec3::ZERO), key(1e-3, LEAP)];
-    world.drives.push(Drive { body: 0, motion: Motion { keys, interpolation: Interpolation::Linear, repeat: false } });
+    world.kinematic_bodies.push(KinematicBody {
+        body: 0,
+        motion: KeyframeMotion { keys, interpolation: Interpolation::Linear, repeat: false },
+    });
     let settings = Settings { method: Method::Compulsive, control: CONTROL, retention: 1.0 };
     let mut hand = Hand::with(&world, &Extras::default(), settings);
     hand.step(1e-2, &[]);

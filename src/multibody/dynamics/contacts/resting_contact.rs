@@ -11,10 +11,10 @@
 //! moved out at once through the same matrix. Where surfaces curve so much that a substep sinks in, a shorter one is
 //! taken.
 
-use super::held::{Held, NEAR, in_frame};
-use super::row::{point_rows, twist_rows};
+use super::contact::{Grip, Source, Touch};
+use super::contact_forces::{Held, NEAR, in_frame};
+use super::jacobian_row::{point_rows, twist_rows};
 use super::state::Contacts;
-use super::touch::{Grip, Source, Touch};
 use crate::articulation::System;
 use crate::collision::TOUCH;
 use soffio_geometry::bodies::RigidBody;

@@ -1,8 +1,8 @@
 //! Contacts of what sleeps (`dynamics/sleep.rs`): left out, the forces there kept, until somebody comes.
 
+use super::contact::Source;
+use super::earliest_impact::Hit;
 use super::state::Contacts;
-use super::sweep::Hit;
-use super::touch::Source;
 use crate::collision::{Manifold, TOUCH};
 use soffio_geometry::bodies::RigidBody;
 

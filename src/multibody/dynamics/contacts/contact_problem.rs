@@ -14,14 +14,14 @@
 //! velocities that come out are unique where friction is, and the split among redundant feet is the one nearest to where the
 //! solver began.
 
-use super::coordinates::{Coordinates, Mechanisms};
+use super::contact::{LOCKED, PROXIMAL, Source, Touch};
+use super::contact_law::{Answer, Law};
+use super::contact_solver::{Iterate, Newton, View};
 use super::islands::{Island, Islands};
-use super::law::{Answer, Law};
-use super::newton::{Iterate, Newton, View};
-use super::row::Row;
-use super::touch::{LOCKED, PROXIMAL, Source, Touch};
+use super::jacobian_row::Row;
+use super::reduced_coordinates::{Coordinates, Mechanisms};
 use crate::articulation::System;
-use crate::dynamics::effort::TOUCH;
+use crate::dynamics::work_budget::TOUCH;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{angular, linear, vec6};
 use soffio_math::{DMat3, DVec3};

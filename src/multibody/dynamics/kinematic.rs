@@ -26,16 +26,16 @@ use soffio_math::{Interpolation, Jet3};
 
 /// A body that follows its motion whatever pulls at it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drive {
+pub struct KinematicBody {
     /// Index of the body.
     pub body: usize,
     /// Where it is when.
-    pub motion: Motion,
+    pub motion: KeyframeMotion,
 }
 
 /// Poses of a node at given times.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct KeyframeMotion {
     /// (time s, world pose of the node), times rising, at least one.
     pub keys: Vec<(f64, Pose)>,
     /// What happens between two keys.
@@ -46,7 +46,7 @@ pub struct Motion {
 
 /// A driven node at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instant {
+pub struct KinematicState {
     /// World pose of the node.
     pub pose: Pose,
     /// Velocity of its origin, m/s.
@@ -59,10 +59,10 @@ pub struct Instant {
     pub angular_acceleration: DVec3,
 }
 
-impl Motion {
+impl KeyframeMotion {
     /// The node at `t` seconds after reset.
-    pub fn at(&self, t: f64) -> Instant {
-        let still = |pose| Instant {
+    pub fn at(&self, t: f64) -> KinematicState {
+        let still = |pose| KinematicState {
             pose,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::ZERO,
@@ -82,7 +82,7 @@ impl Motion {
         let ((t0, from), (t1, to)) = (self.keys[found.key], self.keys[found.key + 1]);
         let Jet3 { value, rate, acceleration } = ease(self.interpolation, t1 - t0, found.since);
         let (way, turn) = (to.position - from.position, turn_between(from.rotation, to.rotation));
-        Instant {
+        KinematicState {
             pose: Pose {
                 rotation: (rotation(value * turn) * from.rotation).normalize(),
                 position: from.position + value * way,
@@ -94,7 +94,7 @@ impl Motion {
         }
     }
 
-    fn spline(&self, Span { key, since }: Span) -> Instant {
+    fn spline(&self, Span { key, since }: Span) -> KinematicState {
         let ((t0, from), (t1, to)) = (self.keys[key], self.keys[key + 1]);
         let ((v0, a0), (w0, alpha0)) = self.derivatives(key);
         let ((v1, a1), (w1, alpha1)) = self.derivatives(key + 1);
@@ -106,7 +106,7 @@ impl Motion {
         let bend = unspin(whole, alpha1 - spin(whole, rate, DVec3::ZERO).1);
         let (turn, turn_rate, turn_bend) = quintic((DVec3::ZERO, w0, alpha0), (whole, rate, bend), h, since);
         let (angular_velocity, angular_acceleration) = spin(turn, turn_rate, turn_bend);
-        Instant {
+        KinematicState {
             pose: Pose { rotation: (rotation(turn) * from.rotation).normalize(), position },
             velocity,
             angular_velocity,
@@ -130,7 +130,7 @@ impl Motion {
     }
 }
 
-impl Instant {
+impl KinematicState {
     /// Puts a body there; answers the accelerations of its centre of mass (m/s²) and its rotation (rad/s²).
     pub fn carry(&self, body: &mut RigidBody) -> (DVec3, DVec3) {
         let arm = self.pose.rotation * body.properties.center;

@@ -6,8 +6,8 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use super::course::{Course, Rate, SLOWEST, advance, less, norm};
 use super::forces;
+use super::substep_state::{Course, Rate, SLOWEST, advance, less, norm};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, Quad, State};

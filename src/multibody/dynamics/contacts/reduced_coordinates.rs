@@ -20,9 +20,9 @@
 //! Columns of W take one solve of the joints each; mechanisms do not feel each other's, so one solve serves the k-th rows of
 //! all of them.
 
-use super::open::Open;
-use super::row::{ROW_ENDS, Row};
-use super::touch::Touch;
+use super::contact::Touch;
+use super::jacobian_row::{MAX_ROW_BODIES, Row};
+use super::open_joints::Open;
 use crate::articulation::{Constraint, Geared, Groups, System};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, angular, linear};
@@ -92,7 +92,7 @@ pub(super) struct Part {
 struct Line {
     row: usize,
     part: usize,
-    geared: Option<Geared<ROW_ENDS>>,
+    geared: Option<Geared<MAX_ROW_BODIES>>,
 }
 
 /// The nodes of a problem and how its rows move them.
@@ -376,7 +376,7 @@ impl Coordinates {
 }
 
 /// The ends of a row in the mechanism of this first body.
-fn within(mechanisms: &Mechanisms, row: &Row, body: usize) -> [Option<(usize, Vec6)>; ROW_ENDS] {
+fn within(mechanisms: &Mechanisms, row: &Row, body: usize) -> [Option<(usize, Vec6)>; MAX_ROW_BODIES] {
     row.ends.map(|end| end.filter(|(other, _)| mechanisms.first[*other] == body))
 }
 

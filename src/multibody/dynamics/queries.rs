@@ -1,8 +1,8 @@
 //! What a figure tells of its last step and of where it stands.
 
-use super::contacts::{Contacts, Touching};
-use super::drive::Drive;
+use super::contacts::{ContactReport, Contacts};
 use super::forces::{self, Damping};
+use super::kinematic::KinematicBody;
 use super::step::Dynamics;
 use crate::articulation::{Break, System};
 
@@ -38,8 +38,8 @@ impl Dynamics {
     }
 
     /// Bodies that follow a given motion.
-    pub fn drives(&self) -> &[Drive] {
-        &self.equations.drives
+    pub fn kinematic_bodies(&self) -> &[KinematicBody] {
+        &self.equations.kinematic_bodies
     }
 
     /// What can touch, and the limits.
@@ -53,8 +53,8 @@ impl Dynamics {
     }
 
     /// The same row by row: what a mover by places is given.
-    pub fn plain_system(&self) -> &System {
-        self.equations.plain.as_deref().unwrap_or(&self.equations.system)
+    pub fn system_without_trains(&self) -> &System {
+        self.equations.without_trains.as_deref().unwrap_or(&self.equations.system)
     }
 
     /// Largest distance between the two points of any joint now, m.
@@ -64,7 +64,7 @@ impl Dynamics {
 
     /// The force that the joint of each constraint carried when it was last asked, in the last substep, all lengths between its
     /// two bodies together, N; `None` for what no joint holds, such as couplings. Of joints of trains it is 0: nobody asks.
-    pub fn loads(&self) -> Vec<Option<f64>> {
+    pub fn joint_loads(&self) -> Vec<Option<f64>> {
         let mut loads = vec![None; self.equations.system.constraints().len()];
         for (joint, load) in self.equations.system.joints().iter().zip(self.loads.all()) {
             joint.constraints.iter().for_each(|&constraint| loads[constraint] = Some(*load));
@@ -83,8 +83,8 @@ impl Dynamics {
     }
 
     /// Surfaces that press on each other at the end of the last step.
-    pub fn touching(&self) -> impl Iterator<Item = Touching> + '_ {
-        self.contacts.touching(&self.bodies)
+    pub fn contact_reports(&self) -> impl Iterator<Item = ContactReport> + '_ {
+        self.contacts.contact_reports(&self.bodies)
     }
 
     /// Pairs of colliders that the last step measured: those whose swept boxes overlapped, once a substep each.

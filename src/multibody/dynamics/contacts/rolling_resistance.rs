@@ -16,13 +16,13 @@
 //!
 //! In the contact problem a couple is a touch of its own, slave to the normal impulse of its point.
 
-use super::problem::Problem;
-use super::row::twist_rows;
-use super::touch::{Resistance, Touch, Twist};
+use super::contact::{RollingResistance, Touch, Twist};
+use super::contact_problem::Problem;
+use super::jacobian_row::twist_rows;
 
 impl Problem {
     /// Adds the couple of the touch at `of`, a point of a pair of these bodies.
-    pub(super) fn push_twist(&mut self, of: usize, bodies: [Option<usize>; 2], resistance: Resistance) {
+    pub(super) fn push_twist(&mut self, of: usize, bodies: [Option<usize>; 2], resistance: RollingResistance) {
         let Touch { source, point, normal, .. } = self.touches[of];
         // Nothing is moved out of it: it has no gap to speak of.
         let mut touch = Touch::new(source, point, normal, f64::INFINITY, 0.0);

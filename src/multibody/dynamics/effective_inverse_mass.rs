@@ -8,7 +8,7 @@ use soffio_math::{DMat3, DVec3};
 impl Dynamics {
     /// How points of the figure (body, world place, m) answer impulses, joints held: block i n + j is the velocity of point
     /// i for an impulse at point j, 1/kg.
-    pub fn answers(&mut self, points: &[(usize, DVec3)], out: &mut [DMat3]) {
+    pub fn effective_inverse_mass(&mut self, points: &[(usize, DVec3)], out: &mut [DMat3]) {
         points.iter().for_each(|point| self.wake(point.0));
         self.equations.prepare_impulses(&self.bodies);
         let n = points.len();
@@ -30,12 +30,12 @@ impl Dynamics {
     }
 
     /// Does a clutch of this body slip?
-    pub fn slips(&self, body: usize) -> bool {
+    pub fn clutch_slips(&self, body: usize) -> bool {
         self.contacts.clutches().slips(&self.equations.system, body)
     }
 
     /// How a body answers a unit of angular impulse about a world axis, joints held: rad/s about it, 1/(kg m²).
-    pub fn turns(&mut self, body: usize, axis: DVec3) -> f64 {
+    pub fn angular_response(&mut self, body: usize, axis: DVec3) -> f64 {
         self.wake(body);
         self.equations.prepare_impulses(&self.bodies);
         self.equations.system.b.fill([0.0; 6]);

@@ -1,6 +1,6 @@
 //! Touches: the points, bounds, couples and clutches that a contact problem solves for.
 
-use super::law::Answer;
+use super::contact_law::Answer;
 use soffio_math::{DMat3, DVec3};
 
 /// Share of the largest velocities that an impulse makes which is rounding.
@@ -93,14 +93,14 @@ impl Touch {
 
 /// Resistance of two surfaces to turning on each other, by the force that presses them together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Resistance {
+pub struct RollingResistance {
     /// b: couple against rolling, at most, over the normal force, m.
     pub rolling: f64,
     /// d: couple against spin about the normal, at most, over the normal force, m.
     pub spinning: f64,
 }
 
-impl Resistance {
+impl RollingResistance {
     /// Do the surfaces turn freely on each other?
     pub fn is_none(&self) -> bool {
         *self == Self::default()
@@ -112,7 +112,7 @@ impl Resistance {
 pub(super) struct Twist {
     /// Index of the point's own touch.
     pub of: usize,
-    pub resistance: Resistance,
+    pub resistance: RollingResistance,
 }
 
 /// What a clutch that slips may carry.

@@ -3,7 +3,7 @@
 //! follow the other.
 
 use super::contacts::{Contacts, Impact};
-use super::drive::Drive;
+use super::kinematic::KinematicBody;
 use super::step::Dynamics;
 use crate::articulation::System;
 use soffio_geometry::bodies::RigidBody;
@@ -11,7 +11,7 @@ use soffio_math::DVec3;
 use soffio_math::spatial::Vec6;
 
 /// A figure at the beginning of a step, in a mover's hands.
-pub struct Moved<'a> {
+pub struct PositionStep<'a> {
     /// To be left where the step ends, with their velocities.
     pub bodies: &'a mut [RigidBody],
     /// The joints; shares are those of the step's middle.
@@ -19,7 +19,7 @@ pub struct Moved<'a> {
     /// What can touch, and the limits.
     pub contacts: &'a mut Contacts,
     /// Bodies that follow a given motion.
-    pub drives: &'a [Drive],
+    pub kinematic_bodies: &'a [KinematicBody],
     /// From outside and from springs, N and N m about each centre of mass.
     pub wrenches: &'a [Vec6],
     /// World acceleration, m/s².
@@ -38,12 +38,12 @@ impl Dynamics {
     /// A step of `dt` seconds by another mover, under wrenches from outside (N and N m about each centre of mass). Hits
     /// are appended to `impacts`. Returns the first body with bad numbers, before or after, because of which the figure was put
     /// back.
-    pub fn step_by(
+    pub fn position_step(
         &mut self,
         dt: f64,
         external: &[Vec6],
         impacts: &mut Vec<Impact>,
-        mover: impl FnOnce(Moved),
+        mover: impl FnOnce(PositionStep),
     ) -> Option<usize> {
         self.wake_all();
         let bad = self.restore_bad_bodies();
@@ -55,14 +55,14 @@ impl Dynamics {
         equations.wrenches.total.copy_from_slice(external);
         equations.springs.push(&self.bodies, self.time, &mut equations.wrenches.total);
         let already = impacts.len();
-        if let Some(plain) = &mut equations.plain {
-            plain.exchange_run(&mut equations.system);
+        if let Some(without_trains) = &mut equations.without_trains {
+            without_trains.exchange_run(&mut equations.system);
         }
-        mover(Moved {
+        mover(PositionStep {
             bodies: &mut self.bodies,
-            system: equations.plain.as_deref_mut().unwrap_or(&mut equations.system),
+            system: equations.without_trains.as_deref_mut().unwrap_or(&mut equations.system),
             contacts: &mut self.contacts,
-            drives: &equations.drives,
+            kinematic_bodies: &equations.kinematic_bodies,
             wrenches: &equations.wrenches.total,
             gravity: self.settings.gravity,
             stabilization_time: self.settings.stabilization_time,
@@ -70,8 +70,8 @@ impl Dynamics {
             changed,
             impacts,
         });
-        if let Some(plain) = &mut equations.plain {
-            plain.exchange_run(&mut equations.system);
+        if let Some(without_trains) = &mut equations.without_trains {
+            without_trains.exchange_run(&mut equations.system);
         }
         equations.springs.break_overloaded(&self.bodies, self.time + dt);
         let lost = self.end_step(dt, already, impacts);

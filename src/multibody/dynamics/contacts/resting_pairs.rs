@@ -1,8 +1,8 @@
 //! What rests, and how long ago it was hit.
 
-use super::sleepers::Sleepers;
+use super::contact::{Source, Touch};
+use super::sleeping_bodies::Sleepers;
 use super::surfaces::Surfaces;
-use super::touch::{Source, Touch};
 use crate::dynamics::limits::Limits;
 
 /// What rests among the pairs of a figure, and how many bounds do.

@@ -12,13 +12,13 @@
 //!
 //! Hits travel: what approaches after one is hit next, in a fixed order, so that of a row of balls the last one leaves.
 
-use super::coordinates::Mechanisms;
+use super::contact::{LOCKED, Source, Touch};
+use super::contact_problem::Problem;
+use super::earliest_impact::Hit;
 use super::impact::{Impact, ImpactKind};
-use super::problem::Problem;
-use super::row::point_rows;
+use super::jacobian_row::point_rows;
+use super::reduced_coordinates::Mechanisms;
 use super::state::Contacts;
-use super::sweep::Hit;
-use super::touch::{LOCKED, Source, Touch};
 use crate::articulation::System;
 use crate::collision::{ManifoldPoint, TOUCH};
 use crate::dynamics::impulse::impulse;
@@ -39,7 +39,7 @@ const MOST_ROUNDS: usize = 256;
 
 /// Where and how two bodies are struck against each other.
 #[derive(Clone, Copy, Debug)]
-pub struct Strike {
+pub struct PointImpact {
     /// World, m.
     pub point: DVec3,
     /// Unit, from the second body to the first.
@@ -54,7 +54,7 @@ pub struct Strike {
 
 /// What a strike did, in the frame (t, b, n) of `math::tangents`.
 #[derive(Clone, Copy, Debug)]
-pub struct Struck {
+pub struct PointImpactResult {
     /// Impulse on the first body, N s.
     pub impulse: DVec3,
     /// Relative velocity before, m/s.
@@ -65,19 +65,23 @@ pub struct Struck {
 
 /// Resolves one hit at one point: three solves for the effective mass, one for the answer. The joints must be
 /// factored at the bodies' present state. `None` where joints hold the point or nothing approaches.
-pub fn strike(strike: &Strike, system: &mut System, bodies: &mut [RigidBody]) -> Option<Struck> {
+pub fn resolve_point_impact(
+    impact: &PointImpact,
+    system: &mut System,
+    bodies: &mut [RigidBody],
+) -> Option<PointImpactResult> {
     let mechanisms = Mechanisms::new(system.constraints(), system.driven());
     let mut problem = Problem::new(1, mechanisms, (system.states().len(), GATHERS));
-    let touch = Touch::new(Source::Pair(0), strike.point, strike.normal, 0.0, strike.friction);
-    problem.push(touch, &point_rows(strike.point, strike.normal, strike.bodies, bodies));
+    let touch = Touch::new(Source::Pair(0), impact.point, impact.normal, 0.0, impact.friction);
+    problem.push(touch, &point_rows(impact.point, impact.normal, impact.bodies, bodies));
     problem.assemble(system, bodies);
-    let struck = strike_one(&mut problem, strike.restitution)?;
+    let struck = resolve_single_contact(&mut problem, impact.restitution)?;
     problem.apply(system, bodies);
     Some(struck)
 }
 
 /// The impulse of a problem of one touch.
-fn strike_one(problem: &mut Problem, restitution: f64) -> Option<Struck> {
+fn resolve_single_contact(problem: &mut Problem, restitution: f64) -> Option<PointImpactResult> {
     let touch = problem.touches[0];
     let u = problem.velocity(0);
     let k = touch.k();
@@ -87,7 +91,11 @@ fn strike_one(problem: &mut Problem, restitution: f64) -> Option<Struck> {
     if touch.rows == 1 {
         problem.touches[0].impulse = DVec3::X * (-(1.0 + restitution) * u.x / k.x_axis.x);
         problem.follow();
-        return Some(Struck { impulse: DVec3::Z * problem.touches[0].impulse.x, velocity: DVec3::Z * u.x, k: *k });
+        return Some(PointImpactResult {
+            impulse: DVec3::Z * problem.touches[0].impulse.x,
+            velocity: DVec3::Z * u.x,
+            k: *k,
+        });
     }
     // From (n, t, b) to (t, b, n).
     let turn = |v: DVec3| DVec3::new(v.y, v.z, v.x);
@@ -96,7 +104,7 @@ fn strike_one(problem: &mut Problem, restitution: f64) -> Option<Struck> {
     let p = impulse(&k, velocity, touch.friction, restitution);
     problem.touches[0].impulse = DVec3::new(p.z, p.x, p.y);
     problem.follow();
-    Some(Struck { impulse: p, velocity, k })
+    Some(PointImpactResult { impulse: p, velocity, k })
 }
 
 impl Contacts {
@@ -224,7 +232,7 @@ impl Contacts {
         if count == 1 {
             let e = self.problem.touches[0].least;
             self.problem.touches[0].least = 0.0;
-            let _ = strike_one(&mut self.problem, e);
+            let _ = resolve_single_contact(&mut self.problem, e);
         } else {
             bounce_together(&mut self.problem, least_e);
         }
@@ -279,7 +287,7 @@ impl Contacts {
         };
         Impact {
             time,
-            kind: if rests { ImpactKind::Rest } else { moving },
+            kind: if rests { ImpactKind::RestingContact } else { moving },
             bodies,
             colliders,
             point: middle,

@@ -1,15 +1,15 @@
 //! What presses on what at the end of a step, how hard, and how fast it slides: what scraping and rolling sound from.
 
-use super::held::Held;
+use super::contact::Source;
+use super::contact_forces::Held;
 use super::state::Contacts;
-use super::touch::Source;
 use crate::collision::Pair;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 
 /// A point where two surfaces press on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touching {
+pub struct ContactReport {
     /// Index of the pair among the figure's.
     pub pair: usize,
     /// The two bodies; `None` is the world.
@@ -29,14 +29,14 @@ pub struct Touching {
 
 impl Contacts {
     /// Every touch that the last substep ended with, in a fixed order.
-    pub fn touching<'a>(&'a self, bodies: &'a [RigidBody]) -> impl Iterator<Item = Touching> + 'a {
+    pub fn contact_reports<'a>(&'a self, bodies: &'a [RigidBody]) -> impl Iterator<Item = ContactReport> + 'a {
         self.forces.held.iter().chain(&self.forces.kept).filter_map(|held| match held.source {
             Source::Pair(pair) if !held.couple => Some(self.pressed_pair(pair, held, bodies)),
             _ => None,
         })
     }
 
-    fn pressed_pair(&self, pair: usize, held: &Held, bodies: &[RigidBody]) -> Touching {
+    fn pressed_pair(&self, pair: usize, held: &Held, bodies: &[RigidBody]) -> ContactReport {
         let Pair { a, b } = self.surfaces.pairs[pair].pair;
         let [first, second] = [a, b].map(|collider| self.surfaces.colliders[collider].body);
         let velocity = |body: Option<usize>| {
@@ -54,7 +54,7 @@ impl Contacts {
             .flatten()
             .next()
             .map_or(DVec3::ZERO, |lever| lever.way / held.span + bodies[lever.body].velocity);
-        Touching {
+        ContactReport {
             pair,
             bodies: [first, second],
             point: held.point,

@@ -1,11 +1,11 @@
 //! The forces that hold what rests, from one substep to the next: where they act, and how their levers move with the bodies.
 
-use super::problem::Problem;
-use super::row::ROW_ENDS;
-use super::touch::{Source, Touch};
+use super::contact::{Source, Touch};
+use super::contact_problem::Problem;
+use super::jacobian_row::MAX_ROW_BODIES;
 use crate::articulation::System;
 use crate::dynamics::clutches::Clutches;
-use crate::dynamics::loads::least_inertia_across;
+use crate::dynamics::joint_loads::least_inertia_across;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, angular, linear, vec6};
 use soffio_math::{DQuat, DVec3, rotation, rotation_vector, tangents};
@@ -39,7 +39,7 @@ pub(super) struct Held {
     pub normal: DVec3,
     turn: DVec3,
     /// How it acts on its bodies.
-    pub ends: [Option<Lever>; ROW_ENDS],
+    pub ends: [Option<Lever>; MAX_ROW_BODIES],
 }
 
 /// One end of a held force.

@@ -4,13 +4,13 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, dot, vec6};
 use soffio_math::{DVec3, tangents};
 
-/// Most bodies of a row: the two wheels of a gear and what carries their axles.
-pub(in crate::dynamics) const ROW_ENDS: usize = 3;
+/// Most bodies that a Jacobian row acts on: the two wheels of a gear and the carrier of their axles.
+pub const MAX_ROW_BODIES: usize = 3;
 
 /// One row: the blocks of the bodies it acts on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::dynamics) struct Row {
-    pub ends: [Option<(usize, Vec6)>; ROW_ENDS],
+    pub ends: [Option<(usize, Vec6)>; MAX_ROW_BODIES],
 }
 
 impl Row {

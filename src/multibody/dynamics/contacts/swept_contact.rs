@@ -4,10 +4,10 @@
 //! its own depth. Where one has gone through the other (thin sheet, a long way) the end says nothing: the depth is then
 //! how far the points that met have gone past each other along the normal they met with.
 
+use super::contact::RollingResistance;
 use super::impact::SurfacePair;
-use super::row::{ROW_ENDS, Row, point_rows, twist_rows};
+use super::jacobian_row::{MAX_ROW_BODIES, Row, point_rows, twist_rows};
 use super::state::Contacts;
-use super::touch::Resistance;
 use crate::collision::{Collider, Pair, Shape, TOUCH};
 use soffio_geometry::bodies::RigidBody;
 use soffio_geometry::support::Core;
@@ -17,12 +17,9 @@ use soffio_math::spatial::Vec6;
 /// Cosine between the normals at the meeting and at the end above which the side is the same.
 const SAME_SIDE: f64 = 0.5;
 
-/// Bodies of a row at most.
-pub const ENDS: usize = ROW_ENDS;
-
 /// One point where two bodies met, or one bound that was passed.
 #[derive(Clone, Copy, Debug)]
-pub struct Met {
+pub struct SweptContact {
     /// Which pair it is, or which bound (counted on from the pairs).
     pub source: usize,
     /// Share of the way after which they met, 0 … 1.
@@ -42,14 +39,14 @@ pub struct Met {
     /// Coefficient of restitution.
     pub restitution: f64,
     /// Against rolling and spinning.
-    pub resistance: Resistance,
+    pub resistance: RollingResistance,
     /// Which of the two colliders are balls: centre (node frame) and radius, m.
     pub balls: [Option<(DVec3, f64)>; 2],
     /// The row J whose J v is the rate at which they part.
-    pub ends: [Option<(usize, Vec6)>; ENDS],
+    pub ends: [Option<(usize, Vec6)>; MAX_ROW_BODIES],
 }
 
-impl Met {
+impl SweptContact {
     /// J v: the rate at which they part, m/s (rad/s).
     pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
         Row { ends: self.ends }.rate(bodies)
@@ -57,7 +54,7 @@ impl Met {
 }
 
 /// Rows of the couple between the bodies of what met: about the normal, then about two tangents.
-pub fn couple_rows(met: &Met) -> [[Option<(usize, Vec6)>; ENDS]; 3] {
+pub fn rolling_rows(met: &SweptContact) -> [[Option<(usize, Vec6)>; MAX_ROW_BODIES]; 3] {
     twist_rows(met.normal, met.bodies).map(|row| row.ends)
 }
 
@@ -69,7 +66,7 @@ impl Contacts {
 
     /// Everything that met between two states of the bodies and still does at the second, by its source, into `out`, as
     /// far as that has room.
-    pub fn meet_on_the_way(&mut self, before: &[RigidBody], after: &[RigidBody], out: &mut Vec<Met>) {
+    pub fn find_swept_contacts(&mut self, before: &[RigidBody], after: &[RigidBody], out: &mut Vec<SweptContact>) {
         out.clear();
         if !self.surfaces.pairs.is_empty() {
             self.near.find(before, after, &self.sleepers.bodies);
@@ -83,7 +80,7 @@ impl Contacts {
                 continue;
             }
             let (_, row, point) = self.limits.row(bound, after);
-            out.push(Met {
+            out.push(SweptContact {
                 source: self.surfaces.pairs.len() + bound,
                 s: 1.0,
                 bodies: self.limits.bodies(bound),
@@ -93,14 +90,14 @@ impl Contacts {
                 depth: (-gap).max(0.0),
                 friction: 0.0,
                 restitution: self.limits.restitution(bound),
-                resistance: Resistance::default(),
+                resistance: RollingResistance::default(),
                 balls: [None; 2],
                 ends: row.ends,
             });
         }
     }
 
-    fn look_at_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<Met>) {
+    fn look_at_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<SweptContact>) {
         let Pair { a, b } = self.surfaces.pairs[pair].pair;
         let ((sweep_a, sweep_b), toi) = self.near.sweep_pair(&mut self.surfaces, pair);
         let Some(toi) = toi else { return };
@@ -120,7 +117,7 @@ impl Contacts {
             let balls = [ball(a), ball(b)];
             let colliders = Some([a, b]);
             let depth = (-gap).max(0.0);
-            out.push(Met {
+            out.push(SweptContact {
                 source: pair,
                 s,
                 bodies,
@@ -164,7 +161,7 @@ impl Contacts {
     }
 
     /// The same and its row.
-    pub fn bound(&self, bound: usize, bodies: &[RigidBody]) -> (f64, [Option<(usize, Vec6)>; ENDS]) {
+    pub fn bound(&self, bound: usize, bodies: &[RigidBody]) -> (f64, [Option<(usize, Vec6)>; MAX_ROW_BODIES]) {
         let (gap, row, _) = self.limits.row(bound, bodies);
         (gap, row.ends)
     }

@@ -16,10 +16,10 @@
 //! steps, cut by a search along them, always arrive; but what slides lifts off. Where each goes on as it does now, sliding is exact
 //! and convergence quadratic; but a step may be too long, and is halved until g gets less.
 
+use super::contact_law::Doing;
+use super::contact_solver::{Iterate, Newton, View, add_transposed, times};
 use super::islands::Island;
-use super::law::Doing;
-use super::newton::{Iterate, Newton, View, add_transposed, times};
-use crate::dynamics::effort::SOLVED;
+use crate::dynamics::work_budget::SOLVED;
 use soffio_math::{DMat3, DVec3};
 
 /// Newton's steps of a leap at most, and the share of what was missed that a gradient may leave.

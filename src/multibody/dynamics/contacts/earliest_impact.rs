@@ -3,8 +3,8 @@
 //! What touches at the beginning and opens there is not hit; if it has sunk in by the end it was thrown and came back
 //! within the substep, and the time at which it did is found by bisection.
 
+use super::contact::Source;
 use super::state::Contacts;
-use super::touch::Source;
 use crate::collision::{Pair, TimeOfImpact};
 use soffio_geometry::bodies::RigidBody;
 
@@ -69,7 +69,7 @@ impl Contacts {
 mod tests {
     use crate::collision::{Collider, Reach, Shape, pairs};
     use crate::dynamics::forces::Damping;
-    use crate::dynamics::{Dynamics, Figure, Integrator, Resistance, Settings, Solver, SurfacePair};
+    use crate::dynamics::{Articulation, Dynamics, Integrator, RollingResistance, Settings, Solver, SurfacePair};
     use soffio_geometry::bodies::{MassProperties, RigidBody};
     use soffio_math::noise::Random;
     use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
@@ -93,14 +93,15 @@ mod tests {
         }
         let floor = Shape::plane(DVec3::ZERO, DVec3::Y);
         colliders.push(Collider { body: None, shape: floor, material: 0, node: String::new() });
-        let surface = |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3, resistance: Resistance::default() };
-        let figure = Figure {
+        let surface =
+            |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3, resistance: RollingResistance::default() };
+        let figure = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &[],
             limits: &[],
             springs: &[],
-            drives: &[],
+            kinematic_bodies: &[],
             pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
             colliders: &colliders,
         };

@@ -12,13 +12,13 @@
 //! sweeps are made and the other kind of leap is tried. Whatever is taken has brought the touches nearer to their laws. A touch's normal impulse bounds
 //! its couple: that bound is taken from the last sweep.
 
-use super::coordinates::Coordinates;
+use super::active_set_step::Leap;
+use super::contact::{ROUNDING, Touch};
+use super::contact_law::{Answer, Doing, Law};
 use super::envelope::Envelope;
 use super::islands::{Island, Islands};
-use super::law::{Answer, Doing, Law};
-use super::leap::Leap;
-use super::touch::{ROUNDING, Touch};
-use crate::dynamics::effort::SWEPT;
+use super::reduced_coordinates::Coordinates;
+use crate::dynamics::work_budget::SWEPT;
 use soffio_math::{DMat3, DVec3};
 
 /// Touches agree with their laws when none would change a velocity of its own by more than this, m/s (a resting body creeps by

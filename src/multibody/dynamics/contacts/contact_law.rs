@@ -20,7 +20,7 @@
 //!
 //! so that D = −∂P⁺/∂u is not symmetric. A couple at its bound goes with the normal impulse of its point likewise.
 
-use super::touch::{GREASE, LOCKED, Resistance, Touch};
+use super::contact::{GREASE, LOCKED, RollingResistance, Touch};
 use soffio_math::{DMat2, DMat3, DVec2, DVec3};
 
 /// What a touch obeys at present.
@@ -235,7 +235,7 @@ impl Touch {
             return Law::Still;
         }
         if let Some(twist) = &self.twist {
-            let Resistance { rolling, spinning } = twist.resistance;
+            let RollingResistance { rolling, spinning } = twist.resistance;
             return Law::Couple(DVec2::new(spinning, rolling), normal.max(0.0));
         }
         match &self.grip {

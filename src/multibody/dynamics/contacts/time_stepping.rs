@@ -18,10 +18,10 @@
 //!
 //! Every impact keeps its own time in its event. Clutches that hold go on holding: impacts are over before one slips.
 
+use super::contact::Source;
 use super::impact::Impact;
-use super::rest::LAYER;
+use super::resting_contact::LAYER;
 use super::state::Contacts;
-use super::touch::Source;
 use crate::articulation::System;
 use crate::collision::{Pair, TOUCH, TimeOfImpact};
 use soffio_geometry::bodies::RigidBody;
