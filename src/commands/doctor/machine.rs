@@ -10,8 +10,8 @@ use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Reason};
 use soffio_devices::audio::{AudioIo, DeviceState, Heard};
 use soffio_kiosk::fleet::kept;
 use soffio_kiosk::pages::fonts::{self, Script};
-use soffio_kiosk::pages::languages::unwritten;
-use soffio_kiosk::pages::speech::Speaker;
+use soffio_kiosk::pages::languages::languages_without_glyphs;
+use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
 use soffio_kiosk::pages::words::WORDS;
 use soffio_kiosk::venue::care::CLEAN_NIGHTS;
 use soffio_kiosk::venue::chirping::{Act, Course};
@@ -75,8 +75,8 @@ fn writing(script: Script) -> Finding {
         Script::Arabic => ("font for Arabic, Persian and Urdu", "fonts-noto-core or fonts-dejavu-core"),
     };
     match fonts::find(script) {
-        Some((file, _)) if script == Script::EastAsian && !unwritten().is_empty() => {
-            let found = format!("{} lacks letters of: {}", file.display(), unwritten().join(", "));
+        Some((file, _)) if script == Script::EastAsian && !languages_without_glyphs().is_empty() => {
+            let found = format!("{} lacks letters of: {}", file.display(), languages_without_glyphs().join(", "));
             let remedy = "install fonts-noto-cjk; until then labels in these languages are not offered";
             Finding::new(what, Health::Warn, found, remedy)
         }
@@ -94,7 +94,7 @@ fn reading(config: &Config) -> Finding {
     if config.visit.reads_aloud.is_empty() {
         return Finding::new(what, Health::Ok, "visit.reads_aloud is empty: nothing is read", "");
     }
-    match Speaker::find(&config.visit.reads_aloud) {
+    match SpeechSynthesizer::detect(&config.visit.reads_aloud) {
         Ok(speaker) => {
             let can = |can: bool| {
                 let codes = WORDS.iter().map(|words| words.code).filter(|code| speaker.can_speak(code) == can);

@@ -15,13 +15,13 @@ use unicode_bidi_mirroring::get_mirrored;
 pub type Line = Vec<String>;
 
 /// Is there anything that is read from the right?
-pub fn is_mixed(text: &str) -> bool {
-    text.chars().any(from_right)
+pub fn has_right_to_left(text: &str) -> bool {
+    text.chars().any(is_right_to_left_char)
 }
 
 /// Is its first word, or are at least half of its words read from the right? A text's own direction: the first letter alone,
 /// as UAX 9 takes it where nothing else is known, would turn a Hebrew sentence about that begins with a Latin name.
-pub fn reads_from_right(text: &str) -> bool {
+pub fn is_right_to_left(text: &str) -> bool {
     let way = |word: &str| {
         word.chars().map(bidi_class).find(|class| matches!(class, BidiClass::L | BidiClass::R | BidiClass::AL))
     };
@@ -33,12 +33,12 @@ pub fn reads_from_right(text: &str) -> bool {
 
 /// The lines of a text, none longer than `longest` where a space lies before that; `width` measures a piece.
 pub fn lines(text: &str, longest: f32, mut width: impl FnMut(&str) -> f32) -> Vec<Line> {
-    let base = if reads_from_right(text) { Level::rtl() } else { Level::ltr() };
+    let base = if is_right_to_left(text) { Level::rtl() } else { Level::ltr() };
     let info = BidiInfo::new(text, Some(base));
     let mut all = Vec::new();
     for paragraph in &info.paragraphs {
         let mut line: Option<(Range<usize>, f32)> = None;
-        for word in words(text, paragraph.range.clone()) {
+        for word in word_ranges(text, paragraph.range.clone()) {
             let length = |range: Range<usize>, width: &mut dyn FnMut(&str) -> f32| -> f32 {
                 pieces(&info, paragraph, range).iter().map(|piece| width(piece)).sum()
             };
@@ -62,12 +62,12 @@ pub fn lines(text: &str, longest: f32, mut width: impl FnMut(&str) -> f32) -> Ve
 }
 
 /// Does it stand in a script that is read from the right?
-fn from_right(c: char) -> bool {
+fn is_right_to_left_char(c: char) -> bool {
     matches!(bidi_class(c), BidiClass::R | BidiClass::AL)
 }
 
 /// What lies between white space.
-fn words(text: &str, paragraph: Range<usize>) -> Vec<Range<usize>> {
+fn word_ranges(text: &str, paragraph: Range<usize>) -> Vec<Range<usize>> {
     let mut words = Vec::new();
     let mut begun = None;
     for (i, c) in text[paragraph.clone()].char_indices() {
@@ -92,15 +92,15 @@ fn pieces(info: &BidiInfo, paragraph: &ParagraphInfo, line: Range<usize>) -> Lin
     for run in runs {
         let text = &info.text[run.clone()];
         match levels[run.start].is_rtl() {
-            true => pieces.extend(reversed(text)),
-            false => pieces.extend(kept(text)),
+            true => pieces.extend(right_to_left_pieces(text)),
+            false => pieces.extend(left_to_right_pieces(text)),
         }
     }
     pieces
 }
 
 /// A run from the left. The shaper turns the digits of Arabic about, of whose script they are: they are given it reversed.
-fn kept(run: &str) -> Vec<String> {
+fn left_to_right_pieces(run: &str) -> Vec<String> {
     let digit = |c: char| bidi_class(c) == BidiClass::AN;
     let mut pieces: Vec<(bool, String)> = Vec::new();
     for c in run.chars() {
@@ -114,8 +114,8 @@ fn kept(run: &str) -> Vec<String> {
 }
 
 /// A run from the right: words whole, as they are read (the shaper turns them), the rest sign by sign, mirrored.
-fn reversed(run: &str) -> Vec<String> {
-    let letter = |c: char| from_right(c) || matches!(bidi_class(c), BidiClass::NSM | BidiClass::BN);
+fn right_to_left_pieces(run: &str) -> Vec<String> {
+    let letter = |c: char| is_right_to_left_char(c) || matches!(bidi_class(c), BidiClass::NSM | BidiClass::BN);
     let mut pieces: Vec<(bool, String)> = Vec::new();
     for c in run.chars() {
         let is_letter = letter(c);

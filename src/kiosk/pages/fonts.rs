@@ -75,7 +75,7 @@ impl Script {
 
 /// This system's font for a script, and the face to take from it.
 pub fn find(script: Script) -> Option<(PathBuf, u32)> {
-    among(&installed(), script)
+    first_installed(&installed(), script)
 }
 
 /// Files of all fonts of this system.
@@ -85,7 +85,7 @@ fn installed() -> Vec<PathBuf> {
     folders.flat_map(|folder| files_below(&folder, DEPTH)).collect()
 }
 
-fn among(files: &[PathBuf], script: Script) -> Option<(PathBuf, u32)> {
+fn first_installed(files: &[PathBuf], script: Script) -> Option<(PathBuf, u32)> {
     script.files().iter().find_map(|&(name, face)| {
         let file = files.iter().find(|file| file.file_name().is_some_and(|found| found == name))?;
         Some((file.clone(), face))
@@ -97,7 +97,7 @@ pub fn definitions() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let files = installed();
     for script in Script::ALL {
-        let Some((file, face)) = among(&files, script) else { continue };
+        let Some((file, face)) = first_installed(&files, script) else { continue };
         match std::fs::read(&file) {
             Ok(bytes) => {
                 let data = FontData { index: face, ..FontData::from_owned(bytes) };

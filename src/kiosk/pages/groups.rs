@@ -12,7 +12,7 @@ pub enum Row {
     /// Heading of the group at this index.
     Heading(usize),
     /// Works by their index among those offered, as many as there are columns, or fewer.
-    Works(Vec<usize>),
+    Exhibits(Vec<usize>),
 }
 
 /// All rows, for works with these ids in their order.
@@ -29,19 +29,19 @@ pub fn rows(ids: &[&str], groups: &[Group], columns: usize) -> Vec<Row> {
             continue;
         }
         rows.extend(group.map(Row::Heading));
-        rows.extend(members.chunks(columns.max(1)).map(|works| Row::Works(works.to_vec())));
+        rows.extend(members.chunks(columns.max(1)).map(|works| Row::Exhibits(works.to_vec())));
     }
     rows
 }
 
 /// Rows by leaves of this height, given the heights of a heading and of a row of works.
-pub fn leaves(rows: Vec<Row>, room: f32, heading: f32, works: f32) -> Vec<Vec<Row>> {
+pub fn paginate(rows: Vec<Row>, room: f32, heading: f32, works: f32) -> Vec<Vec<Row>> {
     let (mut leaves, mut left) = (vec![Vec::new()], room);
     for row in rows {
         // With a heading goes the first row under it.
         let (height, needed) = match row {
             Row::Heading(_) => (heading, heading + works),
-            Row::Works(_) => (works, works),
+            Row::Exhibits(_) => (works, works),
         };
         if needed > left && leaves.last().is_some_and(|leaf| !leaf.is_empty()) {
             // The row after a heading was thought of with it.
@@ -82,16 +82,16 @@ mod tests {
         let all = rows(&ids, &groups, 2);
         let expected = [
             Row::Heading(0),
-            Row::Works(vec![0, 2]),
+            Row::Exhibits(vec![0, 2]),
             Row::Heading(2),
-            Row::Works(vec![3]),
+            Row::Exhibits(vec![3]),
             // In no group.
-            Row::Works(vec![1, 4]),
+            Row::Exhibits(vec![1, 4]),
         ];
         assert_eq!(all, expected);
         let rest = [group("mobiles", &["moons"]), group("rest", &["*"])];
-        assert_eq!(rows(&ids, &rest, 4)[2..], [Row::Heading(1), Row::Works(vec![0, 1, 3, 4])]);
-        assert_eq!(rows(&ids, &[], 3), [Row::Works(vec![0, 1, 2]), Row::Works(vec![3, 4])]);
+        assert_eq!(rows(&ids, &rest, 4)[2..], [Row::Heading(1), Row::Exhibits(vec![0, 1, 3, 4])]);
+        assert_eq!(rows(&ids, &[], 3), [Row::Exhibits(vec![0, 1, 2]), Row::Exhibits(vec![3, 4])]);
         assert_eq!((heading(&groups[0], "it-CH"), heading(&groups[0], "ko")), ("mobiles, in italiano", "mobiles"));
     }
 
@@ -102,10 +102,10 @@ mod tests {
         let groups: Vec<Group> = ids.chunks(3).map(|works| group("some", works)).collect();
         for room in [5.0, 20.0, 25.0, 31.0, 47.0, 1000.0] {
             let all = rows(&ids, &groups, 2);
-            let split = leaves(all.clone(), room, 4.0, 10.0);
+            let split = paginate(all.clone(), room, 4.0, 10.0);
             assert_eq!(split.concat(), all, "{room}");
             for leaf in &split {
-                assert!(matches!(leaf.last(), Some(Row::Works(_))), "{room}: {leaf:?}");
+                assert!(matches!(leaf.last(), Some(Row::Exhibits(_))), "{room}: {leaf:?}");
                 let height: f32 = leaf.iter().map(|row| if let Row::Heading(_) = row { 4.0 } else { 10.0 }).sum();
                 // What does not fit at all stands there all the same: one row, and its heading.
                 assert!(height <= room.max(14.0), "{room}: {leaf:?}");

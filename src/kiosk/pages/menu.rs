@@ -8,10 +8,10 @@ use std::path::Path;
 
 use egui::{Align2, Color32, Rect, Stroke, StrokeKind, TextureId, pos2, vec2};
 
-use crate::pages::bidi::reads_from_right;
-use crate::pages::groups::{Row, heading, leaves, rows};
+use crate::pages::bidi::is_right_to_left;
+use crate::pages::groups::{Row, heading, paginate, rows};
 use crate::pages::overlay::Scene;
-use crate::pages::page::{INK, PAPER, Page, SMALL, SOFT_INK, VERMILION};
+use crate::pages::canvas::{INK, PAPER, Canvas, SMALL_TEXT_EM, SOFT_INK, VERMILION};
 use crate::pages::words::{language_name, words};
 use crate::venue::shelf::Work;
 use crate::visitor::input::Request;
@@ -22,11 +22,11 @@ const COUNTDOWN: f64 = 10.0;
 /// Columns of tiles on a wide page and on a tall one.
 const COLUMNS: (usize, usize) = (3, 2);
 /// Height of a tile's picture over its width.
-const SHAPE: f32 = 9.0 / 16.0;
+const THUMBNAIL_ASPECT: f32 = 9.0 / 16.0;
 /// Height of a group's heading, em.
-const HEADING: f32 = 2.2;
+const HEADING_EM: f32 = 2.2;
 /// The label's part of a wide page, of its width, and of a tall one, of its height.
-const LABEL: f32 = 0.36;
+const LABEL_SHARE: f32 = 0.36;
 
 /// A work to choose.
 pub struct Tile {
@@ -47,17 +47,17 @@ pub struct Menu {
     pub open: bool,
     /// Time without a touch after which it closes, s.
     pub closes_s: f64,
-    leaf: usize,
-    leaves: usize,
+    page_index: usize,
+    page_count: usize,
     focus: Option<usize>,
     /// Inputs that were seen, and when the last one came, s.
     activity: u64,
-    touched: f64,
+    last_input: f64,
 }
 
 impl Default for Menu {
     fn default() -> Self {
-        Self { open: false, closes_s: PAGE_CLOSES_S, leaf: 0, leaves: 0, focus: None, activity: 0, touched: 0.0 }
+        Self { open: false, closes_s: PAGE_CLOSES_S, page_index: 0, page_count: 0, focus: None, activity: 0, last_input: 0.0 }
     }
 }
 
@@ -65,7 +65,7 @@ impl Menu {
     /// Opens it, or closes it.
     pub fn toggle(&mut self) {
         let (open, closes_s) = (!self.open, self.closes_s);
-        *self = Self { open, closes_s, touched: f64::NEG_INFINITY, ..Self::default() };
+        *self = Self { open, closes_s, last_input: f64::NEG_INFINITY, ..Self::default() };
     }
 
     /// Closes it, and forgets where it was opened.
@@ -74,29 +74,29 @@ impl Menu {
     }
 
     /// Turns to another leaf of works.
-    pub fn turn(&mut self, by: i32) {
-        let leaves = self.leaves.max(1) as i32;
-        self.leaf = (self.leaf as i32 + by).rem_euclid(leaves) as usize;
+    pub fn turn_page(&mut self, by: i32) {
+        let leaves = self.page_count.max(1) as i32;
+        self.page_index = (self.page_index as i32 + by).rem_euclid(leaves) as usize;
         self.focus = None;
     }
 
     /// Closes where nobody has touched it for long, or somebody blows; `activity` counts inputs.
-    pub fn tend(&mut self, time: f64, activity: u64, blown: bool) {
-        if self.touched == f64::NEG_INFINITY || activity != self.activity {
-            (self.touched, self.activity) = (time, activity);
+    pub fn update(&mut self, time: f64, activity: u64, blown: bool) {
+        if self.last_input == f64::NEG_INFINITY || activity != self.activity {
+            (self.last_input, self.activity) = (time, activity);
         }
-        if self.open && (blown || time - self.touched > self.closes_s) {
+        if self.open && (blown || time - self.last_input > self.closes_s) {
             self.toggle();
         }
     }
 
     /// Does its arc close?
-    pub fn closes(&self, time: f64) -> bool {
-        self.open && time - self.touched > self.closes_s - COUNTDOWN
+    pub fn shows_countdown(&self, time: f64) -> bool {
+        self.open && time - self.last_input > self.closes_s - COUNTDOWN
     }
 
     /// Moves the mark of the keys to the next button that way (right and down); the first key shows it.
-    pub fn look(&mut self, way: [i32; 2], buttons: &[(Rect, Request)]) {
+    pub fn move_focus(&mut self, way: [i32; 2], buttons: &[(Rect, Request)]) {
         let pressable = |i: &usize| buttons[*i].1 != Request::Nothing;
         let all: Vec<usize> = (0..buttons.len()).filter(pressable).collect();
         let Some(from) = self.focus.and_then(|focus| buttons.get(focus)).map(|(rect, _)| rect.center()) else {
@@ -116,38 +116,38 @@ impl Menu {
     }
 
     /// What the marked button asks for.
-    pub fn marked(&self, buttons: &[(Rect, Request)]) -> Option<Request> {
+    pub fn focused(&self, buttons: &[(Rect, Request)]) -> Option<Request> {
         self.focus.and_then(|focus| buttons.get(focus)).map(|(_, request)| *request)
     }
 
     /// Draws it; `buttons` are what can be pressed.
-    pub fn paint(&mut self, page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) {
+    pub fn paint(&mut self, page: &Canvas, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) {
         let everything = page.painter.clip_rect();
         let paper = if page.reading.contrast { Color32::WHITE } else { PAPER.gamma_multiply(0.97) };
         page.painter.rect_filled(everything, 0.0, paper);
-        let back = self.back(page, scene, buttons);
-        let bar = bar(page, scene, buttons);
+        let back = self.back_button(page, scene, buttons);
+        let bar = settings_bar(page, scene, buttons);
         let room = page.picture.with_min_y(back.bottom() + 0.5 * page.em).with_max_y(bar - page.em);
         let (label, tiles) = if page.is_tall() {
-            let y = room.top() + (1.0 - LABEL) * room.height();
+            let y = room.top() + (1.0 - LABEL_SHARE) * room.height();
             (room.with_min_y(y + page.em), room.with_max_y(y))
         } else {
-            let x = room.left() + LABEL * room.width();
+            let x = room.left() + LABEL_SHARE * room.width();
             (room.with_max_x(x - 2.0 * page.em), room.with_min_x(x))
         };
         wall_text(page, scene, label);
-        self.works(page, scene, tiles, buttons);
+        self.exhibit_tiles(page, scene, tiles, buttons);
         if let Some((rect, _)) = self.focus.and_then(|focus| buttons.get(focus)) {
-            page.focus(*rect);
+            page.focus_ring(*rect);
         }
         buttons.push((everything, Request::Nothing));
     }
 
     /// The way back, top right, with the arc of the countdown.
-    fn back(&self, page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> Rect {
+    fn back_button(&self, page: &Canvas, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> Rect {
         let corner = page.picture.right_top() + vec2(0.0, page.button);
-        let sign = page.sign(corner, "\u{00d7}");
-        let left = (self.closes_s - (scene.time - self.touched)) / COUNTDOWN;
+        let sign = page.icon_button(corner, "\u{00d7}");
+        let left = (self.closes_s - (scene.time - self.last_input)) / COUNTDOWN;
         if left < 1.0 {
             page.arc(sign.center(), 0.42 * page.button, left.clamp(0.0, 1.0) as f32, VERMILION);
         }
@@ -160,30 +160,30 @@ impl Menu {
     }
 
     /// The works, in tiles under the headings of their groups.
-    fn works(&mut self, page: &Page, scene: &Scene, room: Rect, buttons: &mut Vec<(Rect, Request)>) {
+    fn exhibit_tiles(&mut self, page: &Canvas, scene: &Scene, room: Rect, buttons: &mut Vec<(Rect, Request)>) {
         let columns = if page.is_tall() { COLUMNS.1 } else { COLUMNS.0 };
         let gap = page.em;
         let width = (room.width() - gap * (columns - 1) as f32) / columns as f32;
-        let size = vec2(width, SHAPE * width + 2.2 * page.em);
+        let size = vec2(width, THUMBNAIL_ASPECT * width + 2.2 * page.em);
         let turning = page.button + gap;
         let ids: Vec<&str> = scene.tiles.iter().map(|tile| tile.id.as_str()).collect();
         let within =
-            |height: f32| leaves(rows(&ids, scene.groups, columns), height + gap, HEADING * page.em, size.y + gap);
+            |height: f32| paginate(rows(&ids, scene.groups, columns), height + gap, HEADING_EM * page.em, size.y + gap);
         // Where all works have room on one leaf there is nothing to turn.
         let whole = Some(within(room.height())).filter(|leaves| leaves.len() == 1);
         let all = whole.unwrap_or_else(|| within(room.height() - turning));
-        self.leaves = all.len();
-        self.leaf = self.leaf.min(self.leaves.saturating_sub(1));
+        self.page_count = all.len();
+        self.page_index = self.page_index.min(self.page_count.saturating_sub(1));
         let mut y = room.top();
-        for row in all.get(self.leaf).into_iter().flatten() {
+        for row in all.get(self.page_index).into_iter().flatten() {
             match row {
                 Row::Heading(group) => {
                     let text = heading(&scene.groups[*group], scene.language);
-                    let at = pos2(room.left(), y + (HEADING - 0.5) * page.em);
+                    let at = pos2(room.left(), y + (HEADING_EM - 0.5) * page.em);
                     page.text(at, Align2::LEFT_BOTTOM, text, 1.0, INK, room.width());
-                    y += HEADING * page.em;
+                    y += HEADING_EM * page.em;
                 }
-                Row::Works(works) => {
+                Row::Exhibits(works) => {
                     for (column, &index) in works.iter().enumerate() {
                         let at = pos2(room.left() + column as f32 * (size.x + gap), y);
                         tile(page, &scene.tiles[index], Rect::from_min_size(at, size));
@@ -193,22 +193,22 @@ impl Menu {
                 }
             }
         }
-        if self.leaves > 1 {
+        if self.page_count > 1 {
             let corner = pos2(room.right(), room.bottom());
-            let next = page.sign(corner, "\u{203a}");
+            let next = page.icon_button(corner, "\u{203a}");
             buttons.push((next, Request::Leaf(1)));
-            let said = format!("{} / {}", self.leaf + 1, self.leaves);
+            let said = format!("{} / {}", self.page_index + 1, self.page_count);
             let at = pos2(next.left() - 0.5 * gap, next.center().y);
             let count = page.text(at, Align2::RIGHT_CENTER, &said, 0.85, SOFT_INK, f32::INFINITY);
-            let before = page.sign(pos2(count.left() - 0.5 * gap, corner.y), "\u{2039}");
+            let before = page.icon_button(pos2(count.left() - 0.5 * gap, corner.y), "\u{2039}");
             buttons.push((before, Request::Leaf(-1)));
         }
     }
 }
 
 /// A work's picture and, below it, its title; the one on show is framed.
-fn tile(page: &Page, tile: &Tile, room: Rect) {
-    let picture = room.with_max_y(room.top() + SHAPE * room.width());
+fn tile(page: &Canvas, tile: &Tile, room: Rect) {
+    let picture = room.with_max_y(room.top() + THUMBNAIL_ASPECT * room.width());
     match tile.picture {
         Some(texture) => {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -221,31 +221,31 @@ fn tile(page: &Page, tile: &Tile, room: Rect) {
     if tile.shown {
         page.painter.rect_stroke(picture, 0.0, Stroke::new(0.2 * page.em, VERMILION), StrokeKind::Outside);
     }
-    let title = page.set(&tile.title, 0.85, INK, room.width());
-    let x = if reads_from_right(&tile.title) { picture.right() - title.size().x } else { picture.left() };
+    let title = page.layout(&tile.title, 0.85, INK, room.width());
+    let x = if is_right_to_left(&tile.title) { picture.right() - title.size().x } else { picture.left() };
     page.painter.galley(pos2(x, picture.bottom() + 0.3 * page.em), title, INK);
 }
 
 /// Title, maker, the wall text, and how the work is played: as large as there is room for.
-fn wall_text(page: &Page, scene: &Scene, room: Rect) {
+fn wall_text(page: &Canvas, scene: &Scene, room: Rect) {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return };
-    let invite = if scene.hearing.hears { own.invite } else { "" };
-    let hold = own.how(scene.needs);
+    let invite = if scene.breath_input.is_active { own.invite } else { "" };
+    let hold = own.how(scene.accessibility);
     let play = [invite, own.aim, hold, own.take];
     let parts: Vec<(&str, f32, f32)> = [(label.title.as_str(), 1.5, 0.2), (label.maker.as_str(), 0.8, 1.0)]
         .into_iter()
         .chain([(label.body.trim(), 0.95, 1.2)])
         .chain(play.into_iter().map(|line| (line, 0.9, 0.35)))
         .chain([
-            (if scene.hearing.hears { own.privacy } else { "" }, SMALL, 0.6),
-            (scene.exhibit.credit.notice.trim(), SMALL, 0.0),
+            (if scene.breath_input.is_active { own.privacy } else { "" }, SMALL_TEXT_EM, 0.6),
+            (scene.exhibit.credit.notice.trim(), SMALL_TEXT_EM, 0.0),
         ])
         .filter(|(text, ..)| !text.is_empty())
         .collect();
     let set = |scale: f32| -> Vec<_> {
         let one = |(text, size, space): &(&str, f32, f32)| {
-            (page.set(text, (scale * size).max(SMALL * scale.min(1.0)), INK, room.width()), space * scale * page.em)
+            (page.layout(text, (scale * size).max(SMALL_TEXT_EM * scale.min(1.0)), INK, room.width()), space * scale * page.em)
         };
         parts.iter().map(one).collect()
     };
@@ -258,7 +258,7 @@ fn wall_text(page: &Page, scene: &Scene, room: Rect) {
         scale *= 0.94;
         lines = set(scale);
     }
-    let from_right = reads_from_right(&label.body);
+    let from_right = is_right_to_left(&label.body);
     let mut y = room.top();
     for (galley, space) in lines {
         let next = y + galley.size().y + space;
@@ -271,48 +271,48 @@ fn wall_text(page: &Page, scene: &Scene, room: Rect) {
 
 /// Something to press on the lower edge.
 enum Item<'a> {
-    Word(&'a str, bool),
-    Sign(&'a str),
+    Label(&'a str, bool),
+    Icon(&'a str),
 }
 
 /// Languages, volume, type and microphone along the lower edge, in as many rows as they need; returns their top.
-fn bar(page: &Page, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
+fn settings_bar(page: &Canvas, scene: &Scene, buttons: &mut Vec<(Rect, Request)>) -> f32 {
     let own = words(scene.language);
     let mut items: Vec<(Item, Request)> = Vec::new();
-    if let Some(speaks) = scene.sound.speech {
-        items.push((Item::Word(own.speak, speaks), Request::Speak));
+    if let Some(speaks) = scene.sound.reads_aloud {
+        items.push((Item::Label(own.speak, speaks), Request::Speak));
     }
-    if scene.hearing.has_ear {
-        items.push((Item::Word(own.ear, scene.hearing.listens), Request::Listen));
+    if scene.breath_input.has_microphone {
+        items.push((Item::Label(own.ear, scene.breath_input.microphone_on), Request::Listen));
     }
-    items.push((Item::Word(own.large, scene.needs.reading.large), Request::Large));
-    items.push((Item::Word(own.contrast, scene.needs.reading.contrast), Request::Contrast));
-    items.push((Item::Word(own.press_once, scene.needs.press_once), Request::PressOnce));
-    items.push((Item::Word(own.dwell, scene.needs.dwell), Request::Dwell));
-    items.push((Item::Word(own.calm, scene.needs.calm), Request::Calm));
-    items.push((Item::Word(own.round, scene.needs.round), Request::Round));
-    if scene.sound.volume {
-        items.push((Item::Sign("\u{2212}"), Request::Louder(-1)));
-        items.push((Item::Sign("+"), Request::Louder(1)));
+    items.push((Item::Label(own.large, scene.accessibility.reading.large), Request::Large));
+    items.push((Item::Label(own.contrast, scene.accessibility.reading.contrast), Request::Contrast));
+    items.push((Item::Label(own.press_once, scene.accessibility.press_once), Request::PressOnce));
+    items.push((Item::Label(own.dwell, scene.accessibility.dwell), Request::Dwell));
+    items.push((Item::Label(own.calm, scene.accessibility.calm), Request::Calm));
+    items.push((Item::Label(own.round, scene.accessibility.round), Request::Round));
+    if scene.sound.has_volume_control {
+        items.push((Item::Icon("\u{2212}"), Request::Louder(-1)));
+        items.push((Item::Icon("+"), Request::Louder(1)));
     }
     if scene.languages.len() > 1 {
         let languages = scene.languages.iter().enumerate();
         items.extend(
-            languages.map(|(i, code)| (Item::Word(language_name(code), code == scene.language), Request::Language(i))),
+            languages.map(|(i, code)| (Item::Label(language_name(code), code == scene.language), Request::Language(i))),
         );
     }
     let mut corner = page.picture.right_bottom();
     for (item, request) in items.into_iter().rev() {
         let width = match item {
-            Item::Word(text, _) => page.word_size(text).x,
-            Item::Sign(_) => page.button,
+            Item::Label(text, _) => page.label_size(text).x,
+            Item::Icon(_) => page.button,
         };
         if corner.x - width < page.picture.left() && corner.x < page.picture.right() {
             corner = pos2(page.picture.right(), corner.y - page.button - 0.3 * page.em);
         }
         let rect = match item {
-            Item::Word(text, on) => page.word(corner, text, on),
-            Item::Sign(sign) => page.sign(corner, sign),
+            Item::Label(text, on) => page.label_button(corner, text, on),
+            Item::Icon(sign) => page.icon_button(corner, sign),
         };
         corner.x = rect.left();
         buttons.push((rect, request));

@@ -11,9 +11,9 @@ use soffio_exhibit::{Exhibit, Label, View};
 use soffio_math::{PI, tangents};
 use soffio_simulation::{BreathView, Snapshot};
 
-use crate::pages::bidi::reads_from_right;
+use crate::pages::bidi::is_right_to_left;
 use crate::pages::menu::{Menu, Tile};
-use crate::pages::page::{HALO, INK, PAPER, Page, SMALL, SOFT_INK, VERMILION};
+use crate::pages::canvas::{HALO, INK, PAPER, Canvas, SMALL_TEXT_EM, SOFT_INK, VERMILION};
 use crate::pages::words::words;
 use crate::venue::house::House;
 use crate::visitor::given;
@@ -25,14 +25,14 @@ const INVITE_AGAIN: f64 = 8.0;
 /// Time in which the invitation fades, s.
 const FADE: f64 = 0.5;
 /// What is left of a fade that nobody sees: half a level of 255.
-const FADED: f64 = 0.002;
+const FADE_END: f64 = 0.002;
 /// Hard blowing after which a rest is proposed, s within about a minute, and until it has worn off to this: whoever blows
 /// on and on becomes light-headed.
-const TOO_MUCH: f64 = 12.0;
-const RESTED: f64 = 8.0;
-const WEARS_OFF: f64 = 60.0;
+const REST_PROPOSED_S: f64 = 12.0;
+const REST_OVER_S: f64 = 8.0;
+const RECOVERY_S: f64 = 60.0;
 /// What counts as hard, of the meter.
-const HARD: f64 = 0.6;
+const HARD_BREATH: f64 = 0.6;
 /// Longest line of type, of the page's width: label and invitation stand beside the work, not before it. On a tall
 /// page they stand below it, and may meet in the middle.
 const LINE_SHARE: f32 = 0.32;
@@ -40,28 +40,28 @@ const TALL_LINE_SHARE: f32 = 0.46;
 
 /// What becomes of a visitor's breath.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Hearing {
+pub struct BreathInput {
     /// Does anything listen to it?
-    pub hears: bool,
+    pub is_active: bool,
     /// Does the site want visitors to blow?
-    pub breath: bool,
+    pub is_allowed: bool,
     /// Is there a microphone that a visitor can switch?
-    pub has_ear: bool,
+    pub has_microphone: bool,
     /// Is it on?
-    pub listens: bool,
+    pub microphone_on: bool,
 }
 
 /// What is heard of the work.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sound<'a> {
+pub struct SoundState<'a> {
     /// Keys of the captions of what can be heard.
     pub captions: &'a [String],
     /// Is the sound off?
-    pub silent: bool,
+    pub is_muted: bool,
     /// Is something being read aloud? `None` where nothing can read the language shown.
-    pub speech: Option<bool>,
+    pub reads_aloud: Option<bool>,
     /// May a visitor change the volume?
-    pub volume: bool,
+    pub has_volume_control: bool,
 }
 
 /// What the overlay is drawn from.
@@ -69,27 +69,27 @@ pub struct Scene<'a> {
     /// What is shown.
     pub exhibit: &'a Exhibit,
     /// The moment shown.
-    pub moment: &'a Snapshot,
+    pub snapshot: &'a Snapshot,
     /// The camera of the picture.
     pub view: View,
     /// Text key that attract mode shows.
     pub attract_text: Option<&'a str>,
     /// Language of the invitation: nobody has chosen one while attract mode plays.
-    pub inviting: &'a str,
+    pub invitation_language: &'a str,
     /// Closed, or cleaned: all is covered.
-    pub house: &'a House,
+    pub venue: &'a House,
     /// What becomes of a visitor's breath.
-    pub hearing: Hearing,
+    pub breath_input: BreathInput,
     /// What is heard of the work.
-    pub sound: Sound<'a>,
+    pub sound: SoundState<'a>,
     /// Seconds blown at it in this visit and today.
-    pub given: [f64; 2],
+    pub seconds_blown: [f64; 2],
     /// What is left of the time after which the kiosk takes it that nobody is there, s, where that is near.
-    pub leaves_in: Option<f64>,
+    pub attract_in: Option<f64>,
     /// What the visitor needs otherwise.
-    pub needs: Needs,
+    pub accessibility: Needs,
     /// Where a pointer rests that presses by resting (picture coordinates), and how much of that time is over.
-    pub rests: Option<([f64; 2], f64)>,
+    pub dwell: Option<([f64; 2], f64)>,
     /// The works to choose from.
     pub tiles: &'a [Tile],
     /// How they are grouped.
@@ -111,91 +111,91 @@ pub struct Overlay {
     last_breath: f64,
     time: f64,
     /// Hard blowing lately, s, and whether it was too much.
-    blown: f64,
-    rests: bool,
+    hard_blowing: f64,
+    proposes_rest: bool,
     /// Is something on its way: a fade, an arc?
-    moves: bool,
+    is_animating: bool,
 }
 
 impl Default for Overlay {
     fn default() -> Self {
-        Self { invitation: 0.0, last_breath: f64::NEG_INFINITY, time: 0.0, blown: 0.0, rests: false, moves: false }
+        Self { invitation: 0.0, last_breath: f64::NEG_INFINITY, time: 0.0, hard_blowing: 0.0, proposes_rest: false, is_animating: false }
     }
 }
 
 impl Overlay {
     /// Draws over the whole of `picture`; returns where a press means something else than a breath.
     pub fn paint(&mut self, painter: &Painter, picture: Rect, menu: &mut Menu, scene: &Scene) -> Vec<(Rect, Request)> {
-        self.advance(scene);
+        self.update(scene);
         if cover(painter, scene) {
             return Vec::new();
         }
         let code = scene.language;
         let Some(label) = scene.exhibit.labels.get(code) else { return Vec::new() };
-        let page = Page::new(painter, picture, scene.points_per_mm, scene.needs.reading);
+        let page = Canvas::new(painter, picture, scene.points_per_mm, scene.accessibility.reading);
         let mut buttons = Vec::new();
-        self.moves |= scene.leaves_in.is_some() || scene.rests.is_some() || menu.closes(scene.time);
+        self.is_animating |= scene.attract_in.is_some() || scene.dwell.is_some() || menu.shows_countdown(scene.time);
         if menu.open {
             menu.paint(&page, scene, &mut buttons);
-            rest(&page, picture, scene);
+            dwell_ring(&page, picture, scene);
             return buttons;
         }
-        ring(&page, picture, &scene.view, &scene.moment.breath);
+        aim_ring(&page, picture, &scene.view, &scene.snapshot.breath);
         wall_label(&page, label, scene);
         captions(&page, label, scene);
-        if let Some(said) = given::said(label, scene.given) {
-            page.text(page.picture.left_top(), Align2::LEFT_TOP, &said, 1.1, INK, line(&page));
+        if let Some(said) = given::said(label, scene.seconds_blown) {
+            page.text(page.picture.left_top(), Align2::LEFT_TOP, &said, 1.1, INK, longest_line(&page));
         }
         let own = words(code);
-        let (said, opacity) = match (self.rests, scene.needs.round) {
+        let (said, opacity) = match (self.proposes_rest, scene.accessibility.round) {
             (true, _) => (own.rest.to_owned(), 1.0),
-            (false, true) => (own.how_round(scene.needs).to_owned(), 1.0),
-            (false, false) => (invitation(scene), self.invitation as f32),
+            (false, true) => (own.how_round(scene.accessibility).to_owned(), 1.0),
+            (false, false) => (invitation_text(scene), self.invitation as f32),
         };
-        invite(&page, &said, opacity);
-        let more = page.word(page.picture.right_bottom(), own.more, false);
+        paint_invitation(&page, &said, opacity);
+        let more = page.label_button(page.picture.right_bottom(), own.more, false);
         let mut last = more;
-        if scene.needs.round {
-            last = page.word(pos2(more.left() - 0.5 * page.em, more.bottom()), own.round, true);
+        if scene.accessibility.round {
+            last = page.label_button(pos2(more.left() - 0.5 * page.em, more.bottom()), own.round, true);
             buttons.push((last, Request::Round));
         }
-        if let Some(left) = scene.leaves_in {
-            leaving(&page, left, last, if scene.hearing.hears { own.stay } else { own.stay_touch });
+        if let Some(left) = scene.attract_in {
+            attract_countdown(&page, left, last, if scene.breath_input.is_active { own.stay } else { own.stay_touch });
         }
         buttons.push((more, Request::Menu));
-        rest(&page, picture, scene);
+        dwell_ring(&page, picture, scene);
         buttons
     }
 
     /// The invitation fades when somebody blows and returns when nobody has for a while.
-    fn advance(&mut self, scene: &Scene) {
+    fn update(&mut self, scene: &Scene) {
         let dt = (scene.time - self.time).clamp(0.0, 0.25);
         self.time = scene.time;
         let attracts = scene.attract_text.is_some();
-        if scene.moment.breath.speed > 0.0 && !attracts {
+        if scene.snapshot.breath.speed > 0.0 && !attracts {
             self.last_breath = scene.time;
         }
         let shown = attracts || scene.time - self.last_breath > INVITE_AGAIN;
         let target = if shown { 1.0 } else { 0.0 };
         self.invitation += (target - self.invitation) * (1.0 - (-dt / FADE).exp());
-        self.moves = (target - self.invitation).abs() > FADED;
-        let hard = scene.hearing.hears && !attracts && scene.moment.breath.meter > HARD;
-        self.blown += if hard { dt } else { -self.blown * dt / WEARS_OFF };
-        self.rests = self.blown > if self.rests { RESTED } else { TOO_MUCH };
+        self.is_animating = (target - self.invitation).abs() > FADE_END;
+        let hard = scene.breath_input.is_active && !attracts && scene.snapshot.breath.meter > HARD_BREATH;
+        self.hard_blowing += if hard { dt } else { -self.hard_blowing * dt / RECOVERY_S };
+        self.proposes_rest = self.hard_blowing > if self.proposes_rest { REST_OVER_S } else { REST_PROPOSED_S };
     }
 
     /// Did something on the last page fade, fill or close?
-    pub fn moves(&self) -> bool {
-        self.moves
+    pub fn is_animating(&self) -> bool {
+        self.is_animating
     }
 
     /// Is a rest proposed?
     pub fn proposes_rest(&self) -> bool {
-        self.rests
+        self.proposes_rest
     }
 
     /// How far the invitation is shown, 0…1.
-    pub fn invitation(&self) -> f64 {
+    pub fn invitation_opacity(&self) -> f64 {
         self.invitation
     }
 }
@@ -203,15 +203,15 @@ impl Overlay {
 /// Covers the picture while the house is closed or the glass is cleaned; says whether it did.
 fn cover(painter: &Painter, scene: &Scene) -> bool {
     let all = painter.clip_rect();
-    if let Some(left) = scene.house.cleans(scene.time) {
+    if let Some(left) = scene.venue.cleans(scene.time) {
         painter.rect_filled(all, 0.0, PAPER);
-        let page = Page::new(painter, all, scene.points_per_mm, scene.needs.reading);
+        let page = Canvas::new(painter, all, scene.points_per_mm, scene.accessibility.reading);
         page.text(all.center(), Align2::CENTER_BOTTOM, words(scene.language).cleaning, 1.8, INK, page.picture.width());
         let count = FontId::proportional(4.0 * page.em);
         painter.text(all.center() + vec2(0.0, page.em), Align2::CENTER_TOP, format!("{:.0}", left.ceil()), count, INK);
         return true;
     }
-    let closed = !scene.house.is_open();
+    let closed = !scene.venue.is_open();
     if closed {
         painter.rect_filled(all, 0.0, Color32::BLACK);
     }
@@ -219,26 +219,26 @@ fn cover(painter: &Painter, scene: &Scene) -> bool {
 }
 
 /// The words that invite: what attract mode shows, else the label's own, else the kiosk's.
-fn invitation(scene: &Scene) -> String {
-    let own = words(scene.inviting);
-    let label = scene.exhibit.labels.get(scene.inviting);
+fn invitation_text(scene: &Scene) -> String {
+    let own = words(scene.invitation_language);
+    let label = scene.exhibit.labels.get(scene.invitation_language);
     let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
     // Whoever need not hold is not told to.
-    if scene.needs.once() && !(scene.hearing.hears && scene.hearing.breath) {
-        return own.how(scene.needs).into();
+    if scene.accessibility.once() && !(scene.breath_input.is_active && scene.breath_input.is_allowed) {
+        return own.how(scene.accessibility).into();
     }
-    if !scene.hearing.breath {
+    if !scene.breath_input.is_allowed {
         return own.no_breath.into();
     }
     // Nobody is invited to blow where nothing hears it.
-    let shown = scene.attract_text.filter(|key| scene.hearing.hears || *key != "invite").and_then(find);
-    let (key, fallback) = if scene.hearing.hears { ("invite", own.invite) } else { ("hold", own.hold) };
+    let shown = scene.attract_text.filter(|key| scene.breath_input.is_active || *key != "invite").and_then(find);
+    let (key, fallback) = if scene.breath_input.is_active { ("invite", own.invite) } else { ("hold", own.hold) };
     shown.or_else(|| find(key)).unwrap_or_else(|| fallback.into())
 }
 
 /// The ring about a pointer that rests, filled by as much as it has rested.
-fn rest(page: &Page, picture: Rect, scene: &Scene) {
-    let Some(([x, y], share)) = scene.rests else { return };
+fn dwell_ring(page: &Canvas, picture: Rect, scene: &Scene) {
+    let Some(([x, y], share)) = scene.dwell else { return };
     let (center, radius) = (picture.lerp_inside(vec2(x as f32, y as f32)), 0.3 * page.button);
     page.painter.circle_stroke(center, radius, Stroke::new(0.45 * page.em, PAPER));
     page.painter.circle_stroke(center, radius, Stroke::new(0.1 * page.em, SOFT_INK));
@@ -246,37 +246,37 @@ fn rest(page: &Page, picture: Rect, scene: &Scene) {
 }
 
 /// Longest line beside the work.
-fn line(page: &Page) -> f32 {
+fn longest_line(page: &Canvas) -> f32 {
     page.picture.width() * if page.is_tall() { TALL_LINE_SHARE } else { LINE_SHARE }
 }
 
 /// Title, maker, rights and what becomes of the sound, bottom left like a label beside a work.
-fn wall_label(page: &Page, label: &Label, scene: &Scene) {
+fn wall_label(page: &Canvas, label: &Label, scene: &Scene) {
     let own = words(scene.language);
     let mut at = page.picture.left_bottom();
-    let ear = match (scene.hearing.hears, scene.hearing.has_ear && !scene.hearing.listens) {
+    let ear = match (scene.breath_input.is_active, scene.breath_input.has_microphone && !scene.breath_input.microphone_on) {
         (true, _) => own.privacy,
         (false, true) => own.ear_off,
         (false, false) => "",
     };
-    let sound = match (scene.exhibit.sounds.is_empty(), scene.sound.silent) {
+    let sound = match (scene.exhibit.sounds.is_empty(), scene.sound.is_muted) {
         (true, _) => own.no_sound,
         (false, true) => own.silent,
         (false, false) => "",
     };
     let parts = [
-        (scene.exhibit.credit.notice.trim(), SMALL, SOFT_INK, 0.2),
-        (ear, SMALL, SOFT_INK, 0.3),
-        (sound, SMALL, SOFT_INK, 0.6),
+        (scene.exhibit.credit.notice.trim(), SMALL_TEXT_EM, SOFT_INK, 0.2),
+        (ear, SMALL_TEXT_EM, SOFT_INK, 0.3),
+        (sound, SMALL_TEXT_EM, SOFT_INK, 0.6),
         (label.maker.as_str(), 0.85, SOFT_INK, 0.1),
         (label.title.as_str(), 1.4, INK, 0.0),
     ];
     let set = |&(text, size, color, space): &(&str, f32, Color32, f32)| {
-        (!text.is_empty()).then(|| (page.set(text, size, color, line(page)), color, space * page.em))
+        (!text.is_empty()).then(|| (page.layout(text, size, color, longest_line(page)), color, space * page.em))
     };
     let set: Vec<_> = parts.iter().filter_map(set).collect();
     // A label that is read from the right has one edge on the right.
-    let anchor = match reads_from_right(&label.title) {
+    let anchor = match is_right_to_left(&label.title) {
         true => {
             at.x += set.iter().map(|(galley, ..)| galley.size().x).fold(0.0, f32::max);
             Align2::RIGHT_BOTTOM
@@ -284,39 +284,39 @@ fn wall_label(page: &Page, label: &Label, scene: &Scene) {
         false => Align2::LEFT_BOTTOM,
     };
     for (galley, color, space) in set {
-        at.y -= page.put(galley, at, anchor, color).height() + space;
+        at.y -= page.place(galley, at, anchor, color).height() + space;
     }
 }
 
 /// What is heard, in the middle of the lower edge.
-fn captions(page: &Page, label: &Label, scene: &Scene) {
+fn captions(page: &Canvas, label: &Label, scene: &Scene) {
     let said = |key: &String| label.caption.iter().find(|(k, _)| k == key).map(|(_, text)| text.as_str());
     let all: Vec<&str> = scene.sound.captions.iter().filter_map(said).collect();
-    if !all.is_empty() && !scene.sound.silent {
+    if !all.is_empty() && !scene.sound.is_muted {
         let at = page.picture.center_bottom();
-        page.text(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, INK, 0.9 * line(page));
+        page.text(at, Align2::CENTER_BOTTOM, &all.join("  "), 0.85, INK, 0.9 * longest_line(page));
     }
 }
 
 /// Low on the right, above the button.
-fn invite(page: &Page, text: &str, opacity: f32) {
+fn paint_invitation(page: &Canvas, text: &str, opacity: f32) {
     if opacity > 0.01 {
         let at = page.picture.right_bottom() - vec2(0.0, page.button + 1.5 * page.em);
-        page.text(at, Align2::RIGHT_BOTTOM, text, 1.35, INK.gamma_multiply(opacity), line(page));
+        page.text(at, Align2::RIGHT_BOTTOM, text, 1.35, INK.gamma_multiply(opacity), longest_line(page));
     }
 }
 
 /// The last seconds before attract mode: an arc that closes, and how to stay.
-fn leaving(page: &Page, left: f64, more: Rect, stay: &str) {
+fn attract_countdown(page: &Canvas, left: f64, more: Rect, stay: &str) {
     let radius = 0.7 * page.em;
     let center = pos2(more.left() - 2.0 * radius, more.center().y);
     page.arc(center, radius, (left / crate::attract::script::COUNTDOWN_S).clamp(0.0, 1.0) as f32, VERMILION);
     let at = pos2(center.x - 2.0 * radius, center.y);
-    page.text(at, Align2::RIGHT_CENTER, stay, 0.85, INK, line(page));
+    page.text(at, Align2::RIGHT_CENTER, stay, 0.85, INK, longest_line(page));
 }
 
 /// The aim ring where the jet meets the sculpture, and the breath as an arc along it.
-fn ring(page: &Page, picture: Rect, view: &View, breath: &BreathView) {
+fn aim_ring(page: &Canvas, picture: Rect, view: &View, breath: &BreathView) {
     let ring = &breath.ring;
     if ring.radius <= 0.0 {
         return;

@@ -2,7 +2,7 @@
 
 use egui::{Ui, vec2};
 
-use crate::pages::page::INK;
+use crate::pages::canvas::INK;
 use crate::staff::edit::Changes;
 use crate::staff::gate::Gate;
 use crate::staff::pages::style::{BAD, width};

@@ -22,7 +22,7 @@ impl App<'_> {
                 self.works.show_at(index);
                 self.overlaid.menu.open = false;
             }
-            Request::Leaf(by) if self.overlaid.menu.open => self.overlaid.menu.turn(by),
+            Request::Leaf(by) if self.overlaid.menu.open => self.overlaid.menu.turn_page(by),
             Request::Leaf(by) => {
                 self.leaf(by);
             }

@@ -16,7 +16,7 @@ use super::visit;
 use crate::fleet::watchdog::Progress;
 use crate::live::Frame;
 use crate::pages::menu::tiles;
-use crate::pages::overlay::{Hearing, Scene, Sound};
+use crate::pages::overlay::{BreathInput, Scene, SoundState};
 use crate::staff::{Sight, Vitals, Wish};
 use crate::venue::house::House;
 use soffio_config::Config;
@@ -77,7 +77,7 @@ impl App<'_> {
         }
         self.pacing.clock.rhythm.set_refresh(show.screen.refresh());
         let frame = show.live.frame();
-        let page_moves = self.overlaid.overlay.moves() || panel;
+        let page_moves = self.overlaid.overlay.is_animating() || panel;
         let begun = self.pacing.begin(now, frame.still, page_moves, least);
         Some((frame, begun))
     }
@@ -119,7 +119,7 @@ impl App<'_> {
         let (visitor, config) = (&self.visit.visitor, &self.setup.config);
         let breathes = frame.current.breath.estimate.speed > 0.0;
         self.overlaid.menu.closes_s = config.visit.page_closes_s;
-        self.overlaid.menu.tend(vitals.time, visitor.activity(), breathes);
+        self.overlaid.menu.update(vitals.time, visitor.activity(), breathes);
         let works: Vec<String> = self.works.offer.works().iter().map(|work| work.id.clone()).collect();
         let works: Vec<&str> = works.iter().map(String::as_str).collect();
         let mut wishes = Vec::new();
@@ -229,27 +229,27 @@ impl Overlaid {
         let silent = frame.load.loudness.muted || frame.is_mute();
         let scene = Scene {
             exhibit: &frame.exhibit,
-            moment: picture.moment,
+            snapshot: picture.moment,
             view: picture.view,
             attract_text: frame.attract_text.as_deref(),
-            inviting: self.languages.inviting(frame.attracts, time),
-            house,
-            hearing: Hearing {
-                hears: !frame.is_deaf() && !frame.deaf,
-                breath: config.visit.breath,
-                has_ear: !frame.is_deaf(),
-                listens: visit.listens,
+            invitation_language: self.languages.inviting(frame.attracts, time),
+            venue: house,
+            breath_input: BreathInput {
+                is_active: !frame.is_deaf() && !frame.deaf,
+                is_allowed: config.visit.breath,
+                has_microphone: !frame.is_deaf(),
+                microphone_on: visit.listens,
             },
-            sound: Sound {
+            sound: SoundState {
                 captions: &frame.captions,
-                silent,
-                speech: self.aloud.can_speak(language).then_some(self.aloud.is_on()).filter(|_| !silent),
-                volume: config.volume.steps > 0 && !frame.load.loudness.muted,
+                is_muted: silent,
+                reads_aloud: self.aloud.can_speak(language).then_some(self.aloud.is_on()).filter(|_| !silent),
+                has_volume_control: config.volume.steps > 0 && !frame.load.loudness.muted,
             },
-            given: visit.given.of(&frame.exhibit.id),
-            leaves_in: frame.leaves_in,
-            needs: visit.needs,
-            rests: visit.visitor.rests().zip(visit.dwell.share(time, config.visit.dwell_s)),
+            seconds_blown: visit.given.of(&frame.exhibit.id),
+            attract_in: frame.leaves_in,
+            accessibility: visit.needs,
+            dwell: visit.visitor.rests().zip(visit.dwell.share(time, config.visit.dwell_s)),
             tiles: &tiles,
             groups: &config.exhibits.groups,
             languages: &self.languages.offered,
@@ -257,8 +257,8 @@ impl Overlaid {
             time,
             points_per_mm: picture.points_per_mm,
         };
-        if let Some(rate) = visit::rate(frame).filter(|_| scene.sound.speech.is_some()) {
-            self.aloud.follow(&scene, rate);
+        if let Some(rate) = visit::rate(frame).filter(|_| scene.sound.reads_aloud.is_some()) {
+            self.aloud.start_requested(&scene, rate);
         }
         let painter = ui.ctx().layer_painter(egui::LayerId::background());
         self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);

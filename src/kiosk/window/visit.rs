@@ -4,7 +4,7 @@ use winit::event_loop::ActiveEventLoop;
 
 use super::app::App;
 use crate::live::Frame;
-use crate::pages::aloud::goes_on;
+use crate::pages::read_aloud::keeps_reading;
 use crate::step::command::KioskCommand;
 use crate::visitor::dwell::Target;
 use crate::visitor::input::{Request, Signal};
@@ -14,8 +14,8 @@ use soffio_devices::audio::{DeviceState, Words};
 impl App<'_> {
     /// Looks on, once a picture.
     pub(super) fn follow_visit(&mut self, frame: &Frame) {
-        self.overlaid.aloud.settle(&self.setup.config.visit.reads_aloud);
-        let made = self.overlaid.aloud.tend(frame.speaks);
+        self.overlaid.aloud.configure(&self.setup.config.visit.reads_aloud);
+        let made = self.overlaid.aloud.update(frame.speaks);
         self.utter(made);
         // Whoever listens is there.
         if frame.speaks {
@@ -24,11 +24,11 @@ impl App<'_> {
         }
         // Whoever blows wants the sculpture.
         if frame.current.breath.estimate.speed > 0.0 {
-            let hush = self.overlaid.aloud.end();
+            let hush = self.overlaid.aloud.stop();
             self.utter(hush);
         }
         if frame.attracts || !self.house.is_open() {
-            let hush = self.overlaid.aloud.leave();
+            let hush = self.overlaid.aloud.end_visit();
             self.utter(hush);
         }
         match self.works.swiped(frame.turned) {
@@ -77,8 +77,8 @@ impl App<'_> {
             Some(Request::Enter) => self.overlaid.marked(),
             request => request,
         };
-        if (touches || types) && !goes_on(means) {
-            let hush = self.overlaid.aloud.end();
+        if (touches || types) && !keeps_reading(means) {
+            let hush = self.overlaid.aloud.stop();
             self.utter(hush);
         }
     }
@@ -96,7 +96,7 @@ impl App<'_> {
                 self.visit.visitor.let_go();
             }
             Request::Speak => {
-                let hush = self.overlaid.aloud.press();
+                let hush = self.overlaid.aloud.toggle();
                 self.utter(hush);
             }
             _ => {}

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use soffio_detector::BlowDetector;
 use soffio_devices::audio::{LOUDEST, Words};
-use soffio_kiosk::pages::aloud::{Aloud, goes_on};
-use soffio_kiosk::pages::speech::Speaker;
+use soffio_kiosk::pages::read_aloud::{ReadAloud, keeps_reading};
+use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
 use soffio_kiosk::pages::words::{WORDS, words};
 use soffio_kiosk::visitor::input::Request;
 use soffio_offline::wav;
@@ -56,21 +56,21 @@ fn wait<T>(what: &str, mut there: impl FnMut() -> Option<T>) -> T {
 }
 
 /// A visitor whose kiosk reads with this program.
-fn before(program: &Path) -> (Before, Aloud) {
-    let mut aloud = Aloud::default();
+fn before(program: &Path) -> (Before, ReadAloud) {
+    let mut aloud = ReadAloud::default();
     let program = program.to_str().expect("a plain path");
     wait("the program's languages", || {
-        aloud.settle(program);
+        aloud.configure(program);
         aloud.can_speak("en").then_some(())
     });
     (Before::new(&load("steel-fish"), GLASSES[0]), aloud)
 }
 
 /// What is asked for is read, and handed on once.
-fn read(visitor: &mut Before, aloud: &mut Aloud) -> Words {
-    visitor.look_with(|scene| aloud.follow(scene, RATE));
+fn read(visitor: &mut Before, aloud: &mut ReadAloud) -> Words {
+    visitor.look_with(|scene| aloud.start_requested(scene, RATE));
     assert!(aloud.is_on(), "it is being made");
-    wait("the words", || aloud.tend(false))
+    wait("the words", || aloud.update(false))
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn a_press_reads_label_help_and_what_is_to_be_seen_in_the_language_shown() {
         let buttons = visitor.look();
         let (rect, _) = buttons.iter().find(|(_, request)| *request == Request::Speak).expect("a button");
         assert_eq!(visitor.press(rect.center()), Some(Request::Speak));
-        assert_eq!(aloud.press(), None);
+        assert_eq!(aloud.toggle(), None);
         let spoken = read(&mut visitor, &mut aloud);
         assert!(spoken.sample_rate == RATE && spoken.samples.iter().all(|sample| sample.abs() <= LOUDEST));
         let seconds = spoken.samples.len() as f64 / f64::from(RATE);
@@ -98,10 +98,10 @@ fn a_press_reads_label_help_and_what_is_to_be_seen_in_the_language_shown() {
             assert!(!part.is_empty() && said.contains(part), "{language}: {part:?} is not read: {said}");
         }
         // It is on until the loudspeaker has said it, or a second press.
-        assert!(aloud.is_on() && aloud.tend(true).is_none() && aloud.is_on());
-        let hush = aloud.press().expect("a second press hushes");
+        assert!(aloud.is_on() && aloud.update(true).is_none() && aloud.is_on());
+        let hush = aloud.toggle().expect("a second press hushes");
         assert!(hush.samples.is_empty() && !aloud.is_on());
-        assert_eq!(aloud.end(), None, "there is nothing more to hush");
+        assert_eq!(aloud.stop(), None, "there is nothing more to hush");
     }
     // No voice, no button.
     for language in ["de", "ja"] {
@@ -116,9 +116,9 @@ fn keys_that_move_the_mark_are_told_the_button_once_something_was_read() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut visitor, mut aloud) = before(&stand_in(folder.path()));
     visitor.menu.toggle();
-    aloud.reach(Some(Request::Large));
+    aloud.announce_focus(Some(Request::Large));
     assert!(!aloud.is_on(), "nobody has asked for it");
-    aloud.press();
+    aloud.toggle();
     read(&mut visitor, &mut aloud);
     visitor.needs.reading.large = true;
     let said = folder.path().join("said");
@@ -137,13 +137,13 @@ fn keys_that_move_the_mark_are_told_the_button_once_something_was_read() {
             }
             request => request,
         };
-        aloud.reach(Some(request));
+        aloud.announce_focus(Some(request));
         read(&mut visitor, &mut aloud);
         let text = std::fs::read_to_string(&said).expect("it was asked");
         assert!(text.contains(name) && text.contains(&format!("-v {language}\n")), "{request:?}: {text}");
     }
-    aloud.leave();
-    aloud.reach(Some(Request::Large));
+    aloud.end_visit();
+    aloud.announce_focus(Some(Request::Large));
     assert!(!aloud.is_on(), "the next visitor is told nothing");
 }
 
@@ -157,7 +157,7 @@ fn every_button_of_the_page_has_a_name_in_every_language() {
         let buttons = visitor.look();
         visitor.look_with(|scene| {
             for (_, request) in buttons.iter().filter(|(_, request)| *request != Request::Nothing) {
-                let said = soffio_kiosk::pages::spoken::button(*request, scene);
+                let said = soffio_kiosk::pages::speech_text::button(*request, scene);
                 assert!(said.iter().all(|(text, _)| !text.is_empty()) && said.len() == 1, "{}: {request:?}", own.code);
             }
         });
@@ -174,7 +174,7 @@ fn a_touch_ends_the_reading_unless_it_is_about_the_reading() {
         (Some(Request::Louder(1)), true),
         (Some(Request::Look([1, 0])), true),
     ] {
-        assert_eq!(goes_on(request), on, "{request:?}");
+        assert_eq!(keeps_reading(request), on, "{request:?}");
     }
 }
 
@@ -184,24 +184,24 @@ fn a_program_that_fails_says_so_and_leaves_nothing_on() {
     let program = stand_in(folder.path());
     let (mut visitor, mut aloud) = before(&program);
     std::fs::remove_file(folder.path().join("tone.wav")).expect("it is there");
-    aloud.press();
-    visitor.look_with(|scene| aloud.follow(scene, RATE));
+    aloud.toggle();
+    visitor.look_with(|scene| aloud.start_requested(scene, RATE));
     wait("its end", || {
-        assert_eq!(aloud.tend(false), None, "there are no words");
+        assert_eq!(aloud.update(false), None, "there are no words");
         (!aloud.is_on()).then_some(())
     });
 }
 
 /// The system's own program, where it is installed.
-fn system() -> Option<Speaker> {
-    crate::require::require("program that speaks", Speaker::find("espeak-ng"))
+fn system() -> Option<SpeechSynthesizer> {
+    crate::require::require("program that speaks", SpeechSynthesizer::detect("espeak-ng"))
 }
 
 /// What it says of the fish, in English.
-fn speech(speaker: &Speaker) -> Words {
+fn speech(speaker: &SpeechSynthesizer) -> Words {
     let label = load("steel-fish").labels.get("en").expect("a label").clone();
-    let making = speaker.make(vec![(format!("{}. {}", label.alt, label.body), "en".into())], RATE);
-    wait("the words", || making.ready()).expect("it speaks")
+    let making = speaker.start(vec![(format!("{}. {}", label.alt, label.body), "en".into())], RATE);
+    wait("the words", || making.poll()).expect("it speaks")
 }
 
 #[test]

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use soffio_exhibit::Label;
 use soffio_kiosk::egui;
-use soffio_kiosk::pages::bidi::{is_mixed, lines, reads_from_right};
+use soffio_kiosk::pages::bidi::{has_right_to_left, lines, is_right_to_left};
 use soffio_kiosk::pages::fonts::{self, Script};
-use soffio_kiosk::pages::page::{INK, Page};
+use soffio_kiosk::pages::canvas::{INK, Canvas};
 use soffio_kiosk::visitor::needs::Reading;
 
 use super::glass::Glass;
@@ -62,14 +62,14 @@ fn lines_break_in_the_order_of_reading() {
 
 #[test]
 fn what_is_read_from_the_left_is_left_alone() {
-    assert!(!is_mixed("Ein Mobile (1941), 모빌, モビール"));
-    assert!(is_mixed("Ein מובייל"));
+    assert!(!has_right_to_left("Ein Mobile (1941), 모빌, モビール"));
+    assert!(has_right_to_left("Ein מובייל"));
     assert!(
-        reads_from_right("אחרי Christiaan Huygens")
-            && !reads_from_right("The word שלום means peace")
-            && reads_from_right("Calder בנה מובייל תלוי")
+        is_right_to_left("אחרי Christiaan Huygens")
+            && !is_right_to_left("The word שלום means peace")
+            && is_right_to_left("Calder בנה מובייל תלוי")
     );
-    assert!(!reads_from_right("1941"));
+    assert!(!is_right_to_left("1941"));
 }
 
 /// Whether this system has fonts for the scripts that are read from the right.
@@ -80,7 +80,7 @@ fn from_the_right() -> Option<()> {
 }
 
 /// Type as the kiosk sets it on a page, with this system's fonts; nothing where it has none for these scripts.
-fn with_page<T>(then: impl FnOnce(&Page) -> T) -> Option<T> {
+fn with_page<T>(then: impl FnOnce(&Canvas) -> T) -> Option<T> {
     from_the_right()?;
     let context = egui::Context::default();
     context.set_fonts(fonts::definitions());
@@ -89,7 +89,7 @@ fn with_page<T>(then: impl FnOnce(&Page) -> T) -> Option<T> {
     let input = egui::RawInput { screen_rect: Some(picture), ..egui::RawInput::default() };
     let mut laid_out = context.run_ui(input, |ui| {
         let painter = ui.ctx().layer_painter(egui::LayerId::background());
-        let page = Page::new(&painter, picture, 2.0, Reading::default());
+        let page = Canvas::new(&painter, picture, 2.0, Reading::default());
         made = then.take().map(|then| then(&page));
     });
     laid_out.textures_delta.clear();
@@ -111,14 +111,14 @@ fn on_the_glass(galley: &egui::Galley) -> Vec<(String, f32)> {
 #[test]
 fn letters_stand_on_the_glass_as_a_reader_from_the_right_expects_them() {
     with_page(|page| {
-        let set = |text: &str| on_the_glass(&page.set(text, 1.0, INK, 600.0))[0].0.clone();
+        let set = |text: &str| on_the_glass(&page.layout(text, 1.0, INK, 600.0))[0].0.clone();
         // Reversed letter by letter, but for the number and the name.
         assert_eq!(set("שלום עולם"), "םלוע םולש");
         assert_eq!(set("משנת 1941 המובייל"), "לייבומה 1941 תנשמ");
         assert_eq!(set("מאת Alexander Calder נתלה"), "הלתנ Alexander Calder תאמ");
         assert!(set("عام ١٦٥٦").starts_with("١٦٥٦"), "{}", set("عام ١٦٥٦"));
         // Arabic's letters are joined: three together are narrower than three alone.
-        let width = |text: &str| page.set(text, 1.0, INK, 600.0).size().x;
+        let width = |text: &str| page.layout(text, 1.0, INK, 600.0).size().x;
         assert!(width("ببب") < 0.8 * 3.0 * width("ب"), "{} {}", width("ببب"), width("ب"));
         // Signs of Arabic come out of the font of its letters: they stand after their word all the same.
         assert_eq!(set("كتب، قلم"), "ملق ،بتك");
@@ -134,7 +134,7 @@ fn lines_from_the_right_end_at_one_edge_and_keep_their_length() {
     const PIXEL: f32 = 1.5;
     with_page(|page| {
         let text = "המובייל של Alexander Calder (1941) תלוי באוויר, וכל נשיפה מזיזה אותו אט אט סביב צירו";
-        let galley = page.set(text, 1.0, INK, 220.0);
+        let galley = page.layout(text, 1.0, INK, 220.0);
         let rows = on_the_glass(&galley);
         assert!(rows.len() >= 3, "{rows:?}");
         assert!(galley.size().x <= 220.0 + PIXEL, "{}", galley.size().x);

@@ -9,7 +9,7 @@ use std::path::Path;
 use image::RgbaImage;
 use soffio_config::Config;
 use soffio_kiosk::egui::{self, Rect};
-use soffio_kiosk::pages::languages::{offered, unwritten};
+use soffio_kiosk::pages::languages::{offered, languages_without_glyphs};
 use soffio_kiosk::pages::words::words;
 use soffio_kiosk::staff::Page;
 use soffio_kiosk::venue::house::House;
@@ -134,7 +134,7 @@ fn look(glass: &mut Glass, id: &str, languages: &[&str]) -> (Vec<String>, usize)
     let (mut bad, mut measured) = (Vec::new(), 0);
     // There are fonts from the first picture on.
     glass.learn(&mut visitor.lay_out());
-    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &unwritten());
+    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &languages_without_glyphs());
     visitor.captions = exhibit.sounds.iter().filter_map(|sound| sound.caption.clone()).take(2).collect();
     // Where the system has no East Asian font those languages are not offered.
     for language in languages.iter().filter(|code| offered.iter().any(|other| other == **code)) {
@@ -175,7 +175,7 @@ fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast
     let mut pictures = Pictures::new(&exhibit, SIZE).expect("a driver that made a device draws");
     let picture = pictures.draw(&visitor.moment).expect("it draws");
     glass.learn(&mut visitor.lay_out());
-    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &unwritten());
+    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &languages_without_glyphs());
     let on_the_glass = visitor.picture();
     let (mut bad, mut measured) = (Vec::new(), 0);
     for language in offered {

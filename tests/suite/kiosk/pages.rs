@@ -8,10 +8,10 @@ use soffio_config::{Config, Group};
 use soffio_exhibit::{self as exhibit, Exhibit, Label};
 use soffio_kiosk::egui::{self, Rect, pos2};
 use soffio_kiosk::pages::fonts;
-use soffio_kiosk::pages::languages::{offered, unwritten};
+use soffio_kiosk::pages::languages::{offered, languages_without_glyphs};
 use soffio_kiosk::pages::menu::{Menu, Tile, tiles};
-use soffio_kiosk::pages::overlay::{Hearing, Overlay, Scene, Sound};
-use soffio_kiosk::pages::page::BUTTON_MM;
+use soffio_kiosk::pages::overlay::{BreathInput, Overlay, Scene, SoundState};
+use soffio_kiosk::pages::canvas::BUTTON_MM;
 use soffio_kiosk::pages::words::{WORDS, words};
 use soffio_kiosk::step::captions::Captions;
 use soffio_kiosk::venue::house::House;
@@ -126,7 +126,7 @@ impl Before {
     fn lay_out_with(&mut self, with: impl FnOnce(&Scene)) -> (Vec<(Rect, Request)>, egui::FullOutput) {
         let picture = self.picture();
         let input = egui::RawInput { screen_rect: Some(picture), ..egui::RawInput::default() };
-        self.menu.tend(self.time, self.activity, self.moment.breath.estimate.speed > 0.0);
+        self.menu.update(self.time, self.activity, self.moment.breath.estimate.speed > 0.0);
         let tiles: Vec<Tile> = match self.shelf.is_empty() {
             true => (0..self.works)
                 .map(|i| Tile { id: format!("work-{i}"), title: format!("Work {i}"), picture: None, shown: i == 0 })
@@ -137,20 +137,20 @@ impl Before {
         let (context, overlay, menu) = (self.context.clone(), &mut self.overlay, &mut self.menu);
         let scene = Scene {
             exhibit: &self.exhibit,
-            moment: &self.moment,
+            snapshot: &self.moment,
             view: self.exhibit.view(f64::from(self.glass[0] / self.glass[1])),
             attract_text: self.attract,
-            inviting: &self.language,
-            house: &self.house,
-            hearing: Hearing { hears: self.hears, breath: self.breath, has_ear: true, listens: self.hears },
-            sound: Sound { captions: &self.captions, silent: self.silent, volume: true, speech: self.speech },
-            given: [20.0, 400.0],
-            leaves_in: self.leaves_in,
+            invitation_language: &self.language,
+            venue: &self.house,
+            breath_input: BreathInput { is_active: self.hears, is_allowed: self.breath, has_microphone: true, microphone_on: self.hears },
+            sound: SoundState { captions: &self.captions, is_muted: self.silent, has_volume_control: true, reads_aloud: self.speech },
+            seconds_blown: [20.0, 400.0],
+            attract_in: self.leaves_in,
             languages: &self.languages,
             language: &self.language,
             time: self.time,
-            needs: self.needs,
-            rests: self.rests,
+            accessibility: self.needs,
+            dwell: self.rests,
             tiles: &tiles,
             groups: &self.groups,
             points_per_mm: POINTS_PER_MM,
@@ -174,7 +174,7 @@ impl Before {
         let request = self.look().into_iter().find(|(rect, _)| rect.contains(at)).map(|(_, request)| request);
         match request {
             Some(Request::Menu) => self.menu.toggle(),
-            Some(Request::Leaf(by)) => self.menu.turn(by),
+            Some(Request::Leaf(by)) => self.menu.turn_page(by),
             Some(Request::Language(i)) => self.language = self.languages[i].clone(),
             _ => {}
         }
@@ -274,10 +274,10 @@ fn keys_alone_reach_every_button_and_come_back() {
     let buttons = visitor.look();
     // From where the first key leads, by all ways from everywhere that was reached.
     let mut first = visitor.menu.clone();
-    first.look([1, 0], &buttons);
+    first.move_focus([1, 0], &buttons);
     let (mut marked, mut open) = (Vec::new(), vec![first]);
     while let Some(menu) = open.pop() {
-        let now = menu.marked(&buttons).expect("something is marked");
+        let now = menu.focused(&buttons).expect("something is marked");
         assert_ne!(now, Request::Nothing);
         if marked.contains(&now) {
             continue;
@@ -285,7 +285,7 @@ fn keys_alone_reach_every_button_and_come_back() {
         marked.push(now);
         for way in [[1, 0], [0, 1], [-1, 0], [0, -1]] {
             let mut next = menu.clone();
-            next.look(way, &buttons);
+            next.move_focus(way, &buttons);
             open.push(next);
         }
     }
@@ -459,7 +459,7 @@ fn whoever_need_not_hold_is_not_told_to_in_any_language() {
 #[test]
 fn a_language_is_offered_where_the_fonts_can_write_all_its_words_and_the_kiosks_own() {
     // Those of the fonts that come with the kiosk are offered everywhere; Korean and Japanese where the system has them.
-    let cannot = unwritten();
+    let cannot = languages_without_glyphs();
     assert!(cannot.iter().all(|code| ["ko", "ja"].contains(code)), "{cannot:?}");
     let mut exhibit = load("pendulum");
     let labels = &mut Arc::make_mut(&mut exhibit).labels;

@@ -1,7 +1,7 @@
 //! What lies over the picture: the overlay, the page behind "More", the buttons of both, the language, the voice that reads.
 
-use crate::pages::aloud::Aloud;
-use crate::pages::languages::{first, offered, unwritten};
+use crate::pages::read_aloud::ReadAloud;
+use crate::pages::languages::{default_language, offered, languages_without_glyphs};
 use crate::pages::menu::Menu;
 use crate::pages::overlay::Overlay;
 use crate::visitor::input::Request;
@@ -16,7 +16,7 @@ const INVITES_S: f64 = 6.0;
 pub(crate) struct Overlaid {
     pub overlay: Overlay,
     pub menu: Menu,
-    pub aloud: Aloud,
+    pub aloud: ReadAloud,
     pub languages: Languages,
     /// Where a press is not a breath, in points.
     pub buttons: Vec<(egui::Rect, Request)>,
@@ -30,13 +30,13 @@ impl Overlaid {
 
     /// What the button asks for that the keys have reached.
     pub fn marked(&self) -> Option<Request> {
-        self.menu.marked(&self.buttons)
+        self.menu.focused(&self.buttons)
     }
 
     /// The keys go on to the next button that way.
     pub fn look(&mut self, way: [i32; 2]) {
-        self.menu.look(way, &self.buttons);
-        self.aloud.reach(self.menu.marked(&self.buttons));
+        self.menu.move_focus(way, &self.buttons);
+        self.aloud.announce_focus(self.menu.focused(&self.buttons));
     }
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Languages {
 
 impl Default for Languages {
     fn default() -> Self {
-        Self { offered: Vec::new(), unwritten: unwritten(), shown: String::new() }
+        Self { offered: Vec::new(), unwritten: languages_without_glyphs(), shown: String::new() }
     }
 }
 
@@ -60,7 +60,7 @@ impl Languages {
     pub fn offer(&mut self, context: &egui::Context, exhibit: &Exhibit, config: &Config) {
         self.offered = offered(context, &exhibit.labels, config, &self.unwritten);
         if !self.offered.contains(&self.shown) {
-            self.shown = first(&self.offered, &exhibit.labels, config);
+            self.shown = default_language(&self.offered, &exhibit.labels, config);
         }
     }
 

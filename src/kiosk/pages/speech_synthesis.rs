@@ -19,25 +19,25 @@ use soffio_math::from_decibels;
 /// Loudness of speech, LUFS: 3 dB over the works, which are 12 dB softer meanwhile.
 const SPEECH_LUFS: f64 = -20.0;
 /// Longest time that a program may take for a text. The longest shipped label takes a tenth of a second.
-const PATIENCE: Duration = Duration::from_secs(10);
+const TIMEOUT: Duration = Duration::from_secs(10);
 /// Languages whose script the program spells instead of reading: it says "Chinese letter" for every Han character.
-const SPELT: &[&str] = &["ja", "zh", "cmn", "yue"];
+const SPELLED_ONLY: &[&str] = &["ja", "zh", "cmn", "yue"];
 /// Longest speech, s: nobody listens longer, and memory has an end.
 const LONGEST_S: f64 = 300.0;
 
 /// A speech program and what it can speak.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Speaker {
+pub struct SpeechSynthesizer {
     program: String,
     languages: Vec<String>,
 }
 
 /// A text on its way to the loudspeaker.
-pub struct Making(Receiver<Result<Words, String>>);
+pub struct PendingSpeech(Receiver<Result<Words, String>>);
 
-impl Speaker {
+impl SpeechSynthesizer {
     /// Asks a program (`espeak-ng`, or one that takes its arguments) for its languages. The error says why it cannot speak.
-    pub fn find(program: &str) -> Result<Self, String> {
+    pub fn detect(program: &str) -> Result<Self, String> {
         let output = Command::new(program)
             .arg("--voices")
             .stdin(Stdio::null())
@@ -58,30 +58,30 @@ impl Speaker {
 
     /// Does it read this language, and not only spell it?
     pub fn can_speak(&self, language: &str) -> bool {
-        let base = base(language);
+        let base = base_language(language);
         let speaks = |voice: &String| voice.split('-').next() == Some(base);
-        !SPELT.contains(&base) && self.languages.iter().any(speaks)
+        !SPELLED_ONLY.contains(&base) && self.languages.iter().any(speaks)
     }
 
     /// Begins to make words of texts with their languages, for a loudspeaker of this rate, Hz.
-    pub fn make(&self, texts: Vec<(String, String)>, sample_rate: u32) -> Making {
+    pub fn start(&self, texts: Vec<(String, String)>, sample_rate: u32) -> PendingSpeech {
         let (tell, told) = channel();
         let program = self.program.clone();
         let make = move || {
             // Whoever does not listen any more has asked for something else.
-            let _ = tell.send(words(&program, &texts, sample_rate));
+            let _ = tell.send(synthesize(&program, &texts, sample_rate));
         };
         // Where it does not start its end of the channel is gone, and [`Making::ready`] says so.
         if let Err(error) = std::thread::Builder::new().name("soffio-speech".into()).spawn(make) {
             tracing::warn!("nothing is read aloud: {error}");
         }
-        Making(told)
+        PendingSpeech(told)
     }
 }
 
-impl Making {
+impl PendingSpeech {
     /// The words, once they are there; the error says why there are none.
-    pub fn ready(&self) -> Option<Result<Words, String>> {
+    pub fn poll(&self) -> Option<Result<Words, String>> {
         match self.0.try_recv() {
             Ok(words) => Some(words),
             Err(TryRecvError::Empty) => None,
@@ -91,24 +91,24 @@ impl Making {
 }
 
 /// Language without its region.
-fn base(language: &str) -> &str {
+fn base_language(language: &str) -> &str {
     language.split(['-', '_']).next().unwrap_or(language)
 }
 
 /// Texts, one after the other, as one utterance.
-fn words(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Words, String> {
+fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Words, String> {
     let mut all = Vec::new();
     for (text, language) in texts.iter().filter(|(text, _)| !text.trim().is_empty()) {
-        let (samples, rate) = parse(&run(program, base(language), text)?)?;
-        all.extend(at_rate(&samples, rate, sample_rate));
+        let (samples, rate) = parse(&run_program(program, base_language(language), text)?)?;
+        all.extend(resample(&samples, rate, sample_rate));
     }
     all.truncate((LONGEST_S * f64::from(sample_rate)) as usize);
-    level(&mut all, sample_rate)?;
+    normalize_loudness(&mut all, sample_rate)?;
     Ok(Words { samples: all.into(), sample_rate })
 }
 
 /// The program's WAV of a text. The text goes in by its standard input, so that nothing in it is an option.
-fn run(program: &str, language: &str, text: &str) -> Result<Vec<u8>, String> {
+fn run_program(program: &str, language: &str, text: &str) -> Result<Vec<u8>, String> {
     let failed = |error: std::io::Error| format!("{program}: {error}");
     let mut child = Command::new(program)
         .args(["--stdout", "--stdin", "-b", "1", "-v", language])
@@ -126,21 +126,21 @@ fn run(program: &str, language: &str, text: &str) -> Result<Vec<u8>, String> {
         let _ = tell.send(read.map(|_| bytes));
     });
     if let Err(error) = reader {
-        end(&mut child);
+        kill(&mut child);
         return Err(failed(error));
     }
     let fed = stdin.map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
-    let read = told.recv_timeout(PATIENCE);
-    end(&mut child);
+    let read = told.recv_timeout(TIMEOUT);
+    kill(&mut child);
     match (fed, read) {
         (Ok(()), Ok(bytes)) => bytes.map_err(failed),
         (Err(error), _) => Err(failed(error)),
-        (_, Err(_)) => Err(format!("{program} has not spoken within {} s", PATIENCE.as_secs())),
+        (_, Err(_)) => Err(format!("{program} has not spoken within {} s", TIMEOUT.as_secs())),
     }
 }
 
 /// The program is over, or shall be.
-fn end(child: &mut Child) {
+fn kill(child: &mut Child) {
     // Fails where it has ended by itself.
     let _ = child.kill();
     let _ = child.wait();
@@ -165,7 +165,7 @@ fn parse(bytes: &[u8]) -> Result<(Vec<f32>, u32), String> {
 /// ```text
 /// Y_k = m/n X_k     0 ≤ k ≤ min(n, m)/2          y = F⁻¹ Y
 /// ```
-fn at_rate(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
+fn resample(samples: &[f32], from: u32, to: u32) -> Vec<f32> {
     if from == to || samples.is_empty() {
         return samples.to_vec();
     }
@@ -194,7 +194,7 @@ fn gcd(a: u32, b: u32) -> u32 {
 }
 
 /// As loud as speech is to be, and no sample beyond what the loudspeaker takes.
-fn level(samples: &mut [f32], sample_rate: u32) -> Result<(), String> {
+fn normalize_loudness(samples: &mut [f32], sample_rate: u32) -> Result<(), String> {
     let failed = |error: ebur128::Error| format!("loudness: {error}");
     let mut meter = ebur128::EbuR128::new(1, sample_rate, ebur128::Mode::I).map_err(failed)?;
     // It comes from both loudspeakers.
@@ -223,7 +223,7 @@ mod tests {
         for (from, to) in [(22_050, 48_000), (22_050, 44_100), (48_000, 16_000), (16_000, 16_000)] {
             // A whole second holds a whole number of its periods: nothing leaks.
             let samples: Vec<f32> = (0..from as usize).map(|i| sine(from, i)).collect();
-            let other = at_rate(&samples, from, to);
+            let other = resample(&samples, from, to);
             assert_eq!(other.len(), to as usize, "{from} to {to}");
             for (i, sample) in other.iter().enumerate() {
                 let error = f64::from(sample - sine(to, i)).abs();
@@ -239,7 +239,7 @@ mod tests {
         let tone = |a: f64| -> Vec<f32> { (0..96_000).map(|i| (a * (TAU * i as f64 / 48.0).sin()) as f32).collect() };
         for amplitude in [0.9, 0.01] {
             let mut samples = tone(amplitude);
-            level(&mut samples, 48_000).expect("it is measured");
+            normalize_loudness(&mut samples, 48_000).expect("it is measured");
             let peak = samples.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
             let lufs = 20.0 * f64::from(peak).log10();
             assert!((lufs - SPEECH_LUFS).abs() < TOLERANCE_DB, "{amplitude}: {lufs}");
@@ -247,23 +247,23 @@ mod tests {
         // One click in silence would need far more than full scale.
         let mut click = tone(1e-5);
         click[500] = 1.0;
-        level(&mut click, 48_000).expect("it is measured");
+        normalize_loudness(&mut click, 48_000).expect("it is measured");
         assert!(click.iter().all(|sample| sample.abs() <= LOUDEST));
     }
 
     #[test]
     fn a_program_that_is_not_there_or_says_nonsense_is_no_speaker() {
-        let error = Speaker::find("no-such-program-of-speech").expect_err("it is not there");
+        let error = SpeechSynthesizer::detect("no-such-program-of-speech").expect_err("it is not there");
         assert!(error.contains("no-such-program-of-speech"), "{error}");
-        assert!(Speaker::find("true").expect_err("no voices").contains("no voices"));
+        assert!(SpeechSynthesizer::detect("true").expect_err("no voices").contains("no voices"));
         assert!(parse(b"not a wave").is_err());
-        assert!(run("cat", "en", "").is_ok_and(|bytes| bytes.is_empty()), "cat refuses the options and says nothing");
+        assert!(run_program("cat", "en", "").is_ok_and(|bytes| bytes.is_empty()), "cat refuses the options and says nothing");
     }
 
     #[test]
     fn a_language_is_spoken_by_its_own_voice_only() {
         let languages = ["en-gb", "fr-fr", "kok", "ja", "it"].map(str::to_owned).to_vec();
-        let speaker = Speaker { program: String::new(), languages };
+        let speaker = SpeechSynthesizer { program: String::new(), languages };
         for (language, can) in [("en", true), ("en-US", true), ("it", true), ("ko", false), ("ja", false), ("i", false)]
         {
             assert_eq!(speaker.can_speak(language), can, "{language}");

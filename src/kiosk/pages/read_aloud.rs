@@ -6,47 +6,47 @@
 use std::sync::mpsc::{Receiver, channel};
 
 use crate::pages::overlay::Scene;
-use crate::pages::speech::{Making, Speaker};
-use crate::pages::spoken;
+use crate::pages::speech_synthesis::{PendingSpeech, SpeechSynthesizer};
+use crate::pages::speech_text;
 use crate::visitor::input::Request;
 use soffio_devices::audio::Words;
 
 /// The state of reading aloud.
 #[derive(Default)]
-pub struct Aloud {
+pub struct ReadAloud {
     program: String,
-    speaker: Option<Speaker>,
+    synthesizer: Option<SpeechSynthesizer>,
     /// The program is asked for its languages on a thread of its own: nothing waits for it.
-    finding: Option<Receiver<Result<Speaker, String>>>,
+    detecting: Option<Receiver<Result<SpeechSynthesizer, String>>>,
     /// What the next picture shall be asked for: the work, or a button.
-    asked: Option<Option<Request>>,
-    making: Option<Making>,
+    requested: Option<Option<Request>>,
+    pending: Option<PendingSpeech>,
     /// Sent to the loudspeaker, which does not say so yet.
-    sent: bool,
-    speaks: bool,
+    queued: bool,
+    playing: bool,
     /// Has anything been read in this visit?
-    guides: bool,
+    announces_focus: bool,
 }
 
-impl Aloud {
+impl ReadAloud {
     /// Looks for the program where another one is configured; an empty name is none.
-    pub fn settle(&mut self, program: &str) {
-        if let Some(found) = self.finding.as_ref().and_then(|finding| finding.try_recv().ok()) {
-            self.finding = None;
-            self.speaker = found.inspect_err(|error| tracing::info!("nothing is read aloud: {error}")).ok();
+    pub fn configure(&mut self, program: &str) {
+        if let Some(found) = self.detecting.as_ref().and_then(|finding| finding.try_recv().ok()) {
+            self.detecting = None;
+            self.synthesizer = found.inspect_err(|error| tracing::info!("nothing is read aloud: {error}")).ok();
         }
         if self.program == program {
             return;
         }
         self.program = program.to_owned();
-        (self.speaker, self.finding) = (None, None);
+        (self.synthesizer, self.detecting) = (None, None);
         if !program.is_empty() {
             let (tell, found) = channel();
             let program = program.to_owned();
             // Whoever does not listen any more has another program.
-            let find = move || drop(tell.send(Speaker::find(&program)));
+            let find = move || drop(tell.send(SpeechSynthesizer::detect(&program)));
             match std::thread::Builder::new().name("soffio-voices".into()).spawn(find) {
-                Ok(_) => self.finding = Some(found),
+                Ok(_) => self.detecting = Some(found),
                 Err(error) => tracing::warn!("nothing is read aloud: {error}"),
             }
         }
@@ -54,65 +54,65 @@ impl Aloud {
 
     /// Can this language be read?
     pub fn can_speak(&self, language: &str) -> bool {
-        self.speaker.as_ref().is_some_and(|speaker| speaker.can_speak(language))
+        self.synthesizer.as_ref().is_some_and(|speaker| speaker.can_speak(language))
     }
 
     /// Is something being read, or about to be?
     pub fn is_on(&self) -> bool {
-        self.asked.is_some() || self.making.is_some() || self.sent || self.speaks
+        self.requested.is_some() || self.pending.is_some() || self.queued || self.playing
     }
 
     /// Has the work read, or hushes: words for the loudspeaker.
-    pub fn press(&mut self) -> Option<Words> {
+    pub fn toggle(&mut self) -> Option<Words> {
         if self.is_on() {
-            return self.end();
+            return self.stop();
         }
-        self.asked = Some(None);
+        self.requested = Some(None);
         None
     }
 
     /// Keys have reached a button: whoever has had something read is told which.
-    pub fn reach(&mut self, button: Option<Request>) {
-        if self.guides {
-            self.asked = button.map(Some);
+    pub fn announce_focus(&mut self, button: Option<Request>) {
+        if self.announces_focus {
+            self.requested = button.map(Some);
         }
     }
 
     /// Begins to read what was asked for, from what is on the glass, on a loudspeaker of this rate, Hz.
-    pub fn follow(&mut self, scene: &Scene, sample_rate: u32) {
-        let (Some(asked), Some(speaker)) = (self.asked.take(), &self.speaker) else { return };
+    pub fn start_requested(&mut self, scene: &Scene, sample_rate: u32) {
+        let (Some(asked), Some(speaker)) = (self.requested.take(), &self.synthesizer) else { return };
         let mut texts = match asked {
-            None => spoken::work(scene),
-            Some(button) => spoken::button(button, scene),
+            None => speech_text::exhibit(scene),
+            Some(button) => speech_text::button(button, scene),
         };
         texts.retain(|(_, language)| speaker.can_speak(language));
-        self.making = Some(speaker.make(texts, sample_rate));
-        self.guides = true;
+        self.pending = Some(speaker.start(texts, sample_rate));
+        self.announces_focus = true;
     }
 
     /// Ends it: words that hush, where there is something to hush.
-    pub fn end(&mut self) -> Option<Words> {
+    pub fn stop(&mut self) -> Option<Words> {
         let on = self.is_on();
-        (self.asked, self.making, self.sent, self.speaks) = (None, None, false, false);
+        (self.requested, self.pending, self.queued, self.playing) = (None, None, false, false);
         on.then(|| Words { samples: [].into(), sample_rate: 0 })
     }
 
     /// The visitor has left.
-    pub fn leave(&mut self) -> Option<Words> {
-        self.guides = false;
-        self.end()
+    pub fn end_visit(&mut self) -> Option<Words> {
+        self.announces_focus = false;
+        self.stop()
     }
 
     /// Looks on; `speaks` is what the loudspeaker says. Words that have been made, for the loudspeaker.
-    pub fn tend(&mut self, speaks: bool) -> Option<Words> {
+    pub fn update(&mut self, speaks: bool) -> Option<Words> {
         // Until the loudspeaker has begun, its silence is not an end.
-        self.sent &= !speaks;
-        self.speaks = speaks;
-        let made = self.making.as_ref()?.ready()?;
-        self.making = None;
+        self.queued &= !speaks;
+        self.playing = speaks;
+        let made = self.pending.as_ref()?.poll()?;
+        self.pending = None;
         match made {
             Ok(words) => {
-                self.sent = !words.samples.is_empty();
+                self.queued = !words.samples.is_empty();
                 Some(words)
             }
             Err(error) => {
@@ -124,6 +124,6 @@ impl Aloud {
 }
 
 /// Does what is asked for leave the reading on? Only what is about the reading itself.
-pub fn goes_on(request: Option<Request>) -> bool {
+pub fn keeps_reading(request: Option<Request>) -> bool {
     matches!(request, Some(Request::Speak | Request::Louder(_) | Request::Look(_)))
 }

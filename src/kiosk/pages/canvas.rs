@@ -14,9 +14,9 @@ use crate::visitor::needs::Reading;
 /// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
 pub const BUTTON_MM: f32 = 15.0;
 /// Smallest type, em: 2.9 mm on a 1280 x 720 picture of the usual screen.
-pub const SMALL: f32 = 0.72;
+pub const SMALL_TEXT_EM: f32 = 0.72;
 /// How much larger large type is: 18 points for 14 (WCAG 2.2, large text).
-const LARGE: f32 = 1.3;
+const LARGE_TEXT_FACTOR: f32 = 1.3;
 
 /// Type.
 pub const INK: Color32 = Color32::from_rgb(38, 36, 34);
@@ -27,12 +27,12 @@ pub const VERMILION: Color32 = Color32::from_rgb(190, 44, 22);
 /// Round type and lines.
 pub const HALO: Color32 = Color32::from_rgba_premultiplied(170, 170, 168, 170);
 /// How opaque a strip of it is: over black it leaves 9 : 1.
-const STRIP: f32 = 0.85;
+const PAPER_OPACITY: f32 = 0.85;
 /// Under type, where there is no wall behind it.
 pub const PAPER: Color32 = Color32::from_rgb(246, 244, 241);
 
 /// A place to set type on.
-pub struct Page<'a> {
+pub struct Canvas<'a> {
     /// What draws.
     pub painter: &'a Painter,
     /// The picture, without its margin.
@@ -45,11 +45,11 @@ pub struct Page<'a> {
     pub reading: Reading,
 }
 
-impl<'a> Page<'a> {
+impl<'a> Canvas<'a> {
     /// The whole of `picture`; `points_per_mm` of the glass.
     pub fn new(painter: &'a Painter, picture: Rect, points_per_mm: f32, reading: Reading) -> Self {
         let em = picture.height().min(picture.width() * 0.75) / 45.0;
-        let scaled = if reading.large { LARGE * em } else { em };
+        let scaled = if reading.large { LARGE_TEXT_FACTOR * em } else { em };
         let button = (2.0 * em).max(BUTTON_MM * points_per_mm);
         Self { painter, picture: picture.shrink(2.0 * em), em: scaled, button, reading }
     }
@@ -60,24 +60,24 @@ impl<'a> Page<'a> {
     }
 
     /// Type `size` em high, in lines no longer than this.
-    pub fn set(&self, text: &str, size: f32, color: Color32, longest: f32) -> Arc<Galley> {
+    pub fn layout(&self, text: &str, size: f32, color: Color32, longest: f32) -> Arc<Galley> {
         let color =
             if self.reading.contrast { Color32::BLACK.gamma_multiply(f32::from(color.a()) / 255.0) } else { color };
         let font = FontId::proportional(size * self.em);
-        match bidi::is_mixed(text) {
+        match bidi::has_right_to_left(text) {
             false => self.painter.layout(text.into(), font, color, longest),
-            true => self.set_mixed(text, font, color, longest),
+            true => self.layout_bidi(text, font, color, longest),
         }
     }
 
     /// The same where something is read from the right. Lines begin where most of the text does.
-    fn set_mixed(&self, text: &str, font: FontId, color: Color32, longest: f32) -> Arc<Galley> {
+    fn layout_bidi(&self, text: &str, font: FontId, color: Color32, longest: f32) -> Arc<Galley> {
         let format = TextFormat::simple(font.clone(), color);
         let width = |piece: &str| self.painter.layout_no_wrap(piece.into(), font.clone(), color).size().x;
         let lines = bidi::lines(text, longest, width);
         let lengths: Vec<f32> = lines.iter().map(|line| line.iter().map(|piece| width(piece)).sum()).collect();
         let longest = lengths.iter().copied().fold(0.0, f32::max);
-        let from_right = bidi::reads_from_right(text);
+        let from_right = bidi::is_right_to_left(text);
         let mut job = LayoutJob { wrap: TextWrapping::no_max_width(), ..LayoutJob::default() };
         for (i, (line, length)) in lines.iter().zip(&lengths).enumerate() {
             if i > 0 {
@@ -98,12 +98,12 @@ impl<'a> Page<'a> {
     }
 
     /// Puts type down where its anchor is, on paper that keeps it readable over a picture.
-    pub fn put(&self, galley: Arc<Galley>, at: Pos2, anchor: Align2, color: Color32) -> Rect {
+    pub fn place(&self, galley: Arc<Galley>, at: Pos2, anchor: Align2, color: Color32) -> Rect {
         let rect = anchor.anchor_size(at, galley.size());
         let opacity = f32::from(color.a()) / 255.0;
         // No higher than the gap to the next line: paper must not lie on what was put down before.
         let paper = rect.expand2(vec2(0.3, 0.05) * self.em);
-        let sheet = if self.reading.contrast { Color32::WHITE } else { PAPER.gamma_multiply(STRIP) };
+        let sheet = if self.reading.contrast { Color32::WHITE } else { PAPER.gamma_multiply(PAPER_OPACITY) };
         self.painter.rect_filled(paper, 0.2 * self.em, sheet.gamma_multiply(opacity));
         self.painter.galley(rect.min, galley, color);
         rect
@@ -111,7 +111,7 @@ impl<'a> Page<'a> {
 
     /// Both.
     pub fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32, longest: f32) -> Rect {
-        self.put(self.set(text, size, color, longest), at, anchor, color)
+        self.place(self.layout(text, size, color, longest), at, anchor, color)
     }
 
     /// A line `width` em wide in a pale halo.
@@ -121,18 +121,18 @@ impl<'a> Page<'a> {
     }
 
     /// The room of a word to press: as large as a finger.
-    pub fn word_size(&self, text: &str) -> Vec2 {
-        let size = self.set(text, 0.85, INK, f32::INFINITY).size();
+    pub fn label_size(&self, text: &str) -> Vec2 {
+        let size = self.layout(text, 0.85, INK, f32::INFINITY).size();
         vec2((size.x + self.em).max(self.button), self.button.max(size.y + 0.6 * self.em))
     }
 
     /// A word to press whose right lower corner is here; `on` underlines it.
-    pub fn word(&self, right_bottom: Pos2, text: &str, on: bool) -> Rect {
+    pub fn label_button(&self, right_bottom: Pos2, text: &str, on: bool) -> Rect {
         let color = if on { INK } else { SOFT_INK };
-        let galley = self.set(text, 0.85, color, f32::INFINITY);
-        let size = self.word_size(text);
+        let galley = self.layout(text, 0.85, color, f32::INFINITY);
+        let size = self.label_size(text);
         let rect = Rect::from_min_size(right_bottom - size, size);
-        let set = self.put(galley, rect.center(), Align2::CENTER_CENTER, color);
+        let set = self.place(galley, rect.center(), Align2::CENTER_CENTER, color);
         if on {
             let y = set.bottom() + 0.15 * self.em;
             self.painter.hline(set.left()..=set.right(), y, Stroke::new(0.1 * self.em, VERMILION));
@@ -141,7 +141,7 @@ impl<'a> Page<'a> {
     }
 
     /// A sign in a circle to press, its right lower corner here.
-    pub fn sign(&self, right_bottom: Pos2, sign: &str) -> Rect {
+    pub fn icon_button(&self, right_bottom: Pos2, sign: &str) -> Rect {
         let size = vec2(self.button, self.button);
         let rect = Rect::from_min_size(right_bottom - size, size);
         let ink = if self.reading.contrast { Color32::BLACK } else { SOFT_INK };
@@ -151,13 +151,13 @@ impl<'a> Page<'a> {
             PAPER.gamma_multiply(0.6),
             Stroke::new(0.08 * self.em, ink),
         );
-        let galley = self.set(sign, 1.1, ink, f32::INFINITY);
+        let galley = self.layout(sign, 1.1, ink, f32::INFINITY);
         self.painter.galley(rect.center() - 0.5 * galley.size(), galley, ink);
         rect
     }
 
     /// Shows which button the keys are on.
-    pub fn focus(&self, rect: Rect) {
+    pub fn focus_ring(&self, rect: Rect) {
         self.painter.rect_stroke(
             rect.expand(0.1 * self.em),
             0.3 * self.em,

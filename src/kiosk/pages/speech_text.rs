@@ -5,16 +5,16 @@ use crate::pages::words::{language_name, words};
 use crate::visitor::input::Request;
 
 /// A text and its language.
-pub type Said = (String, String);
+pub type Utterance = (String, String);
 
 /// The work, its label and how it is played: title, maker, what is to be seen, the wall text, help and rights.
-pub fn work(scene: &Scene) -> Vec<Said> {
+pub fn exhibit(scene: &Scene) -> Vec<Utterance> {
     let own = words(scene.language);
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return Vec::new() };
-    let invite = if scene.hearing.hears && scene.hearing.breath { own.invite } else { "" };
-    let hold = own.how(scene.needs);
+    let invite = if scene.breath_input.is_active && scene.breath_input.is_allowed { own.invite } else { "" };
+    let hold = own.how(scene.accessibility);
     let sound = if scene.exhibit.sounds.is_empty() { own.no_sound } else { "" };
-    let privacy = if scene.hearing.hears { own.privacy } else { "" };
+    let privacy = if scene.breath_input.is_active { own.privacy } else { "" };
     let parts = [
         &label.title,
         &label.maker,
@@ -32,7 +32,7 @@ pub fn work(scene: &Scene) -> Vec<Said> {
 }
 
 /// A button of the page, as its name and, where it is a switch, how it stands.
-pub fn button(request: Request, scene: &Scene) -> Vec<Said> {
+pub fn button(request: Request, scene: &Scene) -> Vec<Utterance> {
     let own = words(scene.language);
     let switch = |name: &str, on: bool| format!("{name}: {}", if on { own.on } else { own.off });
     let text = match request {
@@ -40,13 +40,13 @@ pub fn button(request: Request, scene: &Scene) -> Vec<Said> {
         Request::Work(index) => scene.tiles.get(index).map(|tile| tile.title.clone()).unwrap_or_default(),
         Request::Leaf(by) => if by > 0 { own.next } else { own.previous }.to_owned(),
         Request::Louder(by) => if by > 0 { own.louder } else { own.softer }.to_owned(),
-        Request::Large => switch(own.large, scene.needs.reading.large),
-        Request::Contrast => switch(own.contrast, scene.needs.reading.contrast),
-        Request::PressOnce => switch(own.press_once, scene.needs.press_once),
-        Request::Dwell => switch(own.dwell, scene.needs.dwell),
-        Request::Calm => switch(own.calm, scene.needs.calm),
-        Request::Round => switch(own.round, scene.needs.round),
-        Request::Listen => switch(own.ear, scene.hearing.listens),
+        Request::Large => switch(own.large, scene.accessibility.reading.large),
+        Request::Contrast => switch(own.contrast, scene.accessibility.reading.contrast),
+        Request::PressOnce => switch(own.press_once, scene.accessibility.press_once),
+        Request::Dwell => switch(own.dwell, scene.accessibility.dwell),
+        Request::Calm => switch(own.calm, scene.accessibility.calm),
+        Request::Round => switch(own.round, scene.accessibility.round),
+        Request::Listen => switch(own.ear, scene.breath_input.microphone_on),
         Request::Speak => own.speak.to_owned(),
         // Each language by its own name, in its own voice.
         Request::Language(index) => {
