@@ -1,13 +1,15 @@
-//! `soffio check`: all problems of exhibits, models and configurations at once, each located and explained.
+//! `soffio check`: all problems of exhibits, models, configurations and files of UI strings at once, each located and explained.
 
 use std::io::IsTerminal;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::failure::{Failure, Outcome};
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
+#[cfg(feature = "kiosk")]
+use soffio_kiosk::pages::ui_strings;
 use soffio_offline::budget::{self, Findings};
 
 /// Validates exhibits, configs and models: all problems at once, located, explained.
@@ -19,7 +21,7 @@ use soffio_offline::budget::{self, Findings};
 #[derive(clap::Args, Debug, Default)]
 pub struct Args {
     /// Exhibit ids or folders, a folder of exhibits, their exhibit.toml, .glb or .gltf files; a site's configuration
-    /// (any other .toml).
+    /// (any other .toml), with the texts beside it; files or a folder of texts (.ftl).
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<String>,
     /// Does not run the exhibits.
@@ -56,12 +58,13 @@ pub fn run(args: Args) -> Outcome {
     if all.has_errors() { Err(Failure { code: 1, message: String::new() }) } else { Ok(()) }
 }
 
-/// The exhibits of a folder of exhibits in the order of their names; any other path is itself.
+/// The exhibits of a folder of exhibits, or the files of a folder of texts, in the order of their names; any other path is
+/// itself.
 fn expand(path: &str) -> Vec<String> {
     let own = Path::new(path).join(exhibit::SIDECAR).exists();
     let children = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut inside: Vec<String> = children
-        .filter(|child| child.join(exhibit::SIDECAR).exists())
+        .filter(|child| child.join(exhibit::SIDECAR).exists() || child.extension().is_some_and(|end| end == "ftl"))
         .filter(|child| child.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')))
         .map(|child| child.to_string_lossy().into_owned())
         .collect();
@@ -79,7 +82,12 @@ fn check(path: &str, quick: bool) -> (Report, Option<Findings>) {
         "toml" if file.file_name().is_some_and(|name| name == exhibit::SIDECAR) => {
             exhibit_report(file.parent().unwrap_or(file), quick)
         }
-        "toml" => Config::load(Some(file)).map(|_| without(Report::default())).map_err(|error| config_report(&error)),
+        "toml" => {
+            let mut report = Config::load(Some(file)).map_or_else(|error| config_report(&error), |_| Report::default());
+            texts_beside(file).iter().for_each(|texts| report.absorb(texts_report(texts)));
+            Ok(without(report))
+        }
+        "ftl" => Ok(without(texts_report(file))),
         _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder, quick)),
     };
     outcome.unwrap_or_else(without)
@@ -103,6 +111,43 @@ fn config_report(error: &ConfigError) -> Report {
         diagnostic
     });
     Report::in_file(&file, text.as_str().into(), diagnostics.collect())
+}
+
+/// The files of texts that belong to a configuration file.
+#[cfg(feature = "kiosk")]
+fn texts_beside(file: &Path) -> Vec<PathBuf> {
+    file.parent().map(|folder| ui_strings::files(&folder.join(ui_strings::FOLDER))).unwrap_or_default()
+}
+
+/// Problems of a file of texts in the form of an exhibit's.
+#[cfg(feature = "kiosk")]
+fn texts_report(path: &Path) -> Report {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let text = text.trim_start_matches('\u{feff}');
+    let diagnostics = ui_strings::check(path).into_iter().map(|problem| {
+        let code = if problem.is_warning { codes::MISSING_TEXTS } else { codes::TEXTS };
+        let (line, column) = problem.place;
+        let placed = problem.span.map(|span| Location { file: file.clone(), line, column, span });
+        let message = if placed.is_some() { problem.message } else { format!("{file}: {}", problem.message) };
+        let mut diagnostic = Diagnostic::new(code, message).help(problem.help);
+        diagnostic.location = placed;
+        diagnostic
+    });
+    Report::in_file(&file, text.into(), diagnostics.collect())
+}
+
+/// Without the kiosk the program has no texts to compare.
+#[cfg(not(feature = "kiosk"))]
+fn texts_beside(_: &Path) -> Vec<PathBuf> {
+    Vec::new()
+}
+
+/// Without the kiosk the program has no texts to compare.
+#[cfg(not(feature = "kiosk"))]
+fn texts_report(path: &Path) -> Report {
+    let message = format!("{}: this program was built without the kiosk and has no texts", path.display());
+    Report::of(Diagnostic::new(codes::TEXTS, message).help("use a program with the feature `kiosk`"))
 }
 
 /// Bytes from a place to the end of its line; line and column (in characters) count from 1.

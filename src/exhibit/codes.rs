@@ -74,6 +74,7 @@ codes! {
     IMAGE = "E0304", "an image of the model cannot be decoded";
     CYCLE = "E0305", "the node tree of the model is not a tree";
     CONFIG = "E0501", "the site's configuration does not hold";
+    TEXTS = "E0503", "a file of the kiosk's own texts does not hold";
     NEW = "E0601", "a new exhibit cannot be made of what is given";
     TABLE = "E0602", "a table of label texts cannot be taken over";
     NO_CAPTION = "W0401", "a sound has no caption";
@@ -86,4 +87,5 @@ codes! {
     MASS_RATIO = "W0409", "two joined bodies differ in mass by more than a million";
     UNUSED = "W0410", "a value is given that nothing uses";
     LATE = "W0411", "a step takes longer than a kiosk has for it";
+    MISSING_TEXTS = "W0413", "a file of the kiosk's own texts lacks some, or leaves out a variable";
 }

@@ -23,7 +23,8 @@ const LEFT_OUT: &[(&str, &str)] = &[
 ];
 
 /// Arguments that would take hours, and what is run instead.
-const SHORTER: &[(&str, &str)] = &[("--hours 0.5", "--hours 0.002"), ("--hours 8", "--hours 0.002"), ("--hours 2", "--hours 0.002")];
+const SHORTER: &[(&str, &str)] =
+    &[("--hours 0.5", "--hours 0.002"), ("--hours 8", "--hours 0.002"), ("--hours 2", "--hours 0.002")];
 
 /// Commands in a document's `sh` blocks, in order. A line that begins with a space belongs to what the command above shows.
 fn commands(document: &str) -> Vec<String> {
@@ -111,7 +112,8 @@ fn the_commands_of_the_manual_run_as_written() {
 #[test]
 fn the_two_commands_explain_themselves() {
     for script in ["kiosk", "check"] {
-        let output = Command::new(Path::new(env!("CARGO_MANIFEST_DIR")).join(script)).arg("--help").output().expect(script);
+        let output =
+            Command::new(Path::new(env!("CARGO_MANIFEST_DIR")).join(script)).arg("--help").output().expect(script);
         assert!(output.status.success() && output.stdout.len() > 100, "{script} --help");
     }
 }

@@ -12,7 +12,7 @@ use soffio_kiosk::fleet::kept;
 use soffio_kiosk::pages::fonts::{self, Script};
 use soffio_kiosk::pages::languages::languages_without_glyphs;
 use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
-use soffio_kiosk::pages::words::WORDS;
+use soffio_kiosk::pages::ui_strings::{SHIPPED, Translations};
 use soffio_kiosk::venue::care::CLEAN_NIGHTS;
 use soffio_kiosk::venue::chirping::{Act, Course};
 use soffio_kiosk::window;
@@ -74,9 +74,10 @@ fn writing(script: Script) -> Finding {
         Script::Hebrew => ("font for Hebrew", "fonts-noto-core or fonts-dejavu-core"),
         Script::Arabic => ("font for Arabic, Persian and Urdu", "fonts-noto-core or fonts-dejavu-core"),
     };
+    let without_glyphs = || languages_without_glyphs(&Translations::default());
     match fonts::find(script) {
-        Some((file, _)) if script == Script::EastAsian && !languages_without_glyphs().is_empty() => {
-            let found = format!("{} lacks letters of: {}", file.display(), languages_without_glyphs().join(", "));
+        Some((file, _)) if script == Script::EastAsian && !without_glyphs().is_empty() => {
+            let found = format!("{} lacks letters of: {}", file.display(), without_glyphs().join(", "));
             let remedy = "install fonts-noto-cjk; until then labels in these languages are not offered";
             Finding::new(what, Health::Warn, found, remedy)
         }
@@ -97,7 +98,7 @@ fn reading(config: &Config) -> Finding {
     match SpeechSynthesizer::detect(&config.visit.reads_aloud) {
         Ok(speaker) => {
             let can = |can: bool| {
-                let codes = WORDS.iter().map(|words| words.code).filter(|code| speaker.can_speak(code) == can);
+                let codes = SHIPPED.iter().map(|(code, _)| *code).filter(|code| speaker.can_speak(code) == can);
                 codes.collect::<Vec<_>>().join(", ")
             };
             let (reads, not) = (can(true), can(false));

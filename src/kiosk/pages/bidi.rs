@@ -1,37 +1,36 @@
-//! Text that is read from the right, alone or among words from the left: Unicode's bidirectional algorithm (UAX 9), line by
-//! line, for a panel library that sets everything from the left.
+//! Bidirectional text: the Unicode bidirectional algorithm (UAX 9), line by line.
 //!
-//! The library shapes each piece of text in its own script's direction, so letters of Arabic join and marks of Hebrew stand
-//! where they belong; but it sets pieces one after the other as they are given. So a line is given as its pieces in the
-//! order in which they stand on the glass: a run from the left is one piece, a run from the right is its words in reverse,
-//! with spaces, points and mirrored brackets between them. Lines are broken before that, in the order of reading.
+//! The panel library shapes each piece of text in the direction of its script, so Arabic letters join and Hebrew marks stand in
+//! place. It sets the pieces from left to right in the order given. A line is therefore given as its pieces in visual order: a
+//! left-to-right run is one piece; a right-to-left run is its words in reverse, with spaces, punctuation and mirrored brackets
+//! between them. Lines are broken before that, in logical order.
 
 use std::ops::Range;
 
 use unicode_bidi::{BidiClass, BidiInfo, Level, ParagraphInfo, bidi_class};
 use unicode_bidi_mirroring::get_mirrored;
 
-/// A line's pieces from left to right.
+/// The pieces of a line in visual order, from left to right.
 pub type Line = Vec<String>;
 
-/// Is there anything that is read from the right?
+/// Does the text contain right-to-left characters?
 pub fn has_right_to_left(text: &str) -> bool {
     text.chars().any(is_right_to_left_char)
 }
 
-/// Is its first word, or are at least half of its words read from the right? A text's own direction: the first letter alone,
-/// as UAX 9 takes it where nothing else is known, would turn a Hebrew sentence about that begins with a Latin name.
+/// The text's base direction: is its first word right-to-left, or at least half of its words? UAX 9's default, the first
+/// strong character, would reverse a Hebrew sentence that begins with a Latin name.
 pub fn is_right_to_left(text: &str) -> bool {
-    let way = |word: &str| {
+    let direction = |word: &str| {
         word.chars().map(bidi_class).find(|class| matches!(class, BidiClass::L | BidiClass::R | BidiClass::AL))
     };
-    let ways: Vec<BidiClass> = text.split_whitespace().filter_map(way).collect();
-    let left = ways.iter().filter(|class| **class == BidiClass::L).count();
-    let first = ways.first().is_some_and(|class| *class != BidiClass::L);
-    first || (left < ways.len() && 2 * left <= ways.len())
+    let directions: Vec<BidiClass> = text.split_whitespace().filter_map(direction).collect();
+    let left = directions.iter().filter(|class| **class == BidiClass::L).count();
+    let first = directions.first().is_some_and(|class| *class != BidiClass::L);
+    first || (left < directions.len() && 2 * left <= directions.len())
 }
 
-/// The lines of a text, none longer than `longest` where a space lies before that; `width` measures a piece.
+/// Breaks a text at spaces into lines of at most `longest`; `width` measures a piece.
 pub fn lines(text: &str, longest: f32, mut width: impl FnMut(&str) -> f32) -> Vec<Line> {
     let base = if is_right_to_left(text) { Level::rtl() } else { Level::ltr() };
     let info = BidiInfo::new(text, Some(base));
@@ -61,31 +60,31 @@ pub fn lines(text: &str, longest: f32, mut width: impl FnMut(&str) -> f32) -> Ve
     all
 }
 
-/// Does it stand in a script that is read from the right?
+/// Does the character belong to a right-to-left script?
 fn is_right_to_left_char(c: char) -> bool {
     matches!(bidi_class(c), BidiClass::R | BidiClass::AL)
 }
 
-/// What lies between white space.
+/// Byte ranges of the words of a paragraph: the text between white space.
 fn word_ranges(text: &str, paragraph: Range<usize>) -> Vec<Range<usize>> {
-    let mut words = Vec::new();
+    let mut ranges = Vec::new();
     let mut begun = None;
     for (i, c) in text[paragraph.clone()].char_indices() {
         let at = paragraph.start + i;
         match (c.is_whitespace(), begun) {
             (false, None) => begun = Some(at),
             (true, Some(start)) => {
-                words.push(start..at);
+                ranges.push(start..at);
                 begun = None;
             }
             _ => {}
         }
     }
-    words.extend(begun.map(|start| start..paragraph.end));
-    words
+    ranges.extend(begun.map(|start| start..paragraph.end));
+    ranges
 }
 
-/// A line's pieces from left to right.
+/// The pieces of a line in visual order.
 fn pieces(info: &BidiInfo, paragraph: &ParagraphInfo, line: Range<usize>) -> Line {
     let (levels, runs) = info.visual_runs(paragraph, line);
     let mut pieces = Vec::new();
@@ -99,7 +98,7 @@ fn pieces(info: &BidiInfo, paragraph: &ParagraphInfo, line: Range<usize>) -> Lin
     pieces
 }
 
-/// A run from the left. The shaper turns the digits of Arabic about, of whose script they are: they are given it reversed.
+/// The pieces of a left-to-right run. The shaper reverses Arabic digits with their script, so they are passed reversed.
 fn left_to_right_pieces(run: &str) -> Vec<String> {
     let digit = |c: char| bidi_class(c) == BidiClass::AN;
     let mut pieces: Vec<(bool, String)> = Vec::new();
@@ -113,7 +112,8 @@ fn left_to_right_pieces(run: &str) -> Vec<String> {
     pieces.into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// A run from the right: words whole, as they are read (the shaper turns them), the rest sign by sign, mirrored.
+/// The pieces of a right-to-left run: words in logical order, which the shaper reverses, and all other characters one by one,
+/// mirrored.
 fn right_to_left_pieces(run: &str) -> Vec<String> {
     let letter = |c: char| is_right_to_left_char(c) || matches!(bidi_class(c), BidiClass::NSM | BidiClass::BN);
     let mut pieces: Vec<(bool, String)> = Vec::new();

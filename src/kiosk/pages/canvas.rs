@@ -1,7 +1,7 @@
-//! A place to set type on: sizes are shares of the picture's height, so that type keeps its place in the composition.
+//! Drawing surface of the pages: type, lines, buttons and arcs, sized by the picture's height.
 //!
-//! Type stands on slips of paper, like a label beside a work, and meets a contrast of 4.5 : 1 over any picture; lines keep
-//! 3 : 1 by a pale halo. With high contrast type is nearly black on white.
+//! Type stands on a pale ground and has a contrast of at least 4.5 : 1 over any picture. Lines have a pale halo and at least
+//! 3 : 1. With high contrast, type is nearly black on white.
 
 use std::sync::Arc;
 
@@ -15,38 +15,38 @@ use crate::visitor::needs::Reading;
 pub const BUTTON_MM: f32 = 15.0;
 /// Smallest type, em: 2.9 mm on a 1280 x 720 picture of the usual screen.
 pub const SMALL_TEXT_EM: f32 = 0.72;
-/// How much larger large type is: 18 points for 14 (WCAG 2.2, large text).
+/// Size of large type over the usual: 18 points for 14 (WCAG 2.2, large text).
 const LARGE_TEXT_FACTOR: f32 = 1.3;
 
-/// Type.
+/// Colour of type.
 pub const INK: Color32 = Color32::from_rgb(38, 36, 34);
-/// On the floor too, the darkest ground that type stands on (luminance 0.34), 4.5 : 1.
+/// Colour of secondary type: 4.5 : 1 on the floor too, the darkest ground (luminance 0.34).
 pub const SOFT_INK: Color32 = Color32::from_rgb(52, 50, 48);
-/// The one colour.
+/// The accent colour.
 pub const VERMILION: Color32 = Color32::from_rgb(190, 44, 22);
-/// Round type and lines.
+/// Halo around lines.
 pub const HALO: Color32 = Color32::from_rgba_premultiplied(170, 170, 168, 170);
-/// How opaque a strip of it is: over black it leaves 9 : 1.
+/// Opacity of the ground under type: over black it leaves 9 : 1.
 const PAPER_OPACITY: f32 = 0.85;
-/// Under type, where there is no wall behind it.
+/// Ground under type.
 pub const PAPER: Color32 = Color32::from_rgb(246, 244, 241);
 
-/// A place to set type on.
+/// Drawing surface of a page.
 pub struct Canvas<'a> {
-    /// What draws.
+    /// Painter of the panel library.
     pub painter: &'a Painter,
     /// The picture, without its margin.
     pub picture: Rect,
-    /// Height of type.
+    /// Height of type, points.
     pub em: f32,
-    /// Least side of a button.
+    /// Least side of a button, points.
     pub button: f32,
-    /// How it is to be read.
+    /// The visitor's reading settings.
     pub reading: Reading,
 }
 
 impl<'a> Canvas<'a> {
-    /// The whole of `picture`; `points_per_mm` of the glass.
+    /// A canvas over all of `picture`, on glass with `points_per_mm`.
     pub fn new(painter: &'a Painter, picture: Rect, points_per_mm: f32, reading: Reading) -> Self {
         let em = picture.height().min(picture.width() * 0.75) / 45.0;
         let scaled = if reading.large { LARGE_TEXT_FACTOR * em } else { em };
@@ -54,12 +54,12 @@ impl<'a> Canvas<'a> {
         Self { painter, picture: picture.shrink(2.0 * em), em: scaled, button, reading }
     }
 
-    /// Is it taller than wide?
+    /// Is the picture taller than wide?
     pub fn is_tall(&self) -> bool {
         self.picture.height() > self.picture.width()
     }
 
-    /// Type `size` em high, in lines no longer than this.
+    /// Lays out type `size` em high in lines of at most `longest` points.
     pub fn layout(&self, text: &str, size: f32, color: Color32, longest: f32) -> Arc<Galley> {
         let color =
             if self.reading.contrast { Color32::BLACK.gamma_multiply(f32::from(color.a()) / 255.0) } else { color };
@@ -70,7 +70,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// The same where something is read from the right. Lines begin where most of the text does.
+    /// The same for text with right-to-left parts. Lines are aligned at the side where the text begins.
     fn layout_bidi(&self, text: &str, font: FontId, color: Color32, longest: f32) -> Arc<Galley> {
         let format = TextFormat::simple(font.clone(), color);
         let width = |piece: &str| self.painter.layout_no_wrap(piece.into(), font.clone(), color).size().x;
@@ -84,8 +84,8 @@ impl<'a> Canvas<'a> {
                 job.append("\n", 0.0, format.clone());
             }
             let mut space = if from_right { longest - length } else { 0.0 };
-            // Each piece is a section of its own, which `append` would join with the one before: what is shaped
-            // together is turned about together, and a comma would go to the wrong side of its word.
+            // Each piece is a section of its own; `append` would join it with the one before. A section is shaped in one
+            // direction, and a comma in it would move to the wrong side of its word.
             for piece in line {
                 let start = job.text.len();
                 job.text.push_str(piece);
@@ -97,11 +97,11 @@ impl<'a> Canvas<'a> {
         self.painter.layout_job(job)
     }
 
-    /// Puts type down where its anchor is, on paper that keeps it readable over a picture.
+    /// Draws type at its anchor, on a ground that keeps it readable over a picture.
     pub fn place(&self, galley: Arc<Galley>, at: Pos2, anchor: Align2, color: Color32) -> Rect {
         let rect = anchor.anchor_size(at, galley.size());
         let opacity = f32::from(color.a()) / 255.0;
-        // No higher than the gap to the next line: paper must not lie on what was put down before.
+        // No higher than the gap to the next line: the ground must not cover earlier type.
         let paper = rect.expand2(vec2(0.3, 0.05) * self.em);
         let sheet = if self.reading.contrast { Color32::WHITE } else { PAPER.gamma_multiply(PAPER_OPACITY) };
         self.painter.rect_filled(paper, 0.2 * self.em, sheet.gamma_multiply(opacity));
@@ -109,24 +109,24 @@ impl<'a> Canvas<'a> {
         rect
     }
 
-    /// Both.
+    /// Lays out type and draws it at its anchor.
     pub fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, color: Color32, longest: f32) -> Rect {
         self.place(self.layout(text, size, color, longest), at, anchor, color)
     }
 
-    /// A line `width` em wide in a pale halo.
+    /// Draws a line `width` em wide with a pale halo.
     pub fn line(&self, points: Vec<Pos2>, width: f32, color: Color32) {
         self.painter.line(points.clone(), Stroke::new((width + 0.14) * self.em, HALO.gamma_multiply(0.6)));
         self.painter.line(points, Stroke::new((width * self.em).max(1.0), color));
     }
 
-    /// The room of a word to press: as large as a finger.
+    /// Size of a button with this text, points: at least as large as a fingertip.
     pub fn label_size(&self, text: &str) -> Vec2 {
         let size = self.layout(text, 0.85, INK, f32::INFINITY).size();
         vec2((size.x + self.em).max(self.button), self.button.max(size.y + 0.6 * self.em))
     }
 
-    /// A word to press whose right lower corner is here; `on` underlines it.
+    /// Draws a button with a text, given its lower right corner; `on` underlines the text.
     pub fn label_button(&self, right_bottom: Pos2, text: &str, on: bool) -> Rect {
         let color = if on { INK } else { SOFT_INK };
         let galley = self.layout(text, 0.85, color, f32::INFINITY);
@@ -140,7 +140,7 @@ impl<'a> Canvas<'a> {
         rect
     }
 
-    /// A sign in a circle to press, its right lower corner here.
+    /// Draws a button with a sign in a circle, given its lower right corner.
     pub fn icon_button(&self, right_bottom: Pos2, sign: &str) -> Rect {
         let size = vec2(self.button, self.button);
         let rect = Rect::from_min_size(right_bottom - size, size);
@@ -156,7 +156,7 @@ impl<'a> Canvas<'a> {
         rect
     }
 
-    /// Shows which button the keys are on.
+    /// Draws the frame of the focused button.
     pub fn focus_ring(&self, rect: Rect) {
         self.painter.rect_stroke(
             rect.expand(0.1 * self.em),
@@ -166,7 +166,7 @@ impl<'a> Canvas<'a> {
         );
     }
 
-    /// A part of a circle's rim, clockwise from the top.
+    /// Draws an arc clockwise from the top; `share` of the whole circle.
     pub fn arc(&self, center: Pos2, radius: f32, share: f32, color: Color32) {
         let corners = (64.0 * share).ceil().max(2.0);
         let at = |i: f32| {

@@ -1,13 +1,15 @@
-//! The typefaces of overlay and panel: a light sans for Latin, Greek and Cyrillic from the panel library, and for Chinese,
-//! Japanese and Korean, for Hebrew and for Arabic the first of some well-known open fonts that the system has.
+//! Fonts of pages and staff panel.
+//!
+//! Latin, Greek and Cyrillic use the panel library's light sans-serif. Chinese, Japanese and Korean, Hebrew, and Arabic use the
+//! first installed one of some well-known open fonts.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{FontData, FontDefinitions, FontFamily};
 
-/// Files that hold Hangul, Kana and Han, best first, with the face to take from a collection.
-/// Droid Sans Fallback is none of them: as Debian has it, it lacks Hangul.
+/// Font files with Hangul, Kana and Han, best first, with the index of the face in a collection.
+/// Debian's Droid Sans Fallback is left out, as it lacks Hangul.
 const EAST_ASIAN: &[(&str, u32)] = &[
     ("NotoSansCJK-Light.ttc", 1),
     ("NotoSansCJK-Regular.ttc", 1),
@@ -20,7 +22,7 @@ const EAST_ASIAN: &[(&str, u32)] = &[
     ("UnDotum.ttf", 0),
 ];
 
-/// Files that hold Hebrew, and Arabic with its joined forms, best first.
+/// Font files with Hebrew, and with Arabic and its joined forms, best first.
 const HEBREW: &[(&str, u32)] = &[
     ("NotoSansHebrew-Light.ttf", 0),
     ("NotoSansHebrew-Regular.ttf", 0),
@@ -34,13 +36,13 @@ const ARABIC: &[(&str, u32)] = &[
     ("DejaVuSans.ttf", 0),
 ];
 
-/// Folders that hold a system's fonts.
+/// Folders of the system's fonts.
 const FOLDERS: &[&str] = &["/usr/share/fonts", "/usr/local/share/fonts", "/run/host/fonts"];
 
-/// Deepest folder that is looked into.
+/// Depth to which folders are searched.
 const DEPTH: usize = 5;
 
-/// What is written in scripts that the panel library has no letters for.
+/// A script for which the panel library has no glyphs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Script {
     /// Chinese, Japanese and Korean.
@@ -55,7 +57,7 @@ impl Script {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::EastAsian, Self::Hebrew, Self::Arabic];
 
-    /// As the panel library calls its font.
+    /// Name of its font in the panel library.
     fn name(self) -> &'static str {
         match self {
             Self::EastAsian => "east-asian",
@@ -73,12 +75,12 @@ impl Script {
     }
 }
 
-/// This system's font for a script, and the face to take from it.
+/// This system's font file for a script, and the index of the face in it.
 pub fn find(script: Script) -> Option<(PathBuf, u32)> {
     first_installed(&installed(), script)
 }
 
-/// Files of all fonts of this system.
+/// All files in the system's font folders.
 fn installed() -> Vec<PathBuf> {
     let home = std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".local/share/fonts"));
     let folders = home.into_iter().chain(FOLDERS.iter().map(PathBuf::from));
@@ -92,7 +94,7 @@ fn first_installed(files: &[PathBuf], script: Script) -> Option<(PathBuf, u32)> 
     })
 }
 
-/// The fonts for the panel library, the system's fonts for other scripts as the last resort of every family.
+/// Font definitions for the panel library: the system's fonts for other scripts are the last fallback of every family.
 pub fn definitions() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let files = installed();
@@ -112,7 +114,7 @@ pub fn definitions() -> FontDefinitions {
     fonts
 }
 
-/// All files below a folder; unreadable folders hold none.
+/// All files below a folder; unreadable folders count as empty.
 fn files_below(folder: &Path, depth: usize) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut files = Vec::new();

@@ -1,64 +1,63 @@
-//! The works in groups, as they stand on the page: a heading over the rows of each group, in the language shown.
+//! Layout of the exhibits in groups: a heading over the rows of each group, divided into pages.
 //!
-//! The site's configuration says which work belongs where; a curator regroups them in a text editor. A group in which no
-//! work stands has no heading, and without groups the works stand in their order. A heading is never the last row of a
-//! leaf.
+//! `exhibits.groups` of the configuration assigns the exhibits. A group without exhibits has no heading. A heading is never
+//! the last row of a page.
 
 use soffio_config::{Group, OTHERS};
 
-/// A row of the page.
+/// A row of a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Row {
     /// Heading of the group at this index.
     Heading(usize),
-    /// Works by their index among those offered, as many as there are columns, or fewer.
+    /// Indices of the exhibits among those offered, at most one for each column.
     Exhibits(Vec<usize>),
 }
 
-/// All rows, for works with these ids in their order.
+/// All rows for the exhibits with these ids.
 pub fn rows(ids: &[&str], groups: &[Group], columns: usize) -> Vec<Row> {
     let place = |id: &str| {
-        let of = |name: &str| groups.iter().position(|group| group.works.iter().any(|work| work == name));
+        let of = |name: &str| groups.iter().position(|group| group.works.iter().any(|id| id == name));
         of(id).or_else(|| of(OTHERS))
     };
     let mut rows = Vec::new();
-    // Works in no group come last.
+    // Exhibits in no group come last.
     for group in (0..groups.len()).map(Some).chain([None]) {
         let members: Vec<usize> = (0..ids.len()).filter(|&i| place(ids[i]) == group).collect();
         if members.is_empty() {
             continue;
         }
         rows.extend(group.map(Row::Heading));
-        rows.extend(members.chunks(columns.max(1)).map(|works| Row::Exhibits(works.to_vec())));
+        rows.extend(members.chunks(columns.max(1)).map(|exhibits| Row::Exhibits(exhibits.to_vec())));
     }
     rows
 }
 
-/// Rows by leaves of this height, given the heights of a heading and of a row of works.
-pub fn paginate(rows: Vec<Row>, room: f32, heading: f32, works: f32) -> Vec<Vec<Row>> {
-    let (mut leaves, mut left) = (vec![Vec::new()], room);
+/// Divides rows into pages of the height `page`, given the heights of a heading and of a row of exhibits.
+pub fn paginate(rows: Vec<Row>, page: f32, heading: f32, exhibits: f32) -> Vec<Vec<Row>> {
+    let (mut pages, mut left) = (vec![Vec::new()], page);
     for row in rows {
-        // With a heading goes the first row under it.
+        // A heading stays with the first row under it.
         let (height, needed) = match row {
-            Row::Heading(_) => (heading, heading + works),
-            Row::Exhibits(_) => (works, works),
+            Row::Heading(_) => (heading, heading + exhibits),
+            Row::Exhibits(_) => (exhibits, exhibits),
         };
-        if needed > left && leaves.last().is_some_and(|leaf| !leaf.is_empty()) {
-            // The row after a heading was thought of with it.
-            if !matches!(leaves.last().and_then(|leaf| leaf.last()), Some(Row::Heading(_))) {
-                leaves.push(Vec::new());
-                left = room;
+        if needed > left && pages.last().is_some_and(|rows| !rows.is_empty()) {
+            // The heading reserved the space of the row after it.
+            if !matches!(pages.last().and_then(|rows| rows.last()), Some(Row::Heading(_))) {
+                pages.push(Vec::new());
+                left = page;
             }
         }
         left -= height;
-        if let Some(leaf) = leaves.last_mut() {
-            leaf.push(row);
+        if let Some(rows) = pages.last_mut() {
+            rows.push(row);
         }
     }
-    leaves
+    pages
 }
 
-/// A group's heading in a language, or else in English, or whatever there is.
+/// A group's heading in a language, else in English, else in any language.
 pub fn heading<'a>(group: &'a Group, language: &str) -> &'a str {
     let base = language.split(['-', '_']).next().unwrap_or(language);
     let find = |code: &str| group.heading.get(code);
@@ -70,13 +69,13 @@ pub fn heading<'a>(group: &'a Group, language: &str) -> &'a str {
 mod tests {
     use super::*;
 
-    fn group(name: &str, works: &[&str]) -> Group {
+    fn group(name: &str, ids: &[&str]) -> Group {
         let heading = [("en".to_owned(), name.to_owned()), ("it".to_owned(), format!("{name}, in italiano"))];
-        Group { heading: heading.into(), works: works.iter().map(|id| (*id).to_owned()).collect() }
+        Group { heading: heading.into(), works: ids.iter().map(|id| (*id).to_owned()).collect() }
     }
 
     #[test]
-    fn works_stand_under_their_groups_heading_in_their_own_order() {
+    fn exhibits_are_listed_under_their_groups_heading() {
         let ids = ["fish", "chimes", "moons", "clock", "bell"];
         let groups = [group("mobiles", &["moons", "fish"]), group("empty", &["nothing"]), group("clocks", &["clock"])];
         let all = rows(&ids, &groups, 2);
@@ -96,19 +95,19 @@ mod tests {
     }
 
     #[test]
-    fn every_row_is_on_a_leaf_and_no_heading_ends_one() {
+    fn every_row_is_on_a_page_and_no_heading_ends_one() {
         let ids: Vec<String> = (0..40).map(|i| format!("work-{i}")).collect();
         let ids: Vec<&str> = ids.iter().map(String::as_str).collect();
-        let groups: Vec<Group> = ids.chunks(3).map(|works| group("some", works)).collect();
-        for room in [5.0, 20.0, 25.0, 31.0, 47.0, 1000.0] {
+        let groups: Vec<Group> = ids.chunks(3).map(|ids| group("some", ids)).collect();
+        for height in [5.0, 20.0, 25.0, 31.0, 47.0, 1000.0] {
             let all = rows(&ids, &groups, 2);
-            let split = paginate(all.clone(), room, 4.0, 10.0);
-            assert_eq!(split.concat(), all, "{room}");
-            for leaf in &split {
-                assert!(matches!(leaf.last(), Some(Row::Exhibits(_))), "{room}: {leaf:?}");
-                let height: f32 = leaf.iter().map(|row| if let Row::Heading(_) = row { 4.0 } else { 10.0 }).sum();
-                // What does not fit at all stands there all the same: one row, and its heading.
-                assert!(height <= room.max(14.0), "{room}: {leaf:?}");
+            let split = paginate(all.clone(), height, 4.0, 10.0);
+            assert_eq!(split.concat(), all, "{height}");
+            for page in &split {
+                assert!(matches!(page.last(), Some(Row::Exhibits(_))), "{height}: {page:?}");
+                let used: f32 = page.iter().map(|row| if let Row::Heading(_) = row { 4.0 } else { 10.0 }).sum();
+                // A page that is too low still holds one row and its heading.
+                assert!(used <= height.max(14.0), "{height}: {page:?}");
             }
         }
     }

@@ -1,17 +1,17 @@
-//! The pages over the picture: wall label, invitation, the page behind "More", and the same things read aloud, in every
-//! language and direction of writing.
+//! Visitors' pages over the picture: wall label, invitation, the page behind "More", and reading aloud, in every language and
+//! writing direction.
 //!
-//! Drawn from a [`Scene`](overlay::Scene) that the window fills. Pages report what was pressed; they never change the
-//! kiosk themselves and never see the simulation thread.
+//! Pages are drawn from a [`Scene`](overlay::Scene) that the window fills. They report requests; they neither change the kiosk
+//! nor access the simulation thread.
 
-pub mod read_aloud;
 pub mod bidi;
+pub mod canvas;
 pub mod fonts;
 mod groups;
 pub mod languages;
 pub mod menu;
 pub mod overlay;
-pub mod canvas;
+pub mod read_aloud;
 pub mod speech_synthesis;
 pub mod speech_text;
-pub mod words;
+pub mod ui_strings;

@@ -1,7 +1,7 @@
-//! Reading aloud: what is said when, and when it ends.
+//! Read aloud: when a text is read, and when the reading ends.
 //!
-//! A press begins it, and ends it; so does a touch, a key or a breath, whatever else they do. Whoever has had something
-//! read in this visit is told the button that the keys are on, too, so that the page can be used without seeing it.
+//! A press starts the reading. A second press, a touch, a key or a breath ends it. After the first reading of a visit the
+//! focused button is announced too, so that the page can be used without seeing it.
 
 use std::sync::mpsc::{Receiver, channel};
 
@@ -11,27 +11,27 @@ use crate::pages::speech_text;
 use crate::visitor::input::Request;
 use soffio_devices::audio::Words;
 
-/// The state of reading aloud.
+/// State of reading aloud.
 #[derive(Default)]
 pub struct ReadAloud {
     program: String,
     synthesizer: Option<SpeechSynthesizer>,
-    /// The program is asked for its languages on a thread of its own: nothing waits for it.
+    /// The speech program is queried for its languages on its own thread.
     detecting: Option<Receiver<Result<SpeechSynthesizer, String>>>,
-    /// What the next picture shall be asked for: the work, or a button.
+    /// Request for the next picture: the exhibit (`None`), or a button.
     requested: Option<Option<Request>>,
     pending: Option<PendingSpeech>,
-    /// Sent to the loudspeaker, which does not say so yet.
+    /// Sent to the output, which does not play it yet.
     queued: bool,
     playing: bool,
-    /// Has anything been read in this visit?
+    /// Is the focused button announced? From the first reading of a visit on.
     announces_focus: bool,
 }
 
 impl ReadAloud {
-    /// Looks for the program where another one is configured; an empty name is none.
+    /// Looks for the speech program if the configuration names another one. An empty name means no program.
     pub fn configure(&mut self, program: &str) {
-        if let Some(found) = self.detecting.as_ref().and_then(|finding| finding.try_recv().ok()) {
+        if let Some(found) = self.detecting.as_ref().and_then(|detecting| detecting.try_recv().ok()) {
             self.detecting = None;
             self.synthesizer = found.inspect_err(|error| tracing::info!("nothing is read aloud: {error}")).ok();
         }
@@ -41,28 +41,28 @@ impl ReadAloud {
         self.program = program.to_owned();
         (self.synthesizer, self.detecting) = (None, None);
         if !program.is_empty() {
-            let (tell, found) = channel();
+            let (sender, receiver) = channel();
             let program = program.to_owned();
-            // Whoever does not listen any more has another program.
-            let find = move || drop(tell.send(SpeechSynthesizer::detect(&program)));
-            match std::thread::Builder::new().name("soffio-voices".into()).spawn(find) {
-                Ok(_) => self.detecting = Some(found),
+            // The receiver is gone if another program has been configured meanwhile.
+            let detect = move || drop(sender.send(SpeechSynthesizer::detect(&program)));
+            match std::thread::Builder::new().name("soffio-voices".into()).spawn(detect) {
+                Ok(_) => self.detecting = Some(receiver),
                 Err(error) => tracing::warn!("nothing is read aloud: {error}"),
             }
         }
     }
 
-    /// Can this language be read?
+    /// Does a voice read this language?
     pub fn can_speak(&self, language: &str) -> bool {
-        self.synthesizer.as_ref().is_some_and(|speaker| speaker.can_speak(language))
+        self.synthesizer.as_ref().is_some_and(|synthesizer| synthesizer.can_speak(language))
     }
 
-    /// Is something being read, or about to be?
+    /// Is a text being read, or about to be read?
     pub fn is_on(&self) -> bool {
         self.requested.is_some() || self.pending.is_some() || self.queued || self.playing
     }
 
-    /// Has the work read, or hushes: words for the loudspeaker.
+    /// Requests a reading of the exhibit, or ends the reading. Returns what the output must play instead.
     pub fn toggle(&mut self) -> Option<Words> {
         if self.is_on() {
             return self.stop();
@@ -71,49 +71,49 @@ impl ReadAloud {
         None
     }
 
-    /// Keys have reached a button: whoever has had something read is told which.
+    /// Requests the announcement of a focused button, after the first reading of the visit.
     pub fn announce_focus(&mut self, button: Option<Request>) {
         if self.announces_focus {
             self.requested = button.map(Some);
         }
     }
 
-    /// Begins to read what was asked for, from what is on the glass, on a loudspeaker of this rate, Hz.
+    /// Starts the requested reading with the texts of this picture, for an output with this sample rate, Hz.
     pub fn start_requested(&mut self, scene: &Scene, sample_rate: u32) {
-        let (Some(asked), Some(speaker)) = (self.requested.take(), &self.synthesizer) else { return };
-        let mut texts = match asked {
+        let (Some(requested), Some(synthesizer)) = (self.requested.take(), &self.synthesizer) else { return };
+        let mut texts = match requested {
             None => speech_text::exhibit(scene),
             Some(button) => speech_text::button(button, scene),
         };
-        texts.retain(|(_, language)| speaker.can_speak(language));
-        self.pending = Some(speaker.start(texts, sample_rate));
+        texts.retain(|(_, language)| synthesizer.can_speak(language));
+        self.pending = Some(synthesizer.start(texts, sample_rate));
         self.announces_focus = true;
     }
 
-    /// Ends it: words that hush, where there is something to hush.
+    /// Ends the reading. Returns an empty sound that replaces the one being played, if there is one.
     pub fn stop(&mut self) -> Option<Words> {
         let on = self.is_on();
         (self.requested, self.pending, self.queued, self.playing) = (None, None, false, false);
         on.then(|| Words { samples: [].into(), sample_rate: 0 })
     }
 
-    /// The visitor has left.
+    /// Ends the reading with the visit.
     pub fn end_visit(&mut self) -> Option<Words> {
         self.announces_focus = false;
         self.stop()
     }
 
-    /// Looks on; `speaks` is what the loudspeaker says. Words that have been made, for the loudspeaker.
-    pub fn update(&mut self, speaks: bool) -> Option<Words> {
-        // Until the loudspeaker has begun, its silence is not an end.
-        self.queued &= !speaks;
-        self.playing = speaks;
-        let made = self.pending.as_ref()?.poll()?;
+    /// Advances the state once a picture. `playing`: does the output play speech now? Returns finished speech to play.
+    pub fn update(&mut self, playing: bool) -> Option<Words> {
+        // Silence before the output has started is not the end of the speech.
+        self.queued &= !playing;
+        self.playing = playing;
+        let speech = self.pending.as_ref()?.poll()?;
         self.pending = None;
-        match made {
-            Ok(words) => {
-                self.queued = !words.samples.is_empty();
-                Some(words)
+        match speech {
+            Ok(speech) => {
+                self.queued = !speech.samples.is_empty();
+                Some(speech)
             }
             Err(error) => {
                 tracing::warn!("nothing is read aloud: {error}");
@@ -123,7 +123,7 @@ impl ReadAloud {
     }
 }
 
-/// Does what is asked for leave the reading on? Only what is about the reading itself.
+/// Does the reading continue at this request? Only at requests that concern the reading.
 pub fn keeps_reading(request: Option<Request>) -> bool {
     matches!(request, Some(Request::Speak | Request::Louder(_) | Request::Look(_)))
 }

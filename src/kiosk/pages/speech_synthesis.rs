@@ -1,10 +1,10 @@
-//! Speech: texts as samples, by the system's own speech program, found at run time.
+//! Speech synthesis (text to speech) by a program of the system, such as eSpeak NG.
 //!
-//! The program writes a WAV to its standard output; it never opens a device. So the kiosk's own loudspeaker is the only
-//! source of sound, and the ear hears nothing that it does not know. Without a program there is no button to press.
+//! The program writes a WAV to its standard output and opens no device. All sound therefore passes through the kiosk's own
+//! output, and the breath detector can subtract it. Without a program there is no button for reading aloud.
 //!
-//! The program's rate is made the loudspeaker's by its spectrum: all partials below both Nyquist frequencies, exactly. Its
-//! loudness is set over that of the works (−23 LUFS), which one calibration of the site holds for.
+//! Speech is resampled in the frequency domain: partials below both Nyquist frequencies are kept exactly. Its loudness is set
+//! relative to the exhibits' −23 LUFS, so that one calibration of the site holds for both.
 
 use std::io::{Cursor, Read, Write};
 use std::process::{Child, Command, Stdio};
@@ -16,27 +16,31 @@ use soffio_fourier::{real_forward, real_inverse};
 use soffio_devices::audio::{LOUDEST, Words};
 use soffio_math::from_decibels;
 
-/// Loudness of speech, LUFS: 3 dB over the works, which are 12 dB softer meanwhile.
+/// Loudness of speech, LUFS: 3 dB above the exhibits, which are attenuated by 12 dB meanwhile.
 const SPEECH_LUFS: f64 = -20.0;
-/// Longest time that a program may take for a text. The longest shipped label takes a tenth of a second.
+/// Time after which a program is stopped. The longest shipped label takes a tenth of a second.
 const TIMEOUT: Duration = Duration::from_secs(10);
-/// Languages whose script the program spells instead of reading: it says "Chinese letter" for every Han character.
+/// Languages that the program spells instead of reading: it says "Chinese letter" for every Han character.
 const SPELLED_ONLY: &[&str] = &["ja", "zh", "cmn", "yue"];
-/// Longest speech, s: nobody listens longer, and memory has an end.
+/// Longest speech, s, which bounds the memory.
 const LONGEST_S: f64 = 300.0;
 
-/// A speech program and what it can speak.
+/// A speech program and its languages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeechSynthesizer {
     program: String,
     languages: Vec<String>,
 }
 
-/// A text on its way to the loudspeaker.
+/// Speech that is being synthesized on its own thread.
 pub struct PendingSpeech(Receiver<Result<Words, String>>);
 
 impl SpeechSynthesizer {
-    /// Asks a program (`espeak-ng`, or one that takes its arguments) for its languages. The error says why it cannot speak.
+    /// Queries a program (`espeak-ng`, or one with the same arguments) for its languages.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the program cannot speak.
     pub fn detect(program: &str) -> Result<Self, String> {
         let output = Command::new(program)
             .arg("--voices")
@@ -56,46 +60,46 @@ impl SpeechSynthesizer {
         }
     }
 
-    /// Does it read this language, and not only spell it?
+    /// Does it read this language, rather than spell it?
     pub fn can_speak(&self, language: &str) -> bool {
         let base = base_language(language);
         let speaks = |voice: &String| voice.split('-').next() == Some(base);
         !SPELLED_ONLY.contains(&base) && self.languages.iter().any(speaks)
     }
 
-    /// Begins to make words of texts with their languages, for a loudspeaker of this rate, Hz.
+    /// Starts to synthesize texts with their languages, for an output with this sample rate, Hz.
     pub fn start(&self, texts: Vec<(String, String)>, sample_rate: u32) -> PendingSpeech {
-        let (tell, told) = channel();
+        let (sender, receiver) = channel();
         let program = self.program.clone();
-        let make = move || {
-            // Whoever does not listen any more has asked for something else.
-            let _ = tell.send(synthesize(&program, &texts, sample_rate));
+        let run = move || {
+            // The receiver is gone if another reading has been requested meanwhile.
+            let _ = sender.send(synthesize(&program, &texts, sample_rate));
         };
-        // Where it does not start its end of the channel is gone, and [`Making::ready`] says so.
-        if let Err(error) = std::thread::Builder::new().name("soffio-speech".into()).spawn(make) {
+        // Without a thread the sender is dropped, and `PendingSpeech::poll` reports it.
+        if let Err(error) = std::thread::Builder::new().name("soffio-speech".into()).spawn(run) {
             tracing::warn!("nothing is read aloud: {error}");
         }
-        PendingSpeech(told)
+        PendingSpeech(receiver)
     }
 }
 
 impl PendingSpeech {
-    /// The words, once they are there; the error says why there are none.
+    /// The finished speech, or the reason why there is none; `None` while the thread is working.
     pub fn poll(&self) -> Option<Result<Words, String>> {
         match self.0.try_recv() {
-            Ok(words) => Some(words),
+            Ok(speech) => Some(speech),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("the thread that made the words is gone".into())),
+            Err(TryRecvError::Disconnected) => Some(Err("the thread that synthesized the speech has ended".into())),
         }
     }
 }
 
-/// Language without its region.
+/// Language code without its region.
 fn base_language(language: &str) -> &str {
     language.split(['-', '_']).next().unwrap_or(language)
 }
 
-/// Texts, one after the other, as one utterance.
+/// Synthesizes texts one after the other as one sound.
 fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Words, String> {
     let mut all = Vec::new();
     for (text, language) in texts.iter().filter(|(text, _)| !text.trim().is_empty()) {
@@ -107,7 +111,7 @@ fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Re
     Ok(Words { samples: all.into(), sample_rate })
 }
 
-/// The program's WAV of a text. The text goes in by its standard input, so that nothing in it is an option.
+/// The program's WAV of a text. The text is written to standard input, so that no part of it is read as an option.
 fn run_program(program: &str, language: &str, text: &str) -> Result<Vec<u8>, String> {
     let failed = |error: std::io::Error| format!("{program}: {error}");
     let mut child = Command::new(program)
@@ -118,19 +122,19 @@ fn run_program(program: &str, language: &str, text: &str) -> Result<Vec<u8>, Str
         .spawn()
         .map_err(failed)?;
     let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
-    let (tell, told) = channel();
-    // It is read while it is fed, so that neither pipe can fill.
+    let (sender, receiver) = channel();
+    // Reading runs beside writing, so that neither pipe can fill.
     let reader = std::thread::Builder::new().name("soffio-reader".into()).spawn(move || {
         let mut bytes = Vec::new();
         let read = stdout.map_or(Ok(0), |mut stdout| stdout.read_to_end(&mut bytes));
-        let _ = tell.send(read.map(|_| bytes));
+        let _ = sender.send(read.map(|_| bytes));
     });
     if let Err(error) = reader {
         kill(&mut child);
         return Err(failed(error));
     }
     let fed = stdin.map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
-    let read = told.recv_timeout(TIMEOUT);
+    let read = receiver.recv_timeout(TIMEOUT);
     kill(&mut child);
     match (fed, read) {
         (Ok(()), Ok(bytes)) => bytes.map_err(failed),
@@ -139,14 +143,15 @@ fn run_program(program: &str, language: &str, text: &str) -> Result<Vec<u8>, Str
     }
 }
 
-/// The program is over, or shall be.
+/// Ends the program.
 fn kill(child: &mut Child) {
-    // Fails where it has ended by itself.
+    // This fails if the program has ended by itself.
     let _ = child.kill();
     let _ = child.wait();
 }
 
-/// Samples (full scale ±1) and rate of a WAV whose header may promise more than comes: a stream does not know its length.
+/// Samples (full scale ±1) and sample rate of a WAV. Its header may claim more samples than follow, as a stream does not
+/// know its length.
 fn parse(bytes: &[u8]) -> Result<(Vec<f32>, u32), String> {
     let mut reader = hound::WavReader::new(Cursor::new(bytes)).map_err(|error| format!("no WAV: {error}"))?;
     let spec = reader.spec();
@@ -160,7 +165,8 @@ fn parse(bytes: &[u8]) -> Result<(Vec<f32>, u32), String> {
     Ok((samples, spec.sample_rate))
 }
 
-/// The same at another rate. With n samples at f and m = n g/f, the first bins of both spectra are the same:
+/// Resamples in the frequency domain. With n samples at rate f and m = n g/f samples at rate g, the first bins of both
+/// spectra agree:
 ///
 /// ```text
 /// Y_k = m/n X_k     0 ≤ k ≤ min(n, m)/2          y = F⁻¹ Y
@@ -193,16 +199,16 @@ fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// As loud as speech is to be, and no sample beyond what the loudspeaker takes.
+/// Scales samples to [`SPEECH_LUFS`], with no sample above [`LOUDEST`].
 fn normalize_loudness(samples: &mut [f32], sample_rate: u32) -> Result<(), String> {
     let failed = |error: ebur128::Error| format!("loudness: {error}");
     let mut meter = ebur128::EbuR128::new(1, sample_rate, ebur128::Mode::I).map_err(failed)?;
-    // It comes from both loudspeakers.
+    // Both loudspeakers play it.
     meter.set_channel(0, ebur128::Channel::DualMono).map_err(failed)?;
     meter.add_frames_f32(samples).map_err(failed)?;
     let loudness = meter.loudness_global().map_err(failed)?;
     let peak = samples.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
-    // Too short to be measured: as loud as it came.
+    // Speech too short to be measured keeps its level.
     let gain = if loudness.is_finite() { from_decibels(SPEECH_LUFS - loudness) as f32 } else { 1.0 };
     let gain = gain.min(LOUDEST / peak.max(f32::MIN_POSITIVE));
     samples.iter_mut().for_each(|sample| *sample *= gain);
@@ -257,7 +263,10 @@ mod tests {
         assert!(error.contains("no-such-program-of-speech"), "{error}");
         assert!(SpeechSynthesizer::detect("true").expect_err("no voices").contains("no voices"));
         assert!(parse(b"not a wave").is_err());
-        assert!(run_program("cat", "en", "").is_ok_and(|bytes| bytes.is_empty()), "cat refuses the options and says nothing");
+        assert!(
+            run_program("cat", "en", "").is_ok_and(|bytes| bytes.is_empty()),
+            "cat refuses the options and says nothing"
+        );
     }
 
     #[test]

@@ -1,29 +1,30 @@
-//! What is read aloud: all that a visitor would have to see, as sentences in the language shown.
+//! Texts for reading aloud: the page's contents as sentences in the current language.
 
 use crate::pages::overlay::Scene;
-use crate::pages::words::{language_name, words};
+use crate::pages::ui_strings::TextId;
 use crate::visitor::input::Request;
 
-/// A text and its language.
+/// A text and its language code.
 pub type Utterance = (String, String);
 
-/// The work, its label and how it is played: title, maker, what is to be seen, the wall text, help and rights.
+/// The exhibit: title, maker, description, wall text, how to play, and rights.
 pub fn exhibit(scene: &Scene) -> Vec<Utterance> {
-    let own = words(scene.language);
+    let texts = scene.texts();
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return Vec::new() };
-    let invite = if scene.breath_input.is_active && scene.breath_input.is_allowed { own.invite } else { "" };
-    let hold = own.how(scene.accessibility);
-    let sound = if scene.exhibit.sounds.is_empty() { own.no_sound } else { "" };
-    let privacy = if scene.breath_input.is_active { own.privacy } else { "" };
+    let invite =
+        if scene.breath_input.is_active && scene.breath_input.is_allowed { texts.get(TextId::Invite) } else { "" };
+    let hold = texts.get(scene.how_to_blow());
+    let sound = if scene.exhibit.sounds.is_empty() { texts.get(TextId::NoSound) } else { "" };
+    let privacy = if scene.breath_input.is_active { texts.get(TextId::Privacy) } else { "" };
     let parts = [
         &label.title,
         &label.maker,
         &label.alt,
         &label.body,
         invite,
-        own.aim,
+        texts.get(TextId::Aim),
         hold,
-        own.take,
+        texts.get(TextId::Take),
         sound,
         privacy,
         &scene.exhibit.credit.notice,
@@ -31,34 +32,36 @@ pub fn exhibit(scene: &Scene) -> Vec<Utterance> {
     vec![(sentences(parts), scene.language.to_owned())]
 }
 
-/// A button of the page, as its name and, where it is a switch, how it stands.
+/// The name of a button and, for a switch, its state.
 pub fn button(request: Request, scene: &Scene) -> Vec<Utterance> {
-    let own = words(scene.language);
-    let switch = |name: &str, on: bool| format!("{name}: {}", if on { own.on } else { own.off });
+    let texts = scene.texts();
+    let settings = scene.accessibility;
+    let name = |id| texts.get(id).to_owned();
+    let switch = |id, on: bool| format!("{}: {}", texts.get(id), texts.get(if on { TextId::On } else { TextId::Off }));
     let text = match request {
-        Request::Menu => own.back.to_owned(),
+        Request::Menu => name(TextId::Back),
         Request::Work(index) => scene.tiles.get(index).map(|tile| tile.title.clone()).unwrap_or_default(),
-        Request::Leaf(by) => if by > 0 { own.next } else { own.previous }.to_owned(),
-        Request::Louder(by) => if by > 0 { own.louder } else { own.softer }.to_owned(),
-        Request::Large => switch(own.large, scene.accessibility.reading.large),
-        Request::Contrast => switch(own.contrast, scene.accessibility.reading.contrast),
-        Request::PressOnce => switch(own.press_once, scene.accessibility.press_once),
-        Request::Dwell => switch(own.dwell, scene.accessibility.dwell),
-        Request::Calm => switch(own.calm, scene.accessibility.calm),
-        Request::Round => switch(own.round, scene.accessibility.round),
-        Request::Listen => switch(own.ear, scene.breath_input.microphone_on),
-        Request::Speak => own.speak.to_owned(),
-        // Each language by its own name, in its own voice.
+        Request::Leaf(by) => name(if by > 0 { TextId::NextPage } else { TextId::PreviousPage }),
+        Request::Louder(by) => name(if by > 0 { TextId::Louder } else { TextId::Softer }),
+        Request::Large => switch(TextId::LargeText, settings.reading.large),
+        Request::Contrast => switch(TextId::HighContrast, settings.reading.contrast),
+        Request::PressOnce => switch(TextId::PressOnce, settings.press_once),
+        Request::Dwell => switch(TextId::Dwell, settings.dwell),
+        Request::Calm => switch(TextId::LessMotion, settings.calm),
+        Request::Round => switch(TextId::LookRound, settings.round),
+        Request::Listen => switch(TextId::Microphone, scene.breath_input.microphone_on),
+        Request::Speak => name(TextId::ReadAloud),
+        // A language is announced by its own name, in its own voice.
         Request::Language(index) => {
             let code = scene.languages.get(index).cloned().unwrap_or_default();
-            return vec![(language_name(&code).to_owned(), code)];
+            return vec![(scene.translations.language_name(&code).to_owned(), code)];
         }
         _ => String::new(),
     };
     vec![(text, scene.language.to_owned())]
 }
 
-/// Texts as sentences: a voice falls at each one's end.
+/// Joins texts as sentences, so that the voice pauses after each.
 fn sentences<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
     let mut all = String::new();
     for part in parts.into_iter().map(str::trim).filter(|part| !part.is_empty()) {

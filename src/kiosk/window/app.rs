@@ -27,6 +27,7 @@ use crate::fleet::Fleet;
 #[cfg(target_os = "linux")]
 use crate::fleet::watchdog::Watchdog;
 use crate::live::{Live, Options, Report};
+use crate::pages::ui_strings::Translations;
 use crate::step::command::KioskCommand;
 use crate::venue::house::{Above, House};
 use crate::venue::shelf::Places;
@@ -75,6 +76,8 @@ impl<'a> App<'a> {
             backends: wgpu::Backends::VULKAN,
             ..wgpu::InstanceDescriptor::new_with_display_handle_from_env(display)
         });
+        let translations =
+            if ground.fleet.is_safe() { Translations::default() } else { Translations::load(ground.file.as_deref()) };
         let Ground { config, overrides, file, problem, log, fleet, lose_device_at, shaders } = ground;
         Self {
             works: Works::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
@@ -97,7 +100,7 @@ impl<'a> App<'a> {
             show: None,
             graphics: Graphics::new(instance, shaders.map(Workbench::new), lose_device_at),
             pacing: Pacing::default(),
-            overlaid: Overlaid::default(),
+            overlaid: Overlaid::new(translations),
             desk: Desk::new(log),
             house: House::default(),
             fleet,

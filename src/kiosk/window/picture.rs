@@ -222,7 +222,7 @@ impl Overlaid {
         (config, house): (&Config, &House),
     ) {
         let Pages { frame, time, .. } = *picture;
-        self.languages.offer(ui.ctx(), &frame.exhibit, config);
+        self.languages.offer(ui.ctx(), &frame.exhibit, config, &self.translations);
         let language = &self.languages.shown;
         let folder = &frame.exhibit.folder;
         let tiles = tiles(ui.ctx(), works.offer.works(), &mut works.thumbnails, folder, language);
@@ -254,6 +254,7 @@ impl Overlaid {
             groups: &config.exhibits.groups,
             languages: &self.languages.offered,
             language,
+            translations: &self.translations,
             time,
             points_per_mm: picture.points_per_mm,
         };

@@ -10,11 +10,11 @@ use soffio_detector::BlowDetector;
 use soffio_devices::audio::{LOUDEST, Words};
 use soffio_kiosk::pages::read_aloud::{ReadAloud, keeps_reading};
 use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
-use soffio_kiosk::pages::words::{WORDS, words};
+use soffio_kiosk::pages::ui_strings::TextId;
 use soffio_kiosk::visitor::input::Request;
 use soffio_offline::wav;
 
-use super::pages::{Before, GLASSES, load};
+use super::pages::{Before, GLASSES, load, texts};
 
 const RATE: u32 = 48_000;
 /// A program that answers takes a fraction of a second, on a busy machine a few.
@@ -92,9 +92,11 @@ fn a_press_reads_label_help_and_what_is_to_be_seen_in_the_language_shown() {
         let said = std::fs::read_to_string(folder.path().join("said")).expect("it was asked");
         std::fs::remove_file(folder.path().join("said")).expect("it is there");
         let label = visitor.exhibit.labels.get(language).expect("a label").clone();
-        let own = words(language);
+        let own = texts().get(language);
+        let play = [TextId::Invite, TextId::Aim, TextId::Hold].map(|id| own.get(id));
         assert!(said.starts_with(&format!("--stdout --stdin -b 1 -v {language}\n")), "{said}");
-        for part in [&label.title, &label.maker, label.alt.trim(), label.body.trim(), own.invite, own.aim, own.hold] {
+        let written = [label.title.as_str(), &label.maker, label.alt.trim(), label.body.trim()];
+        for part in written.into_iter().chain(play) {
             assert!(!part.is_empty() && said.contains(part), "{language}: {part:?} is not read: {said}");
         }
         // It is on until the loudspeaker has said it, or a second press.
@@ -150,15 +152,19 @@ fn keys_that_move_the_mark_are_told_the_button_once_something_was_read() {
 #[test]
 fn every_button_of_the_page_has_a_name_in_every_language() {
     let exhibit = load("steel-fish");
-    for own in WORDS {
+    for own in texts().languages() {
         let mut visitor = Before::new(&exhibit, GLASSES[0]);
-        visitor.language = own.code.into();
+        visitor.language = own.code().into();
         visitor.menu.toggle();
         let buttons = visitor.look();
         visitor.look_with(|scene| {
             for (_, request) in buttons.iter().filter(|(_, request)| *request != Request::Nothing) {
                 let said = soffio_kiosk::pages::speech_text::button(*request, scene);
-                assert!(said.iter().all(|(text, _)| !text.is_empty()) && said.len() == 1, "{}: {request:?}", own.code);
+                assert!(
+                    said.iter().all(|(text, _)| !text.is_empty()) && said.len() == 1,
+                    "{}: {request:?}",
+                    own.code()
+                );
             }
         });
     }

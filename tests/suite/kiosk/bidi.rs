@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use soffio_exhibit::Label;
 use soffio_kiosk::egui;
-use soffio_kiosk::pages::bidi::{has_right_to_left, lines, is_right_to_left};
+use soffio_kiosk::pages::bidi::{has_right_to_left, is_right_to_left, lines};
+use soffio_kiosk::pages::canvas::{Canvas, INK};
 use soffio_kiosk::pages::fonts::{self, Script};
-use soffio_kiosk::pages::canvas::{INK, Canvas};
 use soffio_kiosk::visitor::needs::Reading;
 
 use super::glass::Glass;

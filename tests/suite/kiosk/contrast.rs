@@ -9,15 +9,15 @@ use std::path::Path;
 use image::RgbaImage;
 use soffio_config::Config;
 use soffio_kiosk::egui::{self, Rect};
-use soffio_kiosk::pages::languages::{offered, languages_without_glyphs};
-use soffio_kiosk::pages::words::words;
+use soffio_kiosk::pages::languages::{languages_without_glyphs, offered};
+use soffio_kiosk::pages::ui_strings::TextId;
 use soffio_kiosk::staff::Page;
 use soffio_kiosk::venue::house::House;
 use soffio_kiosk::visitor::needs::Reading;
 use soffio_offline::pictures::Pictures;
 
 use super::glass::{Glass, luminance};
-use super::pages::{Before, load};
+use super::pages::{Before, load, texts};
 
 /// WCAG 2.2, 1.4.3, for type of any size.
 const LEAST: f64 = 4.5;
@@ -134,7 +134,8 @@ fn look(glass: &mut Glass, id: &str, languages: &[&str]) -> (Vec<String>, usize)
     let (mut bad, mut measured) = (Vec::new(), 0);
     // There are fonts from the first picture on.
     glass.learn(&mut visitor.lay_out());
-    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &languages_without_glyphs());
+    let offered =
+        offered(&visitor.context, &exhibit.labels, &Config::default(), texts(), &languages_without_glyphs(texts()));
     visitor.captions = exhibit.sounds.iter().filter_map(|sound| sound.caption.clone()).take(2).collect();
     // Where the system has no East Asian font those languages are not offered.
     for language in languages.iter().filter(|code| offered.iter().any(|other| other == **code)) {
@@ -175,7 +176,8 @@ fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast
     let mut pictures = Pictures::new(&exhibit, SIZE).expect("a driver that made a device draws");
     let picture = pictures.draw(&visitor.moment).expect("it draws");
     glass.learn(&mut visitor.lay_out());
-    let offered = offered(&visitor.context, &exhibit.labels, &Config::default(), &languages_without_glyphs());
+    let offered =
+        offered(&visitor.context, &exhibit.labels, &Config::default(), texts(), &languages_without_glyphs(texts()));
     let on_the_glass = visitor.picture();
     let (mut bad, mut measured) = (Vec::new(), 0);
     for language in offered {
@@ -188,9 +190,11 @@ fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast
                     visitor.house.clean(visitor.time, soffio_config::CLEANING_S);
                 }
                 let (lines, with, without) = seen(&mut visitor, &mut glass, &picture);
-                let own = words(&language);
-                let said = if cleaned { vec![own.cleaning] } else { vec![own.silent, own.ear_off, own.stay_touch] };
-                for said in said {
+                let wanted: &[TextId] = match cleaned {
+                    true => &[TextId::Cleaning],
+                    false => &[TextId::SoundOff, TextId::MicrophoneOff, TextId::StayTouch],
+                };
+                for said in wanted.iter().map(|id| texts().get(&language).get(*id)) {
                     assert!(visitor.said.iter().any(|line| line == said), "{language}: {said:?} in {:?}", visitor.said);
                 }
                 for line in &lines {

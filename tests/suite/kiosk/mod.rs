@@ -175,7 +175,6 @@ mod live {
     use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
     use soffio_kiosk::attract::script::Attract;
     use soffio_kiosk::live::pace::{MOST_BEHIND, Pacer};
-    use soffio_kiosk::pages::words::{WORDS, language_name, words};
     use soffio_kiosk::venue::shelf::{News, Offer, Places, Shelf, folders, id};
     use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
     use soffio_simulation::Command;
@@ -537,17 +536,6 @@ mod live {
             }
         }
     }
-
-    #[test]
-    fn languages_are_named_in_themselves_and_the_unknown_ones_by_their_code() {
-        assert_eq!(language_name("ko"), "한국어");
-        assert_eq!(language_name("ko-KR"), "한국어");
-        assert_eq!(language_name("xx"), "xx");
-        assert_eq!(words("xx").code, "en");
-        for words in WORDS {
-            assert!(!words.all().contains(&""), "{}", words.code);
-        }
-    }
 }
 
 #[cfg(feature = "kiosk")]
@@ -600,6 +588,8 @@ mod staff;
 mod stage;
 #[cfg(feature = "kiosk")]
 mod tiers;
+#[cfg(feature = "kiosk")]
+mod ui_strings;
 #[cfg(feature = "kiosk")]
 mod voice;
 

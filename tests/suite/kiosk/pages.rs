@@ -2,17 +2,17 @@
 //! page is reached and left by finger and by keys, in each language, on each shape of glass.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use soffio_config::{Config, Group};
 use soffio_exhibit::{self as exhibit, Exhibit, Label};
 use soffio_kiosk::egui::{self, Rect, pos2};
+use soffio_kiosk::pages::canvas::BUTTON_MM;
 use soffio_kiosk::pages::fonts;
-use soffio_kiosk::pages::languages::{offered, languages_without_glyphs};
+use soffio_kiosk::pages::languages::{languages_without_glyphs, offered};
 use soffio_kiosk::pages::menu::{Menu, Tile, tiles};
 use soffio_kiosk::pages::overlay::{BreathInput, Overlay, Scene, SoundState};
-use soffio_kiosk::pages::canvas::BUTTON_MM;
-use soffio_kiosk::pages::words::{WORDS, words};
+use soffio_kiosk::pages::ui_strings::{TextId, Translations};
 use soffio_kiosk::step::captions::Captions;
 use soffio_kiosk::venue::house::House;
 use soffio_kiosk::venue::shelf::Work;
@@ -31,6 +31,12 @@ const READINGS: [Reading; 3] = [
     Reading { large: true, contrast: false },
     Reading { large: true, contrast: true },
 ];
+
+/// The shipped texts.
+pub fn texts() -> &'static Translations {
+    static TEXTS: LazyLock<Translations> = LazyLock::new(Translations::default);
+    &TEXTS
+}
 
 pub fn load(id: &str) -> Arc<Exhibit> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits").join(id);
@@ -142,12 +148,23 @@ impl Before {
             attract_text: self.attract,
             invitation_language: &self.language,
             venue: &self.house,
-            breath_input: BreathInput { is_active: self.hears, is_allowed: self.breath, has_microphone: true, microphone_on: self.hears },
-            sound: SoundState { captions: &self.captions, is_muted: self.silent, has_volume_control: true, reads_aloud: self.speech },
+            breath_input: BreathInput {
+                is_active: self.hears,
+                is_allowed: self.breath,
+                has_microphone: true,
+                microphone_on: self.hears,
+            },
+            sound: SoundState {
+                captions: &self.captions,
+                is_muted: self.silent,
+                has_volume_control: true,
+                reads_aloud: self.speech,
+            },
             seconds_blown: [20.0, 400.0],
             attract_in: self.leaves_in,
             languages: &self.languages,
             language: &self.language,
+            translations: texts(),
             time: self.time,
             accessibility: self.needs,
             dwell: self.rests,
@@ -343,9 +360,9 @@ fn after_much_hard_blowing_a_rest_is_proposed_and_forgotten() {
 #[test]
 fn where_nobody_blows_nobody_is_invited_to_in_any_language() {
     let exhibit = load("steel-fish");
-    for own in WORDS {
+    for own in texts().languages() {
         let mut visitor = Before::new(&exhibit, GLASSES[0]);
-        visitor.language = own.code.into();
+        visitor.language = own.code().into();
         visitor.attract = Some("invite");
         let invited = |visitor: &mut Before| {
             (0..20).for_each(|_| {
@@ -354,15 +371,23 @@ fn where_nobody_blows_nobody_is_invited_to_in_any_language() {
             });
             visitor.said.clone()
         };
-        let label = exhibit.labels.get(own.code).expect("a label");
+        let label = exhibit.labels.get(own.code()).expect("a label");
         let (_, invite) = label.text.iter().find(|(key, _)| key == "invite").expect("its invitation");
-        assert!(invited(&mut visitor).contains(invite), "{}: {:?}", own.code, visitor.said);
+        assert!(invited(&mut visitor).contains(invite), "{}: {:?}", own.code(), visitor.said);
         visitor.hears = false;
         let said = invited(&mut visitor);
-        assert!(said.iter().any(|text| text == own.hold) && !said.contains(invite), "{}: {said:?}", own.code);
+        assert!(
+            said.iter().any(|text| text == own.get(TextId::Hold)) && !said.contains(invite),
+            "{}: {said:?}",
+            own.code()
+        );
         visitor.breath = false;
         let said = invited(&mut visitor);
-        assert!(said.iter().any(|text| text == own.no_breath) && !said.contains(invite), "{}: {said:?}", own.code);
+        assert!(
+            said.iter().any(|text| text == own.get(TextId::NoBreath)) && !said.contains(invite),
+            "{}: {said:?}",
+            own.code()
+        );
     }
 }
 
@@ -404,9 +429,9 @@ fn works_that_have_room_on_one_leaf_are_not_parted() {
 fn works_stand_under_the_headings_of_their_groups_in_every_language() {
     let exhibit = load("steel-fish");
     for glass in GLASSES {
-        for own in WORDS {
+        for own in texts().languages() {
             let mut visitor = Before::new(&exhibit, glass);
-            visitor.language = own.code.into();
+            visitor.language = own.code().into();
             visitor.menu.toggle();
             visitor.groups = Group::shipped();
             visitor.groups[0].works = (0..21).step_by(2).map(|i| format!("work-{i}")).collect();
@@ -429,8 +454,8 @@ fn works_stand_under_the_headings_of_their_groups_in_every_language() {
             let expected: Vec<usize> = (0..21).step_by(2).chain((1..21).step_by(2)).collect();
             assert_eq!(found, expected, "{glass:?}");
             for (group, there) in [(0, true), (1, false), (2, false), (3, true)] {
-                let heading = &visitor.groups[group].heading[own.code];
-                assert_eq!(said.contains(heading), there, "{}, {glass:?}: {heading}", own.code);
+                let heading = &visitor.groups[group].heading[own.code()];
+                assert_eq!(said.contains(heading), there, "{}, {glass:?}: {heading}", own.code());
             }
         }
     }
@@ -439,9 +464,9 @@ fn works_stand_under_the_headings_of_their_groups_in_every_language() {
 #[test]
 fn whoever_need_not_hold_is_not_told_to_in_any_language() {
     let exhibit = load("steel-fish");
-    for own in WORDS {
+    for own in texts().languages() {
         let mut visitor = Before::new(&exhibit, GLASSES[0]);
-        visitor.language = own.code.into();
+        visitor.language = own.code().into();
         visitor.needs.press_once = true;
         for (hears, breath, open) in [(false, true, false), (false, false, false), (true, true, true)] {
             (visitor.hears, visitor.breath, visitor.menu.open) = (hears, breath, open);
@@ -450,8 +475,12 @@ fn whoever_need_not_hold_is_not_told_to_in_any_language() {
                 visitor.look();
             });
             let said = &visitor.said;
-            assert!(said.iter().any(|text| text == own.press), "{}: {said:?}", own.code);
-            assert!(!said.iter().any(|text| text == own.hold || text == own.no_breath), "{}: {said:?}", own.code);
+            assert!(said.iter().any(|text| text == own.get(TextId::PressTwice)), "{}: {said:?}", own.code());
+            assert!(
+                !said.iter().any(|text| text == own.get(TextId::Hold) || text == own.get(TextId::NoBreath)),
+                "{}: {said:?}",
+                own.code()
+            );
         }
     }
 }
@@ -459,7 +488,7 @@ fn whoever_need_not_hold_is_not_told_to_in_any_language() {
 #[test]
 fn a_language_is_offered_where_the_fonts_can_write_all_its_words_and_the_kiosks_own() {
     // Those of the fonts that come with the kiosk are offered everywhere; Korean and Japanese where the system has them.
-    let cannot = languages_without_glyphs();
+    let cannot = languages_without_glyphs(texts());
     assert!(cannot.iter().all(|code| ["ko", "ja"].contains(code)), "{cannot:?}");
     let mut exhibit = load("pendulum");
     let labels = &mut Arc::make_mut(&mut exhibit).labels;
@@ -471,10 +500,10 @@ fn a_language_is_offered_where_the_fonts_can_write_all_its_words_and_the_kiosks_
     }
     let mut visitor = Before::new(&exhibit, GLASSES[0]);
     visitor.look();
-    let languages = offered(&visitor.context, &exhibit.labels, &Config::default(), &cannot);
+    let languages = offered(&visitor.context, &exhibit.labels, &Config::default(), texts(), &cannot);
     let expected: Vec<&str> = ["en", "ja", "ko", "it"].into_iter().filter(|code| !cannot.contains(code)).collect();
     assert_eq!(languages, expected);
-    assert_eq!(words("pt").code, "en");
+    assert_eq!(texts().get("pt").code(), "en");
 }
 
 #[test]

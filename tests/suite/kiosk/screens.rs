@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use image::{RgbaImage, imageops};
 use soffio_config::Config;
-use soffio_kiosk::pages::languages::{offered, languages_without_glyphs};
+use soffio_kiosk::pages::languages::{languages_without_glyphs, offered};
 use soffio_kiosk::venue::shelf::{THUMBNAIL, Work, id};
 use soffio_kiosk::visitor::needs::Needs;
 use soffio_kiosk::visitor::needs::Reading;
@@ -14,7 +14,7 @@ use soffio_simulation::{Command, StepInput};
 
 use super::captions::folders;
 use super::glass::Glass;
-use super::pages::{Before, load};
+use super::pages::{Before, load, texts};
 
 /// One screen on a sheet, pixels.
 const SIZE: (u32, u32) = (1280, 720);
@@ -71,7 +71,8 @@ fn the_manuals_pictures_are_made() {
     let picture = pictures.draw(&visitor.moment).expect("it draws");
     // There are fonts from the first picture on.
     glass.learn(&mut visitor.lay_out());
-    visitor.languages = offered(&visitor.context, &exhibit.labels, &Config::default(), &languages_without_glyphs());
+    visitor.languages =
+        offered(&visitor.context, &exhibit.labels, &Config::default(), texts(), &languages_without_glyphs(texts()));
     let languages = visitor.languages.clone();
     for (name, come) in SCREENS {
         let mut sheet = RgbaImage::new(SHRUNK.0, SHRUNK.1 * languages.len() as u32);

@@ -1,9 +1,10 @@
 //! What lies over the picture: the overlay, the page behind "More", the buttons of both, the language, the voice that reads.
 
-use crate::pages::read_aloud::ReadAloud;
-use crate::pages::languages::{default_language, offered, languages_without_glyphs};
+use crate::pages::languages::{default_language, languages_without_glyphs, offered};
 use crate::pages::menu::Menu;
 use crate::pages::overlay::Overlay;
+use crate::pages::read_aloud::ReadAloud;
+use crate::pages::ui_strings::Translations;
 use crate::visitor::input::Request;
 use soffio_config::Config;
 use soffio_exhibit::Exhibit;
@@ -12,17 +13,30 @@ use soffio_exhibit::Exhibit;
 const INVITES_S: f64 = 6.0;
 
 /// The pages over the picture.
-#[derive(Default)]
 pub(crate) struct Overlaid {
     pub overlay: Overlay,
     pub menu: Menu,
     pub aloud: ReadAloud,
     pub languages: Languages,
+    /// The kiosk's own texts.
+    pub translations: Translations,
     /// Where a press is not a breath, in points.
     pub buttons: Vec<(egui::Rect, Request)>,
 }
 
 impl Overlaid {
+    /// No page is open and no language chosen.
+    pub fn new(translations: Translations) -> Self {
+        Self {
+            overlay: Overlay::default(),
+            menu: Menu::default(),
+            aloud: ReadAloud::default(),
+            languages: Languages::new(&translations),
+            translations,
+            buttons: Vec::new(),
+        }
+    }
+
     /// What a press at a point of the picture asks for, where it is not a breath.
     pub fn button_at(&self, at: egui::Pos2) -> Option<Request> {
         self.buttons.iter().find(|(rect, _)| rect.contains(at)).map(|&(_, request)| request)
@@ -44,21 +58,21 @@ impl Overlaid {
 pub(crate) struct Languages {
     pub offered: Vec<String>,
     /// Those that this system's fonts cannot write.
-    unwritten: Vec<&'static str>,
+    without_glyphs: Vec<String>,
     /// Empty: none yet.
     pub shown: String,
 }
 
-impl Default for Languages {
-    fn default() -> Self {
-        Self { offered: Vec::new(), unwritten: languages_without_glyphs(), shown: String::new() }
-    }
-}
-
 impl Languages {
+    /// None is offered yet.
+    fn new(translations: &Translations) -> Self {
+        let without_glyphs = languages_without_glyphs(translations);
+        Self { offered: Vec::new(), without_glyphs, shown: String::new() }
+    }
+
     /// Offers those of an exhibit; one that it does not have gives way to the first.
-    pub fn offer(&mut self, context: &egui::Context, exhibit: &Exhibit, config: &Config) {
-        self.offered = offered(context, &exhibit.labels, config, &self.unwritten);
+    pub fn offer(&mut self, context: &egui::Context, exhibit: &Exhibit, config: &Config, translations: &Translations) {
+        self.offered = offered(context, &exhibit.labels, config, translations, &self.without_glyphs);
         if !self.offered.contains(&self.shown) {
             self.shown = default_language(&self.offered, &exhibit.labels, config);
         }
