@@ -489,7 +489,7 @@ fn whoever_need_not_hold_is_not_told_to_in_any_language() {
 fn a_language_is_offered_where_the_fonts_can_write_all_its_words_and_the_kiosks_own() {
     // Those of the fonts that come with the kiosk are offered everywhere; Korean and Japanese where the system has them.
     let cannot = languages_without_glyphs(texts());
-    assert!(cannot.iter().all(|code| ["ko", "ja"].contains(code)), "{cannot:?}");
+    assert!(cannot.iter().all(|code| ["ko", "ja"].contains(&code.as_str())), "{cannot:?}");
     let mut exhibit = load("pendulum");
     let labels = &mut Arc::make_mut(&mut exhibit).labels;
     let (_, english) = labels.languages[0].clone();
@@ -501,7 +501,8 @@ fn a_language_is_offered_where_the_fonts_can_write_all_its_words_and_the_kiosks_
     let mut visitor = Before::new(&exhibit, GLASSES[0]);
     visitor.look();
     let languages = offered(&visitor.context, &exhibit.labels, &Config::default(), texts(), &cannot);
-    let expected: Vec<&str> = ["en", "ja", "ko", "it"].into_iter().filter(|code| !cannot.contains(code)).collect();
+    let expected: Vec<&str> =
+        ["en", "ja", "ko", "it"].into_iter().filter(|code| !cannot.iter().any(|cannot| cannot == code)).collect();
     assert_eq!(languages, expected);
     assert_eq!(texts().get("pt").code(), "en");
 }

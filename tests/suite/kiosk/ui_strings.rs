@@ -45,7 +45,6 @@ fn every_shipped_language_has_every_key_with_the_variables_of_english() {
 
 #[test]
 fn no_shipped_text_is_empty_or_left_in_english() {
-    // Units, abbreviations, and words that are the same in both languages.
     for strings in texts().languages() {
         let all: Vec<String> = strings.all().collect();
         for (id, text) in TextId::ALL.iter().zip(&all) {
@@ -57,6 +56,7 @@ fn no_shipped_text_is_empty_or_left_in_english() {
                 id.key()
             );
         }
+        // Units, abbreviations, and words that both languages share.
         if strings.code() != "en" {
             let same = all.iter().zip(texts().get("en").all()).filter(|(own, english)| **own == *english).count();
             assert!(same < all.len() / 8, "{}: {same} texts are the same as in English", strings.code());

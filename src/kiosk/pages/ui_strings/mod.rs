@@ -76,6 +76,12 @@ impl<'a> From<&'a str> for Variable<'a> {
     }
 }
 
+impl From<Arc<str>> for Variable<'_> {
+    fn from(text: Arc<str>) -> Self {
+        Self::Text(text.as_ref().to_owned().into())
+    }
+}
+
 impl From<String> for Variable<'_> {
     fn from(text: String) -> Self {
         Self::Text(text.into())
