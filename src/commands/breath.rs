@@ -85,7 +85,7 @@ pub fn steps(recording: &Recording) -> Vec<(f64, BlowEstimate)> {
     let mut feed = WavFeed::from(recording);
     let mut rows = Vec::new();
     while !feed.is_over() {
-        feed.microphone().reach(&mut detector);
+        feed.microphone().feed(&mut detector);
         rows.push(((rows.len() + 1) as f64 / STEPS_PER_SECOND as f64, detector.estimate()));
     }
     rows

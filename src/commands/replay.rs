@@ -9,7 +9,7 @@ use super::play::outputs::Outputs;
 use super::setup::{open, progress_bar, room, stop_on_ctrl_c};
 use soffio_offline::play::{Play, Summary};
 use soffio_simulation::STEPS_PER_SECOND;
-use soffio_simulation::record::{self, Part};
+use soffio_simulation::record::{self, RecordSection};
 
 /// Runs a recorded live run again, to the bit, and says whether it came to the same.
 #[derive(clap::Args, Debug)]
@@ -68,7 +68,7 @@ pub fn run(args: Args) -> Outcome {
 }
 
 /// Runs a part again.
-fn again(outputs: &Outputs, part: Part, stop: &AtomicBool) -> Result<Summary, Failure> {
+fn again(outputs: &Outputs, part: RecordSection, stop: &AtomicBool) -> Result<Summary, Failure> {
     let exhibit = open(&part.begin.exhibit)?;
     let play = Play {
         settings: part.begin.settings,

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use soffio_config::Config;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_simulation::Settings;
-use soffio_sound::RoomSpec;
+use soffio_sound::ReverbSpec;
 
 /// Loads an exhibit by its id or folder; all its problems are told at once.
 pub fn open(id_or_folder: &str) -> Result<Arc<Exhibit>, Failure> {
@@ -24,7 +24,7 @@ pub fn settings() -> Result<Settings, Failure> {
 }
 
 /// The room of the site's configuration.
-pub fn room() -> Result<Option<RoomSpec>, Failure> {
+pub fn room() -> Result<Option<ReverbSpec>, Failure> {
     let (config, _) = Config::load(None).map_err(Failure::input)?;
     Ok(config.room.spec())
 }

@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use soffio_simulation::{Profile, Settings};
-use soffio_sound::{MOST_PARTIALS, RoomSpec, VolumeSettings};
+use soffio_sound::{MOST_PARTIALS, ReverbSpec, VolumeSettings};
 
 mod care;
 pub mod chord;
@@ -245,16 +245,16 @@ pub enum RoomName {
 
 impl Default for RoomSettings {
     fn default() -> Self {
-        Self { name: RoomName::Gallery, level_db: RoomSpec::GALLERY.level_db, t60_s: Vec::new() }
+        Self { name: RoomName::Gallery, level_db: ReverbSpec::GALLERY.level_db, t60_s: Vec::new() }
     }
 }
 
 impl RoomSettings {
     /// The room as the synth builds it; `None` is the open air.
-    pub fn spec(&self) -> Option<RoomSpec> {
+    pub fn spec(&self) -> Option<ReverbSpec> {
         let RoomName::Gallery = self.name else { return None };
-        let t60 = self.t60_s.as_slice().try_into().unwrap_or(RoomSpec::GALLERY.t60);
-        Some(RoomSpec { level_db: self.level_db, t60 })
+        let t60 = self.t60_s.as_slice().try_into().unwrap_or(ReverbSpec::GALLERY.t60);
+        Some(ReverbSpec { level_db: self.level_db, t60 })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use soffio_math::DVec3;
 use soffio_multibody::procedural::Method;
-use soffio_wind::breath::Law;
+use soffio_wind::breath::SpreadLaw;
 
 /// What moves an exhibit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Touch {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BreathTuning {
     /// How it spreads.
-    pub law: Law,
+    pub law: SpreadLaw,
     /// Multiplies its force on top of the site's and the profile's gain.
     pub gain: f64,
     /// Diameter of the lips, m, where it is not the site's.
@@ -40,7 +40,7 @@ pub struct BreathTuning {
 
 impl Default for BreathTuning {
     fn default() -> Self {
-        Self { law: Law::default(), gain: 1.0, lip_diameter: None }
+        Self { law: SpreadLaw::default(), gain: 1.0, lip_diameter: None }
     }
 }
 

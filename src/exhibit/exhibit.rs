@@ -15,7 +15,7 @@ use soffio_multibody::articulation::{Constraint, Limit, Spring};
 use soffio_multibody::collision::{Collider, Exclusion, Pair};
 use soffio_multibody::dynamics::{Integrator, KinematicBody, RollingResistance, Solver, SurfacePair};
 use soffio_sound::InstrumentSpec;
-use soffio_wind::weather::Wind;
+use soffio_wind::ambient::Wind;
 use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.

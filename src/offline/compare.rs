@@ -164,9 +164,9 @@ pub fn run(
         let input = StepInput { microphone, pointer, aspect, commands: &commands, ..StepInput::default() };
         for (run, mode) in [(&mut laws, Some(MotionMode::Dynamic)), (&mut other, mode)] {
             if let Some(script) = &mut script {
-                script.hands(run, aspect, &mut hands);
+                script.pointer_grabs(run, aspect, &mut hands);
             }
-            run.step(&StepInput { mode, hands: &hands, ..input });
+            run.step(&StepInput { mode, pointer_grabs: &hands, ..input });
         }
         for ((told, run), joint) in told.iter_mut().zip([&laws, &other]).zip(&mut joints) {
             told.extend(run.events().iter().map(|event| tell(event, exhibit)));

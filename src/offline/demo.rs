@@ -10,7 +10,7 @@ use super::play::{self, Play, Summary};
 use super::trace::DEFAULT_FPS;
 use soffio_exhibit::{AttractAction, Exhibit};
 use soffio_simulation::{Settings, Snapshot};
-use soffio_sound::RoomSpec;
+use soffio_sound::ReverbSpec;
 
 /// The run goes on after the breath, s.
 const TAIL: f64 = 5.0;
@@ -43,7 +43,7 @@ pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &Ato
         seconds: breath.as_ref().map_or(0.0, WavFeed::duration) + TAIL,
         breath,
         audio: Some(file("wav")),
-        room: Some(RoomSpec::GALLERY),
+        room: Some(ReverbSpec::GALLERY),
         trace: Some(file("csv")),
         fps: DEFAULT_FPS,
         ..Play::default()

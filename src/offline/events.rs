@@ -49,7 +49,7 @@ impl EventWriter {
                 normal: event.normal.to_array(),
                 impulse: event.impulse,
                 speed: event.speed,
-                part: event.part.map(|part| part.name(&self.exhibit)),
+                part: event.source.map(|part| part.name(&self.exhibit)),
             };
             serde_json::to_writer(&mut self.file, &line)?;
             self.file.write_all(b"\n")?;

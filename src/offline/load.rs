@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::scene::times::{StepTimes, TimesReport};
 use soffio_exhibit::Exhibit;
 use soffio_math::{PI, sin};
-use soffio_simulation::{Command, GATHERING_LASTS, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, ASSEMBLY_DURATION, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// A hard breath, m/s at the lips.
 pub const HARD: f64 = 17.0;
@@ -88,7 +88,7 @@ impl LoadRun {
     /// Steps of the whole run.
     pub fn steps(&self) -> usize {
         let seconds = match self.load {
-            Load::Assembly(_) => GATHERING_LASTS + BEGINS,
+            Load::Assembly(_) => ASSEMBLY_DURATION + BEGINS,
             Load::Breath(seconds) => seconds,
             Load::Drag => self.bodies.len() as f64 * (HELD + THROWN),
         };
@@ -98,7 +98,7 @@ impl LoadRun {
     /// Advances by a step.
     pub fn step(&mut self) {
         let command = match self.load {
-            Load::Assembly(seed) => Some(Command::Gather(seed)),
+            Load::Assembly(seed) => Some(Command::Assemble(seed)),
             Load::Breath(_) => Some(Command::Blow(Some(HARD))),
             Load::Drag => None,
         };
@@ -106,20 +106,20 @@ impl LoadRun {
         let hand = (self.load == Load::Drag).then(|| self.hand()).flatten();
         self.simulation.step(&StepInput {
             commands: command.as_slice(),
-            hands: hand.as_slice(),
+            pointer_grabs: hand.as_slice(),
             ..StepInput::default()
         });
         self.step += 1;
     }
 
     /// The hand in the coming step; `None` while what was thrown flies.
-    fn hand(&self) -> Option<Hand> {
+    fn hand(&self) -> Option<PointerGrab> {
         let t = self.step as f64 / STEPS_PER_SECOND as f64;
         let turn = (t / (HELD + THROWN)) as usize;
         let held = t - turn as f64 * (HELD + THROWN);
         let body = *self.bodies.get(turn)?;
         let swing = |k: usize| 0.5 + WIDE[k] * sin(2.0 * PI * SWINGS[k] * held);
-        (held < HELD).then(|| Hand { id: turn as u64, at: [swing(0), swing(1)], body: Some(body) })
+        (held < HELD).then(|| PointerGrab { id: turn as u64, at: [swing(0), swing(1)], body: Some(body) })
     }
 }
 

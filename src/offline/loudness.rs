@@ -13,7 +13,7 @@ use super::whole_file::WholeFile;
 use soffio_exhibit::{Exhibit, SIDECAR};
 use soffio_math::{decibels, from_decibels};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
-use soffio_sound::{PROGRAMME, RoomSpec, SoundCommand, Synth};
+use soffio_sound::{PROGRAMME, ReverbSpec, SoundCommand, Synth};
 
 /// What visitors do in the standard scene: gently, as usual, hard, and gently again elsewhere.
 const VISITORS: &str = r#"{"t": 1, "aim": [0.5, 0.5], "blow": {"strength": 0.4, "hold": 1.5, "release": 0.3}}
@@ -85,13 +85,13 @@ pub struct Levelled {
 }
 
 /// Measures an exhibit in the standard scene.
-pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, room: Option<&RoomSpec>) -> Result<Levelled, String> {
+pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, room: Option<&ReverbSpec>) -> Result<Levelled, String> {
     let sounds = scene(exhibit, settings)?;
     let hear = |raised: f64| {
         let mut instruments = exhibit.instruments.clone();
         instruments.iter_mut().for_each(|instrument| instrument.gain *= from_decibels(raised));
         let mut synth = Synth::new(SAMPLE_RATE, &instruments, settings.seed).map_err(|e| e.to_string())?;
-        synth.set_room(room);
+        synth.set_reverb(room);
         let mut out = vec![0.0; 2 * SAMPLES_PER_STEP as usize * sounds.len()];
         for (step, block) in sounds.iter().zip(out.chunks_mut(2 * SAMPLES_PER_STEP as usize)) {
             step.iter().for_each(|sound| synth.command(*sound));

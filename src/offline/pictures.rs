@@ -32,7 +32,7 @@ impl Pictures {
         let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1)).turned(snapshot.turn);
         let frame = Frame {
             poses: &snapshot.poses,
-            motes: &snapshot.motes,
+            motes: &snapshot.dust_particles,
             view,
             size: self.size,
             exposure: 1.0,

@@ -14,11 +14,11 @@ use super::frames::Frames;
 use super::soundtrack::Soundtrack;
 use super::trace::TraceWriter;
 use soffio_exhibit::Exhibit;
-use soffio_simulation::record::Part;
+use soffio_simulation::record::RecordSection;
 use soffio_simulation::{
-    Command, Hand, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput,
+    Command, PointerGrab, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput,
 };
-use soffio_sound::RoomSpec;
+use soffio_sound::ReverbSpec;
 
 /// Steps between two looks at the joints' error, which costs a thirtieth of a clock's step.
 const LOOK: u64 = STEPS_PER_SECOND / 30;
@@ -35,7 +35,7 @@ pub struct Play {
     /// What a visitor does over time.
     pub script: Option<Script>,
     /// What a recorded run was told, in place of breath, aim, script and picture shape.
-    pub told: Option<Part>,
+    pub told: Option<RecordSection>,
     /// What moves the figure where the script says nothing.
     pub mode: Option<MotionMode>,
     /// Length, s.
@@ -45,7 +45,7 @@ pub struct Play {
     /// Sound, stereo 48 kHz float.
     pub audio: Option<PathBuf>,
     /// What the sounds are heard in; `None` is the open air.
-    pub room: Option<RoomSpec>,
+    pub room: Option<ReverbSpec>,
     /// Without room and limiter.
     pub dry: bool,
     /// Poses, CSV.
@@ -121,13 +121,13 @@ pub fn run(
     let (settings, seconds) = (play.settings, play.seconds);
     let mut simulation = Simulation::new(exhibit.clone(), settings);
     if on_frame.is_none() {
-        simulation.leave_dust_out();
+        simulation.disable_dust();
     }
     let mut soundtrack = Soundtrack::new(exhibit, settings.seed, play.room.as_ref(), play.dry, play.audio.as_deref())
         .map_err(PlayError::Output)?;
     let mut trace = play.trace.as_ref().map(|path| TraceWriter::create(path, exhibit, play.fps)).transpose()?;
     let mut events = play.events.as_ref().map(|path| EventWriter::create(path, exhibit)).transpose()?;
-    let steps = play.told.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, Part::steps);
+    let steps = play.told.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, RecordSection::steps);
     let mut worst: f64 = 0.0;
     let mut frames = Frames::new(play.fps);
     let mut inputs = Inputs::new(&mut play);
@@ -186,11 +186,11 @@ struct Inputs {
     breath: Option<WavFeed>,
     aim: Option<[f64; 2]>,
     script: Option<Script>,
-    told: Option<Part>,
+    told: Option<RecordSection>,
     mode: Option<MotionMode>,
     aspect: f64,
     commands: Vec<Command>,
-    hands: Vec<Hand>,
+    hands: Vec<PointerGrab>,
     /// What moved the figure in the last step, and how often that has changed.
     before: Option<MotionMode>,
     switches: u64,
@@ -218,13 +218,13 @@ impl Inputs {
         self.commands.clear();
         if let Some(script) = &mut self.script {
             script.due(step as f64 / STEPS_PER_SECOND as f64, &mut self.commands);
-            script.hands(simulation, self.aspect, &mut self.hands);
+            script.pointer_grabs(simulation, self.aspect, &mut self.hands);
         }
         let input = match &mut self.told {
             Some(told) => told.input(step),
             None => StepInput {
                 mode: self.script.as_ref().and_then(Script::mode).or(self.mode),
-                hands: &self.hands,
+                pointer_grabs: &self.hands,
                 microphone: self.breath.as_mut().map(WavFeed::microphone),
                 pointer: self.script.as_ref().and_then(Script::aim).or(self.aim),
                 aspect: self.aspect,

@@ -10,7 +10,7 @@ use super::whole_file::WholeFile;
 use soffio_exhibit::Exhibit;
 use soffio_math::decibels;
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
-use soffio_sound::{LoudnessMeter, MAX_COMMANDS, RoomSpec, SoundCommand, Synth, peak};
+use soffio_sound::{LoudnessMeter, MAX_COMMANDS, ReverbSpec, SoundCommand, Synth, peak};
 
 const _: () = assert!(SAMPLE_RATE == LoudnessMeter::SAMPLE_RATE);
 /// Stereo.
@@ -49,13 +49,13 @@ impl Soundtrack {
     pub fn new(
         exhibit: &Exhibit,
         seed: u64,
-        room: Option<&RoomSpec>,
+        room: Option<&ReverbSpec>,
         dry: bool,
         path: Option<&Path>,
     ) -> Result<Self, String> {
         let mut synth = Synth::new(SAMPLE_RATE, &exhibit.instruments, seed).map_err(|e| e.to_string())?;
         synth.set_dry(dry);
-        synth.set_room(room);
+        synth.set_reverb(room);
         let file = path.map(WholeWav::create).transpose()?;
         Ok(Self {
             early: synth.latency() * usize::from(CHANNELS),
@@ -97,7 +97,7 @@ impl Soundtrack {
         self.early -= early;
         let block = &block[early..];
         self.peak = self.peak.max(peak(block));
-        self.loudness.hear(block.as_chunks().0);
+        self.loudness.push(block.as_chunks().0);
         self.file.as_mut().map_or(Ok(()), |file| file.write(block))
     }
 

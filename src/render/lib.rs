@@ -60,7 +60,7 @@ use glam::Vec3;
 
 use soffio_exhibit::View;
 use soffio_math::Pose;
-use soffio_simulation::Mote;
+use soffio_simulation::DustParticle;
 
 mod bounce;
 mod casters;
@@ -236,7 +236,7 @@ pub struct Frame<'a> {
     /// World pose of each body's node, in the order of the exhibit's bodies. Bodies left out stay where they began.
     pub poses: &'a [Pose],
     /// Dust.
-    pub motes: &'a [Mote],
+    pub motes: &'a [DustParticle],
     /// Camera.
     pub view: View,
     /// Pixels of the target.

@@ -1,25 +1,24 @@
-//! Where the breath goes: from the pointer to lips before the sculpture.
+//! Aim of the breath: from the pointer's camera ray to the position of the lips and the direction of the jet.
 //!
-//! The lips lie on the camera ray of the pointer, `distance` before the plane through the view's target that faces
-//! the eye. In the *true* profile the breath follows the ray. In the *gallery* profile it leans towards the nearest
-//! surface when the ray passes it by, as a visitor leans to blow at a thing: without it, a breath at the centre of
-//! the picture could pass between the plates and move nothing. The lips too come to the height of that surface, as a visitor
-//! stoops: what hangs low would else be blown at from above, past all that hangs before it. And where it hangs behind the
-//! plane they come nearer by as much, as a visitor steps up: from afar a small disc would get a breath's rim only; and a step
-//! back from what hangs right before them. What hangs flat and turns its edge to them as they begin they blow at from the side, as a
-//! visitor steps aside, at 30° to it.
+//! The lips lie on the camera ray of the pointer, `distance` before the plane through the view's target that faces the
+//! camera. In the *physical* profile the breath follows the ray. In the *gallery* profile an aim assist turns it towards
+//! the best surface near the ray, because a breath at the centre of the picture could pass between the plates and move
+//! nothing. It also moves the lips, as a visitor would:
 //!
-//! A visitor blows at what will move: not at the edge of a plate when another shows its face, nor at the heavy end of a
-//! rod when a light disc hangs beside it. Yet what is pointed at is left only for what answers far better:
+//! - up or down to the height of the surface, so that they do not blow at a low one past others that hang before it;
+//! - nearer by as much as the surface hangs behind the plane, because a distant small disc gets only the rim of a breath;
+//! - back from a surface right before them;
+//! - to the side of an upright flat surface that turns its edge to them when the breath begins: they then blow at 30° to it.
+//!
+//! Target selection minimises a cost, with hysteresis:
 //!
 //! ```text
-//! the breath goes to the surface with the least (e + e₀)/(f q)
-//! e   how far the ray passes by the inner half of the ball around it, m
-//! f   √(s dᵀ⟨n nᵀ⟩d), √s |cos θ| for a plate: wind along d, from the lips to its middle, presses on a surface by A f²
-//!     (A: its area, n: its normals, s: how much of what faces the lips nothing hides from them); what takes less than a
-//!     tenth of it so is an edge
-//! q   ⁴√(w A), over the largest of all: where the joints let 1 N move its middle by w m/s², wind that it faces sets off
-//!     an acceleration in proportion to w A
+//! cost = (e + e₀)/(f q)
+//! e   distance of the ray from the inner half of the surface's bounding ball, m
+//! f   √(s dᵀ⟨n nᵀ⟩d), √s |cos θ| for a plate: wind along d, from the lips to its centre, exerts a force in proportion to
+//!     A f² (A: its area, n: its normals, s: visible share of what faces the lips); below a tenth of A it counts as an edge
+//! q   mobility ⁴√(w A), over the largest of all: 1 N at its centre accelerates it by w m/s², joints included, so a facing
+//!     wind accelerates it in proportion to w A
 //! ```
 
 use soffio_exhibit::View;
@@ -27,50 +26,50 @@ use soffio_geometry::TriangleMesh;
 use soffio_math::{DMat3, DVec3, Pose, exp};
 use soffio_multibody::dynamics::Dynamics;
 
-/// A surface that breath leans to: the ball around it, how it faces, and how readily it moves.
+/// A surface that the aim assist may select.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AimTarget {
-    /// m.
+    /// Centre of its bounding ball, m.
     pub center: DVec3,
-    /// m.
+    /// Radius of its bounding ball, m.
     pub radius: f64,
-    /// Mean of n nᵀ over the area: the orientation tensor, of trace 1.
+    /// Orientation tensor ⟨n nᵀ⟩: mean over the area, of trace 1.
     pub faces: DMat3,
-    /// The way that what is flat faces, unit: the tensor's first eigenvector; 0 of what is not.
+    /// Unit normal of a flat surface, the tensor's first eigenvector; 0 for one that is not flat.
     pub normal: DVec3,
-    /// q: how readily it answers a wind that it faces, 0 … 1.
-    pub answers: f64,
-    /// s: how much of it the lips see, 0 … 1.
-    pub seen: f64,
+    /// q, 0 … 1.
+    pub mobility: f64,
+    /// s: share of it that is visible from the lips, 0 … 1.
+    pub visible: f64,
 }
 
 impl AimTarget {
-    /// A mesh that hangs in a figure, in the frame of its body.
+    /// A mesh on a body of a mechanism, in the body's frame; its mobility is not normalised yet.
     pub fn of(mesh: &TriangleMesh, body: usize, dynamics: &mut Dynamics) -> Self {
         let (center, radius) = mesh.ball();
         let at = dynamics.bodies[body].pose().point(center);
-        let mut answer = [DMat3::ZERO];
-        dynamics.effective_inverse_mass(&[(body, at)], &mut answer);
-        let [w] = answer.map(|w| (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0);
-        let (faces, answers) = (mesh.orientation(), (w * mesh.area()).max(0.0).sqrt().sqrt());
+        let mut inverse_mass = [DMat3::ZERO];
+        dynamics.effective_inverse_mass(&[(body, at)], &mut inverse_mass);
+        let [w] = inverse_mass.map(|w| (w.x_axis.x + w.y_axis.y + w.z_axis.z) / 3.0);
+        let (faces, mobility) = (mesh.orientation(), (w * mesh.area()).max(0.0).sqrt().sqrt());
         let normal = first_eigenvector(faces);
-        let normal = if normal.dot(faces * normal) > FLAT { normal } else { DVec3::ZERO };
-        Self { center, radius, faces, normal, answers, seen: 1.0 }
+        let normal = if normal.dot(faces * normal) > SIDESTEP.flat { normal } else { DVec3::ZERO };
+        Self { center, radius, faces, normal, mobility, visible: 1.0 }
     }
 
-    /// Carried to where a body stands.
+    /// The target at the pose of its body.
     pub fn at(&self, pose: Pose) -> Self {
-        let turn = DMat3::from_quat(pose.rotation);
+        let rotation = DMat3::from_quat(pose.rotation);
         Self {
             center: pose.point(self.center),
-            faces: turn * self.faces * turn.transpose(),
-            normal: turn * self.normal,
+            faces: rotation * self.faces * rotation.transpose(),
+            normal: rotation * self.normal,
             ..*self
         }
     }
 }
 
-/// Of a tensor with no negative eigenvalue, by squaring it, unit.
+/// Unit eigenvector of the largest eigenvalue of a positive semi-definite tensor, by repeated squaring (power iteration).
 fn first_eigenvector(tensor: DMat3) -> DVec3 {
     let power = (0..10).fold(tensor, |m, _| {
         let m = m * m;
@@ -82,179 +81,223 @@ fn first_eigenvector(tensor: DMat3) -> DVec3 {
     longest.try_normalize().unwrap_or(DVec3::X)
 }
 
-/// e₀: what lies so near the ray is in the middle of the breath, m.
-const NEAR: f64 = 0.03;
-/// A surface on which wind presses by less than this share of its area is an edge.
-const EDGE: f64 = 0.1;
-/// What faces one way and the other with more of itself than this is flat.
-const FLAT: f64 = 0.7;
-/// And stands upright up to this sine of its tilt, 30°: nobody blows from above or from below at what lies.
-const UPRIGHT: f64 = 0.5;
-/// Sine of the angle between lips and edge from which nobody steps aside, 30°.
-const ASIDE: f64 = 0.5;
-/// What an edge counts for, or what cannot move: with nothing else before it, the breath leans to it all the same.
-const LEAST: f64 = 0.05;
-/// Lips are never nearer to what they blow at than this share of their distance from the plane: a breath is a thread there.
-const CLOSEST: f64 = 0.5;
-/// Nobody blows at what hangs beside or behind their lips: the least cosine between the way there and the ray.
-const AHEAD: f64 = 0.5;
-/// Another surface must be better by this share before the breath leaves the one it leans to.
-const LOYALTY: f64 = 0.7;
-/// The ray itself is followed within this share of a surface's ball. Farther out a long plate leaves most of its ball
-/// to the air, so there the breath slides back towards the middle.
-const INNER: f64 = 0.5;
-/// A ray that misses the ball altogether is drawn this near to the middle: on the surface, wherever it has turned.
-const MIDDLE: f64 = 0.2;
-/// The lean follows its goal with this time constant, s: no jumps while blowing.
-const LEAN_TIME: f64 = 0.08;
+/// Constants of the cost of a target.
+struct CostTuning {
+    /// e₀, m: half-width of the middle of a breath, within which distances from the ray do not matter.
+    offset: f64,
+    /// Least f² of a face; surfaces below are edges.
+    edge: f64,
+    /// Least f q, that of an edge or of a target that cannot move: the breath turns to it if nothing else is near.
+    least_quality: f64,
+    /// Least cosine between the ray and the direction to a target: no visitor blows at objects beside or behind their lips.
+    least_cosine: f64,
+    /// Another target must cost less than this share of the selected one's cost before the aim changes.
+    hysteresis: f64,
+    /// Inner part of a target's ball, as a share of its radius, within which the ray itself is followed. Farther out a long
+    /// plate leaves most of its ball empty, so the aim returns towards the centre.
+    inner: f64,
+    /// Share of the radius at which a ray outside the ball is aimed: on the surface in any orientation.
+    core: f64,
+}
 
-/// A sight line, and lips on it that come to something: to its height, across the ray and upright in the picture, and as near to
-/// it as to the plane.
+const COST: CostTuning = CostTuning {
+    offset: 0.03,
+    edge: 0.1,
+    least_quality: 0.05,
+    least_cosine: 0.5,
+    hysteresis: 0.7,
+    inner: 0.5,
+    core: 0.2,
+};
+
+/// Constants of the step to the side of a plate that turns its edge to the lips.
+struct SidestepTuning {
+    /// Least first eigenvalue of ⟨n nᵀ⟩ of a flat surface.
+    flat: f64,
+    /// Greatest sine of the tilt of an upright surface, 30°: no visitor blows from above or below at one that lies.
+    tilt_sine: f64,
+    /// Sine of the angle between jet and plate after the step, and greatest before it, 30°.
+    angle_sine: f64,
+}
+
+const SIDESTEP: SidestepTuning = SidestepTuning { flat: 0.7, tilt_sine: 0.5, angle_sine: 0.5 };
+
+/// Least distance of the lips from a target, as a share of their distance from the plane: nearer, a breath is a thread.
+const LEAST_DISTANCE: f64 = 0.5;
+/// Time constant of the aim, s: no jumps while blowing.
+const SMOOTHING_TIME: f64 = 0.08;
+
+/// The camera ray of the pointer, with the lips on it before they move to a target.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Sight {
+struct AimRay {
+    /// Camera, world, m.
     origin: DVec3,
-    ray: DVec3,
-    /// Where it meets the plane through the view's target that faces the eye.
+    /// Unit.
+    direction: DVec3,
+    /// Intersection with the plane through the view's target that faces the camera, m.
     on_plane: DVec3,
+    /// m.
     lips: DVec3,
-    upright: DVec3,
+    /// Unit, across the ray and upright in the picture.
+    up: DVec3,
 }
 
-impl Sight {
-    /// How the lips come to a place, m: they rise, go nearer where it lies behind the plane, and step back where it is before
-    /// them by less than half of what the plane is.
-    fn coming(&self, place: DVec3) -> DVec3 {
-        let [before, usual] = [place, self.on_plane].map(|place| (place - self.lips).dot(self.ray));
-        let nearer = (before - usual).max(0.0) + if before > 0.0 { (before - CLOSEST * usual).min(0.0) } else { 0.0 };
-        self.rising(place) + nearer * self.ray
+impl AimRay {
+    /// Displacement of the lips to blow at a point, m: up or down, nearer if it lies behind the plane, and back if it is nearer
+    /// than half of the plane's distance.
+    fn lip_displacement(&self, point: DVec3) -> DVec3 {
+        let [before, usual] = [point, self.on_plane].map(|point| (point - self.lips).dot(self.direction));
+        let back = if before > 0.0 { (before - LEAST_DISTANCE * usual).min(0.0) } else { 0.0 };
+        let nearer = (before - usual).max(0.0) + back;
+        self.rise(point) + nearer * self.direction
     }
 
-    /// How the lips rise to the height of a place, m.
-    fn rising(&self, place: DVec3) -> DVec3 {
-        (place - self.lips).dot(self.upright) * self.upright
+    /// Displacement of the lips to the height of a point, m.
+    fn rise(&self, point: DVec3) -> DVec3 {
+        (point - self.lips).dot(self.up) * self.up
     }
 
-    /// The lips that have come to a place.
-    fn lips_before(&self, place: DVec3) -> DVec3 {
-        self.lips + self.coming(place)
+    /// The lips as they blow at a point, m.
+    fn lips_facing(&self, point: DVec3) -> DVec3 {
+        self.lips + self.lip_displacement(point)
     }
 
-    /// From the ray to a target's middle, m.
-    fn off(&self, target: &AimTarget) -> DVec3 {
+    /// Perpendicular from the ray to a target's centre, m.
+    fn offset(&self, target: &AimTarget) -> DVec3 {
         let from = target.center - self.origin;
-        from - from.dot(self.ray) * self.ray
+        from - from.dot(self.direction) * self.direction
     }
 
-    /// How little is to be had of a target.
-    fn lacks(&self, target: &AimTarget) -> f64 {
-        let from = |lips: DVec3| (target.center - lips).try_normalize().unwrap_or(self.ray);
-        let ahead = from(self.lips + self.rising(target.center)).dot(self.ray) > AHEAD;
-        let way = from(self.lips_before(target.center));
-        let pressed = if ahead { target.seen * way.dot(target.faces * way) } else { 0.0 };
-        let face = if pressed > EDGE { pressed.sqrt() } else { 0.0 };
-        let past = (self.off(target).length() - INNER * target.radius).max(0.0);
-        (past + NEAR) / (face * target.answers).max(LEAST)
+    /// Cost of a target, m.
+    fn cost(&self, target: &AimTarget) -> f64 {
+        let from = |lips: DVec3| (target.center - lips).try_normalize().unwrap_or(self.direction);
+        let ahead = from(self.lips + self.rise(target.center)).dot(self.direction) > COST.least_cosine;
+        let jet = from(self.lips_facing(target.center));
+        let pressed = if ahead { target.visible * jet.dot(target.faces * jet) } else { 0.0 };
+        let face = if pressed > COST.edge { pressed.sqrt() } else { 0.0 };
+        let distance = (self.offset(target).length() - COST.inner * target.radius).max(0.0);
+        (distance + COST.offset) / (face * target.mobility).max(COST.least_quality)
     }
 
-    /// The point of a target's ball that the breath goes to.
-    fn goal(&self, target: &AimTarget) -> DVec3 {
-        let off = self.off(target);
-        let miss = off.length() / target.radius;
-        let back = INNER - (INNER - MIDDLE) * (miss - INNER) / (1.0 - INNER);
-        let kept = miss.min(back.max(MIDDLE));
-        target.center - off.normalize_or_zero() * (kept * target.radius)
+    /// The point of a target's ball that the breath is aimed at, m.
+    fn aim_point(&self, target: &AimTarget) -> DVec3 {
+        let offset = self.offset(target);
+        let miss = offset.length() / target.radius;
+        let back = COST.inner - (COST.inner - COST.core) * (miss - COST.inner) / (1.0 - COST.inner);
+        let share = miss.min(back.max(COST.core));
+        target.center - offset.normalize_or_zero() * (share * target.radius)
     }
 }
 
-/// The breath's axis.
+/// Position of the lips and direction of the jet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Aim {
     /// Centre of the lips, world, m.
     pub mouth: DVec3,
     /// Unit.
     pub direction: DVec3,
-    /// Where the axis comes nearest to what it is aimed at, world, m.
+    /// Point of the axis nearest to the aim point, world, m.
     pub target: DVec3,
-    chosen: Option<usize>,
-    /// To which side of it the lips have stepped, −1 or 1; 0 where they have not.
+    selected: Option<usize>,
+    /// Side of the target to which the lips have stepped, −1 or 1; 0: none.
     side: f64,
-    sight: Sight,
-    /// How the lips have come to it, m.
-    come: DVec3,
+    ray: AimRay,
+    /// Smoothed displacement of the lips from the ray, m.
+    displacement: DVec3,
 }
 
 impl Aim {
-    /// Points along the sight line through the pointer (origin and unit direction), lips `distance` (m) before the plane.
-    pub fn point(&mut self, view: &View, (origin, ray): (DVec3, DVec3), distance: f64) {
+    /// Sets the camera ray of the pointer, and the distance of the lips before the plane, m.
+    pub fn set_ray(&mut self, view: &View, ray: CameraRay, distance: f64) {
+        let CameraRay { origin, direction } = ray;
         let facing = (view.eye - view.target).normalize();
-        let depth = (view.target - origin).dot(facing) / ray.dot(facing);
-        let on_plane = origin + depth * ray;
-        let upright = (view.up - view.up.dot(ray) * ray).try_normalize().unwrap_or_default();
-        self.sight = Sight { origin, ray, on_plane, lips: on_plane - distance * ray, upright };
+        let depth = (view.target - origin).dot(facing) / direction.dot(facing);
+        let on_plane = origin + depth * direction;
+        let up = (view.up - view.up.dot(direction) * direction).try_normalize().unwrap_or_default();
+        self.ray = AimRay { origin, direction, on_plane, lips: on_plane - distance * direction, up };
     }
 
-    /// Where the lips would be to blow at a place.
-    pub fn lips_before(&self, place: DVec3) -> DVec3 {
-        self.sight.lips_before(place)
+    /// The lips as they would blow at a point (world, m).
+    pub fn lips_facing(&self, point: DVec3) -> DVec3 {
+        self.ray.lips_facing(point)
     }
 
-    /// Which of these the breath leans to.
-    pub fn chosen(&self) -> Option<usize> {
-        self.chosen
+    /// Index of the selected target.
+    pub fn selected(&self) -> Option<usize> {
+        self.selected
     }
 
-    /// Chooses again among all of them, of which there are ever the same.
-    pub fn choose(&mut self, targets: &[AimTarget]) {
-        let lacks = |&index: &usize| self.sight.lacks(&targets[index]);
-        let best = (0..targets.len()).min_by(|a, b| lacks(a).total_cmp(&lacks(b)));
-        let keeps = |old: &usize| best.is_some_and(|best| lacks(old) * LOYALTY < lacks(&best));
-        let chosen = self.chosen.filter(keeps).or(best);
-        if chosen != std::mem::replace(&mut self.chosen, chosen) {
+    /// Selects the target of least cost, with hysteresis. The order of the targets must not change between calls.
+    pub fn select_target(&mut self, targets: &[AimTarget]) {
+        let cost = |&index: &usize| self.ray.cost(&targets[index]);
+        let best = (0..targets.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let keeps = |old: &usize| best.is_some_and(|best| cost(old) * COST.hysteresis < cost(&best));
+        let selected = self.selected.filter(keeps).or(best);
+        if selected != std::mem::replace(&mut self.selected, selected) {
             self.side = 0.0;
         }
     }
 
-    /// Leans to what is chosen, as it stands now, for `dt` seconds, all the way in infinite ones; with nothing to lean to it follows
-    /// the sight line.
-    pub fn lean(&mut self, target: Option<&AimTarget>, dt: f64) {
-        let leant = target.map(|target| self.sight.goal(target));
-        let (goal, mut coming) =
-            leant.map_or((self.sight.on_plane, DVec3::ZERO), |goal| (goal, self.sight.coming(goal)));
+    /// Turns towards the selected target, as it is now, for `dt` seconds; all the way if `dt` is infinite. Without a target
+    /// the aim follows the ray.
+    pub fn track(&mut self, target: Option<&AimTarget>, dt: f64) {
+        let aim_point = target.map(|target| self.ray.aim_point(target));
+        let (goal, mut displacement) = aim_point
+            .map_or((self.ray.on_plane, DVec3::ZERO), |goal| (goal, self.ray.lip_displacement(goal)));
         let first = self.direction == DVec3::ZERO;
         if let Some(target) = target {
-            let way = goal - self.sight.lips - coming;
-            // Whoever blows stays where they stand.
+            let to_goal = goal - self.ray.lips - displacement;
+            // The side does not change during a breath.
             if first || dt == f64::INFINITY {
-                self.side = self.side_of(target, way.normalize_or_zero());
+                self.side = self.side_of(target, to_goal.normalize_or_zero());
             }
-            coming += self.aside(target, way);
+            displacement += self.sidestep(target, to_goal);
         }
-        let share = if first { 1.0 } else { 1.0 - exp(-dt / LEAN_TIME) };
-        self.come += share * (coming - self.come);
-        self.mouth = self.sight.lips + self.come;
-        let direction = (goal - self.mouth).try_normalize().unwrap_or(self.sight.ray);
+        let share = if first { 1.0 } else { 1.0 - exp(-dt / SMOOTHING_TIME) };
+        self.displacement += share * (displacement - self.displacement);
+        self.mouth = self.ray.lips + self.displacement;
+        let direction = (goal - self.mouth).try_normalize().unwrap_or(self.ray.direction);
         self.direction = self.direction.lerp(direction, share).try_normalize().unwrap_or(direction);
         self.target = self.mouth + self.direction * (goal - self.mouth).dot(self.direction);
     }
 
-    /// To which side the lips step of what lies so before them as they begin: 0 unless that is flat, upright and on edge.
+    /// Side to which the lips step when a breath begins; 0 unless the target is flat, upright and on edge. `ahead`: unit
+    /// direction from the lips to it.
     fn side_of(&self, target: &AimTarget, ahead: DVec3) -> f64 {
-        let upright = target.normal != DVec3::ZERO && target.normal.dot(self.sight.upright).abs() < UPRIGHT;
-        let edge = ahead.dot(target.faces * ahead) < ASIDE * ASIDE;
+        let upright = target.normal != DVec3::ZERO && target.normal.dot(self.ray.up).abs() < SIDESTEP.tilt_sine;
+        let edge = ahead.dot(target.faces * ahead) < SIDESTEP.angle_sine * SIDESTEP.angle_sine;
         let side = if ahead.dot(target.normal) < 0.0 { -1.0 } else { 1.0 };
         if upright && edge { side } else { 0.0 }
     }
 
-    /// How the lips step aside of a target's edge that lies so before them, m: as far from it, in the plane of the way to it and of
-    /// its normal.
-    fn aside(&self, target: &AimTarget, way: DVec3) -> DVec3 {
-        let (distance, ahead) = (way.length(), way.normalize_or_zero());
+    /// Displacement of the lips to the side of a target's edge, m: at the same distance, in the plane of `to_goal` (from the
+    /// lips to the aim point, m) and the target's normal.
+    fn sidestep(&self, target: &AimTarget, to_goal: DVec3) -> DVec3 {
+        let (distance, ahead) = (to_goal.length(), to_goal.normalize_or_zero());
         let across = ahead.dot(target.normal);
         let along = (ahead - across * target.normal).normalize_or_zero();
-        if self.side == 0.0 || across * self.side > ASIDE || along == DVec3::ZERO {
+        let sine = SIDESTEP.angle_sine;
+        if self.side == 0.0 || across * self.side > sine || along == DVec3::ZERO {
             return DVec3::ZERO;
         }
-        way - distance * ((1.0 - ASIDE * ASIDE).sqrt() * along + ASIDE * self.side * target.normal)
+        to_goal - distance * ((1.0 - sine * sine).sqrt() * along + sine * self.side * target.normal)
+    }
+}
+
+/// A ray from the camera through a point of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraRay {
+    /// World, m.
+    pub origin: DVec3,
+    /// Unit.
+    pub direction: DVec3,
+}
+
+impl CameraRay {
+    /// Through a point of the picture (picture coordinates) of this width over height.
+    pub fn through(view: &View, at: [f64; 2], aspect: f64) -> Self {
+        let (origin, direction) = view.ray(at, aspect);
+        Self { origin, direction }
     }
 }
 
@@ -262,130 +305,137 @@ impl Aim {
 mod tests {
     use super::*;
 
-    const EYE: View = View { eye: DVec3::new(0.0, 0.0, 2.0), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.6 };
+    const VIEW: View = View { eye: DVec3::new(0.0, 0.0, 2.0), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.6 };
 
-    /// A disc of 5 cm at a place of the plane that is looked at, facing so.
+    /// A disc of radius 5 cm at x of the target plane, with this normal.
     fn disc(x: f64, normal: DVec3) -> AimTarget {
         let n = normal.normalize();
         let faces = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-        AimTarget { center: DVec3::X * x, radius: 0.05, faces, normal: n, answers: 1.0, seen: 1.0 }
+        AimTarget { center: DVec3::X * x, radius: 0.05, faces, normal: n, mobility: 1.0, visible: 1.0 }
     }
 
-    /// Where a breath goes that is pointed at the plane's middle for a while.
-    fn goes(targets: &[AimTarget]) -> DVec3 {
-        aimed(targets, true).target
+    /// Target of a breath that is pointed at the middle of the plane.
+    fn aim_point(targets: &[AimTarget]) -> DVec3 {
+        aim_at(targets, Assist::On).target
     }
 
-    /// A breath that is pointed there, and leans or does not.
-    fn aimed(targets: &[AimTarget], leans: bool) -> Aim {
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum Assist {
+        On,
+        Off,
+    }
+
+    /// The aim of such a breath with and without aim assist.
+    fn aim_at(targets: &[AimTarget], assist: Assist) -> Aim {
         let mut aim = Aim::default();
-        aim.point(&EYE, (EYE.eye, (EYE.target - EYE.eye).normalize()), 0.5);
-        aim.choose(targets);
-        aim.lean(aim.chosen().filter(|_| leans).map(|chosen| &targets[chosen]), 1.0);
+        let ray = CameraRay { origin: VIEW.eye, direction: (VIEW.target - VIEW.eye).normalize() };
+        aim.set_ray(&VIEW, ray, 0.5);
+        aim.select_target(targets);
+        aim.track(aim.selected().filter(|_| assist == Assist::On).map(|index| &targets[index]), 1.0);
         aim
     }
 
     #[test]
-    fn it_goes_to_what_is_pointed_at_when_that_shows_its_face() {
-        let target = goes(&[disc(0.0, DVec3::Z), disc(0.11, DVec3::Z)]);
+    fn a_pointed_at_face_is_selected() {
+        let target = aim_point(&[disc(0.0, DVec3::Z), disc(0.11, DVec3::Z)]);
         assert!(target.length() < 0.01, "{target}");
-        // A third of a right angle off is a face still.
-        let target = goes(&[disc(0.0, DVec3::new(0.5, 0.0, 0.866)), disc(0.11, DVec3::Z)]);
+        // A face 30° off the ray still counts as a face.
+        let target = aim_point(&[disc(0.0, DVec3::new(0.5, 0.0, 0.866)), disc(0.11, DVec3::Z)]);
         assert!(target.length() < 0.01, "{target}");
     }
 
     #[test]
-    fn it_leaves_an_edge_for_a_face_beside_it() {
-        let target = goes(&[disc(0.0, DVec3::X), disc(0.11, DVec3::Z)]);
+    fn a_face_is_preferred_to_an_edge_beside_it() {
+        let target = aim_point(&[disc(0.0, DVec3::X), disc(0.11, DVec3::Z)]);
         assert!((target.x - 0.11).abs() < 0.05, "{target}");
     }
 
     #[test]
-    fn it_leaves_what_hardly_moves_for_what_does() {
-        let heavy = AimTarget { answers: 0.2, ..disc(0.0, DVec3::Z) };
-        let target = goes(&[heavy, disc(0.11, DVec3::Z)]);
+    fn a_mobile_target_is_preferred_to_a_heavy_one() {
+        let heavy = AimTarget { mobility: 0.2, ..disc(0.0, DVec3::Z) };
+        let target = aim_point(&[heavy, disc(0.11, DVec3::Z)]);
         assert!((target.x - 0.11).abs() < 0.05, "{target}");
-        // Not from far.
-        let target = goes(&[heavy, disc(0.4, DVec3::Z)]);
+        // But not a distant one.
+        let target = aim_point(&[heavy, disc(0.4, DVec3::Z)]);
         assert!(target.length() < 0.01, "{target}");
     }
 
     #[test]
-    fn the_lips_come_to_the_height_of_what_they_blow_at() {
+    fn the_lips_move_to_the_height_of_the_target() {
         const ROUNDING: f64 = 1e-12;
         let low = AimTarget { center: DVec3::new(0.05, -0.3, 0.0), ..disc(0.0, DVec3::Z) };
-        for (leans, height) in [(true, -0.3), (false, 0.0)] {
-            let aim = aimed(&[low], leans);
-            assert!((aim.mouth.y - height).abs() < 0.05, "leans: {leans}, {}", aim.mouth);
+        for (assist, height) in [(Assist::On, -0.3), (Assist::Off, 0.0)] {
+            let aim = aim_at(&[low], assist);
+            assert!((aim.mouth.y - height).abs() < 0.05, "assist {assist:?}: {}", aim.mouth);
             assert!((aim.mouth.z - 0.5).abs() < ROUNDING && aim.mouth.x.abs() < ROUNDING, "no nearer: {}", aim.mouth);
             assert!(aim.direction.y.abs() < 0.1, "they blow level: {}", aim.direction);
         }
     }
 
     #[test]
-    fn the_lips_come_as_near_to_what_hangs_behind_as_to_the_plane_and_step_back_from_what_hangs_close() {
+    fn the_lips_approach_distant_targets_and_step_back_from_close_ones() {
         const ROUNDING: f64 = 1e-12;
         for (behind, nearer) in [(0.2, 0.2), (-0.2, 0.0), (-0.4, -0.15)] {
             let disc = AimTarget { center: DVec3::new(0.0, 0.0, -behind), ..disc(0.0, DVec3::Z) };
-            let mouth = aimed(&[disc], true).mouth;
+            let mouth = aim_at(&[disc], Assist::On).mouth;
             assert!((mouth - DVec3::Z * (0.5 - nearer)).length() < ROUNDING, "{behind} m behind: {mouth}");
         }
     }
 
     #[test]
-    fn the_lips_step_aside_of_an_edge() {
+    fn the_lips_step_to_the_side_of_an_edge() {
         const ROUNDING: f64 = 1e-12;
         for off in [-0.4_f64, -0.1, 0.0, 0.1, 0.4] {
             let edge = disc(0.0, DVec3::new(1.0, 0.0, off));
-            let aim = aimed(&[edge], true);
+            let aim = aim_at(&[edge], Assist::On);
             let (faces, far) = (aim.direction.dot(edge.normal), (edge.center - aim.mouth).length());
-            assert!((faces.abs() - ASIDE).abs() < ROUNDING && faces * off <= 0.0, "{off}: {faces}");
-            assert!((far - 0.5).abs() < ROUNDING, "as far from it: {far}");
+            assert!((faces.abs() - SIDESTEP.angle_sine).abs() < ROUNDING && faces * off <= 0.0, "{off}: {faces}");
+            assert!((far - 0.5).abs() < ROUNDING, "at the same distance: {far}");
         }
-        let face = aimed(&[disc(0.0, DVec3::new(0.6, 0.0, 0.8))], true);
+        let face = aim_at(&[disc(0.0, DVec3::new(0.6, 0.0, 0.8))], Assist::On);
         assert!((face.mouth - 0.5 * DVec3::Z).length() < ROUNDING, "{}", face.mouth);
     }
 
     #[test]
-    fn a_tensors_first_eigenvector_is_the_way_most_of_it_faces() {
+    fn the_first_eigenvector_is_the_normal_of_a_plate() {
         const ROUNDING: f64 = 1e-9;
         let n = DVec3::new(1.0, -2.0, 3.0).normalize();
         let rim = DMat3::from_diagonal(DVec3::splat(0.1 / 3.0));
         let plate = DMat3::from_cols(n * n.x, n * n.y, n * n.z) * 0.9 + rim;
         assert!((first_eigenvector(plate).dot(n).abs() - 1.0).abs() < ROUNDING);
-        assert!((first_eigenvector(rim).length() - 1.0).abs() < ROUNDING, "of a ball any");
+        assert!((first_eigenvector(rim).length() - 1.0).abs() < ROUNDING, "any direction for a ball");
     }
 
     #[test]
-    fn it_does_not_turn_round_to_what_hangs_behind_the_lips() {
+    fn targets_behind_the_lips_are_not_selected() {
         let near = AimTarget { center: DVec3::new(0.0, 0.0, 0.6), ..disc(0.0, DVec3::Z) };
-        let target = goes(&[near, disc(0.11, DVec3::Z)]);
+        let target = aim_point(&[near, disc(0.11, DVec3::Z)]);
         assert!((target.x - 0.11).abs() < 0.05 && target.z < 0.1, "{target}");
     }
 
     #[test]
-    fn it_leaves_what_is_hidden_for_what_the_lips_see() {
-        let hidden = AimTarget { seen: 0.0, ..disc(0.0, DVec3::Z) };
-        let target = goes(&[hidden, disc(0.11, DVec3::Z)]);
+    fn a_visible_target_is_preferred_to_a_hidden_one() {
+        let hidden = AimTarget { visible: 0.0, ..disc(0.0, DVec3::Z) };
+        let target = aim_point(&[hidden, disc(0.11, DVec3::Z)]);
         assert!((target.x - 0.11).abs() < 0.05, "{target}");
     }
 
     #[test]
-    fn what_counts_is_how_a_surface_faces_the_lips_that_lean_to_it() {
-        // Both as far to the side, both a third of a right angle off the ray; the lips see the one's edge.
+    fn a_target_is_judged_from_the_lips_that_blow_at_it() {
+        // Both are equally far from the ray and turned by 60°; the lips see the edge of one.
         let (away, towards) = (DVec3::new(0.866, 0.0, 0.5), DVec3::new(-0.866, 0.0, 0.5));
-        let target = goes(&[disc(0.2, away), disc(-0.2, away)]);
+        let target = aim_point(&[disc(0.2, away), disc(-0.2, away)]);
         assert!(target.x < 0.0, "{target}");
-        let target = goes(&[disc(0.2, towards), disc(-0.2, towards)]);
+        let target = aim_point(&[disc(0.2, towards), disc(-0.2, towards)]);
         assert!(target.x > 0.0, "{target}");
     }
 
     #[test]
-    fn it_goes_to_an_edge_when_there_is_nothing_else() {
-        let target = goes(&[disc(0.03, DVec3::X)]);
+    fn an_edge_is_selected_if_there_is_nothing_else() {
+        let target = aim_point(&[disc(0.03, DVec3::X)]);
         assert!((target.x - 0.03).abs() < 0.05, "{target}");
-        // Nor does it look for a face at the other end of the room.
-        let target = goes(&[disc(0.0, DVec3::X), disc(0.8, DVec3::Z)]);
+        // A distant face is not selected either.
+        let target = aim_point(&[disc(0.0, DVec3::X), disc(0.8, DVec3::Z)]);
         assert!(target.length() < 0.01, "{target}");
     }
 }

@@ -1,19 +1,19 @@
-//! The breath as it is pointed and travels, and the wind that it becomes.
+//! The aimed breath, and the wind forces of a step.
 
 use super::aim::Aim;
 use super::input::{Profile, Settings};
-use super::onset::Onset;
+use super::onset_compensation::OnsetCompensation;
 use super::rate::DT;
 use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 use soffio_wind::breath::Breath;
-use soffio_wind::force::{Blown, WindField, WindReport};
-use soffio_wind::front::Front;
+use soffio_wind::force::{BreathJet, WindField, WindReport};
+use soffio_wind::jet_front::JetFront;
 
-/// The breath as it is pointed now.
+/// The breath with its aim and the settings that shape it.
 #[derive(Clone, Copy)]
-pub(crate) struct Pointed<'a> {
+pub(crate) struct AimedBreath<'a> {
     pub exhibit: &'a Exhibit,
     pub settings: &'a Settings,
     pub aim: &'a Aim,
@@ -21,8 +21,8 @@ pub(crate) struct Pointed<'a> {
     pub speed: f64,
 }
 
-impl Pointed<'_> {
-    /// Its cone of air.
+impl AimedBreath<'_> {
+    /// Its velocity field.
     pub fn breath(&self) -> Breath {
         let tuning = &self.exhibit.breath;
         Breath {
@@ -34,17 +34,24 @@ impl Pointed<'_> {
         }
     }
 
-    /// What it does in this step; `None` where no air of one is anywhere, or wind is off.
-    pub fn blown<'a>(&self, front: &'a Front) -> Option<Blown<'a>> {
+    /// The jet that acts on surfaces in this step; `None` if no air of a breath is in flight, or wind is off.
+    pub fn jet<'a>(&self, jet_front: &'a JetFront) -> Option<BreathJet<'a>> {
         let Self { exhibit, settings, speed, .. } = *self;
-        let front = match settings.profile {
+        let jet_front = match settings.profile {
             Profile::Gallery => None,
-            Profile::True => Some(front),
+            Profile::Physical => Some(jet_front),
         };
         let gain = exhibit.breath.gain * settings.breath_gain * settings.profile.gain(speed);
-        let blows = speed > 0.0 || front.is_some_and(Front::in_flight);
-        (blows && settings.wind).then(|| Blown { breath: self.breath(), front, gain })
+        let blows = speed > 0.0 || jet_front.is_some_and(JetFront::in_flight);
+        (blows && settings.wind).then(|| BreathJet { breath: self.breath(), jet_front, gain })
     }
+}
+
+/// When and how strongly the breath of a step acts.
+pub(crate) struct BreathTiming<'a> {
+    pub onset: &'a OnsetCompensation,
+    /// Since the reset, s.
+    pub time: f64,
 }
 
 /// The air about the exhibit.
@@ -52,43 +59,42 @@ impl Pointed<'_> {
 pub(crate) struct Air {
     pub wind: WindField,
     /// Breath in flight.
-    pub front: Front,
-    /// What the wind did in the last step.
+    pub jet_front: JetFront,
+    /// Of the last step.
     pub report: WindReport,
 }
 
 impl Air {
-    /// Still air about an exhibit that starts.
+    /// Still air about an exhibit at its start.
     pub fn new(exhibit: &Exhibit, seed: u64) -> Self {
         let (surfaces, bodies) = (&exhibit.wind_surfaces, exhibit.bodies.len());
         Self {
             wind: WindField::new(surfaces, &exhibit.shelters, &exhibit.winds, bodies, seed),
-            front: Front::default(),
+            jet_front: JetFront::default(),
             report: WindReport::default(),
         }
     }
 
-    /// Turns the breath, and all winds `time` seconds after the reset, into forces: sets the wrenches (N and N m about each
-    /// centre of mass).
-    pub fn blow(
+    /// Sets the wrenches (N and N m about each centre of mass) to those of the breath and of all winds.
+    pub fn apply_wind(
         &mut self,
-        pointed: Pointed,
-        (onset, time): (&Onset, f64),
+        breath: AimedBreath,
+        timing: BreathTiming,
         bodies: &[RigidBody],
         wrenches: &mut [Vec6],
     ) {
         wrenches.fill([0.0; 6]);
         self.report = WindReport::default();
-        if !pointed.settings.wind {
+        if !breath.settings.wind {
             return;
         }
-        self.front.advance(pointed.speed, DT);
-        let mut blown = pointed.blown(&self.front);
-        if let Some(blown) = &mut blown
-            && pointed.settings.profile == Profile::Gallery
+        self.jet_front.advance(breath.speed, DT);
+        let mut jet = breath.jet(&self.jet_front);
+        if let Some(jet) = &mut jet
+            && breath.settings.profile == Profile::Gallery
         {
-            blown.gain *= onset.gain();
+            jet.gain *= timing.onset.gain();
         }
-        self.report = self.wind.push(bodies, time, blown.as_ref(), wrenches);
+        self.report = self.wind.apply_forces(bodies, timing.time, jet.as_ref(), wrenches);
     }
 }

@@ -1,74 +1,99 @@
-//! Contact sound: what two bodies do to each other while they touch, as commands to the instruments of both.
+//! Contact sound: a state machine of each contact pair, which sends commands to the instruments of both bodies.
 //!
-//! One state for each two ends that can meet (bodies, or a body and one thing that stands still), however many points
-//! and colliders they meet at. With N the force that presses, v the slip and r the speed at which the point of contact
-//! runs over both surfaces:
+//! A pair is two ends that can collide (bodies, or a body and one fixed collider), however many points and colliders they
+//! touch at. With N the normal force, v the slip speed and r the speed at which the contact point moves over both surfaces:
 //!
 //! ```text
-//!             N ≥ PRESSES                  v ≥ SLIDES
+//!             N ≥ least_force              v ≥ scrape.on
 //!   apart ─────────────────→ rest ──────────────────────────→ scrape
-//!     ↑                      ↑  │ r ≥ ROLLS      v ≥ SLIDES     ↑  │ v < STICKS: roll or rest, by r
-//!     │              r < SETTLES└───────────→ roll ─────────────┘  │
-//!     └── N < PRESSES for longer than PATIENCE steps, from each ───┘
+//!     ↑                      ↑  │ r ≥ roll.on    v ≥ scrape.on  ↑  │ v < scrape.off: roll or rest, by r
+//!     │            r < roll.off └───────────→ roll ─────────────┘  │
+//!     └── N < least_force for longer than release_steps, from each ┘
 //!
-//!   hit:  in any state
+//!   impact:  in any state
 //! ```
 //!
-//! A hit strikes; scraping and rolling slide over the bodies' surfaces; whatever lies on a body takes from its ringing.
-//! Commands are sent when something is heard to change, so what lies still sends none, and however fast surfaces
-//! chatter a pair strikes each instrument once in 15 ms, but for a hit that outdoes what rang (`merge`).
+//! An impact strikes; scraping and rolling excite the bodies' surfaces; every contact damps the modes of its body.
+//! A command is sent on an audible change, so a body at rest sends none. However fast surfaces chatter, a pair strikes each
+//! instrument once in 15 ms, except for a much louder impact (`impact_merge`).
 //!
 //! Nothing allocates after [`ContactSound::new`], and all orders are fixed.
 
-use super::merge::{Blow, Window};
-use super::sonify::{Listener, place_on};
+use super::impact_merge::{ImpactPulse, MergeWindow};
+use super::sonify::{AudioListener, strike_position};
 use soffio_exhibit::{Exhibit, SoundTrigger};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::LimitKind;
-use soffio_multibody::dynamics::{ContactReport, Impact, ImpactKind};
-use soffio_sound::{Slide, SoundCommand, Strike, Touch};
+use soffio_multibody::dynamics::{Impact, ImpactKind, ContactReport};
+use soffio_sound::{Damp, Slide, SoundCommand, Strike};
 
-/// Impacts softer than this make no sound, N s: a milligram at walking pace.
-const SILENT: f64 = 1e-7;
-/// What begins to rest faster than this is heard as a hit all the same, m/s: as much as bounces.
-const AUDIBLE: f64 = 4e-3;
-/// Less force is no touch, N: the weight of ten milligrams.
-const PRESSES: f64 = 1e-4;
-/// Steps for which a touch may be missing without being over: as joints gather or a substep is cut.
-const PATIENCE: u32 = 2;
-/// Slip at which scraping begins and ends, m/s: over grains of half a millimetre 40 and 20 a second, where hearing begins.
-const SLIDES: f64 = 0.02;
-const STICKS: f64 = 0.01;
-/// Speed at which rolling begins and ends to be heard, m/s.
-const ROLLS: f64 = 0.04;
-const SETTLES: f64 = 0.02;
-/// Part of the force that a rolling contact gives the surfaces along their plane, of what a sliding one does: coefficients
-/// of rolling and sliding friction of hard bodies, about 0.01 and 0.4.
-const ROLLING: f64 = 0.025;
-/// Resistance per force of what lies on a body, s/m: the dashpot that dissipates as dry friction does, 4 μ/(π v̂) (Den
-/// Hartog, "Mechanical Vibrations", 8.7), for μ = 0.4 and surfaces that ring at v̂ = 0.5 m/s.
-const RUBS: f64 = 1.0;
-/// A change of speed or force is heard from this share on, and of place on the body from this part of its half extent on.
-const HEARD: f64 = 0.02;
-const MOVED: f32 = 0.01;
-/// The same for what damps: half a decibel a second.
-const DAMPS: f64 = 0.25;
-const MOVED_OFF: f32 = 0.2;
-/// No pair that sounds.
-const NONE: u32 = u32::MAX;
-
-/// What contacts are heard in.
-#[derive(Clone, Copy)]
-pub struct Scene<'a> {
-    pub exhibit: &'a Exhibit,
-    pub bodies: &'a [RigidBody],
-    pub listener: &'a Listener,
+/// Two thresholds of a state with hysteresis, m/s.
+struct Hysteresis {
+    /// The state begins here.
+    on: f64,
+    /// It ends below this.
+    off: f64,
 }
 
-/// What two bodies do while they touch.
+/// Thresholds of impacts and contact states.
+struct ContactTuning {
+    /// Least impulse of an impact that sounds, N s: a milligram at walking pace.
+    least_impulse: f64,
+    /// Least approach speed at which a new resting contact sounds as an impact, m/s: that of bodies that bounce.
+    least_speed: f64,
+    /// Least force of a contact, N: the weight of ten milligrams.
+    least_force: f64,
+    /// Steps for which a contact may be missing without ending, as during assembly or when a substep is cut.
+    release_steps: u32,
+    /// Slip speed of scraping: over grains of half a millimetre 40 and 20 a second, where hearing begins.
+    scrape: Hysteresis,
+    /// Speed of audible rolling.
+    roll: Hysteresis,
+    /// Tangential force of a rolling contact over that of a sliding one: coefficients of rolling and sliding friction of hard
+    /// bodies, about 0.01 and 0.4.
+    rolling_share: f64,
+    /// Damping resistance of a resting contact per force, s/m: the dashpot that dissipates as dry friction does, 4 μ/(π v̂)
+    /// (Den Hartog, "Mechanical Vibrations", 8.7), for μ = 0.4 and surfaces that vibrate at v̂ = 0.5 m/s.
+    resistance_per_force: f64,
+}
+
+const CONTACT: ContactTuning = ContactTuning {
+    least_impulse: 1e-7,
+    least_speed: 4e-3,
+    least_force: 1e-4,
+    release_steps: 2,
+    scrape: Hysteresis { on: 0.02, off: 0.01 },
+    roll: Hysteresis { on: 0.04, off: 0.02 },
+    rolling_share: 0.025,
+    resistance_per_force: 1.0,
+};
+
+/// Least changes that are sent.
+struct AudibleChange {
+    /// Of speed, force or resistance, as a share of the larger value.
+    level: f64,
+    /// Of a position on the body, as a share of its half extent.
+    position: f32,
+}
+
+const SLIDE_CHANGE: AudibleChange = AudibleChange { level: 0.02, position: 0.01 };
+/// A quarter more resistance changes the decay by half a decibel a second.
+const DAMP_CHANGE: AudibleChange = AudibleChange { level: 0.25, position: 0.2 };
+/// Index of no pair.
+const NONE: u32 = u32::MAX;
+
+/// Bodies and listener at one moment.
+#[derive(Clone, Copy)]
+pub struct SoundScene<'a> {
+    pub exhibit: &'a Exhibit,
+    pub bodies: &'a [RigidBody],
+    pub listener: &'a AudioListener,
+}
+
+/// State of a contact pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum State {
+enum ContactState {
     #[default]
     Apart,
     Rest,
@@ -76,14 +101,14 @@ enum State {
     Roll,
 }
 
-impl State {
-    /// The state after this one at these speeds, m/s, while something presses.
+impl ContactState {
+    /// The next state at these speeds, m/s, while there is a normal force.
     fn next(self, slip: f64, roll: f64) -> Self {
-        let slides = if self == Self::Scrape { STICKS } else { SLIDES };
-        let rolls = if self == Self::Roll { SETTLES } else { ROLLS };
-        if slip >= slides {
+        let scrape_threshold = if self == Self::Scrape { CONTACT.scrape.off } else { CONTACT.scrape.on };
+        let roll_threshold = if self == Self::Roll { CONTACT.roll.off } else { CONTACT.roll.on };
+        if slip >= scrape_threshold {
             Self::Scrape
-        } else if roll >= rolls {
+        } else if roll >= roll_threshold {
             Self::Roll
         } else {
             Self::Rest
@@ -91,113 +116,133 @@ impl State {
     }
 }
 
-/// Sums over points that press, each by its force.
+/// Sums over the contact points of a pair, weighted by normal force.
 #[derive(Clone, Copy, Debug, Default)]
-struct Pressed {
+struct PairSum {
     /// N.
     force: f64,
     /// N m/s.
     slip: f64,
+    /// N m/s.
     roll: f64,
     /// N m.
     point: DVec3,
 }
 
-impl Pressed {
+impl PairSum {
     fn add(&mut self, touch: &ContactReport) {
         let n = touch.normal_force;
         if n > 0.0 {
             self.force += n;
             self.slip += n * touch.slip.length();
-            // Where one corner scrapes its point stays where it is on one of the two.
+            // Where one corner scrapes, its point does not move on one of the two surfaces.
             self.roll += n * touch.roll[0].length().min(touch.roll[1].length());
             self.point += n * touch.point;
         }
     }
 }
 
-/// Two ends that can meet.
+/// A contact pair: two ends that can collide.
 #[derive(Clone)]
-struct Pair {
-    /// `None` stands still.
+struct ContactPair {
+    /// `None` is fixed.
     bodies: [Option<usize>; 2],
-    state: State,
-    /// Points of this step, and those that the state is taken from.
-    sum: Pressed,
-    last: Pressed,
+    state: ContactState,
+    /// Of this step.
+    sum: PairSum,
+    /// Of the last step with a contact.
+    last: PairSum,
+    /// Steps without a contact.
     absent: u32,
-    window: Window,
+    window: MergeWindow,
     active: bool,
 }
 
-impl Pair {
-    /// Takes this step's points.
-    fn follow(&mut self) {
-        if self.sum.force >= PRESSES {
+impl ContactPair {
+    /// Updates the state from the sums of this step.
+    fn update_state(&mut self) {
+        if self.sum.force >= CONTACT.least_force {
             (self.last, self.absent) = (self.sum, 0);
-        } else if self.state == State::Apart {
+        } else if self.state == ContactState::Apart {
             return;
         } else {
             self.absent += 1;
-            if self.absent > PATIENCE {
-                self.state = State::Apart;
+            if self.absent > CONTACT.release_steps {
+                self.state = ContactState::Apart;
                 return;
             }
         }
-        let Pressed { force, slip, roll, .. } = self.last;
+        let PairSum { force, slip, roll, .. } = self.last;
         self.state = self.state.next(slip / force, roll / force);
     }
 }
 
-/// What an instrument of a body is told, summed over the pairs of the body, each by its force.
+/// Sums over the pairs of a body for one of its instruments, weighted by force.
 #[derive(Clone, Copy, Debug, Default)]
-struct Told {
+struct InstrumentSum {
+    /// N.
     force: f64,
-    /// N m/s, N m and N: speed, place in the world and on the body.
+    /// N m/s.
     speed: f64,
+    /// World, N m.
     point: DVec3,
-    place: [f64; 2],
+    /// On the body, N.
+    position: [f64; 2],
 }
 
-impl Told {
-    fn add(&mut self, force: f64, speed: f64, point: DVec3, place: [f32; 2]) {
+/// One contact as it acts on an instrument.
+struct InstrumentContact {
+    /// N.
+    force: f64,
+    /// m/s.
+    speed: f64,
+    /// World, m.
+    point: DVec3,
+    /// On the body, −1…1.
+    position: [f32; 2],
+}
+
+impl InstrumentSum {
+    fn add(&mut self, contact: InstrumentContact) {
+        let InstrumentContact { force, speed, point, position } = contact;
         self.force += force;
         self.speed += force * speed;
         self.point += force * point;
-        (0..2).for_each(|k| self.place[k] += force * f64::from(place[k]));
+        (0..2).for_each(|k| self.position[k] += force * f64::from(position[k]));
     }
 
-    fn position(&self) -> [f32; 2] {
-        self.place.map(|sum| (sum / self.force) as f32)
+    /// Mean position on the body, −1…1.
+    fn mean_position(&self) -> [f32; 2] {
+        self.position.map(|sum| (sum / self.force) as f32)
     }
 }
 
-/// What plays one sound of the exhibit: this step's sums and what was sent last.
+/// State of one sound of the exhibit: this step's sums and the commands last sent.
 #[derive(Clone, Copy, Default)]
-struct Player {
-    slides: Told,
-    rests: Told,
+struct SoundState {
+    sliding: InstrumentSum,
+    damping: InstrumentSum,
     slide: Slide,
-    touch: Option<Touch>,
+    damp: Option<Damp>,
 }
 
-/// All contacts of an exhibit and what is heard of them.
+/// All contact pairs of an exhibit and their sounds.
 #[derive(Clone)]
 pub struct ContactSound {
-    /// The ends of each pair, ascending: bodies, behind them the colliders that stand still.
+    /// The ends of each pair, ascending: bodies, then fixed colliders.
     keys: Vec<[usize; 2]>,
-    pairs: Vec<Pair>,
-    /// Index into `pairs` of the figure's pairs of colliders.
+    pairs: Vec<ContactPair>,
+    /// Index into `pairs` of each pair of colliders.
     of_colliders: Vec<u32>,
-    /// Pairs that touch, or whose hits may wait.
+    /// Pairs in contact, or with an open merge window.
     active: Vec<usize>,
     /// Indices of each body's sounds.
     of_body: Vec<Vec<usize>>,
-    players: Vec<Player>,
+    sounds: Vec<SoundState>,
 }
 
 impl ContactSound {
-    /// Nothing touches.
+    /// All pairs apart.
     pub fn new(exhibit: &Exhibit) -> Self {
         let mut of_body = vec![Vec::new(); exhibit.bodies.len()];
         for (i, sound) in exhibit.sounds.iter().enumerate().filter(|(_, sound)| sound.on != SoundTrigger::Wind) {
@@ -211,13 +256,13 @@ impl ContactSound {
         keys.sort_unstable();
         keys.dedup();
         let body = |end: usize| (end < of_body.len()).then_some(end);
-        let pair = |key: &[usize; 2]| Pair {
+        let pair = |key: &[usize; 2]| ContactPair {
             bodies: key.map(body),
-            state: State::Apart,
-            sum: Pressed::default(),
-            last: Pressed::default(),
+            state: ContactState::Apart,
+            sum: PairSum::default(),
+            last: PairSum::default(),
             absent: 0,
-            window: Window::default(),
+            window: MergeWindow::default(),
             active: false,
         };
         let index = |key: &[usize; 2]| keys.binary_search(key).map_or(NONE, |i| i as u32);
@@ -227,27 +272,28 @@ impl ContactSound {
             active: Vec::with_capacity(keys.len()),
             keys,
             of_body,
-            players: vec![Player::default(); exhibit.sounds.len()],
+            sounds: vec![SoundState::default(); exhibit.sounds.len()],
         }
     }
 
-    /// Everything is apart again. The synth is told of what lay on a body; it falls silent by itself.
+    /// Sets all pairs apart and ends their damping; the synth fades by itself.
     pub fn reset(&mut self, sample: u64, out: &mut Vec<SoundCommand>) {
         for pair in self.active.drain(..) {
             let pair = &mut self.pairs[pair];
-            (pair.state, pair.window, pair.active) = (State::Apart, Window::default(), false);
+            (pair.state, pair.window, pair.active) = (ContactState::Apart, MergeWindow::default(), false);
         }
-        for player in &mut self.players {
-            let lay = player.touch.take();
-            out.extend(lay.map(|touch| SoundCommand::Touch(Touch { sample, resistance: 0.0, ..touch })));
-            player.slide = Slide::default();
+        for state in &mut self.sounds {
+            let damp = state.damp.take();
+            out.extend(damp.map(|damp| SoundCommand::Damp(Damp { sample, resistance: 0.0, ..damp })));
+            state.slide = Slide::default();
         }
     }
 
-    /// A hit.
-    pub fn hit(&mut self, impact: &Impact, sample: u64, scene: &Scene, out: &mut Vec<SoundCommand>) {
+    /// Adds an impact at this sample.
+    pub fn add_impact(&mut self, impact: &Impact, sample: u64, scene: &SoundScene, out: &mut Vec<SoundCommand>) {
         let rests = impact.kind == ImpactKind::RestingContact;
-        if impact.impulse < SILENT || (rests && (impact.speed < AUDIBLE || impact.colliders.is_none())) {
+        let inaudible = rests && (impact.speed < CONTACT.least_speed || impact.colliders.is_none());
+        if impact.impulse < CONTACT.least_impulse || inaudible {
             return;
         }
         let key = impact.colliders.map_or_else(
@@ -255,11 +301,11 @@ impl ContactSound {
             |colliders| key(scene.exhibit, colliders),
         );
         let Ok(index) = self.keys.binary_search(&key) else { return };
-        self.wake(index);
+        self.activate(index);
         let pair = &mut self.pairs[index];
         let local =
             |body: Option<usize>| body.map_or(impact.point, |b| scene.bodies[b].pose().inverse_point(impact.point));
-        let blow = Blow {
+        let pulse = ImpactPulse {
             sample,
             impulse: impact.impulse,
             speed: impact.speed,
@@ -267,109 +313,109 @@ impl ContactSound {
             points: pair.bodies.map(local),
         };
         let due = pair.window.due(sample);
-        let rings = pair.window.take(blow);
-        for blow in due.into_iter().chain(rings) {
-            strike(&blow, pair.bodies, &self.of_body, scene, out);
+        let immediate = pair.window.push(pulse);
+        for pulse in due.into_iter().chain(immediate) {
+            strike(&pulse, pair.bodies, &self.of_body, scene, out);
         }
     }
 
-    /// The end of a step at `sample`: what touches now.
+    /// Advances all pairs to the end of a step, at `sample`, with its contacts.
     pub fn advance(
         &mut self,
         sample: u64,
-        touching: impl Iterator<Item = ContactReport>,
-        scene: &Scene,
+        contacts: impl Iterator<Item = ContactReport>,
+        scene: &SoundScene,
         out: &mut Vec<SoundCommand>,
     ) {
-        self.active.iter().for_each(|&pair| self.pairs[pair].sum = Pressed::default());
-        for touch in touching {
-            let pair = self.of_colliders[touch.pair];
+        self.active.iter().for_each(|&pair| self.pairs[pair].sum = PairSum::default());
+        for contact in contacts {
+            let pair = self.of_colliders[contact.pair];
             if pair != NONE {
-                self.wake(pair as usize);
-                self.pairs[pair as usize].sum.add(&touch);
+                self.activate(pair as usize);
+                self.pairs[pair as usize].sum.add(&contact);
             }
         }
-        for player in &mut self.players {
-            (player.slides, player.rests) = (Told::default(), Told::default());
+        for state in &mut self.sounds {
+            (state.sliding, state.damping) = (InstrumentSum::default(), InstrumentSum::default());
         }
         for &index in &self.active {
             let pair = &mut self.pairs[index];
-            if let Some(blow) = pair.window.due(sample) {
-                strike(&blow, pair.bodies, &self.of_body, scene, out);
+            if let Some(pulse) = pair.window.due(sample) {
+                strike(&pulse, pair.bodies, &self.of_body, scene, out);
             }
-            pair.follow();
-            pair.active = pair.state != State::Apart || pair.window.is_open(sample);
-            if pair.state != State::Apart {
-                tell(pair, &self.of_body, &mut self.players, scene);
+            pair.update_state();
+            pair.active = pair.state != ContactState::Apart || pair.window.is_open(sample);
+            if pair.state != ContactState::Apart {
+                add_to_instruments(pair, &self.of_body, &mut self.sounds, scene);
             }
         }
         let pairs = &self.pairs;
         self.active.retain(|&pair| pairs[pair].active);
-        for (sound, player) in scene.exhibit.sounds.iter().zip(&mut self.players) {
-            player.say_slide(sample, sound.instrument as u16, scene.listener, out);
-            player.say_touch(sample, sound.instrument as u16, out);
+        for (sound, state) in scene.exhibit.sounds.iter().zip(&mut self.sounds) {
+            state.send_slide(sample, sound.instrument as u16, scene.listener, out);
+            state.send_damp(sample, sound.instrument as u16, out);
         }
     }
 
-    fn wake(&mut self, pair: usize) {
+    fn activate(&mut self, pair: usize) {
         if !self.pairs[pair].active {
             self.pairs[pair].active = true;
-            self.pairs[pair].sum = Pressed::default();
+            self.pairs[pair].sum = PairSum::default();
             self.active.push(pair);
         }
     }
 }
 
-impl Player {
-    /// Sends what has changed about what slides.
-    fn say_slide(&mut self, sample: u64, instrument: u16, listener: &Listener, out: &mut Vec<SoundCommand>) {
+impl SoundState {
+    /// Sends an audible change of the sliding contact.
+    fn send_slide(&mut self, sample: u64, instrument: u16, listener: &AudioListener, out: &mut Vec<SoundCommand>) {
         let last = self.slide;
-        if self.slides.force == 0.0 {
+        if self.sliding.force == 0.0 {
             if last.force > 0.0 {
                 self.slide = Slide { sample, force: 0.0, ..last };
                 out.push(SoundCommand::Slide(self.slide));
             }
             return;
         }
-        let (pan, distance) = listener.place(self.slides.point / self.slides.force);
+        let place = listener.locate(self.sliding.point / self.sliding.force);
         let slide = Slide {
             sample,
             instrument,
-            speed: (self.slides.speed / self.slides.force) as f32,
-            force: self.slides.force as f32,
-            position: self.slides.position(),
-            pan,
-            distance,
+            speed: (self.sliding.speed / self.sliding.force) as f32,
+            force: self.sliding.force as f32,
+            position: self.sliding.mean_position(),
+            pan: place.pan,
+            distance: place.distance,
         };
-        let share = |a: f32, b: f32| differs(f64::from(a), f64::from(b), HEARD);
-        let moved = |a: f32, b: f32| (a - b).abs() > MOVED;
-        if share(slide.speed, last.speed)
-            || share(slide.force, last.force)
-            || share(slide.distance, last.distance)
-            || moved(slide.pan, last.pan)
-            || (0..2).any(|k| moved(slide.position[k], last.position[k]))
+        let level = |a: f32, b: f32| differs(f64::from(a), f64::from(b), SLIDE_CHANGE.level);
+        let position = |a: f32, b: f32| (a - b).abs() > SLIDE_CHANGE.position;
+        if level(slide.speed, last.speed)
+            || level(slide.force, last.force)
+            || level(slide.distance, last.distance)
+            || position(slide.pan, last.pan)
+            || (0..2).any(|k| position(slide.position[k], last.position[k]))
         {
             self.slide = slide;
             out.push(SoundCommand::Slide(slide));
         }
     }
 
-    /// Sends what has changed about what lies on the body.
-    fn say_touch(&mut self, sample: u64, instrument: u16, out: &mut Vec<SoundCommand>) {
-        if self.rests.force == 0.0 {
-            let lay = self.touch.take();
-            out.extend(lay.map(|touch| SoundCommand::Touch(Touch { sample, resistance: 0.0, ..touch })));
+    /// Sends an audible change of the damping by contacts.
+    fn send_damp(&mut self, sample: u64, instrument: u16, out: &mut Vec<SoundCommand>) {
+        if self.damping.force == 0.0 {
+            let damp = self.damp.take();
+            out.extend(damp.map(|damp| SoundCommand::Damp(Damp { sample, resistance: 0.0, ..damp })));
             return;
         }
-        let resistance = (RUBS * self.rests.force) as f32;
-        let touch = Touch { sample, instrument, position: self.rests.position(), resistance };
-        let changed = self.touch.is_none_or(|last| {
-            let moved = (0..2).any(|k| (touch.position[k] - last.position[k]).abs() > MOVED_OFF);
-            moved || differs(f64::from(resistance), f64::from(last.resistance), DAMPS)
+        let resistance = (CONTACT.resistance_per_force * self.damping.force) as f32;
+        let damp = Damp { sample, instrument, position: self.damping.mean_position(), resistance };
+        let changed = self.damp.is_none_or(|last| {
+            let position = |k: usize| (damp.position[k] - last.position[k]).abs() > DAMP_CHANGE.position;
+            (0..2).any(position) || differs(f64::from(resistance), f64::from(last.resistance), DAMP_CHANGE.level)
         });
         if changed {
-            self.touch = Some(touch);
-            out.push(SoundCommand::Touch(touch));
+            self.damp = Some(damp);
+            out.push(SoundCommand::Damp(damp));
         }
     }
 }
@@ -383,52 +429,61 @@ fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The ends of a pair of colliders: bodies, and behind them the colliders that stand still.
+/// The ends of a pair of colliders: bodies, then fixed colliders.
 fn key(exhibit: &Exhibit, colliders: [usize; 2]) -> [usize; 2] {
     sorted(colliders.map(|c| exhibit.colliders[c].body.unwrap_or(exhibit.bodies.len() + c)))
 }
 
-/// The ends of a limit: bodies, and behind them the world.
+/// The ends of a limit: bodies, then the world.
 fn limit_key(kind: &LimitKind) -> [usize; 2] {
     sorted(kind.bodies().map(|body| body.unwrap_or(usize::MAX)))
 }
 
-/// Strikes each of the two bodies that has a sound for it.
-fn strike(blow: &Blow, bodies: [Option<usize>; 2], of_body: &[Vec<usize>], scene: &Scene, out: &mut Vec<SoundCommand>) {
-    for (body, local) in bodies.into_iter().zip(blow.points) {
+/// Sends a strike to each sound of the two bodies that impacts trigger.
+fn strike(
+    pulse: &ImpactPulse,
+    bodies: [Option<usize>; 2],
+    of_body: &[Vec<usize>],
+    scene: &SoundScene,
+    out: &mut Vec<SoundCommand>,
+) {
+    for (body, local) in bodies.into_iter().zip(pulse.points) {
         let Some(body) = body else { continue };
-        let (pan, distance) = scene.listener.place(scene.bodies[body].pose().point(local));
+        let place = scene.listener.locate(scene.bodies[body].pose().point(local));
         for sound in of_body[body].iter().map(|&i| &scene.exhibit.sounds[i]).filter(|s| s.on == SoundTrigger::Impact) {
             out.push(SoundCommand::Strike(Strike {
-                sample: blow.sample,
+                sample: pulse.sample,
                 instrument: sound.instrument as u16,
-                impulse: blow.impulse as f32,
-                speed: blow.speed as f32,
-                mass: blow.mass as f32,
-                position: place_on(scene.exhibit, sound, local),
-                pan,
-                distance,
+                impulse: pulse.impulse as f32,
+                speed: pulse.speed as f32,
+                mass: pulse.mass as f32,
+                position: strike_position(scene.exhibit, sound, local),
+                pan: place.pan,
+                distance: place.distance,
             }));
         }
     }
 }
 
-/// Adds a pair that touches to what the instruments of its bodies are told. What rings from hits is damped by every
-/// touch; what is scraped, by what lies still: a timbre that is scraped knows what scraping takes.
-fn tell(pair: &Pair, of_body: &[Vec<usize>], players: &mut [Player], scene: &Scene) {
-    let Pressed { force, slip, roll, point } = pair.last;
+/// Adds a pair in contact to the sums of its bodies' instruments. Every contact damps instruments that impacts strike. Of those
+/// that sliding excites, only resting contacts do: their timbre includes the damping by the sliding body.
+fn add_to_instruments(pair: &ContactPair, of_body: &[Vec<usize>], sounds: &mut [SoundState], scene: &SoundScene) {
+    let PairSum { force, slip, roll, point } = pair.last;
     let point = point / force;
     for body in pair.bodies.into_iter().flatten() {
         let local = scene.bodies[body].pose().inverse_point(point);
         for &i in &of_body[body] {
             let sound = &scene.exhibit.sounds[i];
-            let place = place_on(scene.exhibit, sound, local);
+            let position = strike_position(scene.exhibit, sound, local);
             match (sound.on, pair.state) {
-                (SoundTrigger::Slide, State::Scrape) => players[i].slides.add(force, slip / force, point, place),
-                (SoundTrigger::Slide, State::Roll) => {
-                    players[i].slides.add(ROLLING * force, roll / force, point, place)
+                (SoundTrigger::Slide, ContactState::Scrape) => {
+                    sounds[i].sliding.add(InstrumentContact { force, speed: slip / force, point, position })
                 }
-                _ => players[i].rests.add(force, 0.0, point, place),
+                (SoundTrigger::Slide, ContactState::Roll) => {
+                    let (rolling, speed) = (CONTACT.rolling_share * force, roll / force);
+                    sounds[i].sliding.add(InstrumentContact { force: rolling, speed, point, position })
+                }
+                _ => sounds[i].damping.add(InstrumentContact { force, speed: 0.0, point, position }),
             }
         }
     }
@@ -440,16 +495,16 @@ mod tests {
 
     #[test]
     fn states_have_hysteresis_and_scraping_goes_first() {
-        let mut state = State::Apart;
+        let mut state = ContactState::Apart;
         for (slip, roll, expected) in [
-            (0.015, 0.0, State::Rest),
-            (0.021, 0.0, State::Scrape),
-            (0.011, 1.0, State::Scrape),
-            (0.009, 0.03, State::Rest),
-            (0.009, 0.05, State::Roll),
-            (0.009, 0.03, State::Roll),
-            (0.03, 0.5, State::Scrape),
-            (0.0, 0.01, State::Rest),
+            (0.015, 0.0, ContactState::Rest),
+            (0.021, 0.0, ContactState::Scrape),
+            (0.011, 1.0, ContactState::Scrape),
+            (0.009, 0.03, ContactState::Rest),
+            (0.009, 0.05, ContactState::Roll),
+            (0.009, 0.03, ContactState::Roll),
+            (0.03, 0.5, ContactState::Scrape),
+            (0.0, 0.01, ContactState::Rest),
         ] {
             state = state.next(slip, roll);
             assert_eq!(state, expected, "slip {slip}, roll {roll} m/s");

@@ -1,4 +1,4 @@
-//! Events: what happened at a moment, for logs, sounds and triggers.
+//! Events of a run, for logs, sounds and triggers.
 
 use super::rate::SAMPLE_RATE;
 use soffio_exhibit::Exhibit;
@@ -10,15 +10,15 @@ use soffio_multibody::dynamics::{Impact, ImpactKind};
 /// Kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
-    /// Two bodies hit.
+    /// Two bodies collide.
     Impact,
-    /// Two bodies come to lie against each other.
+    /// Two bodies begin a resting contact.
     Rest,
-    /// A constraint or spring gave way.
+    /// A constraint or spring breaks.
     Break,
-    /// A breath or a hit set off a constraint or spring that waited for it.
+    /// A breath or an impact triggers a constraint or spring.
     Trigger,
-    /// Bad numbers were found and the figure restored.
+    /// Invalid numbers were found and the bodies restored.
     Fault,
 }
 
@@ -35,17 +35,17 @@ impl EventKind {
     }
 }
 
-/// A part of an exhibit that is no body.
+/// The constraint or spring that an event comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum EventSource {
     /// By index.
     Constraint(usize),
     /// By index.
     Spring(usize),
 }
 
-impl Part {
-    /// Its name in the sidecar: parts of a combination go by the combination's.
+impl EventSource {
+    /// Its name in the sidecar; constraints of a combined joint have the joint's name.
     pub fn name(self, exhibit: &Exhibit) -> &str {
         match self {
             Self::Constraint(index) => exhibit.constraints[index].group(),
@@ -53,9 +53,9 @@ impl Part {
         }
     }
 
-    /// The bodies that it acts on, the world's place being `None`, and a point of it in the world now, m: its own
-    /// where it has one, else the centre of mass of the body that it turns.
-    fn place(self, exhibit: &Exhibit, bodies: &[RigidBody]) -> ([Option<usize>; 2], DVec3) {
+    /// The bodies that it acts on (`None`: the world) and its position (world, m). Without a position of its own, it is that of
+    /// the centre of mass of the body that it turns.
+    fn location(self, exhibit: &Exhibit, bodies: &[RigidBody]) -> ([Option<usize>; 2], DVec3) {
         let center = |body: Option<usize>| body.map_or(DVec3::ZERO, |body| bodies[body].position);
         let at = |anchor: &Anchor| anchor.body.map_or(anchor.point, |body| bodies[body].pose().point(anchor.point));
         let of = |measure: &Measure| {
@@ -88,7 +88,7 @@ impl Part {
     }
 }
 
-/// What happened at a moment.
+/// One event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     /// Seconds since the run began.
@@ -107,30 +107,42 @@ pub struct Event {
     pub impulse: f64,
     /// Approach speed, m/s.
     pub speed: f64,
-    /// What broke or was triggered.
-    pub part: Option<Part>,
+    /// The constraint or spring that broke or was triggered.
+    pub source: Option<EventSource>,
 }
 
 impl Event {
-    /// Something that happened to bodies without a hit, `t` seconds into the run.
-    fn quiet(t: f64, kind: EventKind, bodies: [Option<usize>; 2], point: DVec3, part: Option<Part>) -> Self {
-        Self { t, sample: sample_at(t), kind, bodies, point, normal: DVec3::Y, impulse: 0.0, speed: 0.0, part }
+    /// An event without an impact, `t` seconds into the run.
+    fn without_impact(
+        t: f64,
+        kind: EventKind,
+        bodies: [Option<usize>; 2],
+        point: DVec3,
+        source: Option<EventSource>,
+    ) -> Self {
+        Self { t, sample: sample_at(t), kind, bodies, point, normal: DVec3::Y, impulse: 0.0, speed: 0.0, source }
     }
 
-    /// A part of the exhibit broke or was triggered.
-    pub(super) fn of_part(t: f64, kind: EventKind, part: Part, exhibit: &Exhibit, bodies: &[RigidBody]) -> Self {
-        let (ends, point) = part.place(exhibit, bodies);
-        Self::quiet(t, kind, ends, point, Some(part))
+    /// A constraint or spring broke or was triggered, `t` seconds into the run.
+    pub(super) fn of_source(
+        t: f64,
+        kind: EventKind,
+        source: EventSource,
+        exhibit: &Exhibit,
+        bodies: &[RigidBody],
+    ) -> Self {
+        let (ends, point) = source.location(exhibit, bodies);
+        Self::without_impact(t, kind, ends, point, Some(source))
     }
 
-    /// Bad numbers were found, first in this body.
+    /// Invalid numbers were found, first in this body.
     pub(super) fn fault(t: f64, body: usize, bodies: &[RigidBody]) -> Self {
-        Self::quiet(t, EventKind::Fault, [Some(body), None], bodies[body].position, None)
+        Self::without_impact(t, EventKind::Fault, [Some(body), None], bodies[body].position, None)
     }
 
-    /// A hit.
-    pub(super) fn hit(began: f64, impact: &Impact) -> Self {
-        let t = began + impact.time;
+    /// An impact in the step from `start` (s).
+    pub(super) fn impact(start: f64, impact: &Impact) -> Self {
+        let t = start + impact.time;
         Self {
             t,
             sample: sample_at(t),
@@ -143,7 +155,7 @@ impl Event {
             normal: impact.normal,
             impulse: impact.impulse,
             speed: impact.speed,
-            part: None,
+            source: None,
         }
     }
 }

@@ -1,34 +1,42 @@
-//! What a simulation is given: what is constant over a run ([`Settings`]), and all that varies from step to step
-//! ([`StepInput`]). Whoever knows both knows the run.
+//! Inputs of a simulation: constants of a run ([`Settings`]) and inputs of each step ([`StepInput`]). Both together determine
+//! the run.
 
 use serde::{Deserialize, Serialize};
 
-use super::hands::Hand;
+use super::pointer_grabs::PointerGrab;
 use soffio_exhibit::{Exhibit, Motion};
 use soffio_multibody::procedural::Method;
 
-/// How a breath becomes wind.
+/// Breath profile: how a breath becomes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {
     /// No travelling front; gain such that a child's gentle breath visibly moves a sculpture within a second.
     #[default]
     Gallery,
-    /// Gain 1, the front travels as a real jet's does.
-    True,
+    /// Gain 1; the travelling front arrives with the delay of a real jet.
+    #[serde(alias = "true")]
+    Physical,
 }
 
-/// The gallery's gain is this speed over the breath's own, so that its force grows with the speed and not with its square: a
-/// hard 17 m/s counts twice. Of a breath that is softer than a grown-up's it grows with the root of the speed, or a child's
-/// would be lost in what still swings from the breath before: a gentle 3.8 m/s counts twelve times. A child's 0.3 L/s from half
-/// a metre (1.4 mN at the most) so pushes with 17 mN at the most, and moves a plate of *Steel Fish* by 17 mm and more on a
-/// 55-inch picture within a second.
-const GALLERY_SPEED: f64 = 36.0;
-/// Below this speed at the lips a breath is soft, m/s.
-const SOFT_SPEED: f64 = 6.5;
-/// Bounds of that gain: no breath is ever weakened, and what is hardly heard is not made a gale of. (A breath from afar, or one
-/// that has only just begun, is heard as 1 to 2 m/s.)
-const GALLERY_GAIN: (f64, f64) = (1.0, GALLERY_SPEED);
+/// Gain of the gallery profile.
+///
+/// The gain falls as 1/speed, so that the force grows with the speed instead of its square: a hard breath of 17 m/s counts
+/// twice. Below the soft speed it rises faster, so that the force grows with the root of the speed, and a child's breath is not
+/// lost in the swing from the one before: a gentle 3.8 m/s counts twelve times. A child's 0.3 L/s from half a metre (1.4 mN at
+/// most) thus exerts up to 17 mN. It moves a plate of *Steel Fish* by at least 17 mm on a 55-inch picture within a second.
+struct GalleryGain {
+    /// Speed of gain 1, m/s.
+    unit_speed: f64,
+    /// Slower breaths are soft, m/s.
+    soft_speed: f64,
+    /// Least gain: no breath is weakened.
+    least: f64,
+    /// Greatest gain, for breaths that are barely detected (1 to 2 m/s, from afar or just begun).
+    most: f64,
+}
+
+const GALLERY_GAIN: GalleryGain = GalleryGain { unit_speed: 36.0, soft_speed: 6.5, least: 1.0, most: 36.0 };
 
 impl Profile {
     /// Force gain at a source speed (m/s).
@@ -36,10 +44,10 @@ impl Profile {
         match self {
             Self::Gallery => {
                 let speed = speed.max(1e-9);
-                let soft = (SOFT_SPEED / speed).max(1.0).sqrt();
-                (soft * GALLERY_SPEED / speed).clamp(GALLERY_GAIN.0, GALLERY_GAIN.1)
+                let soft = (GALLERY_GAIN.soft_speed / speed).max(1.0).sqrt();
+                (soft * GALLERY_GAIN.unit_speed / speed).clamp(GALLERY_GAIN.least, GALLERY_GAIN.most)
             }
-            Self::True => 1.0,
+            Self::Physical => 1.0,
         }
     }
 
@@ -47,32 +55,32 @@ impl Profile {
     pub fn name(self) -> &'static str {
         match self {
             Self::Gallery => "gallery",
-            Self::True => "true",
+            Self::Physical => "physical",
         }
     }
 }
 
-/// What is constant over a run, besides the exhibit.
+/// Constants of a run, beside the exhibit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// How a breath becomes wind.
+    /// Breath profile.
     pub profile: Profile,
     /// Added to the microphone's level before it becomes a speed, dB.
     pub sensitivity_db: f64,
     /// Multiplies the force of the breath on top of the profile's own gain.
     pub breath_gain: f64,
-    /// Distance of the lips before the target, m.
+    /// Distance of the lips from the target plane, m.
     pub distance: f64,
     /// Lip diameter d = 2 r₀, m.
     pub lip_diameter: f64,
-    /// Seed of all that is random.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// false: no wind of any kind, not even still air's drag.
+    /// false: no wind forces at all, nor drag in still air.
     pub wind: bool,
-    /// false: pivots without friction and bodies without damping.
+    /// false: no pivot friction and no damping.
     pub friction: bool,
-    /// The time of day when the run begins, s after midnight, to which the hands of a clock are set; `None` leaves them.
+    /// Time of day at the start of the run, s after midnight, to which clocks are set; `None`: they are not set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clock: Option<f64>,
 }
@@ -102,7 +110,7 @@ pub struct Microphone<'a> {
     pub second: Option<&'a [f32]>,
     /// Hz.
     pub sample_rate: u32,
-    /// What the loudspeaker played meanwhile (mono, same rate and length); empty where it cannot be heard.
+    /// Output signal of the same time (mono, same rate and length); empty if the microphone does not pick it up.
     pub reference: &'a [f32],
 }
 
@@ -110,59 +118,60 @@ pub struct Microphone<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Command {
-    /// Puts everything back to where it started.
+    /// Restarts the exhibit.
     Reset,
-    /// The same, but from scattered parts, which gather themselves before the exhibit begins; the seed says where they
-    /// begin. Where the exhibit does not gather it is a reset.
-    Gather(u64),
-    /// Says that what still moves is the doing of nobody who is here: where the exhibit asks for calm, it comes at once.
-    Calm,
-    /// Sets the source speed of the breath directly, m/s (scripts, replay); `None` gives it back.
+    /// Restarts the exhibit with its assembly animation from parts scattered by this seed; without one, as [`Self::Reset`].
+    #[serde(rename = "gather")]
+    Assemble(u64),
+    /// Applies the exhibit's idle damping, if any, at once: no present visitor has caused the remaining motion.
+    #[serde(rename = "calm")]
+    Settle,
+    /// Sets the source speed of the breath, m/s (scripts, replay); `None` releases it.
     Blow(Option<f64>),
 }
 
-/// The middle of the picture.
+/// Centre of the picture, picture coordinates.
 pub const CENTRE: [f64; 2] = [0.5, 0.5];
 
-/// Everything that varies: the whole input of one step.
+/// The whole input of one step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StepInput<'a> {
     /// `None`: no microphone, wind from it is exactly 0.
     pub microphone: Option<Microphone<'a>>,
-    /// Nobody's breath counts now, and wind from it is exactly 0; but the ear goes on to learn the room.
-    pub deaf: bool,
+    /// Ignores breath from the microphone, so that wind from it is exactly 0. The detector still adapts to the noise floor.
+    pub ignore_microphone: bool,
     /// Hold-to-blow (pointer, touch, key, switch).
     pub hold: bool,
-    /// How hard a breath controller is blown (gamepad trigger, MIDI, OSC, serial line), 0 … 1.
+    /// Strength of a breath controller (gamepad trigger, MIDI, OSC, serial line), 0 … 1.
     pub strength: f64,
     /// Pointer in picture coordinates, (0,0) top left, (1,1) bottom right; `None` is the centre.
     pub pointer: Option<[f64; 2]>,
     /// Width over height of the picture; 0 is 16:9.
     pub aspect: f64,
-    /// How far the camera is turned about its target from the exhibit's own view: to the right and up, rad.
+    /// Turn of the camera about its target from the exhibit's own view: to the right and up, rad.
     pub turn: [f64; 2],
-    /// Commands, carried out in order before the step.
+    /// Commands, executed in order before the step.
     pub commands: &'a [Command],
-    /// What moves the figure in this step; `None` is the exhibit's own choice.
+    /// Solver of this step; `None`: the exhibit's own.
     pub mode: Option<MotionMode>,
     /// Pointers and fingers that are down on the sculpture.
-    pub hands: &'a [Hand],
+    pub pointer_grabs: &'a [PointerGrab],
 }
 
-/// What moves the figure.
+/// Solver that moves the bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotionMode {
-    /// The laws: constrained dynamics.
+    /// Constrained dynamics.
     #[default]
     Dynamic,
-    /// The source's procedural motion.
+    /// Procedural motion of the source.
     Procedural,
-    /// Places, all joints at once.
+    /// Position-based motion, all joints at once.
     PositionBased,
 }
 
 impl MotionMode {
-    /// What an exhibit is moved by where nothing presses.
+    /// Solver of an exhibit while the time budget allows it.
     pub fn of(exhibit: &Exhibit) -> Self {
         match exhibit.motion {
             Motion::Laws | Motion::Auto { .. } => Self::Dynamic,

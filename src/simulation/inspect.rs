@@ -1,24 +1,23 @@
-//! A closer look at one moment, for whoever mends an exhibit: each joint, each body, each patch that feels the wind.
-//! A step asks for none of it.
+//! Inspection of one moment, for curators who debug an exhibit: joints, bodies and wind patches. Steps do not use it.
 
-use super::air::Pointed;
+use super::air::AimedBreath;
 use super::step::Simulation;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::ConstraintKind;
 
-/// What is looked at.
+/// What is inspected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Look {
+pub enum InspectionScope {
     /// Nothing.
     #[default]
     Nothing,
     /// Bodies and joints.
     Bodies,
-    /// Patches that feel the wind.
+    /// Patches of the wind surfaces.
     Wind,
 }
 
-/// What was seen; of what was not looked at, nothing.
+/// Result of an inspection; lists outside its scope are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inspection {
     /// Steps done.
@@ -27,23 +26,23 @@ pub struct Inspection {
     pub joints: Vec<JointState>,
     /// In the order of the exhibit's bodies.
     pub bodies: Vec<BodyState>,
-    /// Every patch.
+    /// Every patch of the wind surfaces.
     pub wind: Vec<WindSample>,
 }
 
-/// How a constraint is.
+/// State of a constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointState {
-    /// How far it is from what it holds: m, of an angle rad.
+    /// Constraint error: m, for an angle rad.
     pub error: f64,
-    /// Does it hold an angle?
+    /// Whether it constrains an angle.
     pub angle: bool,
-    /// The force that its joint carried in the last step, all lengths between the two bodies together, N; `None` for
+    /// Reaction force of its joint in the last step, all distance constraints between the two bodies together, N; `None` for
     /// angles and couplings.
     pub load: Option<f64>,
 }
 
-/// How a body is.
+/// State of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
     /// m/s.
@@ -54,34 +53,34 @@ pub struct BodyState {
     pub height: f64,
 }
 
-/// A patch in the wind.
+/// State of a wind patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindSample {
     /// Index of its surface among the exhibit's.
     pub surface: usize,
     /// World, m.
     pub point: DVec3,
-    /// Does it lie in the cone of the breath as it is aimed now, and see the lips?
-    pub hit: bool,
-    /// Speed of the air there, m/s: what breath and all winds do to a patch that they reach.
+    /// Whether it lies in the breath as it is aimed now, and is visible from the lips.
+    pub in_breath: bool,
+    /// Speed of the air there, m/s, breath and ambient winds together.
     pub speed: f64,
 }
 
 impl Simulation {
-    /// Looks closer at the present moment. Changes nothing of the run.
-    pub fn inspect(&mut self, look: Look) -> Inspection {
-        let seen = Inspection { step: self.clock.step, ..Inspection::default() };
-        match look {
-            Look::Nothing => seen,
-            Look::Bodies => Inspection { joints: self.joint_states(), bodies: self.body_states(), ..seen },
-            Look::Wind => Inspection { wind: self.wind_samples(), ..seen },
+    /// Inspects the present moment. Changes nothing of the run.
+    pub fn inspect(&mut self, scope: InspectionScope) -> Inspection {
+        let empty = Inspection { step: self.clock.step, ..Inspection::default() };
+        match scope {
+            InspectionScope::Nothing => empty,
+            InspectionScope::Bodies => Inspection { joints: self.joint_states(), bodies: self.body_states(), ..empty },
+            InspectionScope::Wind => Inspection { wind: self.wind_samples(), ..empty },
         }
     }
 
     fn joint_states(&self) -> Vec<JointState> {
-        let gaps = self.motion.dynamics.system().gaps(&self.motion.dynamics.bodies);
-        let states =
-            self.motion.dynamics.joint_loads().into_iter().zip(gaps).zip(self.motion.dynamics.system().constraints());
+        let dynamics = &self.motion.dynamics;
+        let errors = dynamics.system().gaps(&dynamics.bodies);
+        let states = dynamics.joint_loads().into_iter().zip(errors).zip(dynamics.system().constraints());
         states
             .map(|((load, error), constraint)| {
                 let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });
@@ -100,16 +99,17 @@ impl Simulation {
     }
 
     fn wind_samples(&mut self) -> Vec<WindSample> {
-        let Self { exhibit, settings, breathing, aiming, air, motion, .. } = self;
-        let pointed = Pointed { exhibit, settings, aim: &aiming.aim, speed: breathing.speed };
-        let aimed = pointed.breath();
-        let samples = air.wind.samples(&motion.dynamics.bodies, &aimed);
-        let blown = pointed.blown(&air.front);
-        let sample = |sample: soffio_wind::force::Sample| {
-            let reached = blown.as_ref().filter(|_| sample.seen);
-            let air = air.wind.streams(reached, sample.point) + air.wind.stirs(sample.point);
-            let hit = sample.seen && aimed.share(sample.point).is_some();
-            WindSample { surface: sample.surface, point: sample.point, hit, speed: air.length() }
+        let Self { exhibit, settings, breath, aim_assist, air, motion, .. } = self;
+        let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
+        let breath = aimed.breath();
+        let samples = air.wind.sample_patches(&motion.dynamics.bodies, &breath);
+        let jet = aimed.jet(&air.jet_front);
+        let sample = |sample: soffio_wind::force::PatchSample| {
+            let jet = jet.as_ref().filter(|_| sample.visible);
+            let velocity =
+                air.wind.directed_velocity(jet, sample.point) + air.wind.undirected_velocity(sample.point);
+            let in_breath = sample.visible && breath.relative_speed(sample.point).is_some();
+            WindSample { surface: sample.surface, point: sample.point, in_breath, speed: velocity.length() }
         };
         samples.into_iter().map(sample).collect()
     }

@@ -1,20 +1,20 @@
-//! The simulation: everything that moves, and the only way time advances.
+//! The simulation: everything that moves, at a fixed time step.
 //!
-//! One step is 1/240 s and 200 audio samples: breath → aim → wind → motion with its impacts → events and sounds →
-//! dust. Whatever varies is in [`StepInput`]; nothing here reads a clock, a file or a device, so a live run and an
-//! offline one with the same inputs are the same run, bit for bit.
+//! One step is 1/240 s and 200 audio samples: breath → aim → wind → motion with its impacts → events and sounds → dust
+//! particles. [`StepInput`] holds everything that varies. The crate reads no clock, file or device, so a live run and an offline
+//! one with the same inputs agree bit for bit.
 //!
-//! It never draws, plays or records: it returns a [`Snapshot`] for pictures, sound commands for a synthesizer, and events.
-//! After its first steps it allocates nothing.
+//! It does not draw, play or record: it returns a [`Snapshot`] for pictures, sound commands for a synthesizer, and events.
+//! [`Simulation::step`] says when a step allocates.
 //!
-//! | type | is |
+//! | type | meaning |
 //! |---|---|
-//! | [`Simulation`] | all that moves of one exhibit |
-//! | [`StepInput`] | everything that may differ between two steps: microphone, pointer, hands, commands, mode |
+//! | [`Simulation`] | one exhibit in motion |
+//! | [`StepInput`] | inputs of one step: microphone, pointer, grabs, commands, solver |
 //! | [`Settings`] | constants of a run: seed, breath profile, wind |
-//! | [`Snapshot`], [`Event`] | what a step leaves to see, and what happened in it |
-//! | [`Script`] | inputs over time, one JSON object a line |
-//! | [`record`] | the inputs of a live day, and their replay |
+//! | [`Snapshot`], [`Event`] | state after a step, and its events |
+//! | [`Script`] | actions over time, one JSON object a line |
+//! | [`record`] | inputs of a live day, and their replay |
 //!
 //! ```
 //! use std::path::Path;
@@ -31,26 +31,26 @@
 //!     (1..STEPS_PER_SECOND).for_each(|_| simulation.step(&StepInput::default()));
 //!     simulation.state_hash()
 //! };
-//! assert_eq!(run(), run(), "the same inputs are the same run, bit for bit");
+//! assert_eq!(run(), run(), "the same inputs give the same run, bit for bit");
 //! ```
 
 mod aim;
 mod air;
-mod calm;
-mod carrying;
+mod idle_damping;
+mod clock_setting;
 mod contact_sound;
 mod emit;
 mod event;
-mod eye;
-mod gather;
-mod hands;
+mod camera;
+mod assembly;
+mod pointer_grabs;
 mod input;
 mod inspect;
-mod leaning;
-mod merge;
-mod motes;
+mod aim_assist;
+mod impact_merge;
+mod dust_particles;
 mod motion;
-mod onset;
+mod onset_compensation;
 mod rate;
 pub mod record;
 mod script;
@@ -60,12 +60,12 @@ mod source;
 mod start;
 mod step;
 
-pub use event::{Event, EventKind, Part};
-pub use gather::LASTS as GATHERING_LASTS;
-pub use hands::Hand;
+pub use event::{Event, EventKind, EventSource};
+pub use assembly::DURATION as ASSEMBLY_DURATION;
+pub use pointer_grabs::PointerGrab;
 pub use input::{CENTRE, Command, Microphone, MotionMode, Profile, Settings, StepInput};
-pub use inspect::{BodyState, Inspection, JointState, Look, WindSample};
-pub use motes::Mote;
+pub use inspect::{BodyState, Inspection, JointState, InspectionScope, WindSample};
+pub use dust_particles::DustParticle;
 pub use rate::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND};
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Snapshot};

@@ -1,137 +1,152 @@
-//! What moves the figure: the laws, places, or the gathering of its parts, and whoever's hands are on it.
+//! Motion of an exhibit: constrained dynamics, position-based motion, or the assembly animation, with the pointers' grabs.
 
-use super::calm::Idle;
-use super::carrying::Carrying;
-use super::emit::LISTED;
-use super::eye::Eye;
-use super::gather::{self, Gathering};
-use super::hands::Hands;
+use super::assembly::{self, Assembly};
+use super::camera::Camera;
+use super::clock_setting::{ClockSetting, SettingStep};
+use super::emit::LIST_CAPACITY;
+use super::idle_damping::IdleDamping;
 use super::input::{MotionMode, Profile, Settings, StepInput};
+use super::pointer_grabs::{PickScene, PointerGrabs};
 use super::rate::{DT, STEPS_PER_SECOND};
-use super::start::{start_carrying, start_dynamics};
+use super::start::{start_clock_setting, start_dynamics};
 use soffio_exhibit::Exhibit;
 use soffio_math::spatial::Vec6;
 use soffio_multibody::dynamics::{Dynamics, Impact};
 use soffio_multibody::procedural::{self, Method, Procedural};
 use soffio_wind::force::WindField;
 
-/// The figure in motion, and what moves it.
+/// An assembly animation in progress.
+#[derive(Clone)]
+struct RunningAssembly {
+    assembly: Assembly,
+    steps_left: u64,
+}
+
+/// All that moves the bodies of an exhibit.
 #[derive(Clone)]
 pub(crate) struct Motion {
     pub dynamics: Dynamics,
     pub procedural: Procedural,
-    pub hands: Hands,
+    pub pointer_grabs: PointerGrabs,
     pub mode: MotionMode,
-    /// While the parts gather: what calls them, and the steps that are left.
-    gathering: Option<(Gathering, u64)>,
-    /// While the hands of a clock are carried to the time.
-    pub carrying: Option<Carrying>,
-    pub idle: Idle,
-    /// From wind, calm and hands in the present step, N and N m about each centre of mass.
+    assembly: Option<RunningAssembly>,
+    /// `Some` until the clock, if there is one, shows the time.
+    pub clock_setting: Option<ClockSetting>,
+    pub idle_damping: IdleDamping,
+    /// From wind, idle damping and grabs in the present step, N and N m about each centre of mass.
     pub wrenches: Vec<Vec6>,
     /// Of the last step.
     pub impacts: Vec<Impact>,
 }
 
 impl Motion {
-    /// The exhibit's figure at its start.
+    /// An exhibit at its start.
     pub fn new(exhibit: &Exhibit, settings: &Settings) -> Self {
         let dynamics = start_dynamics(exhibit, settings);
         Self {
-            carrying: start_carrying(exhibit, settings, &dynamics.bodies),
+            clock_setting: start_clock_setting(exhibit, settings, &dynamics.bodies),
             procedural: Procedural::new(&dynamics, procedural::Settings::default()),
             dynamics,
-            hands: Hands::new(exhibit),
+            pointer_grabs: PointerGrabs::new(exhibit),
             mode: MotionMode::of(exhibit),
-            gathering: None,
-            idle: Idle::default(),
+            assembly: None,
+            idle_damping: IdleDamping::default(),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
-            impacts: Vec::with_capacity(LISTED),
+            impacts: Vec::with_capacity(LIST_CAPACITY),
         }
     }
 
-    /// Puts the figure where it starts; its time begins. Kept apart from the step, which would else ask for the stack on which a
-    /// new figure is made, 140 KB, every time.
+    /// Returns to the start of the exhibit, at time 0. Not inlined into the step, which would then reserve the 140 KB of stack for
+    /// new dynamics every time.
     #[inline(never)]
-    pub fn begin_anew(&mut self, exhibit: &Exhibit, settings: &Settings) {
-        self.gathering = None;
+    pub fn restart(&mut self, exhibit: &Exhibit, settings: &Settings) {
+        self.assembly = None;
         self.dynamics = start_dynamics(exhibit, settings);
-        self.carrying = start_carrying(exhibit, settings, &self.dynamics.bodies);
+        self.clock_setting = start_clock_setting(exhibit, settings, &self.dynamics.bodies);
         self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
-        self.idle = Idle::default();
+        self.idle_damping = IdleDamping::default();
     }
 
-    /// Scatters the figure's parts, and calls them together.
-    #[inline(never)] // as `begin_anew`
-    pub fn gather(&mut self, exhibit: &Exhibit, settings: &Settings, seed: u64) {
-        let (gathering, scattered) = Gathering::new(exhibit, settings, seed);
+    /// Scatters the bodies and starts the assembly animation.
+    #[inline(never)] // as `restart`
+    pub fn assemble(&mut self, exhibit: &Exhibit, settings: &Settings, seed: u64) {
+        let (assembly, scattered) = Assembly::new(exhibit, settings, seed);
         self.dynamics = scattered;
-        self.gathering = Some((gathering, (gather::LASTS * STEPS_PER_SECOND as f64) as u64));
+        let steps_left = (assembly::DURATION * STEPS_PER_SECOND as f64) as u64;
+        self.assembly = Some(RunningAssembly { assembly, steps_left });
     }
 
-    /// Have the parts come together?
-    pub fn has_gathered(&self) -> bool {
-        matches!(self.gathering, Some((_, 0)))
+    /// Whether an assembly animation has just ended.
+    pub fn is_assembled(&self) -> bool {
+        self.assembly.as_ref().is_some_and(|running| running.steps_left == 0)
     }
 
-    /// While its parts gather: how far the farthest is from its place, m.
-    pub fn gathers_from(&self) -> Option<f64> {
-        self.gathering.as_ref().map(|(gathering, _)| gathering.way(&self.dynamics.bodies))
+    /// Greatest distance of a body from its final position during assembly, m.
+    pub fn assembly_distance(&self) -> Option<f64> {
+        self.assembly.as_ref().map(|running| running.assembly.max_distance(&self.dynamics.bodies))
     }
 
-    /// Calms what nobody blows at or holds, in the gallery.
-    pub fn come_to_rest(&mut self, exhibit: &Exhibit, settings: &Settings, blows: bool) {
-        self.idle.advance(blows || self.hands.count() > 0, DT);
+    /// Adds idle damping to the wrenches, in the gallery profile. `blows`: whether a breath blows in this step.
+    pub fn apply_idle_damping(&mut self, exhibit: &Exhibit, settings: &Settings, blows: bool) {
+        self.idle_damping.advance(blows || self.pointer_grabs.count() > 0, DT);
         let Settings { profile, friction, .. } = *settings;
-        let calm = exhibit.calm.filter(|_| profile == Profile::Gallery && friction);
-        if let Some(calm) = calm {
-            self.idle.calm(calm, &self.dynamics.bodies, &mut self.wrenches);
+        let calm_settings = exhibit.calm.filter(|_| profile == Profile::Gallery && friction);
+        if let Some(calm_settings) = calm_settings {
+            self.idle_damping.apply(calm_settings, &self.dynamics.bodies, &mut self.wrenches);
         }
     }
 
-    /// Moves the figure for a step, `elapsed` seconds after the reset. Returns the first body with bad numbers, because of which
-    /// the figure was put back.
+    /// Moves the bodies for a step, `elapsed` seconds after the reset. Returns the first body with invalid numbers, if any; the
+    /// bodies are then restored.
     pub fn advance(
         &mut self,
         input: &StepInput,
-        (exhibit, elapsed): (&Exhibit, f64),
-        eye: &Eye,
+        exhibit: &Exhibit,
+        elapsed: f64,
+        camera: &Camera,
         wind: &mut WindField,
     ) -> Option<usize> {
         self.impacts.clear();
-        let driven = self.dynamics.system().driven();
-        self.hands.follow(input.hands, (&eye.view, eye.aspect), wind, (exhibit, &self.dynamics.bodies, driven));
+        let scene = PickScene {
+            view: &camera.view,
+            aspect: camera.aspect,
+            exhibit,
+            bodies: &self.dynamics.bodies,
+            is_kinematic: self.dynamics.system().driven(),
+        };
+        self.pointer_grabs.update(input.pointer_grabs, wind, &scene);
         self.mode = input.mode.unwrap_or(MotionMode::of(exhibit));
-        if let Some((gathering, left)) = &mut self.gathering {
-            *left -= 1;
+        if let Some(RunningAssembly { assembly, steps_left }) = &mut self.assembly {
+            *steps_left -= 1;
             self.wrenches.fill([0.0; 6]);
             if self.mode != MotionMode::Dynamic {
                 let (dynamics, impacts) = (&mut self.dynamics, &mut self.impacts);
-                return dynamics.position_step(DT, &self.wrenches, impacts, |moved| gathering.carry(DT, moved.bodies));
+                return dynamics
+                    .position_step(DT, &self.wrenches, impacts, |step| assembly.advance_positions(DT, step.bodies));
             }
-            gathering.call(&self.dynamics.bodies, &mut self.wrenches);
+            assembly.apply_forces(&self.dynamics.bodies, &mut self.wrenches);
             return self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
         }
         let method = match self.mode {
             MotionMode::Dynamic => {
-                self.hands.pull(&mut self.dynamics, DT, &mut self.wrenches);
-                self.carry(exhibit, elapsed);
+                self.pointer_grabs.apply_forces(&mut self.dynamics, DT, &mut self.wrenches);
+                self.set_clock(exhibit, elapsed);
                 return self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
             }
             MotionMode::Procedural => Method::Compulsive,
             MotionMode::PositionBased => Method::TreeSolve,
         };
         self.procedural.settings_mut().method = method;
-        let grips = self.hands.grips(&self.dynamics.bodies, DT);
-        self.procedural.step(&mut self.dynamics, DT, &self.wrenches, grips, &mut self.impacts)
+        let targets = self.pointer_grabs.position_targets(&self.dynamics.bodies, DT);
+        self.procedural.step(&mut self.dynamics, DT, &self.wrenches, targets, &mut self.impacts)
     }
 
-    /// Carries the hands of a clock on.
-    fn carry(&mut self, exhibit: &Exhibit, elapsed: f64) {
-        if let (Some(carrying), Some(clock)) = (&mut self.carrying, &exhibit.clock)
-            && !carrying.carry(clock, (elapsed, DT), &mut self.dynamics, &mut self.wrenches)
+    /// Adds the torque of a clock setting to the wrenches, and ends the setting once the clock shows the time.
+    fn set_clock(&mut self, exhibit: &Exhibit, elapsed: f64) {
+        if let (Some(setting), Some(clock)) = (&mut self.clock_setting, &exhibit.clock)
+            && !setting.apply(clock, SettingStep { elapsed, dt: DT }, &mut self.dynamics, &mut self.wrenches)
         {
-            self.carrying = None;
+            self.clock_setting = None;
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Records: what a run was told, step by step, so that it can be run again to the bit.
+//! Records: the inputs of a run, step by step, for an exact replay.
 //!
-//! A record is JSON lines. It never holds sound: of the microphone only the speed of the breath that was heard is kept,
-//! joined with that of fingers and controllers, as the simulation takes it. A line says what changed since the last:
+//! A record is JSON lines. It never holds sound: of the microphone it keeps only the detected speed, joined with that of
+//! fingers and controllers, as the simulation takes it. Each line holds the changes since the last:
 //!
 //! ```text
 //! {"record": {"version": 1, "program": "0.1.0"}}
@@ -9,68 +9,69 @@
 //! {"told": {"step": 0, "aspect": 1.7777777777777777}}
 //! {"told": {"step": 812, "speed": 3.25, "pointer": [0.4, 0.5]}}                    m/s; picture coordinates
 //! {"told": {"step": 850, "turn": [0.2, -0.1]}}                                     rad, of the camera
-//! {"told": {"step": 900, "commands": ["reset"]}}                                   this step's alone
-//! {"end": {"steps": 4800, "state": "00f3…"}}                                       what it came to
+//! {"told": {"step": 900, "commands": ["reset"]}}                                   of this step alone
+//! {"end": {"steps": 4800, "state": "00f3…"}}                                       hash of the final state
 //! ```
 //!
-//! An exhibit that is shown anew, or another one, begins another part. A record that was cut off has no last `end`.
+//! Another exhibit, or the same one shown again, begins another section. A truncated record lacks its last `end`.
 //! Numbers are written as the shortest text that reads back to the same bits.
 
 use serde::{Deserialize, Serialize};
 
-use super::hands::Hand;
+use super::pointer_grabs::PointerGrab;
 use super::input::{CENTRE, Command, MotionMode, Settings, StepInput};
 
 /// Version of the format.
 const VERSION: u32 = 1;
-/// What is wrong with a record, and where.
+/// Error in a record, with its line.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("line {line}: {problem}")]
 pub struct RecordError {
     /// Counted from 1.
     pub line: usize,
-    /// What, and what to do.
+    /// Problem and remedy.
     pub problem: String,
 }
 
-/// A line.
+/// One line of a record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
-enum Line {
+enum RecordLine {
     Record(Head),
     Begin(Begin),
-    Told(Change),
+    #[serde(rename = "told")]
+    Change(Change),
     End(End),
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Head {
     version: u32,
-    /// The program's version; another one may move otherwise.
+    /// Version of the program; another one may compute other motion.
     program: String,
 }
 
-/// What a part is a run of.
+/// Exhibit and settings of a section.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Begin {
-    /// Its id.
+    /// Id of the exhibit.
     pub exhibit: String,
     /// Constants of the run.
     pub settings: Settings,
 }
 
-/// What a part came to.
+/// End of a section.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct End {
     /// Steps done.
     pub steps: u64,
-    /// The state's hash, hexadecimal.
+    /// Hash of the state, hexadecimal.
     pub state: String,
 }
 
-/// What is new in a step.
+/// Changes of the inputs in a step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Change {
@@ -88,139 +89,140 @@ struct Change {
     /// A solver's name, or "auto": the exhibit's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     solver: Option<String>,
-    /// All that are down.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    hands: Option<Vec<Hand>>,
+    /// All pointers that are down.
+    #[serde(rename = "hands", default, skip_serializing_if = "Option::is_none")]
+    pointer_grabs: Option<Vec<PointerGrab>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     commands: Vec<Command>,
 }
 
-/// All that a step was told, but for its commands.
+/// All inputs of a step but its commands.
 #[derive(Clone, Debug, PartialEq)]
-struct Told {
+struct InputState {
     speed: f64,
     pointer: [f64; 2],
     aspect: f64,
     turn: [f64; 2],
     mode: Option<MotionMode>,
-    hands: Vec<Hand>,
+    pointer_grabs: Vec<PointerGrab>,
 }
 
-impl Default for Told {
+impl Default for InputState {
     fn default() -> Self {
-        Self { speed: 0.0, pointer: CENTRE, aspect: 0.0, turn: [0.0; 2], mode: None, hands: Vec::new() }
+        Self { speed: 0.0, pointer: CENTRE, aspect: 0.0, turn: [0.0; 2], mode: None, pointer_grabs: Vec::new() }
     }
 }
 
-/// Turns steps into lines.
+/// Writes steps as lines.
 #[derive(Clone, Debug, Default)]
 pub struct Recorder {
-    told: Told,
+    last: InputState,
 }
 
 impl Recorder {
     /// The first line of every record.
     pub fn head() -> String {
-        text(&Line::Record(Head { version: VERSION, program: env!("CARGO_PKG_VERSION").into() }))
+        text(&RecordLine::Record(Head { version: VERSION, program: env!("CARGO_PKG_VERSION").into() }))
     }
 
-    /// The line with which a part begins; what was told before is forgotten.
+    /// The first line of a section. The state of the inputs starts anew.
     pub fn begin(&mut self, exhibit: &str, settings: Settings) -> String {
-        self.told = Told::default();
-        text(&Line::Begin(Begin { exhibit: exhibit.into(), settings }))
+        self.last = InputState::default();
+        text(&RecordLine::Begin(Begin { exhibit: exhibit.into(), settings }))
     }
 
-    /// The line of a step with this number that was told this and blew with this speed (m/s); `None` where nothing is new.
+    /// The line of a step with this number, input and source speed (m/s); `None` without changes.
     pub fn step(&mut self, step: u64, input: &StepInput, speed: f64) -> Option<String> {
         let pointer = input.pointer.unwrap_or(CENTRE);
-        let told = &mut self.told;
-        // Commanded breaths are in the speed.
-        let lasting = input.commands.iter().filter(|command| !matches!(command, Command::Blow(_)));
+        let last = &mut self.last;
+        // Commanded breaths are part of the speed.
+        let commands = input.commands.iter().filter(|command| !matches!(command, Command::Blow(_)));
         let change = Change {
             step,
-            speed: (speed != told.speed).then_some(speed),
-            pointer: (pointer != told.pointer).then_some(pointer),
-            aspect: (input.aspect != told.aspect).then_some(input.aspect),
-            turn: (input.turn != told.turn).then_some(input.turn),
-            solver: (input.mode != told.mode).then(|| input.mode.map_or("auto", MotionMode::name).into()),
-            hands: (input.hands != told.hands).then(|| input.hands.to_vec()),
-            commands: lasting.copied().collect(),
+            speed: (speed != last.speed).then_some(speed),
+            pointer: (pointer != last.pointer).then_some(pointer),
+            aspect: (input.aspect != last.aspect).then_some(input.aspect),
+            turn: (input.turn != last.turn).then_some(input.turn),
+            solver: (input.mode != last.mode).then(|| input.mode.map_or("auto", MotionMode::name).into()),
+            pointer_grabs: (input.pointer_grabs != last.pointer_grabs).then(|| input.pointer_grabs.to_vec()),
+            commands: commands.copied().collect(),
         };
         if change == (Change { step, ..Change::default() }) {
             return None;
         }
-        (told.speed, told.pointer, told.mode) = (speed, pointer, input.mode);
-        (told.aspect, told.turn) = (input.aspect, input.turn);
-        told.hands.clear();
-        told.hands.extend_from_slice(input.hands);
-        Some(text(&Line::Told(change)))
+        (last.speed, last.pointer, last.mode) = (speed, pointer, input.mode);
+        (last.aspect, last.turn) = (input.aspect, input.turn);
+        last.pointer_grabs.clear();
+        last.pointer_grabs.extend_from_slice(input.pointer_grabs);
+        Some(text(&RecordLine::Change(change)))
     }
 
-    /// The line with which a part ends.
+    /// The last line of a section.
     pub fn end(steps: u64, state: u64) -> String {
-        text(&Line::End(End { steps, state: format!("{state:016x}") }))
+        text(&RecordLine::End(End { steps, state: format!("{state:016x}") }))
     }
 }
 
-/// A line as text. Not finite numbers have no form in JSON and become null; the simulation takes none.
-fn text(line: &Line) -> String {
+/// A line as text. Numbers that are not finite become null, as JSON has no form for them; the simulation accepts none.
+fn text(line: &RecordLine) -> String {
     serde_json::to_string(line).unwrap_or_default()
 }
 
-/// A run of one exhibit, as it was told.
+/// One section of a record: the inputs of a run of one exhibit.
 #[derive(Clone, Debug)]
-pub struct Part {
-    /// What it is a run of.
+pub struct RecordSection {
+    /// Exhibit and settings.
     pub begin: Begin,
-    /// What it came to; `None` where the record was cut off.
+    /// `None` in a truncated record.
     pub end: Option<End>,
     changes: Vec<Change>,
-    /// Of each change, what moves the figure from then on, where that is new.
+    /// The parsed solver of each change.
     modes: Vec<Option<Option<MotionMode>>>,
+    /// Index of the next change.
     next: usize,
-    told: Told,
+    state: InputState,
     commands: Vec<Command>,
 }
 
-impl Part {
+impl RecordSection {
     fn new(begin: Begin) -> Self {
         let (changes, modes, commands) = (Vec::new(), Vec::new(), Vec::new());
-        Self { begin, end: None, changes, modes, next: 0, told: Told::default(), commands }
+        Self { begin, end: None, changes, modes, next: 0, state: InputState::default(), commands }
     }
 
-    /// Steps that it lasted; of a record that was cut off, until the last that is known.
+    /// Number of steps; of a truncated record, up to its last line.
     pub fn steps(&self) -> u64 {
         self.end.as_ref().map_or(self.changes.last().map_or(0, |change| change.step + 1), |end| end.steps)
     }
 
-    /// What the step with this number is told; steps are asked for in order.
+    /// The input of the step with this number. Steps must be requested in order.
     pub fn input(&mut self, step: u64) -> StepInput<'_> {
         self.commands.clear();
         while let Some(change) = self.changes.get(self.next).filter(|change| change.step <= step) {
-            let told = &mut self.told;
+            let state = &mut self.state;
             if let Some(speed) = change.speed {
-                told.speed = speed;
+                state.speed = speed;
                 self.commands.push(Command::Blow(Some(speed).filter(|speed| *speed > 0.0)));
             }
-            told.pointer = change.pointer.unwrap_or(told.pointer);
-            told.aspect = change.aspect.unwrap_or(told.aspect);
-            told.turn = change.turn.unwrap_or(told.turn);
-            told.mode = self.modes[self.next].unwrap_or(told.mode);
-            if let Some(hands) = &change.hands {
-                told.hands.clone_from(hands);
+            state.pointer = change.pointer.unwrap_or(state.pointer);
+            state.aspect = change.aspect.unwrap_or(state.aspect);
+            state.turn = change.turn.unwrap_or(state.turn);
+            state.mode = self.modes[self.next].unwrap_or(state.mode);
+            if let Some(grabs) = &change.pointer_grabs {
+                state.pointer_grabs.clone_from(grabs);
             }
             self.commands.extend_from_slice(&change.commands);
             self.next += 1;
         }
-        let Told { pointer, aspect, turn, mode, ref hands, .. } = self.told;
+        let InputState { pointer, aspect, turn, mode, ref pointer_grabs, .. } = self.state;
         let commands = &self.commands;
-        StepInput { pointer: Some(pointer), aspect, turn, mode, hands, commands, ..StepInput::default() }
+        StepInput { pointer: Some(pointer), aspect, turn, mode, pointer_grabs, commands, ..StepInput::default() }
     }
 
-    /// Takes in a line of the part.
+    /// Adds a line.
     fn push(&mut self, change: Change) -> Result<(), String> {
         if self.end.is_some() {
-            return Err("the part above has ended; begin another".into());
+            return Err("the section above has ended; begin another".into());
         }
         if self.changes.last().is_some_and(|last| last.step >= change.step) {
             return Err(format!("step {} does not come after the line above", change.step));
@@ -232,36 +234,39 @@ impl Part {
     }
 }
 
-/// Reads a record: its parts in order. A last line that was cut off is left out.
-pub fn parse(text: &str) -> Result<Vec<Part>, RecordError> {
-    let mut parts: Vec<Part> = Vec::new();
-    let whole = text.rfind('\n').map_or(0, |end| end + 1);
-    let mut lines = text[..whole].lines().enumerate();
+/// Reads a record: its sections in order. A truncated last line is ignored.
+///
+/// # Errors
+/// The first line that cannot be read.
+pub fn parse(text: &str) -> Result<Vec<RecordSection>, RecordError> {
+    let mut sections: Vec<RecordSection> = Vec::new();
+    let complete = text.rfind('\n').map_or(0, |end| end + 1);
+    let mut lines = text[..complete].lines().enumerate();
     let fail = |line: usize, problem: String| RecordError { line: line + 1, problem };
-    let read = |(index, line): (usize, &str)| -> Result<Line, RecordError> {
+    let read = |(index, line): (usize, &str)| -> Result<RecordLine, RecordError> {
         serde_json::from_str(line).map_err(|error| fail(index, super::script::reason(&error)))
     };
     match lines.next().map(read).transpose()? {
-        Some(Line::Record(Head { version: VERSION, .. })) => {}
-        Some(Line::Record(Head { version, .. })) => {
+        Some(RecordLine::Record(Head { version: VERSION, .. })) => {}
+        Some(RecordLine::Record(Head { version, .. })) => {
             return Err(fail(0, format!("version {version} of the format is not known here, only {VERSION}")));
         }
-        _ => return Err(fail(0, "this is no record; `soffio kiosk --record FILE` makes one".into())),
+        _ => return Err(fail(0, "this is not a record; `soffio kiosk --record FILE` makes one".into())),
     }
     for (index, line) in lines {
-        let begun = || "nothing has begun; a part starts with a line {\"begin\": …}".to_string();
+        let not_begun = || "no section has begun; a section starts with a line {\"begin\": …}".to_string();
         let done = match read((index, line))? {
-            Line::Record(_) => Err("a record within a record".into()),
-            Line::Begin(begin) => {
-                parts.push(Part::new(begin));
+            RecordLine::Record(_) => Err("a record within a record".into()),
+            RecordLine::Begin(begin) => {
+                sections.push(RecordSection::new(begin));
                 Ok(())
             }
-            Line::Told(change) => parts.last_mut().ok_or_else(begun).and_then(|part| part.push(change)),
-            Line::End(end) => parts.last_mut().ok_or_else(begun).map(|part| part.end = Some(end)),
+            RecordLine::Change(change) => sections.last_mut().ok_or_else(not_begun).and_then(|section| section.push(change)),
+            RecordLine::End(end) => sections.last_mut().ok_or_else(not_begun).map(|section| section.end = Some(end)),
         };
         done.map_err(|problem| fail(index, problem))?;
     }
-    Ok(parts)
+    Ok(sections)
 }
 
 #[cfg(test)]
@@ -269,8 +274,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_told_comes_back_to_the_bit() {
-        let hands = [Hand { id: 7, at: [-0.1, 1.0 / 3.0], body: None }];
+    fn inputs_replay_to_the_bit() {
+        let grabs = [PointerGrab { id: 7, at: [-0.1, 1.0 / 3.0], body: None }];
         let odd = [0.1 + 0.2, 1.0 / 3.0];
         let inputs = [
             (0.0, StepInput { aspect: 16.0 / 9.0, ..StepInput::default() }),
@@ -285,8 +290,8 @@ mod tests {
                     ..StepInput::default()
                 },
             ),
-            (7.3, StepInput { hands: &hands, mode: Some(MotionMode::PositionBased), ..StepInput::default() }),
-            (0.0, StepInput { commands: &[Command::Gather(u64::MAX), Command::Reset], ..StepInput::default() }),
+            (7.3, StepInput { pointer_grabs: &grabs, mode: Some(MotionMode::PositionBased), ..StepInput::default() }),
+            (0.0, StepInput { commands: &[Command::Assemble(u64::MAX), Command::Reset], ..StepInput::default() }),
             (0.0, StepInput::default()),
         ];
         let mut recorder = Recorder::default();
@@ -295,33 +300,33 @@ mod tests {
         lines.extend(inputs.iter().zip(0..).filter_map(|((speed, input), step)| recorder.step(step, input, *speed)));
         assert_eq!(lines.len(), 2 + 5, "two steps have nothing new");
         lines.push(Recorder::end(7, 0xf3));
-        let mut parts = parse(&(lines.join("\n") + "\n")).expect("a good record");
-        let [part] = &mut parts[..] else { panic!("{} parts", parts.len()) };
-        assert_eq!((&*part.begin.exhibit, part.begin.settings, part.steps()), ("chains", settings, 7));
+        let mut sections = parse(&(lines.join("\n") + "\n")).expect("a good record");
+        let [section] = &mut sections[..] else { panic!("{} sections", sections.len()) };
+        assert_eq!((&*section.begin.exhibit, section.begin.settings, section.steps()), ("chains", settings, 7));
         let mut speed = 0.0;
-        for ((blown, told), step) in inputs.iter().zip(0..) {
-            let again = part.input(step);
+        for ((expected_speed, input), step) in inputs.iter().zip(0..) {
+            let again = section.input(step);
             for command in again.commands {
                 if let Command::Blow(blow) = command {
                     speed = blow.unwrap_or(0.0);
                 }
             }
-            assert_eq!(speed, *blown, "step {step}");
-            assert_eq!(again.pointer, Some(told.pointer.unwrap_or(CENTRE)));
-            assert_eq!((again.aspect, again.mode, again.hands), (told.aspect, told.mode, told.hands));
-            assert_eq!(again.turn, told.turn);
-            let lasting = again.commands.iter().filter(|command| !matches!(command, Command::Blow(_)));
-            assert!(lasting.eq(told.commands), "step {step}");
+            assert_eq!(speed, *expected_speed, "step {step}");
+            assert_eq!(again.pointer, Some(input.pointer.unwrap_or(CENTRE)));
+            assert_eq!((again.aspect, again.mode, again.pointer_grabs), (input.aspect, input.mode, input.pointer_grabs));
+            assert_eq!(again.turn, input.turn);
+            let commands = again.commands.iter().filter(|command| !matches!(command, Command::Blow(_)));
+            assert!(commands.eq(input.commands), "step {step}");
         }
     }
 
     #[test]
-    fn what_was_cut_off_goes_as_far_as_it_goes_and_mistakes_have_their_line() {
+    fn truncated_records_are_read_and_errors_have_their_line() {
         let head = Recorder::head();
         let begin = Recorder::default().begin("chains", Settings::default());
         let cut = format!("{head}\n{begin}\n{{\"told\":{{\"step\":3,\"speed\":2.0}}}}\n{{\"told\":{{\"st");
-        let parts = parse(&cut).expect("as far as it goes");
-        assert_eq!((parts.len(), parts[0].steps()), (1, 4));
+        let sections = parse(&cut).expect("a truncated record");
+        assert_eq!((sections.len(), sections[0].steps()), (1, 4));
         for (text, line) in [
             ("{\"t\": 1}\n".to_string(), 1),
             ("\n".into(), 1),

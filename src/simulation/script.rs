@@ -1,24 +1,24 @@
-//! Scripts: what a visitor does over time, as JSON lines in time order.
+//! Scripts: a visitor's actions over time, as JSON lines in time order.
 //!
 //! ```text
 //! {"t": 0.5, "aim": [0.4, 0.5]}
 //! {"t": 1.0, "blow": 8.0}                                              m/s at the lips, until the next blow
 //! {"t": 4.0, "blow": {"strength": 0.6, "attack": 0.1, "hold": 0.8, "release": 0.3}}
 //! {"t": 9.0, "reset": true}
-//! {"t": 9.2, "gather": 7}                       a reset from scattered parts, which gather; the number says where they are
-//! {"t": 9.4, "calm": true}                        what still moves comes to rest at once, where the exhibit asks for calm
+//! {"t": 9.2, "gather": 7}                         a reset with assembly animation; the number is its seed
+//! {"t": 9.4, "calm": true}                        idle damping at once, if the exhibit has any
 //! {"t": 9.5, "solver": "procedural"}              or "dynamics", "position-based", "auto" (the run's own): from then on
 //! {"t": 10.0, "grab": {"at": [0.4, 0.6]}}                              or {"body": "Fish"}, by its centre of mass
-//! {"t": 10.5, "drag": [0.7, 0.5]}                                      at once; the body follows as a hand lets it
+//! {"t": 10.5, "drag": [0.7, 0.5]}                                      at once; the body follows
 //! {"t": 11.0, "release": true}
 //! ```
 //!
-//! Several hands have numbers: `"hand": 1` beside `grab`, `drag` and `release`; without, it is hand 0. A script knows no
-//! file and no clock: it is asked once per step for what is due.
+//! Several pointers have numbers: `"hand": 1` beside `grab`, `drag` and `release`; the default is 0. A script reads no file and
+//! no clock: [`Script::due`] is called once a step.
 
 use serde::Deserialize;
 
-use super::hands::Hand;
+use super::pointer_grabs::PointerGrab;
 use super::input::{Command, MotionMode};
 use super::step::Simulation;
 use soffio_exhibit::Exhibit;
@@ -26,62 +26,66 @@ use soffio_exhibit::Exhibit;
 /// Source speed of strength 1, m/s: a hard blow, 180 L/min through lips of 15 mm.
 const FULL_SPEED: f64 = 17.0;
 
-/// What is wrong with a script, and where.
+/// Error in a script, with its line.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("line {line}: {problem}")]
 pub struct ScriptError {
     /// Counted from 1.
     pub line: usize,
-    /// What, and what to do.
+    /// Problem and remedy.
     pub problem: String,
 }
 
+/// One line of a script.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Line {
+struct ScriptLine {
     t: f64,
     aim: Option<[f64; 2]>,
-    blow: Option<Blow>,
+    blow: Option<BlowAction>,
     reset: Option<bool>,
-    gather: Option<u64>,
-    calm: Option<bool>,
+    #[serde(rename = "gather")]
+    assemble: Option<u64>,
+    #[serde(rename = "calm")]
+    settle: Option<bool>,
     solver: Option<String>,
-    grab: Option<Grab>,
+    grab: Option<GrabTarget>,
     drag: Option<[f64; 2]>,
     release: Option<bool>,
-    #[serde(default)]
-    hand: u64,
+    #[serde(default, rename = "hand")]
+    pointer: u64,
     language: Option<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Blow {
+enum BlowAction {
     Speed(f64),
     Envelope(Envelope),
 }
 
-/// What a hand takes.
+/// What a pointer grabs.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields, rename_all = "lowercase")]
-enum Grab {
-    /// What lies under this place of the picture.
+enum GrabTarget {
+    /// The body at this place of the picture.
     At([f64; 2]),
     /// A body by its name.
     Body(String),
 }
 
-/// A hand that is down.
+/// A pointer that is down.
 #[derive(Clone, Debug)]
-struct Down {
-    hand: u64,
-    /// Whoever takes again is somebody else.
+struct PointerDown {
+    pointer: u64,
+    /// New for each grab.
     id: u64,
-    /// `None` until the body's place is known.
+    /// `None` until the body's position is known.
     at: Option<[f64; 2]>,
     body: Option<String>,
 }
 
+/// Trapezoidal envelope of a blow; times in s.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Envelope {
@@ -124,39 +128,45 @@ enum Action {
     Speed(f64),
     Envelope(Envelope),
     Reset,
-    Gather(u64),
-    Calm,
+    Assemble(u64),
+    Settle,
     Solver(Option<MotionMode>),
-    Grab(u64, Grab),
-    Drag(u64, [f64; 2]),
-    Release(u64),
+    Grab { pointer: u64, target: GrabTarget },
+    Drag { pointer: u64, at: [f64; 2] },
+    Release { pointer: u64 },
 }
 
-/// A visitor's doings over time.
+/// A script that is being played.
 #[derive(Clone, Debug, Default)]
 pub struct Script {
+    /// Each with its time, s.
     actions: Vec<(f64, Action)>,
-    /// Line of each body that is taken by its name.
+    /// Bodies that are grabbed by their names, each with its line.
     named: Vec<(usize, String)>,
+    /// Index of the next action.
     next: usize,
-    down: Vec<Down>,
+    down: Vec<PointerDown>,
     /// Grabs so far.
-    taken: u64,
+    grabs: u64,
     aim: Option<[f64; 2]>,
+    /// The present envelope and its start, s.
     envelope: Option<(f64, Envelope)>,
     mode: Option<MotionMode>,
 }
 
 impl Script {
     /// Reads a script.
+    ///
+    /// # Errors
+    /// The first line that cannot be read.
     pub fn parse(text: &str) -> Result<Self, ScriptError> {
         let mut actions: Vec<(f64, Action)> = Vec::new();
         let mut named = Vec::new();
         for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
             let fail = |problem: String| ScriptError { line: index + 1, problem };
-            let line: Line = serde_json::from_str(text).map_err(|error| fail(reason(&error)))?;
+            let line: ScriptLine = serde_json::from_str(text).map_err(|error| fail(reason(&error)))?;
             if !(line.t >= 0.0 && line.t.is_finite()) {
-                return Err(fail(format!("t = {} is no time; give seconds from 0", line.t)));
+                return Err(fail(format!("t = {} is not a time; give seconds from 0", line.t)));
             }
             if actions.last().is_some_and(|&(t, _)| t > line.t) {
                 return Err(fail(format!("t = {} comes before the line above; keep the lines in time order", line.t)));
@@ -166,7 +176,7 @@ impl Script {
                 let mode = mode.map_err(|problem: String| fail(format!("{problem}, auto")))?;
                 actions.push((line.t, Action::Solver(mode)));
             }
-            let grabbed = line.grab.iter().find_map(|grab| if let Grab::At(at) = grab { Some(*at) } else { None });
+            let grabbed = line.grab.iter().find_map(|grab| if let GrabTarget::At(at) = grab { Some(*at) } else { None });
             for (what, place) in [("aim", line.aim), ("grab", grabbed), ("drag", line.drag)] {
                 if let Some([x, y]) = place.filter(|at| !at.iter().all(|v| (0.0..=1.0).contains(v))) {
                     return Err(fail(format!(
@@ -174,39 +184,43 @@ impl Script {
                     )));
                 }
             }
-            if let Some(Grab::Body(name)) = &line.grab {
+            if let Some(GrabTarget::Body(name)) = &line.grab {
                 named.push((index + 1, name.clone()));
             }
-            actions.extend(line.grab.map(|grab| (line.t, Action::Grab(line.hand, grab))));
-            actions.extend(line.drag.map(|at| (line.t, Action::Drag(line.hand, at))));
-            actions.extend((line.release == Some(true)).then_some((line.t, Action::Release(line.hand))));
-            // The language changes words only, and an offline run shows none.
+            let pointer = line.pointer;
+            actions.extend(line.grab.map(|target| (line.t, Action::Grab { pointer, target })));
+            actions.extend(line.drag.map(|at| (line.t, Action::Drag { pointer, at })));
+            actions.extend((line.release == Some(true)).then_some((line.t, Action::Release { pointer })));
+            // The language changes texts only, and an offline run shows none.
             let _ = line.language;
             actions.extend(line.aim.map(|at| (line.t, Action::Aim(at))));
             if let Some(blow) = line.blow {
                 let strength = match &blow {
-                    Blow::Speed(speed) => *speed,
-                    Blow::Envelope(envelope) => envelope.strength,
+                    BlowAction::Speed(speed) => *speed,
+                    BlowAction::Envelope(envelope) => envelope.strength,
                 };
                 if !(0.0..=100.0).contains(&strength) {
                     return Err(fail(format!("a blow of {strength} is out of range; speeds are m/s, strengths 0…1")));
                 }
                 let action = match blow {
-                    Blow::Speed(speed) => Action::Speed(speed),
-                    Blow::Envelope(envelope) => Action::Envelope(envelope),
+                    BlowAction::Speed(speed) => Action::Speed(speed),
+                    BlowAction::Envelope(envelope) => Action::Envelope(envelope),
                 };
                 actions.push((line.t, action));
             }
             if line.reset == Some(true) {
                 actions.push((line.t, Action::Reset));
             }
-            actions.extend(line.gather.map(|seed| (line.t, Action::Gather(seed))));
-            actions.extend(line.calm.filter(|calm| *calm).map(|_| (line.t, Action::Calm)));
+            actions.extend(line.assemble.map(|seed| (line.t, Action::Assemble(seed))));
+            actions.extend(line.settle.filter(|settle| *settle).map(|_| (line.t, Action::Settle)));
         }
         Ok(Self { actions, named, ..Self::default() })
     }
 
-    /// Says which line takes a body that the exhibit has not.
+    /// Checks that the exhibit has all bodies that the script grabs.
+    ///
+    /// # Errors
+    /// The first line that grabs a body that the exhibit does not have.
     pub fn fits(&self, exhibit: &Exhibit) -> Result<(), ScriptError> {
         let known = |name: &String| exhibit.bodies.iter().any(|body| body.name == *name);
         let Some((line, name)) = self.named.iter().find(|(_, name)| !known(name)) else { return Ok(()) };
@@ -215,8 +229,8 @@ impl Script {
         Err(ScriptError { line: *line, problem })
     }
 
-    /// The hands that are down, for the simulation's next step. Bodies that it does not have are not taken.
-    pub fn hands(&mut self, simulation: &Simulation, aspect: f64, out: &mut Vec<Hand>) {
+    /// Sets `out` to the pointers that are down in the simulation's next step. Bodies that it does not have are skipped.
+    pub fn pointer_grabs(&mut self, simulation: &Simulation, aspect: f64, out: &mut Vec<PointerGrab>) {
         out.clear();
         for down in &mut self.down {
             let exhibit = simulation.exhibit();
@@ -225,47 +239,47 @@ impl Script {
             let centre =
                 body.and_then(|body| simulation.view(aspect).project(simulation.bodies()[body].position, aspect));
             let at = *down.at.get_or_insert(centre.unwrap_or([0.5, 0.5]));
-            out.push(Hand { id: down.id, at, body });
+            out.push(PointerGrab { id: down.id, at, body });
         }
     }
 
-    /// When the last action begins, s.
+    /// Time of the last action, s.
     pub fn duration(&self) -> f64 {
         self.actions.last().map_or(0.0, |&(t, _)| t)
     }
 
-    /// Where the visitor points now, picture coordinates.
+    /// Present position of the pointer, picture coordinates.
     pub fn aim(&self) -> Option<[f64; 2]> {
         self.aim
     }
 
-    /// What the script says is to move the figure now; `None` leaves it to the run.
+    /// Present solver of the script; `None`: the run's own.
     pub fn mode(&self) -> Option<MotionMode> {
         self.mode
     }
 
-    /// Puts the commands due at `t` seconds into `out`.
+    /// Appends the commands that are due at `t` seconds to `out`.
     pub fn due(&mut self, t: f64, out: &mut Vec<Command>) {
         while let Some((at, action)) = self.actions.get(self.next).filter(|(at, _)| *at <= t).cloned() {
             self.next += 1;
             match action {
-                Action::Grab(hand, grab) => {
-                    self.down.retain(|down| down.hand != hand);
-                    self.taken += 1;
-                    let (at, body) = match grab {
-                        Grab::At(at) => (Some(at), None),
-                        Grab::Body(name) => (None, Some(name)),
+                Action::Grab { pointer, target } => {
+                    self.down.retain(|down| down.pointer != pointer);
+                    self.grabs += 1;
+                    let (at, body) = match target {
+                        GrabTarget::At(at) => (Some(at), None),
+                        GrabTarget::Body(name) => (None, Some(name)),
                     };
-                    self.down.push(Down { hand, id: self.taken, at, body });
+                    self.down.push(PointerDown { pointer, id: self.grabs, at, body });
                 }
-                Action::Drag(hand, at) => {
-                    self.down.iter_mut().filter(|down| down.hand == hand).for_each(|down| down.at = Some(at));
+                Action::Drag { pointer, at } => {
+                    self.down.iter_mut().filter(|down| down.pointer == pointer).for_each(|down| down.at = Some(at));
                 }
-                Action::Release(hand) => self.down.retain(|down| down.hand != hand),
+                Action::Release { pointer } => self.down.retain(|down| down.pointer != pointer),
                 Action::Aim(aim) => self.aim = Some(aim),
                 Action::Reset => out.push(Command::Reset),
-                Action::Gather(seed) => out.push(Command::Gather(seed)),
-                Action::Calm => out.push(Command::Calm),
+                Action::Assemble(seed) => out.push(Command::Assemble(seed)),
+                Action::Settle => out.push(Command::Settle),
                 Action::Solver(mode) => self.mode = mode,
                 Action::Speed(speed) => {
                     self.envelope = None;
@@ -284,7 +298,7 @@ impl Script {
     }
 }
 
-/// What serde has to say, with the column alone: the line is that of the script.
+/// Message of a serde error with its column; the line is added by the caller.
 pub(super) fn reason(error: &serde_json::Error) -> String {
     let said = error.to_string();
     let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
@@ -314,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_line() {
+    fn errors_have_their_line() {
         let late = "{\"t\": 2, \"aim\": [0, 0]}\n{\"t\": 1, \"reset\": true}";
         assert_eq!(Script::parse(late).expect_err("out of order").line, 2);
         for bad in [

@@ -1,50 +1,50 @@
-//! Where the breath comes from, joined into one source speed: the microphone, a hold (button, finger, key, switch), a
-//! controller that says how hard (gamepad trigger, MIDI or OSC breath controller, a sensor on a serial line), a script.
+//! Breath sources joined into one source speed: the microphone, a hold (button, finger, key, switch), a controller with a
+//! strength (gamepad trigger, MIDI or OSC breath controller, a sensor on a serial line), and commands of a script.
 //!
-//! Whoever cannot blow is as good a visitor: the strongest source counts, and none can be stuck. A hold swells and
-//! fades as a breath does and ends when the lungs are empty; a controller that repeats the same strength for as long
-//! has been left lying, or its cable was pulled.
+//! All sources count alike: the strongest one sets the speed, and none can stay on for ever. A hold swells and fades as a breath
+//! does and ends when the lungs are empty. A controller that repeats the same strength for as long has been left lying, or
+//! is disconnected.
 
 use super::input::{Microphone, StepInput};
-use super::onset::Onset;
+use super::onset_compensation::OnsetCompensation;
 use super::rate::DT;
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
 use soffio_math::exp;
 
-/// Speed at the lips of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
-const HELD_SPEED: f64 = 9.0;
-/// Speed at the lips of a controller at its end, m/s: the hardest blow of the detector.
-const HARDEST_SPEED: f64 = 17.0;
-/// A held breath swells and fades with these times, s.
-const HELD: Swing = Swing { attack: 0.10, release: 0.12 };
-/// A controller shapes its own breath; these take the steps of seven bits out of it, s.
-const CONTROLLED: Swing = Swing { attack: 0.015, release: 0.03 };
-/// The lungs are empty after this long, s; letting go fills them.
-const LUNGS: f64 = 6.0;
-/// Slower than this is no breath, m/s.
-const STILL: f64 = 0.05;
+/// Source speed of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
+const HOLD_SPEED: f64 = 9.0;
+/// Source speed of a controller at full strength, m/s: the hardest blow of the detector.
+const FULL_STRENGTH_SPEED: f64 = 17.0;
+/// Envelope of a hold: that of a breath.
+const HOLD: AttackRelease = AttackRelease { attack: 0.10, release: 0.12 };
+/// Envelope of a controller, which shapes its own breath: it only smooths the steps of seven-bit values.
+const CONTROLLER: AttackRelease = AttackRelease { attack: 0.015, release: 0.03 };
+/// Longest hold, s: the lungs are empty then; releasing fills them.
+const LONGEST_HOLD: f64 = 6.0;
+/// A fading source below this speed stops, m/s.
+const LEAST_SPEED: f64 = 0.05;
 
-/// How fast a source follows what it is asked for, s.
-struct Swing {
+/// Time constants of an attack–release envelope, s.
+struct AttackRelease {
     attack: f64,
     release: f64,
 }
 
-impl Swing {
-    /// `speed` one step of `dt` seconds later; exactly 0 soon after the goal is 0.
-    fn follow(&self, speed: f64, goal: f64, dt: f64) -> f64 {
+impl AttackRelease {
+    /// `speed` (m/s) after one step of `dt` seconds towards `goal`; exactly 0 soon after the goal is 0.
+    fn step(&self, speed: f64, goal: f64, dt: f64) -> f64 {
         if speed == goal {
             return goal;
         }
         let time = if goal > speed { self.attack } else { self.release };
         let next = goal + (speed - goal) * exp(-dt / time);
-        if goal == 0.0 && next < STILL { 0.0 } else { next }
+        if goal == 0.0 && next < LEAST_SPEED { 0.0 } else { next }
     }
 }
 
 impl Microphone<'_> {
-    /// Lets a detector hear it.
-    pub fn reach(&self, detector: &mut BlowDetector) {
+    /// Feeds the samples to a detector.
+    pub fn feed(&self, detector: &mut BlowDetector) {
         match self.second {
             Some(second) => detector.push_stereo(self.samples, second, self.reference),
             None => detector.push(self.samples, self.reference),
@@ -52,30 +52,49 @@ impl Microphone<'_> {
     }
 }
 
+/// A detector, and the sample rate it is made for.
+#[derive(Clone)]
+struct RunningDetector {
+    /// Hz.
+    sample_rate: u32,
+    detector: BlowDetector,
+}
+
+/// Strength of the controllers.
+#[derive(Clone, Copy, Default)]
+struct Strength {
+    /// 0 … 1.
+    value: f64,
+    /// Since its last change, s.
+    unchanged: f64,
+}
+
 /// All sources of breath of one kiosk.
 #[derive(Clone, Default)]
 pub struct BreathSource {
     settings: BlowSettings,
-    detector: Option<(u32, BlowDetector)>,
-    held: f64,
-    held_for: f64,
-    controlled: f64,
-    /// Strength of the controllers, and for how long it has been just that.
-    strength: (f64, f64),
+    detector: Option<RunningDetector>,
+    /// Speed of the hold, m/s.
+    hold_speed: f64,
+    /// Length of the present hold, s.
+    hold_time: f64,
+    /// Speed of the controllers, m/s.
+    controller_speed: f64,
+    strength: Strength,
     commanded: Option<f64>,
 }
 
 impl BreathSource {
-    /// Sources whose microphone's level counts so many dB more.
+    /// All sources silent; `sensitivity_db` is added to the microphone's level.
     pub fn new(sensitivity_db: f64) -> Self {
         Self { settings: BlowSettings { sensitivity_db, ..BlowSettings::default() }, ..Self::default() }
     }
 
-    /// Listens with the ear that another one has listened with so far: it knows the room, and the kiosk's own sound in it.
-    pub fn listen_on(&mut self, before: &mut Self) {
+    /// Takes over the detector of another source, which has adapted to the noise floor and to the kiosk's own sound.
+    pub fn adopt_detector(&mut self, before: &mut Self) {
         self.detector = before.detector.take();
-        if let Some((_, detector)) = &mut self.detector {
-            detector.set_sensitivity(self.settings.sensitivity_db);
+        if let Some(running) = &mut self.detector {
+            running.detector.set_sensitivity(self.settings.sensitivity_db);
         }
     }
 
@@ -84,70 +103,71 @@ impl BreathSource {
         self.commanded = speed.filter(|s| s.is_finite()).map(|s| s.max(0.0));
     }
 
-    /// Hears one step of `dt` seconds. Returns the source speed (m/s, exactly 0 when nobody blows) and what the
-    /// detector says.
+    /// Advances all sources by a step of `dt` seconds. Returns the joint source speed (m/s, exactly 0 without a breath) and
+    /// the detector's estimate.
     pub fn advance(&mut self, input: &StepInput, dt: f64) -> (f64, BlowEstimate) {
-        let heard = self.hear(input.microphone);
-        let estimate = if input.deaf { BlowEstimate::default() } else { heard };
-        self.held_for = if input.hold { self.held_for + dt } else { 0.0 };
-        let hold = input.hold && self.held_for < LUNGS;
-        self.held = HELD.follow(self.held, if hold { HELD_SPEED } else { 0.0 }, dt);
+        let detected = self.detect(input.microphone);
+        let estimate = if input.ignore_microphone { BlowEstimate::default() } else { detected };
+        self.hold_time = if input.hold { self.hold_time + dt } else { 0.0 };
+        let hold = input.hold && self.hold_time < LONGEST_HOLD;
+        self.hold_speed = HOLD.step(self.hold_speed, if hold { HOLD_SPEED } else { 0.0 }, dt);
 
-        let strength = if input.strength.is_finite() { input.strength.clamp(0.0, 1.0) } else { 0.0 };
-        let unchanged = if strength == self.strength.0 { self.strength.1 + dt } else { 0.0 };
-        self.strength = (strength, unchanged);
-        let goal = if unchanged < LUNGS { HARDEST_SPEED * strength } else { 0.0 };
-        self.controlled = CONTROLLED.follow(self.controlled, goal, dt);
+        let value = if input.strength.is_finite() { input.strength.clamp(0.0, 1.0) } else { 0.0 };
+        let unchanged = if value == self.strength.value { self.strength.unchanged + dt } else { 0.0 };
+        self.strength = Strength { value, unchanged };
+        let goal = if unchanged < LONGEST_HOLD { FULL_STRENGTH_SPEED * value } else { 0.0 };
+        self.controller_speed = CONTROLLER.step(self.controller_speed, goal, dt);
 
         let commanded = self.commanded.unwrap_or(0.0);
-        (estimate.speed.max(self.held).max(self.controlled).max(commanded), estimate)
+        (estimate.speed.max(self.hold_speed).max(self.controller_speed).max(commanded), estimate)
     }
 
-    fn hear(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
-        // Gone: the room is learnt anew when it comes back.
-        let Some(heard) = microphone else {
+    /// Feeds the microphone to the detector. Without a microphone the detector is dropped: it adapts anew later.
+    fn detect(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
+        let Some(microphone) = microphone else {
             self.detector = None;
             return BlowEstimate::default();
         };
-        if self.detector.as_ref().is_none_or(|(rate, _)| *rate != heard.sample_rate) {
-            self.detector =
-                Some((heard.sample_rate, BlowDetector::with_settings(heard.sample_rate, self.settings.clone())));
+        let sample_rate = microphone.sample_rate;
+        if self.detector.as_ref().is_none_or(|running| running.sample_rate != sample_rate) {
+            let detector = BlowDetector::with_settings(sample_rate, self.settings.clone());
+            self.detector = Some(RunningDetector { sample_rate, detector });
         }
-        self.detector.as_mut().map_or_else(BlowEstimate::default, |(_, detector)| {
-            heard.reach(detector);
-            detector.estimate()
+        self.detector.as_mut().map_or_else(BlowEstimate::default, |running| {
+            microphone.feed(&mut running.detector);
+            running.detector.estimate()
         })
     }
 }
 
-/// The breath at the lips.
+/// State of the breath at the lips.
 #[derive(Clone)]
-pub(crate) struct Breathing {
+pub(crate) struct BreathState {
     source: BreathSource,
-    pub onset: Onset,
-    /// After all sources are joined, m/s; exactly 0 when nobody blows.
+    pub onset: OnsetCompensation,
+    /// Joint speed of all sources, m/s; exactly 0 without a breath.
     pub speed: f64,
-    /// What the detector says.
+    /// Of the detector.
     pub estimate: BlowEstimate,
 }
 
-impl Breathing {
-    /// Nobody blows; `sensitivity_db` is the detector's.
+impl BreathState {
+    /// No breath; `sensitivity_db` is the detector's.
     pub fn new(sensitivity_db: f64) -> Self {
         Self {
             source: BreathSource::new(sensitivity_db),
-            onset: Onset::default(),
+            onset: OnsetCompensation::default(),
             speed: 0.0,
             estimate: BlowEstimate::default(),
         }
     }
 
-    /// Goes on with the detector that has listened `before`.
-    pub fn listen_on(&mut self, before: &mut Self) {
-        self.source.listen_on(&mut before.source);
+    /// Takes over the detector of another breath.
+    pub fn adopt_detector(&mut self, before: &mut Self) {
+        self.source.adopt_detector(&mut before.source);
     }
 
-    /// Blows at this speed (m/s) by command, until told otherwise.
+    /// Sets or releases the commanded speed, m/s.
     pub fn command(&mut self, speed: Option<f64>) {
         self.source.command(speed);
     }
@@ -165,13 +185,13 @@ mod tests {
 
     const DT: f64 = 1.0 / 240.0;
 
-    /// Speeds of so many seconds of the same input.
+    /// Speeds during `seconds` of the same input.
     fn blow(source: &mut BreathSource, input: &StepInput, seconds: f64) -> Vec<f64> {
         (0..(seconds / DT) as usize).map(|_| source.advance(input, DT).0).collect()
     }
 
     #[test]
-    fn a_controller_blows_as_hard_as_it_says_and_at_once() {
+    fn a_controller_sets_the_speed_at_once() {
         let mut source = BreathSource::default();
         let half = StepInput { strength: 0.5, ..StepInput::default() };
         let speeds = blow(&mut source, &half, 0.2);
@@ -184,19 +204,19 @@ mod tests {
             assert!(blow(&mut source, &input, 0.1).iter().all(|&speed| speed == 0.0), "{wrong}");
         }
         let beyond = StepInput { strength: 7.0, ..StepInput::default() };
-        assert!(blow(&mut source, &beyond, 0.5).iter().all(|&speed| speed <= HARDEST_SPEED));
+        assert!(blow(&mut source, &beyond, 0.5).iter().all(|&speed| speed <= FULL_STRENGTH_SPEED));
     }
 
     #[test]
-    fn nothing_held_or_left_lying_blows_for_ever() {
+    fn no_source_stays_on_for_ever() {
         for input in
             [StepInput { hold: true, ..StepInput::default() }, StepInput { strength: 0.3, ..StepInput::default() }]
         {
             let mut source = BreathSource::default();
-            let speeds = blow(&mut source, &input, LUNGS + 1.0);
+            let speeds = blow(&mut source, &input, LONGEST_HOLD + 1.0);
             assert!(speeds[240] > 5.0 && speeds[(5.9 / DT) as usize] > 5.0, "{input:?}");
             assert_eq!(speeds.last(), Some(&0.0), "{input:?}");
-            // Letting go fills the lungs.
+            // Releasing fills the lungs.
             blow(&mut source, &StepInput::default(), 0.1);
             assert!(blow(&mut source, &input, 1.0).last().is_some_and(|&speed| speed > 5.0), "{input:?}");
         }

@@ -1,13 +1,13 @@
-//! How an exhibit starts.
+//! Start of an exhibit: its bodies and dynamics.
 
-use super::carrying::Carrying;
+use super::clock_setting::ClockSetting;
 use super::input::Settings;
 use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{self, Articulation, Dynamics};
 
-/// The exhibit's bodies as they start, a clock's at the hour.
+/// The exhibit's bodies at their start; a clock's show the hour.
 pub(super) fn start_bodies(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidBody> {
     let body = |body: &soffio_exhibit::Body| RigidBody {
         velocity: body.velocity,
@@ -21,13 +21,13 @@ pub(super) fn start_bodies(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidB
     bodies
 }
 
-/// Whoever carries the hands of a clock to the time, where there is one to be set.
-pub(super) fn start_carrying(exhibit: &Exhibit, settings: &Settings, bodies: &[RigidBody]) -> Option<Carrying> {
+/// The clock setting of a run, if the exhibit has a clock and the run has a time of day.
+pub(super) fn start_clock_setting(exhibit: &Exhibit, settings: &Settings, bodies: &[RigidBody]) -> Option<ClockSetting> {
     let (clock, time) = exhibit.clock.as_ref().zip(settings.clock)?;
-    Some(Carrying::new(clock, bodies, time))
+    Some(ClockSetting::new(clock, bodies, time))
 }
 
-/// The exhibit's figure at its start, to be moved by itself: without air, hands and sound.
+/// The exhibit's dynamics at its start, for use without wind, pointers and sound.
 pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
     let figure = Articulation {
         bodies: start_bodies(exhibit, settings),

@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
-use super::air::{Air, Pointed};
-use super::emit::Emitter;
+use super::aim_assist::{AimAssist, AimContext};
+use super::air::{AimedBreath, Air, BreathTiming};
+use super::camera::{Camera, DEFAULT_ASPECT};
+use super::dust_particles::{AirVelocity, DustParticles};
+use super::emit::{Emitter, StepResult};
 use super::event::Event;
-use super::eye::{DEFAULT_ASPECT, Eye};
 use super::input::{Command, Settings, StepInput};
-use super::leaning::{Aiming, Scene};
-use super::motes::Motes;
 use super::motion::Motion;
+use super::pointer_grabs::PickScene;
 use super::rate::{DT, SAMPLES_PER_STEP};
-use super::source::Breathing;
+use super::source::BreathState;
 use super::start::start_dynamics;
 use soffio_exhibit::{Exhibit, View};
 use soffio_geometry::bodies::RigidBody;
@@ -20,186 +21,191 @@ use soffio_multibody::dynamics::ContactReport;
 use soffio_multibody::procedural::Reach;
 use soffio_sound::SoundCommand;
 
-/// Steps of a run.
+/// Step counters of a run.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Clock {
+pub(crate) struct StepClock {
     /// Steps done.
     pub step: u64,
     /// Step at which the exhibit last started.
     start: u64,
 }
 
-impl Clock {
+impl StepClock {
     /// Since the exhibit started, s.
     fn elapsed(&self) -> f64 {
         (self.step - self.start) as f64 * DT
     }
 }
 
-/// An exhibit in motion. A clone goes on from the same moment by itself.
+/// An exhibit in motion. A clone continues independently from the same moment.
 #[derive(Clone)]
 pub struct Simulation {
     pub(crate) exhibit: Arc<Exhibit>,
     pub(crate) settings: Settings,
-    pub(crate) clock: Clock,
-    pub(crate) eye: Eye,
-    pub(crate) breathing: Breathing,
-    pub(crate) aiming: Aiming,
+    pub(crate) clock: StepClock,
+    pub(crate) camera: Camera,
+    pub(crate) breath: BreathState,
+    pub(crate) aim_assist: AimAssist,
     pub(crate) air: Air,
     pub(crate) motion: Motion,
     pub(crate) emitter: Emitter,
-    pub(crate) motes: Motes,
+    pub(crate) dust_particles: DustParticles,
 }
 
 impl Simulation {
     /// The exhibit at rest in its start pose.
     pub fn new(exhibit: Arc<Exhibit>, settings: Settings) -> Self {
-        let eye = Eye::new(&exhibit);
+        let camera = Camera::new(&exhibit);
         Self {
-            clock: Clock::default(),
-            breathing: Breathing::new(settings.sensitivity_db),
-            aiming: Aiming::new(&exhibit, &mut start_dynamics(&exhibit, &settings)),
+            clock: StepClock::default(),
+            breath: BreathState::new(settings.sensitivity_db),
+            aim_assist: AimAssist::new(&exhibit, &mut start_dynamics(&exhibit, &settings)),
             air: Air::new(&exhibit, settings.seed),
             motion: Motion::new(&exhibit, &settings),
             emitter: Emitter::new(&exhibit),
-            motes: Motes::new(eye.view.target, settings.seed),
-            eye,
+            dust_particles: DustParticles::new(camera.view.target, settings.seed),
+            camera,
             exhibit,
             settings,
         }
     }
 
-    /// The same, with the ear that `before` has listened with so far.
-    pub fn listening_on(mut self, before: &mut Self) -> Self {
-        self.breathing.listen_on(&mut before.breathing);
+    /// This simulation with the detector of `before`, which has adapted to the noise floor.
+    pub fn adopt_detector(mut self, before: &mut Self) -> Self {
+        self.breath.adopt_detector(&mut before.breath);
         self
     }
 
-    /// Leaves the dust out: nobody will look at the air. It is only seen, and changes nothing that moves or sounds.
-    pub fn leave_dust_out(&mut self) {
-        self.motes.leave();
+    /// Removes the dust particles where no picture is drawn. They change neither motion nor sound.
+    pub fn disable_dust(&mut self) {
+        self.dust_particles.clear();
     }
 
-    /// Advances by 1/240 s. The only way time moves.
+    /// Advances by 1/240 s. Time advances in no other way.
     ///
-    /// A step allocates nothing, but for three kinds of steps:
+    /// A step does not allocate, with three exceptions:
     ///
-    /// - Those in which the exhibit starts anew: at [`Command::Reset`] and [`Command::Gather`], when the exhibit's duration is
-    ///   over, and when gathering parts have come together. The figure is then built again in new memory, and the old one freed.
-    /// - Those that bring a microphone after a step without, or one of another sample rate: the breath detector is built.
-    /// - Those in which more happens than ever before in the run: lists of events, sounds and impacts grow.
+    /// - The exhibit restarts: at [`Command::Reset`] and [`Command::Assemble`], at the end of the exhibit's duration, and at the
+    ///   end of an assembly. The dynamics are then built anew.
+    /// - A microphone appears after a step without one, or its sample rate changes: the breath detector is built anew.
+    /// - More events, sounds or impacts happen than in any step of the run before: their lists grow.
     pub fn step(&mut self, input: &StepInput) {
         self.emitter.clear();
         if self.clock.elapsed() >= self.exhibit.duration {
             self.reset();
         }
-        self.carry_out(input.commands);
-        if self.motion.has_gathered() {
-            self.begin_anew();
+        self.run_commands(input.commands);
+        if self.motion.is_assembled() {
+            self.restart();
         }
-        self.breathing.advance(input);
-        // Whoever set bodies may have set them wrong; air and hands are not to see that.
-        let set_wrong = self.motion.dynamics.recover();
-        self.take_aim(input);
-        self.blow();
-        self.motion.come_to_rest(&self.exhibit, &self.settings, self.breathing.speed > 0.0);
-        self.motion.dynamics.set_breath_speed(self.breathing.speed);
+        self.breath.advance(input);
+        // Bodies may have been set from outside ([`Self::bodies_mut`]); wind and grabs must not see invalid numbers.
+        let set_invalid = self.motion.dynamics.recover();
+        self.update_aim(input);
+        self.apply_wind();
+        self.motion.apply_idle_damping(&self.exhibit, &self.settings, self.breath.speed > 0.0);
+        self.motion.dynamics.set_breath_speed(self.breath.speed);
         let elapsed = self.clock.elapsed();
-        let gone_wrong = self.motion.advance(input, (&self.exhibit, elapsed), &self.eye, &mut self.air.wind);
-        self.tell(set_wrong.or(gone_wrong));
-        self.drift();
+        let became_invalid = self.motion.advance(input, &self.exhibit, elapsed, &self.camera, &mut self.air.wind);
+        self.emit_events_and_sounds(set_invalid.or(became_invalid));
+        self.advect_particles();
         self.clock.step += 1;
     }
 
-    fn carry_out(&mut self, commands: &[Command]) {
+    fn run_commands(&mut self, commands: &[Command]) {
         for command in commands {
             match *command {
                 Command::Reset => self.reset(),
-                Command::Gather(seed) => self.gather(seed),
-                Command::Calm => self.motion.idle.hush(),
-                Command::Blow(speed) => self.breathing.command(speed),
+                Command::Assemble(seed) => self.assemble(seed),
+                Command::Settle => self.motion.idle_damping.settle(),
+                Command::Blow(speed) => self.breath.command(speed),
             }
         }
     }
 
-    /// Starts the exhibit anew, in silence.
+    /// Restarts the exhibit, with silence and still air.
     fn reset(&mut self) {
-        self.begin_anew();
-        self.air.front.clear();
-        self.motion.hands.clear();
+        self.restart();
+        self.air.jet_front.clear();
+        self.motion.pointer_grabs.clear();
         self.emitter.silence(self.clock.step * SAMPLES_PER_STEP);
     }
 
-    /// Starts the exhibit anew from scattered parts, if it gathers itself.
-    fn gather(&mut self, seed: u64) {
+    /// Resets the exhibit and starts its assembly animation, if it has one.
+    fn assemble(&mut self, seed: u64) {
         self.reset();
         if self.exhibit.gathers {
-            self.motion.gather(&self.exhibit, &self.settings_now(), seed);
+            self.motion.assemble(&self.exhibit, &self.settings_now(), seed);
         }
     }
 
-    /// Puts the figure where it starts; its time begins.
-    fn begin_anew(&mut self) {
-        self.motion.begin_anew(&self.exhibit, &self.settings_now());
+    /// Returns the motion to its start, at time 0.
+    fn restart(&mut self) {
+        self.motion.restart(&self.exhibit, &self.settings_now());
         self.clock.start = self.clock.step;
     }
 
-    /// The settings of a run that begins now: the day has gone on.
+    /// The settings with the present time of day.
     fn settings_now(&self) -> Settings {
         let now = |midnight: f64| midnight + self.clock.step as f64 * DT;
         Settings { clock: self.settings.clock.map(now), ..self.settings }
     }
 
-    /// Points the breath.
-    fn take_aim(&mut self, input: &StepInput) {
-        let Self { exhibit, settings, clock, eye, breathing, aiming, air, motion, .. } = self;
-        eye.look(exhibit, input.aspect, input.turn);
-        let bodies = &motion.dynamics.bodies;
-        aiming.point(input, &Scene { exhibit, settings, eye, breathing, bodies, step: clock.step }, &mut air.wind);
+    /// Updates the camera and aims the breath.
+    fn update_aim(&mut self, input: &StepInput) {
+        let Self { exhibit, settings, clock, camera, breath, aim_assist, air, motion, .. } = self;
+        camera.update(exhibit, input.aspect, input.turn);
+        let context = AimContext { exhibit, settings, camera, breath, bodies: &motion.dynamics.bodies, step: clock.step };
+        aim_assist.update(input, &context, &mut air.wind);
     }
 
-    /// Turns the breath into forces.
-    fn blow(&mut self) {
-        let Self { exhibit, settings, clock, breathing, aiming, air, motion, .. } = self;
-        let pointed = Pointed { exhibit, settings, aim: &aiming.aim, speed: breathing.speed };
-        let now = (&breathing.onset, clock.elapsed());
-        air.blow(pointed, now, &motion.dynamics.bodies, &mut motion.wrenches);
+    /// Sets the wrenches on the bodies to those of breath and winds.
+    fn apply_wind(&mut self) {
+        let Self { exhibit, settings, clock, breath, aim_assist, air, motion, .. } = self;
+        let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
+        let timing = BreathTiming { onset: &breath.onset, time: clock.elapsed() };
+        air.apply_wind(aimed, timing, &motion.dynamics.bodies, &mut motion.wrenches);
     }
 
-    /// Turns what happened into events and sounds.
-    fn tell(&mut self, fault: Option<usize>) {
-        let Self { exhibit, settings, clock, eye, breathing, aiming, air, motion, emitter, .. } = self;
-        let pointed = Pointed { exhibit, settings, aim: &aiming.aim, speed: breathing.speed };
-        emitter.emit((clock.step, &eye.view), (&motion.dynamics, &motion.impacts, fault), (air, pointed));
+    /// Emits the events and sounds of the step; `fault`: the first body with invalid numbers.
+    fn emit_events_and_sounds(&mut self, fault: Option<usize>) {
+        let Self { exhibit, settings, clock, camera, breath, aim_assist, air, motion, emitter, .. } = self;
+        let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
+        let result = StepResult { dynamics: &motion.dynamics, impacts: &motion.impacts, fault, air, breath: aimed };
+        emitter.emit(clock.step, &camera.view, result);
     }
 
-    /// Lets the dust drift.
-    fn drift(&mut self) {
-        let Self { exhibit, settings, breathing, aiming, air, motes, .. } = self;
-        let blown = Pointed { exhibit, settings, aim: &aiming.aim, speed: breathing.speed }.blown(&air.front);
-        let breath = blown.as_ref().map(|blown| &blown.breath).filter(|breath| breath.speed > 0.0);
-        let streams = |point| air.wind.streams(blown.as_ref(), point);
-        motes.advance(breath, streams, |point| air.wind.stirs(point), DT);
+    /// Advects the dust particles.
+    fn advect_particles(&mut self) {
+        let Self { exhibit, settings, breath, aim_assist, air, dust_particles, .. } = self;
+        let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
+        let jet = aimed.jet(&air.jet_front);
+        let breath = jet.as_ref().map(|jet| &jet.breath).filter(|breath| breath.speed > 0.0);
+        let velocity = AirVelocity {
+            directed: |point| air.wind.directed_velocity(jet.as_ref(), point),
+            undirected: |point| air.wind.undirected_velocity(point),
+        };
+        dust_particles.advect(breath, velocity, DT);
     }
 
-    /// The breath as it is pointed now.
-    pub(crate) fn pointed(&self) -> Pointed<'_> {
-        let Self { exhibit, settings, breathing, aiming, .. } = self;
-        Pointed { exhibit, settings, aim: &aiming.aim, speed: breathing.speed }
+    /// The breath with its present aim.
+    pub(crate) fn aimed_breath(&self) -> AimedBreath<'_> {
+        let Self { exhibit, settings, breath, aim_assist, .. } = self;
+        AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed }
     }
 
-    /// While its parts gather: how far the farthest is from its place, m.
-    pub fn gathers_from(&self) -> Option<f64> {
-        self.motion.gathers_from()
+    /// Greatest distance of a body from its final position, m, during the assembly animation; `None` otherwise.
+    pub fn assembly_distance(&self) -> Option<f64> {
+        self.motion.assembly_distance()
     }
 
-    /// Are the hands of a clock being carried to the time?
-    pub fn is_set(&self) -> bool {
-        self.motion.carrying.is_none()
+    /// Whether the exhibit's clock, if any, has been set to the time of day.
+    pub fn is_clock_set(&self) -> bool {
+        self.motion.clock_setting.is_none()
     }
 
-    /// How the last step that moved the figure by places ended.
-    pub fn reach(&self) -> Reach {
+    /// Result of the last step of position-based motion.
+    pub fn last_position_solve(&self) -> Reach {
         self.motion.procedural.reach()
     }
 
@@ -233,31 +239,31 @@ impl Simulation {
         &self.motion.dynamics.bodies
     }
 
-    /// Would a hand at this place of the picture take something?
-    pub fn can_be_taken(&mut self, at: [f64; 2], aspect: f64) -> bool {
+    /// Whether a pointer at this place of the picture (picture coordinates; `aspect`: width over height) would grab a body.
+    pub fn hit_test(&mut self, at: [f64; 2], aspect: f64) -> bool {
         let aspect = if aspect > 0.0 { aspect } else { DEFAULT_ASPECT };
-        let view = self.view(aspect);
-        let driven = self.motion.dynamics.system().driven();
-        self.motion.hands.would_take(
-            at,
-            (&view, aspect),
-            &mut self.air.wind,
-            (&self.exhibit, &self.motion.dynamics.bodies, driven),
-        )
+        let scene = PickScene {
+            view: &self.view(aspect),
+            aspect,
+            exhibit: &self.exhibit,
+            bodies: &self.motion.dynamics.bodies,
+            is_kinematic: self.motion.dynamics.system().driven(),
+        };
+        self.motion.pointer_grabs.hit_test(at, &mut self.air.wind, &scene)
     }
 
-    /// Does a body sleep: at rest, and left out until something touches or pushes it?
+    /// Whether a body is asleep: at rest, and skipped until a contact or force wakes it.
     pub fn sleeps(&self, body: usize) -> bool {
         self.motion.dynamics.is_asleep(body)
     }
 
-    /// The bodies' state, for tests that push a sculpture by hand.
+    /// The bodies' state, for tests that change it from outside; wakes them.
     pub fn bodies_mut(&mut self) -> &mut [RigidBody] {
         self.motion.dynamics.disturb();
         &mut self.motion.dynamics.bodies
     }
 
-    /// Surfaces that press on each other at the end of the last step.
+    /// Contacts with a normal force at the end of the last step.
     pub fn touching(&self) -> impl Iterator<Item = ContactReport> + '_ {
         self.motion.dynamics.contact_reports()
     }
@@ -272,21 +278,21 @@ impl Simulation {
         self.motion.dynamics.energy()
     }
 
-    /// The camera for a picture of this aspect (width / height), turned as the last step was told.
+    /// The view for a picture of this aspect (width over height), turned as in the last step.
     pub fn view(&self, aspect: f64) -> View {
-        self.exhibit.view(aspect).turned(self.eye.turn)
+        self.exhibit.view(aspect).turned(self.camera.turn)
     }
 
-    /// The camera of the last step.
-    pub fn sight(&self) -> &View {
-        &self.eye.view
+    /// The view of the last step.
+    pub fn current_view(&self) -> &View {
+        &self.camera.view
     }
 
-    /// One word that says whether two runs are the same run.
+    /// Hash of the state: equal for equal runs.
     pub fn state_hash(&self) -> u64 {
         let mut hash = StateHash::default();
         hash.add(self.clock.step as f64);
-        hash.add(self.breathing.speed);
+        hash.add(self.breath.speed);
         for body in &self.motion.dynamics.bodies {
             body.add_to(&mut hash);
         }

@@ -113,7 +113,7 @@ impl Instrument {
     pub fn touch(&self, bank: &mut Bank, position: [f64; 2], resistance: f64) {
         let Some(modal) = &self.modal else { return };
         let place = Place::new(position, modal.outline);
-        bank.touch(|i| {
+        bank.damp(|i| {
             let shape = modal.modes[i].shape.per_root_mass(&place, modal.mass);
             0.5 * resistance * shape * shape
         });

@@ -47,7 +47,7 @@ pub mod modal;
 pub mod modes;
 mod motion;
 mod night;
-mod room;
+mod reverb;
 mod shared;
 mod synth;
 pub mod timbre;
@@ -61,7 +61,7 @@ pub use level::{AWeighting, Exposure, weighted_level};
 pub use limiter::{CEILING, SUDDEN};
 pub use loudness::LoudnessMeter;
 pub use modes::{Mode, PlateMode, free_plate_modes};
-pub use room::{BANDS, Room, RoomSpec, STEEPEST, T60_RANGE};
+pub use reverb::{BANDS, Reverb, ReverbSpec, STEEPEST, T60_RANGE};
 pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, MOST_PARTIALS, Synth};
 pub use timbre::{Preset, TimbreError};
 pub use true_peak::peak;
@@ -73,13 +73,13 @@ pub enum SoundCommand {
     /// Something was hit.
     Strike(Strike),
     /// Something rests on a body, or has left it.
-    Touch(Touch),
+    Damp(Damp),
     /// Something slides over a body, or has stopped; the synth glides from one to the next.
     Slide(Slide),
     /// The wind of one simulation step; the synth glides from one to the next.
     Wind(WindSound),
     /// How much of the wind an instrument hears from now on.
-    Across(Across),
+    WindExposure(WindExposure),
     /// Fade out everything (an exhibit was changed or reset).
     Silence {
         /// When.
@@ -92,10 +92,10 @@ impl SoundCommand {
     pub fn sample(&self) -> u64 {
         match self {
             Self::Strike(strike) => strike.sample,
-            Self::Touch(touch) => touch.sample,
+            Self::Damp(touch) => touch.sample,
             Self::Slide(slide) => slide.sample,
             Self::Wind(wind) => wind.sample,
-            Self::Across(across) => across.sample,
+            Self::WindExposure(across) => across.sample,
             Self::Silence { sample } => *sample,
         }
     }
@@ -104,10 +104,10 @@ impl SoundCommand {
     pub fn at(mut self, time: u64) -> Self {
         match &mut self {
             Self::Strike(strike) => strike.sample = time,
-            Self::Touch(touch) => touch.sample = time,
+            Self::Damp(touch) => touch.sample = time,
             Self::Slide(slide) => slide.sample = time,
             Self::Wind(wind) => wind.sample = time,
-            Self::Across(across) => across.sample = time,
+            Self::WindExposure(across) => across.sample = time,
             Self::Silence { sample } => *sample = time,
         }
         self
@@ -137,7 +137,7 @@ pub struct Strike {
 
 /// Something that rests on a body takes from its ringing: a hand on a chime, a clapper that stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct Damp {
     /// When it begins, or changes.
     pub sample: u64,
     /// Index into the exhibit's instruments.
@@ -184,7 +184,7 @@ pub struct WindSound {
 
 /// The wind at one instrument, of the wind as it is heard: a wire sounds from what blows across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Across {
+pub struct WindExposure {
     /// When.
     pub sample: u64,
     /// Index into the exhibit's instruments.

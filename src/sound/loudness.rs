@@ -166,7 +166,7 @@ impl LoudnessMeter {
     }
 
     /// Goes on by these frames.
-    pub fn hear(&mut self, mut frames: &[[f32; 2]]) {
+    pub fn push(&mut self, mut frames: &[[f32; 2]]) {
         if let (Some(first), Some((second, rest))) = (self.odd, frames.split_first()) {
             self.odd = None;
             self.take(&[first, *second]);

@@ -9,14 +9,14 @@
 
 use super::limiter::Limiter;
 use super::night::Night;
-use super::room::{Room, RoomSpec};
+use super::reverb::{Reverb, ReverbSpec};
 
 /// Frames that the room answers at once.
 const PIECE: usize = 256;
 
 pub(super) struct Master {
     sample_rate: f64,
-    room: Option<Box<Room>>,
+    room: Option<Box<Reverb>>,
     night: Night,
     limiter: Limiter,
     started: bool,
@@ -39,8 +39,8 @@ impl Master {
     }
 
     /// The room from now on; `None` and rooms that cannot be are the open air.
-    pub fn set_room(&mut self, spec: Option<&RoomSpec>) {
-        self.room = spec.and_then(|spec| Room::new(spec, self.sample_rate)).map(Box::new);
+    pub fn set_room(&mut self, spec: Option<&ReverbSpec>) {
+        self.room = spec.and_then(|spec| Reverb::new(spec, self.sample_rate)).map(Box::new);
     }
 
     /// Real-time.

@@ -2,7 +2,7 @@
 
 use super::graph::CONTROL;
 use super::timbre::{Inputs, Player};
-use super::{Across, Slide, SoundCommand, WindSound};
+use super::{WindExposure, Slide, SoundCommand, WindSound};
 use soffio_math::{PI, exp};
 
 /// Time constant with which the sound of the wind follows its commands, s.
@@ -79,7 +79,7 @@ impl Motion {
                 let slider = self.sliders.get_mut(usize::from(slide.instrument));
                 slider.map(|slider| slider.target = slide).is_some()
             }
-            SoundCommand::Across(Across { instrument, share, .. }) => {
+            SoundCommand::WindExposure(WindExposure { instrument, share, .. }) => {
                 let across = self.across.get_mut(usize::from(instrument));
                 across.map(|across| across[0] = f64::from(share).clamp(0.0, 1.0)).is_some()
             }

@@ -19,11 +19,11 @@ use super::habit::Habit;
 use super::instrument::Instrument;
 use super::master::Master;
 use super::motion::{Heard, Motion, NEAREST};
-use super::room::RoomSpec;
+use super::reverb::ReverbSpec;
 use super::shared::Shared;
 use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, SoundCommand, Strike, Touch};
+use super::{InstrumentSpec, SoundCommand, Strike, Damp};
 use soffio_math::noise::hash_words;
 use soffio_math::{PI, sincos};
 
@@ -175,7 +175,7 @@ impl Synth {
     }
 
     /// The room that all is heard in; `None`, which is also the beginning, is the open air. Allocates.
-    pub fn set_room(&mut self, room: Option<&RoomSpec>) {
+    pub fn set_reverb(&mut self, room: Option<&ReverbSpec>) {
         self.master.set_room(room);
     }
 
@@ -278,8 +278,8 @@ impl Synth {
     fn carry_out(&mut self, command: SoundCommand) {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
-            SoundCommand::Touch(touch) => self.touch(&touch),
-            SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::Across(_) => {
+            SoundCommand::Damp(touch) => self.touch(&touch),
+            SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::WindExposure(_) => {
                 if !self.motion.command(&command) {
                     self.faults += 1;
                 }
@@ -338,7 +338,7 @@ impl Synth {
     }
 
     /// Something rests on a body from now on, or no longer.
-    fn touch(&mut self, touch: &Touch) {
+    fn touch(&mut self, touch: &Damp) {
         let index = usize::from(touch.instrument);
         match self.body_of.get(index) {
             Some(Some(body)) => {
@@ -468,14 +468,14 @@ fn is_finite(command: &SoundCommand) -> bool {
             [s.impulse, s.speed, s.mass, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
                 && s.impulse >= 0.0
         }
-        SoundCommand::Touch(t) => {
+        SoundCommand::Damp(t) => {
             [t.position[0], t.position[1], t.resistance].iter().all(|v| v.is_finite()) && t.resistance >= 0.0
         }
         SoundCommand::Slide(s) => {
             [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
         }
         SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
-        SoundCommand::Across(across) => across.share.is_finite(),
+        SoundCommand::WindExposure(across) => across.share.is_finite(),
         SoundCommand::Silence { .. } => true,
     }
 }

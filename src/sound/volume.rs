@@ -50,7 +50,7 @@ impl Volume {
     }
 
     /// The site says something else: a visitor's steps and what was eased are begun anew, the staff's mute stays.
-    pub fn settle(&mut self, settings: VolumeSettings) {
+    pub fn reconfigure(&mut self, settings: VolumeSettings) {
         *self = Self { muted: self.muted, ..Self::new(settings) };
     }
 
@@ -100,12 +100,12 @@ impl Volume {
     }
 
     /// What is taken off because the last minute was too loud, dB.
-    pub fn eased_db(&self) -> f64 {
+    pub fn attenuation_db(&self) -> f64 {
         self.ease_db
     }
 
     /// Heeds the mean level of the last minute, dB of a full-scale sine ([`super::Exposure::minute`]), for some seconds.
-    pub fn heed(&mut self, minute_db: f64, seconds: f64) {
+    pub fn apply_exposure_limit(&mut self, minute_db: f64, seconds: f64) {
         let too_loud = self.settings.full_scale_db_spl.is_some_and(|s| s + minute_db > self.settings.max_laeq_db);
         let change = if too_loud { EASE } else { -GIVE_BACK };
         self.ease_db = (self.ease_db + change * seconds).clamp(0.0, MOST_EASED);

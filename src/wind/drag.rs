@@ -1,13 +1,13 @@
-//! Drag of patches in a relative wind, four patches side by side.
+//! Quadratic aerodynamic drag of patches in a relative wind, in SIMD blocks of four.
 //!
-//! With v the wind past a patch, n its outward normal (of a wire its direction), v_n = (v·n) n and v_t = v − v_n,
+//! With v the relative wind, n the outward normal of a patch (or the direction of a wire), v_n = (v·n) n and v_t = v − v_n,
 //!
 //! ```text
 //! F = k |v_n| v_n + k_t |v_t| v_t
 //! ```
 //!
-//! where k and k_t are ½ ρ A times a gain and the drag coefficients that [`force`](super::force) gives for each kind of
-//! patch; k of a side is 0 on its lee. Velocities and forces are in the body's node frame, and moments about its origin.
+//! where k and k_t are ½ ρ A times a gain and a drag coefficient, which [`force`](super::force) gives for each kind of
+//! patch. k of a one-sided patch is 0 on its lee. Velocities and forces are in the body's node frame, and moments about its origin.
 //!
 //! | symbol | here | unit |
 //! |---|---|---|
@@ -19,33 +19,41 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
 use super::breath::AIR_DENSITY;
-use super::patches::{Face, Patch};
+use super::patches::{PatchKind, Patch};
 use soffio_math::lanes::{All, Four, Lanes, V3, WIDTH};
 use soffio_math::{DVec3, PI};
 
-/// How air drags at a surface.
+/// Drag coefficients of a surface.
 #[derive(Clone, Copy)]
-pub(super) struct Coefficients {
-    /// C_D and C_f.
+pub(super) struct DragCoefficients {
+    /// C_D.
     pub normal: f64,
+    /// C_f.
     pub tangential: f64,
     /// Multiplies the force.
     pub gain: f64,
 }
 
-impl Coefficients {
-    /// Drag coefficients along a patch's axis and across it.
-    pub fn of(&self, face: Face) -> (f64, f64) {
-        match face {
-            Face::Side | Face::Sheet => (self.normal, self.tangential),
-            Face::Wire => (PI * self.tangential, self.normal),
+/// Drag coefficients along a patch's axis and across it.
+#[derive(Clone, Copy)]
+pub(super) struct AxisDrag {
+    pub along: f64,
+    pub across: f64,
+}
+
+impl DragCoefficients {
+    /// The coefficients with respect to the axis of a patch of this kind.
+    pub fn of(&self, kind: PatchKind) -> AxisDrag {
+        match kind {
+            PatchKind::OneSided | PatchKind::TwoSided => AxisDrag { along: self.normal, across: self.tangential },
+            PatchKind::Wire => AxisDrag { along: PI * self.tangential, across: self.normal },
         }
     }
 }
 
-/// Four patches of one surface; lanes that have none feel nothing.
+/// Four patches of one surface; the force in a lane without a patch is 0.
 #[derive(Clone)]
-pub(super) struct Quad {
+pub(super) struct PatchBlock {
     point: V3<Four>,
     axis: V3<Four>,
     windward: Four,
@@ -53,31 +61,31 @@ pub(super) struct Quad {
     across: Four,
 }
 
-impl Quad {
+impl PatchBlock {
     /// Of at most four patches.
-    pub fn new(patches: &[Patch], coefficients: &Coefficients) -> Self {
+    pub fn new(patches: &[Patch], coefficients: &DragCoefficients) -> Self {
         let four = |number: &dyn Fn(&Patch) -> f64| Four(std::array::from_fn(|k| patches.get(k).map_or(0.0, number)));
         let three = |vector: &dyn Fn(&Patch) -> DVec3| {
             V3::new(four(&|p| vector(p).x), four(&|p| vector(p).y), four(&|p| vector(p).z))
         };
         let pressure = |patch: &Patch| 0.5 * AIR_DENSITY * patch.area * coefficients.gain;
-        let along = |patch: &Patch| pressure(patch) * coefficients.of(patch.face).0;
+        let along = |patch: &Patch| pressure(patch) * coefficients.of(patch.kind).along;
         Self {
             point: three(&|patch| patch.point),
             axis: three(&|patch| patch.axis),
             windward: four(&along),
-            leeward: four(&|patch| if patch.face == Face::Side { 0.0 } else { along(patch) }),
-            across: four(&|patch| pressure(patch) * coefficients.of(patch.face).1),
+            leeward: four(&|patch| if patch.kind == PatchKind::OneSided { 0.0 } else { along(patch) }),
+            across: four(&|patch| pressure(patch) * coefficients.of(patch.kind).across),
         }
     }
 
-    /// The patches' own velocities, m/s, of a frame whose origin moves like this and which spins like this, rad/s.
+    /// Velocities of the patches, m/s, from the velocity of the frame's origin (m/s) and its angular velocity (rad/s).
     #[inline(always)]
     pub fn velocities<S: Simd>(&self, simd: S, origin: DVec3, spin: DVec3) -> V3<f64x4<S>> {
         all(simd, origin) + all(simd, spin).cross(self.point.get(All(simd)))
     }
 
-    /// Drag in these relative winds (m/s), N.
+    /// Drag in the relative winds `v` (m/s), N.
     #[inline(always)]
     pub fn drag<S: Simd>(&self, simd: S, v: V3<f64x4<S>>) -> V3<f64x4<S>> {
         let lanes = All(simd);
@@ -88,14 +96,14 @@ impl Quad {
         axis * (strength * along.abs() * along) + across * (lanes.get(&self.across) * across.dot(across).sqrt())
     }
 
-    /// Moments of forces at the patches, N m.
+    /// Moments of forces at the patches about the frame's origin, N m.
     #[inline(always)]
     pub fn moments<S: Simd>(&self, simd: S, forces: V3<f64x4<S>>) -> V3<f64x4<S>> {
         self.point.get(All(simd)).cross(forces)
     }
 }
 
-/// One vector for all lanes.
+/// The same vector in all lanes.
 #[inline(always)]
 pub(super) fn all<S: Simd>(simd: S, v: DVec3) -> V3<f64x4<S>> {
     by_lane(simd, |_| v)
@@ -109,13 +117,13 @@ pub(super) fn by_lane<S: Simd>(simd: S, vector: impl Fn(usize) -> DVec3) -> V3<f
     V3::new(lanes.gather(|k| v[k].x), lanes.gather(|k| v[k].y), lanes.gather(|k| v[k].z))
 }
 
-/// The vector of one lane.
+/// The vector of lane `k`.
 #[inline(always)]
 pub(super) fn lane<S: Simd>(v: &V3<f64x4<S>>, k: usize) -> DVec3 {
     DVec3::new(v.x[k], v.y[k], v.z[k])
 }
 
-/// Sum of the four, by pairs.
+/// Pairwise sum over the lanes.
 #[inline(always)]
 pub(super) fn sum<S: Simd>(v: &V3<f64x4<S>>) -> DVec3 {
     (lane(v, 0) + lane(v, 1)) + (lane(v, 2) + lane(v, 3))

@@ -1,45 +1,44 @@
-//! The wind's force on moving patches.
+//! Quadratic aerodynamic drag of all winds on moving patches.
 //!
 //! Per patch, with w the air's velocity and u the patch's own, v = w − u the relative wind, n the outward normal, t the
 //! direction of a wire:
 //!
 //! ```text
-//! side    F = ½ ρ A (C_D |v_n| v_n n + C_f |v_t| v_t)     v_n = v·n < 0 (the windward side carries the plate's whole C_D)
-//! sheet   the same for either sign of v_n                 (a mesh that is one face of a thin sheet)
-//! wire    F = ½ ρ A (C_D |v_⊥| v_⊥ + π C_f |v_∥| v_∥)     across and along a cylinder of A = length · diameter
+//! one-sided   F = ½ ρ A (C_D |v_n| v_n n + C_f |v_t| v_t)     v_n = v·n < 0 (the windward side carries the plate's whole C_D)
+//! two-sided   the same for either sign of v_n                 (a mesh that is one face of a thin sheet)
+//! wire        F = ½ ρ A (C_D |v_⊥| v_⊥ + π C_f |v_∥| v_∥)     across and along a cylinder of A = length · diameter
 //! ```
 //!
-//! This is quadratic drag at Reynolds numbers of 10³–10⁵ (the source calls it Stokes drag). Because v is relative,
-//! still air damps; because plates have many patches, rotation is damped too.
+//! This is quadratic drag at Reynolds numbers of 10³–10⁵ (the source calls it Stokes drag). Because v is relative, still air
+//! damps translation; because plates have many patches, it damps rotation too.
 //!
-//! The air w is the sum of the winds of `weather.rs`, or of those and the breath. Breath, fans and draughts reach only patches
-//! that face them and see where they come from, past every shelter: for the breath that is the lips. What the breath adds
-//! to the force of all else has four further rules:
+//! The air velocity w is the sum of the winds of `ambient.rs` and the breath. Breath, fans and draughts act only on patches
+//! that face their origin and are visible from it; the origin of the breath is the lips. Four further rules apply to the
+//! force that the breath adds:
 //!
 //! ```text
-//! beside       F_i = F(b + w/√G − u) − F(w/√G − u)  on a solid, b the breath's air, w the room's own, which comes from all
-//!                                                   sides, G ≥ 1 the gain: it makes a breath stronger as √G times its
-//!                                                   speed would, and what stirs beside it as much weaker. The breath only
-//!                                                   reaches windward faces, where air against it would else hide it; a
-//!                                                   sheet feels both
-//! turbulence   F_i += β |F_i| H g(x_i − U_e t, t)   |g| < 1 seeded vector noise of any direction, carried downstream:
-//!                                                   nearly the same in neighbours, and the same from run to run; H is
-//!                                                   what a patch takes of it, as of the wind: of what presses on a face
-//!                                                   all and of what slips along it C_f/C_D. So |F_random| < β |F|
-//! bound        Σ |F_i| ≤ ρ Q v₀                     v₀ of the fastest air that arrives: a breath cannot push harder than
-//!                                                   its own momentum, whatever it meets
-//! gain         F_i ← gain · F_i                     the profile's, after the bound
+//! superposition  F_i = F(b + w/√G − u) − F(w/√G − u)   on a solid; b: the breath's air, w: the undirected wind, G ≥ 1: the
+//!                                                      gain. A gain acts as √G times the breath's speed would, so the
+//!                                                      undirected wind beside it counts less by as much. The breath
+//!                                                      reaches windward faces only, where opposing air would hide it; a
+//!                                                      two-sided patch takes the whole w
+//! turbulence     F_i += β |F_i| H g(x_i − U_e t, t)    |g| < 1: seeded vector noise, carried downstream, nearly the same
+//!                                                      at neighbours. H: response of the patch, 1 to the normal part and
+//!                                                      C_f/C_D to the tangential part. So |F_random| < β |F|
+//! bound          Σ |F_i| ≤ ρ Q v₀                      v₀: source speed of the fastest air that arrives; a breath cannot
+//!                                                      push harder than its own momentum flow
+//! gain           F_i ← G F_i                           after the bound
 //! ```
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::airs::{Airs, STILL_AIR};
-use super::breath::Breath;
+use super::ambient::{AmbientWind, Wind, WindOrigin};
+use super::breath::{Breath, JetPoint};
 use super::drag::{all, by_lane, lane, sum};
-use super::feeler::{Feeler, Standing};
-use super::front::Front;
-use super::patches::{Face, Patch};
-use super::weather::{Upwind, Weather, Wind};
+use super::jet_front::JetFront;
+use super::patch_air::{BreathAir, PatchAir, STILL_AIR};
+use super::patches::{Patch, PatchKind};
+use super::wind_surface::{PlacedPatch, PosedSurface, WindSurface};
 use super::{Shelter, Surface};
 use soffio_geometry::bodies::RigidBody;
 use soffio_geometry::rays::Occluders;
@@ -48,61 +47,73 @@ use soffio_math::lanes::WIDTH;
 use soffio_math::noise::perlin3_vector;
 use soffio_math::spatial::{Vec6, add_wrench, angular, linear, vec6};
 
-/// β: the random part of a breath's force on a patch is smaller than this share of it. With the noise below the force
-/// on a face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
+/// β: upper bound of the random part of a breath's force on a patch, as a share of it. With the noise below, the force on a
+/// face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
 pub const TURBULENCE: f64 = 0.6;
-/// Size of the eddies in a breath, m.
-const EDDY: f64 = 0.06;
-/// How fast they are carried downstream, m/s, and how fast they change, 1/s.
-const EDDY_SPEED: f64 = 0.5;
-const EDDY_CHANGE: f64 = 0.37;
-/// The noise is drawn out by this before it is bent below 1: else it would hardly ever come near.
-const EDDY_STRENGTH: f64 = 2.0;
-/// Patches that say how much of a surface is seen, at most.
-const LOOKED_AT: usize = 16;
-/// The breath of one step.
-pub struct Blown<'a> {
+
+/// Noise g of a breath's turbulence.
+struct Eddies {
+    /// Size, m.
+    size: f64,
+    /// U_e: speed at which they are carried downstream, m/s.
+    speed: f64,
+    /// Rate of change, 1/s.
+    rate: f64,
+    /// Gain before the noise is compressed below 1, which it would otherwise hardly ever approach.
+    gain: f64,
+}
+
+const EDDIES: Eddies = Eddies { size: 0.06, speed: 0.5, rate: 0.37, gain: 2.0 };
+/// Distance before the lips at which [`WindReport::gust`] is sampled, m.
+const GUST_DISTANCE: f64 = 0.5;
+/// Most patches of a surface that [`WindField::visible_fraction`] tests.
+const VISIBILITY_SAMPLES: usize = 16;
+
+/// The breath in one step, as it acts on surfaces.
+pub struct BreathJet<'a> {
     /// At the source's present speed.
     pub breath: Breath,
-    /// Air in flight; `None`: the breath is everywhere at once.
-    pub front: Option<&'a Front>,
-    /// Multiplies the breath's force.
+    /// Air in flight; `None`: the breath arrives everywhere without delay.
+    pub jet_front: Option<&'a JetFront>,
+    /// G: multiplies the breath's force.
     pub gain: f64,
 }
 
-impl Blown<'_> {
-    /// Velocity of the breath's air at a point without gusts, and the speed at which it left the lips, m/s.
+impl BreathJet<'_> {
+    /// The breath's air at a point (world, m), without gusts.
     #[inline]
-    pub(crate) fn air(&self, point: DVec3) -> (DVec3, f64) {
-        let Some((x, share)) = self.breath.share(point) else { return (DVec3::ZERO, 0.0) };
-        let source = match self.front {
-            Some(front) => front.speed_at(x, self.breath.lip_diameter),
+    pub(crate) fn air(&self, point: DVec3) -> BreathAir {
+        let Some(JetPoint { distance, speed_ratio }) = self.breath.relative_speed(point) else {
+            return BreathAir::default();
+        };
+        let source_speed = match self.jet_front {
+            Some(jet_front) => jet_front.speed_at(distance, self.breath.lip_diameter),
             None => self.breath.speed,
         };
-        let speed = share * source;
+        let speed = speed_ratio * source_speed;
         if speed < STILL_AIR {
-            return (DVec3::ZERO, 0.0);
+            return BreathAir::default();
         }
-        (self.breath.flow_direction(point) * speed, source)
+        BreathAir { velocity: self.breath.flow_direction(point) * speed, source_speed }
     }
 }
 
-/// What the wind did in one step.
+/// Result of the wind in one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WindReport {
-    /// Sum of all forces, still air's among them, N.
+    /// Sum of all forces, drag in still air included, N.
     pub force: DVec3,
-    /// The breath's part of it, N.
+    /// The part of it that the breath adds, N.
     pub breath: DVec3,
-    /// What the breath's part cannot exceed, N: momentum flow times gain.
+    /// Upper bound of the breath's part, N: momentum flow times gain.
     pub bound: f64,
-    /// Relative gust in the breath half a metre before the lips, within ±1.
+    /// Relative gust of the breath half a metre before the lips, within ±1.
     pub gust: f64,
 }
 
-/// A patch as it stands in the world.
+/// A patch in the world, and its visibility from the lips.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct PatchSample {
     /// Index of its surface.
     pub surface: usize,
     /// Index of the patch on it.
@@ -113,259 +124,279 @@ pub struct Sample {
     pub axis: DVec3,
     /// m².
     pub area: f64,
-    /// Does it face the lips, and see them?
-    pub seen: bool,
+    /// Whether it faces the lips and nothing hides it from them.
+    pub visible: bool,
 }
 
-/// All that feels the wind in an exhibit, and all winds of it.
+/// All wind surfaces, shelters and winds of an exhibit.
 #[derive(Clone)]
 pub struct WindField {
-    feelers: Vec<Feeler>,
-    weather: Weather,
+    surfaces: Vec<WindSurface>,
+    ambient: AmbientWind,
     occluders: Occluders,
     seed: u64,
-    blown: Vec<Vec6>,
-    airs: Airs,
-    /// Which instructions there are.
+    /// The breath's wrench on each body, without bound and gain.
+    breath_wrenches: Vec<Vec6>,
+    patch_air: PatchAir,
+    /// SIMD instruction set.
     level: Level,
 }
 
 impl WindField {
     /// Surfaces, shelters and winds of an exhibit with `bodies` bodies.
     pub fn new(surfaces: &[Surface], shelters: &[Shelter], winds: &[Wind], bodies: usize, seed: u64) -> Self {
-        let weather = Weather::new(winds);
+        let ambient = AmbientWind::new(winds);
         let occluders = Occluders::new(shelters.iter().map(|shelter| (shelter.body, &shelter.mesh)));
-        let feeler = |surface| Feeler::new(surface, weather.alike(), weather.len(), &occluders);
-        let feelers: Vec<_> = surfaces.iter().map(feeler).collect();
-        let most = feelers.iter().map(|feeler| feeler.quads.len() * WIDTH).max().unwrap_or(0);
+        let sampled = |surface| WindSurface::new(surface, ambient.uniform_radius(), ambient.len(), &occluders);
+        let surfaces: Vec<_> = surfaces.iter().map(sampled).collect();
+        let most = surfaces.iter().map(|surface| surface.blocks.len() * WIDTH).max().unwrap_or(0);
         Self {
-            weather,
+            ambient,
             occluders,
             seed,
-            blown: vec![[0.0; 6]; bodies],
-            airs: Airs::with_capacity(most),
-            feelers,
+            breath_wrenches: vec![[0.0; 6]; bodies],
+            patch_air: PatchAir::with_capacity(most),
+            surfaces,
             level: Level::new(),
         }
     }
 
     /// Adds the wrenches (N, N m about each centre of mass) of all winds at `time` (s since the reset) to `out`.
-    pub fn push(&mut self, bodies: &[RigidBody], time: f64, blown: Option<&Blown>, out: &mut [Vec6]) -> WindReport {
-        self.weather.turn_to(time);
-        if blown.is_some() || !self.weather.is_empty() {
+    pub fn apply_forces(
+        &mut self,
+        bodies: &[RigidBody],
+        time: f64,
+        jet: Option<&BreathJet>,
+        out: &mut [Vec6],
+    ) -> WindReport {
+        self.ambient.set_time(time);
+        if jet.is_some() || !self.ambient.is_empty() {
             self.occluders.refit(|body| bodies[body].pose());
         }
-        self.blown.fill([0.0; 6]);
-        dispatch!(self.level, simd => self.push_in(simd, bodies, blown, out))
+        self.breath_wrenches.fill([0.0; 6]);
+        dispatch!(self.level, simd => self.apply_forces_in(simd, bodies, jet, out))
     }
 
     #[inline(always)]
-    fn push_in<S: Simd>(
+    fn apply_forces_in<S: Simd>(
         &mut self,
         simd: S,
         bodies: &[RigidBody],
-        blown: Option<&Blown>,
+        jet: Option<&BreathJet>,
         out: &mut [Vec6],
     ) -> WindReport {
-        let still = blown.is_none() && self.weather.is_empty();
+        let still_air = jet.is_none() && self.ambient.is_empty();
         let mut report = WindReport::default();
-        let mut pushed = Pushed::default();
-        let mut airs = std::mem::take(&mut self.airs);
-        for feeler in &self.feelers {
-            let body = &bodies[feeler.body];
-            // What stands still in still air feels nothing.
-            let stands = body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO;
-            if stands && still {
+        let mut load = BreathLoad::default();
+        let mut patch_air = std::mem::take(&mut self.patch_air);
+        for surface in &self.surfaces {
+            let body = &bodies[surface.body];
+            let at_rest = body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO;
+            if at_rest && still_air {
                 continue;
             }
-            let standing = Standing::new(feeler, body);
-            if !still {
-                airs.feel(&standing, &self.weather, &self.occluders);
+            let posed = PosedSurface::new(surface, body);
+            if !still_air {
+                patch_air.sample_ambient(&posed, &self.ambient, &self.occluders);
             }
-            let blown = blown.filter(|blown| airs.feel_breath(&standing, blown, &self.occluders));
-            let air = (!still).then_some(&airs);
-            let (own, sum_blown) = self.push_on(simd, &standing, air, blown, &mut pushed);
+            let jet = jet.filter(|jet| patch_air.sample_breath(&posed, jet, &self.occluders));
+            let air = (!still_air).then_some(&patch_air);
+            let wrenches = self.surface_wrenches(simd, &posed, air, jet, &mut load);
             for k in 0..6 {
-                out[feeler.body][k] += own[k];
-                self.blown[feeler.body][k] += sum_blown[k];
+                out[surface.body][k] += wrenches.ambient[k];
+                self.breath_wrenches[surface.body][k] += wrenches.breath[k];
             }
-            report.force += linear(&own);
+            report.force += linear(&wrenches.ambient);
         }
-        self.airs = airs;
-        if let Some(blown) = blown {
-            self.push_breath(blown, &pushed, out, &mut report);
+        self.patch_air = patch_air;
+        if let Some(jet) = jet {
+            self.apply_breath(jet, &load, out, &mut report);
         }
         report
     }
 
-    /// Wrenches about its body's centre of mass on the surface that stands like this: of all air but the breath (`None`: it is
-    /// still; else of each patch and the part from all sides), and of the breath without bound and gain.
+    /// Wrenches on one surface. `air`: sampled air at its patches, `None` in still air.
     #[inline(always)]
-    fn push_on<S: Simd>(
+    fn surface_wrenches<S: Simd>(
         &self,
         simd: S,
-        standing: &Standing,
-        air: Option<&Airs>,
-        blown: Option<&Blown>,
-        pushed: &mut Pushed,
-    ) -> (Vec6, Vec6) {
-        let Standing { feeler, body, frame, inward, .. } = *standing;
+        posed: &PosedSurface,
+        air: Option<&PatchAir>,
+        jet: Option<&BreathJet>,
+        load: &mut BreathLoad,
+    ) -> SurfaceWrenches {
+        let PosedSurface { surface, body, to_world, to_body } = *posed;
         let center = body.properties.center;
-        let spin = inward * body.angular_velocity;
-        let origin = inward * body.velocity - spin.cross(center);
-        let solid = feeler.patches.first().is_some_and(|patch| patch.face == Face::Side);
-        let beside = blown.filter(|_| solid).map_or(1.0, |blown| 1.0 / blown.gain.max(1.0).sqrt());
+        let spin = to_body * body.angular_velocity;
+        let origin = to_body * body.velocity - spin.cross(center);
+        let solid = surface.patches.first().is_some_and(|patch| patch.kind == PatchKind::OneSided);
+        // 1/√G on a solid.
+        let undirected_share = jet.filter(|_| solid).map_or(1.0, |jet| 1.0 / jet.gain.max(1.0).sqrt());
         let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
-        let mut sum_blown = [0.0; 6];
-        for (first, quad) in (0..).step_by(WIDTH).zip(&feeler.quads) {
-            let calm = -quad.velocities(simd, origin, spin);
-            let room = match air {
-                None => calm,
-                Some(air) => calm + by_lane(simd, |k| inward * air.winds[first + k]),
+        let mut breath_sum = [0.0; 6];
+        for (first, block) in (0..).step_by(WIDTH).zip(&surface.blocks) {
+            let still = -block.velocities(simd, origin, spin);
+            let ambient = match air {
+                None => still,
+                Some(air) => still + by_lane(simd, |k| to_body * air.ambient[first + k]),
             };
-            let dragged = quad.drag(simd, room);
-            force += dragged;
-            moment += quad.moments(simd, dragged);
-            let (Some(blown), Some(air)) = (blown, air) else { continue };
-            let airs = &air.breath[first..first + WIDTH];
-            if airs.iter().all(|(_, source)| *source == 0.0) {
+            let drag = block.drag(simd, ambient);
+            force += drag;
+            moment += block.moments(simd, drag);
+            let (Some(jet), Some(air)) = (jet, air) else { continue };
+            let breath = &air.breath[first..first + WIDTH];
+            if breath.iter().all(|air| air.source_speed == 0.0) {
                 continue;
             }
-            let (mut wind, mut before) = (room, dragged);
-            if beside < 1.0 {
-                wind -= by_lane(simd, |k| (1.0 - beside) * (inward * air.stirred[first + k]));
-                before = quad.drag(simd, wind);
+            let (mut wind, mut drag_before) = (ambient, drag);
+            if undirected_share < 1.0 {
+                wind -= by_lane(simd, |k| (1.0 - undirected_share) * (to_body * air.undirected[first + k]));
+                drag_before = block.drag(simd, wind);
             }
-            let added = quad.drag(simd, wind + by_lane(simd, |k| inward * airs[k].0)) - before;
-            for (k, (_, source)) in airs.iter().enumerate().filter(|(_, (_, source))| *source > 0.0) {
-                let patch = &feeler.patches[first + k];
+            let added = block.drag(simd, wind + by_lane(simd, |k| to_body * breath[k].velocity)) - drag_before;
+            for (k, air) in breath.iter().enumerate().filter(|(_, air)| air.source_speed > 0.0) {
+                let patch = &surface.patches[first + k];
                 let added = lane(&added, k);
-                let shaken = feeler.shaken(patch, inward * self.eddy(&blown.breath, standing.place(patch).0));
-                let added = added + TURBULENCE * added.length() * shaken;
-                pushed.total += added.length();
-                pushed.fastest = source.max(pushed.fastest);
-                add_wrench(&mut sum_blown, patch.point - center, added);
+                let gust = self.gust(&jet.breath, posed.place(patch).point);
+                let response = surface.gust_response(patch, to_body * gust);
+                let added = added + TURBULENCE * added.length() * response;
+                load.force_sum += added.length();
+                load.source_speed = air.source_speed.max(load.source_speed);
+                add_wrench(&mut breath_sum, patch.point - center, added);
             }
         }
         let force = sum(&force);
-        let own = vec6(frame * force, frame * (sum(&moment) - center.cross(force)));
-        (own, vec6(frame * linear(&sum_blown), frame * angular(&sum_blown)))
+        SurfaceWrenches {
+            ambient: vec6(to_world * force, to_world * (sum(&moment) - center.cross(force))),
+            breath: vec6(to_world * linear(&breath_sum), to_world * angular(&breath_sum)),
+        }
     }
 
-    /// Adds the breath's wrenches, bounded by its momentum.
-    fn push_breath(&self, blown: &Blown, pushed: &Pushed, out: &mut [Vec6], report: &mut WindReport) {
-        let most = blown.breath.momentum_flow(pushed.fastest);
-        let share = blown.gain * if pushed.total > most { most / pushed.total } else { 1.0 };
-        for (out, wrench) in out.iter_mut().zip(&self.blown) {
+    /// Adds the breath's wrenches, bounded by its momentum flow, times its gain.
+    fn apply_breath(&self, jet: &BreathJet, load: &BreathLoad, out: &mut [Vec6], report: &mut WindReport) {
+        let most = jet.breath.momentum_flow(load.source_speed);
+        let share = jet.gain * if load.force_sum > most { most / load.force_sum } else { 1.0 };
+        for (out, wrench) in out.iter_mut().zip(&self.breath_wrenches) {
             for k in 0..6 {
                 out[k] += share * wrench[k];
             }
             report.breath += share * linear(wrench);
         }
         report.force += report.breath;
-        report.bound = blown.gain * most;
-        let ahead = blown.breath.mouth + 0.5 * blown.breath.direction;
-        report.gust = self.eddy(&blown.breath, ahead).dot(blown.breath.direction);
+        report.bound = jet.gain * most;
+        let ahead = jet.breath.mouth + GUST_DISTANCE * jet.breath.direction;
+        report.gust = self.gust(&jet.breath, ahead).dot(jet.breath.direction);
     }
 
-    /// Velocity at a point of the winds that come from all sides, m/s.
-    pub fn stirs(&self, point: DVec3) -> DVec3 {
-        self.weather.stirs(point)
+    /// Sum of the undirected winds at a point (world, m), m/s.
+    pub fn undirected_velocity(&self, point: DVec3) -> DVec3 {
+        self.ambient.undirected_velocity(point)
     }
 
-    /// Velocity at a point of the breath and of all winds that go somewhere, m/s.
-    pub fn streams(&self, blown: Option<&Blown>, point: DVec3) -> DVec3 {
-        let winds = (0..self.weather.len()).filter(|&wind| self.weather.upwind(wind).is_some());
-        let airs = winds.map(|wind| self.weather.air(wind, point));
-        let aimed: DVec3 = airs.filter(|air| air.length_squared() > STILL_AIR * STILL_AIR).sum();
-        aimed + blown.map_or(DVec3::ZERO, |blown| self.breath_at(blown, point))
+    /// Sum of the breath and all directed winds at a point (world, m), without shelter, m/s.
+    pub fn directed_velocity(&self, jet: Option<&BreathJet>, point: DVec3) -> DVec3 {
+        let winds = (0..self.ambient.len()).filter(|&wind| self.ambient.wind_origin(wind).is_some());
+        let velocities = winds.map(|wind| self.ambient.velocity(wind, point));
+        let directed: DVec3 = velocities.filter(|air| air.length_squared() > STILL_AIR * STILL_AIR).sum();
+        directed + jet.map_or(DVec3::ZERO, |jet| self.breath_velocity(jet, point))
     }
 
-    /// Velocity of the breath's air at a point, gusts included, m/s. Force goes with its square, so half of the force's
-    /// turbulence is the air's.
-    pub fn breath_at(&self, blown: &Blown, point: DVec3) -> DVec3 {
-        let (air, source) = blown.air(point);
-        if source <= 0.0 {
+    /// Velocity of the breath's air at a point (world, m), gusts included, m/s. Force grows with the square of the speed, so
+    /// the relative gust of the air is half of the force's.
+    pub fn breath_velocity(&self, jet: &BreathJet, point: DVec3) -> DVec3 {
+        let BreathAir { velocity, source_speed } = jet.air(point);
+        if source_speed <= 0.0 {
             return DVec3::ZERO;
         }
-        air + 0.5 * TURBULENCE * air.length() * self.eddy(&blown.breath, point)
+        velocity + 0.5 * TURBULENCE * velocity.length() * self.gust(&jet.breath, point)
     }
 
-    /// Noise of the breath's gusts at a point, shorter than 1: eddies carried downstream.
-    fn eddy(&self, breath: &Breath, point: DVec3) -> DVec3 {
-        let time = self.weather.time();
-        let carried = point - breath.direction * (EDDY_SPEED * time);
-        let noise = EDDY_STRENGTH * perlin3_vector(carried / EDDY + DVec3::splat(EDDY_CHANGE * time), self.seed);
+    /// g: turbulence of the breath at a point (world, m), of length below 1, carried downstream.
+    fn gust(&self, breath: &Breath, point: DVec3) -> DVec3 {
+        let time = self.ambient.time();
+        let carried = point - breath.direction * (EDDIES.speed * time);
+        let noise = EDDIES.gain * perlin3_vector(carried / EDDIES.size + DVec3::splat(EDDIES.rate * time), self.seed);
         noise / (1.0 + noise.length_squared()).sqrt()
     }
 
-    /// Every patch, and whether it sees the breath.
-    pub fn samples(&mut self, bodies: &[RigidBody], breath: &Breath) -> Vec<Sample> {
+    /// Every patch, and whether it is visible from the lips.
+    pub fn sample_patches(&mut self, bodies: &[RigidBody], breath: &Breath) -> Vec<PatchSample> {
         self.occluders.refit(|body| bodies[body].pose());
-        let mut samples: Vec<Sample> = Vec::new();
-        for (surface, feeler) in self.feelers.iter().enumerate() {
-            let pose = bodies[feeler.body].pose();
+        let mut samples: Vec<PatchSample> = Vec::new();
+        for (index, surface) in self.surfaces.iter().enumerate() {
+            let pose = bodies[surface.body].pose();
             let first = samples.len();
-            samples.extend(feeler.patches.iter().enumerate().map(|(patch, Patch { point, axis, area, .. })| Sample {
-                surface,
+            let sample = |(patch, Patch { point, axis, area, .. }): (usize, &Patch)| PatchSample {
+                surface: index,
                 patch,
                 point: pose.point(*point),
                 axis: pose.vector(*axis),
                 area: *area,
-                seen: false,
-            }));
-            let own = &samples[first..];
-            let lines = own.iter().enumerate().filter_map(|(index, sample)| {
-                let from = Upwind::Place(breath.origin(sample.point));
-                Some((index, feeler.facing(index, (sample.point, sample.axis), from)?.line()))
+                visible: false,
+            };
+            samples.extend(surface.patches.iter().enumerate().map(sample));
+            let rays = samples[first..].iter().enumerate().filter_map(|(k, sample)| {
+                let origin = WindOrigin::Point(breath.origin(sample.point));
+                let placed = PlacedPatch { point: sample.point, axis: sample.axis };
+                Some((k, surface.facing(k, placed, origin)?.line()))
             });
-            self.airs.sight.take(lines);
-            for index in self.airs.sight.open(&self.occluders, feeler.hints(None)) {
-                samples[first + index].seen = true;
+            self.patch_air.rays.set(rays);
+            for k in self.patch_air.rays.visible(&self.occluders, surface.hints(None)) {
+                samples[first + k].visible = true;
             }
         }
         samples
     }
 
-    /// How much of what a surface shows towards a place that place sees, 0 … 1, by some of its patches.
-    pub fn shown(&mut self, surface: usize, bodies: &[RigidBody], from: DVec3) -> f64 {
+    /// Visible share of the patches of a surface that face a point (world, m), 0 … 1, from at most 16 of its patches.
+    pub fn visible_fraction(&mut self, surface: usize, bodies: &[RigidBody], from: DVec3) -> f64 {
         self.occluders.refit(|body| bodies[body].pose());
-        let feeler = &self.feelers[surface];
-        let pose = bodies[feeler.body].pose();
-        let mut faced = 0;
-        let some = (0..feeler.patches.len()).step_by(feeler.patches.len().div_ceil(LOOKED_AT));
-        let lines = some.filter_map(|index| {
-            let patch = &feeler.patches[index];
-            let place = (pose.point(patch.point), pose.vector(patch.axis));
-            let line = feeler.facing(index, place, Upwind::Place(from))?.line();
-            faced += 1;
-            Some((index, line))
+        let surface = &self.surfaces[surface];
+        let pose = bodies[surface.body].pose();
+        let mut facing = 0;
+        let tested = (0..surface.patches.len()).step_by(surface.patches.len().div_ceil(VISIBILITY_SAMPLES));
+        let rays = tested.filter_map(|k| {
+            let patch = &surface.patches[k];
+            let placed = PlacedPatch { point: pose.point(patch.point), axis: pose.vector(patch.axis) };
+            let ray = surface.facing(k, placed, WindOrigin::Point(from))?.line();
+            facing += 1;
+            Some((k, ray))
         });
-        self.airs.sight.take(lines);
-        let seen = self.airs.sight.open(&self.occluders, feeler.hints(None)).count();
-        if faced > 0 { seen as f64 / f64::from(faced) } else { 0.0 }
+        self.patch_air.rays.set(rays);
+        let visible = self.patch_air.rays.visible(&self.occluders, surface.hints(None)).count();
+        if facing > 0 { visible as f64 / f64::from(facing) } else { 0.0 }
     }
 
-    /// Patches of all surfaces.
-    pub fn patches(&self) -> usize {
-        self.feelers.iter().map(|feeler| feeler.patches.len()).sum()
+    /// Number of patches of all surfaces.
+    pub fn patch_count(&self) -> usize {
+        self.surfaces.iter().map(|surface| surface.patches.len()).sum()
     }
 
-    /// What shelters them, where the bodies are.
+    /// The shelters, refitted to these bodies.
     pub fn occluders_at(&mut self, bodies: &[RigidBody]) -> &Occluders {
         self.occluders.refit(|body| bodies[body].pose());
         &self.occluders
     }
 
-    /// What shelters them, as it stood in the last step.
+    /// The shelters as last refitted.
     pub fn occluders(&self) -> &Occluders {
         &self.occluders
     }
 }
 
-/// How hard the breath pushes without bound and gain: Σ |F_i|, N, and the fastest air that arrives, m/s.
+/// Wrenches on one surface about its body's centre of mass, world, N and N m.
+struct SurfaceWrenches {
+    /// Of still air and ambient winds.
+    ambient: Vec6,
+    /// Of the breath, without bound and gain.
+    breath: Vec6,
+}
+
+/// Load of the breath on all surfaces, without bound and gain.
 #[derive(Clone, Copy, Debug, Default)]
-struct Pushed {
-    total: f64,
-    fastest: f64,
+struct BreathLoad {
+    /// Σ |F_i|, N.
+    force_sum: f64,
+    /// v₀: source speed of the fastest air that arrives, m/s.
+    source_speed: f64,
 }

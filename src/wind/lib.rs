@@ -1,20 +1,20 @@
 //! Breath and wind: from microphone samples to forces on plates.
 //!
-//! A breath is a round turbulent jet from the lips; draughts, fans and the room's own air are ambient winds. Surfaces are
-//! sampled by patches, and each patch that the lips see takes drag from the air that passes it. The result is one force and
-//! torque per body.
+//! A breath is a round turbulent jet from the lips; draughts, fans and turbulence are ambient winds. Surfaces are split
+//! into patches (panels). Each patch that is visible from the origin of a wind takes quadratic drag from the relative wind.
+//! The result is one force and torque per body.
 //!
-//! It never detects a breath (that is `soffio-detector`), moves no body, and reads no clock, file or device: the time is an
+//! This crate does not detect breath (see `soffio-detector`), moves no body, and reads no clock, file or device: time is an
 //! argument. The same input gives the same bits.
 //!
-//! | module or type | holds |
+//! | module or type | contents |
 //! |---|---|
-//! | [`breath`] | [`breath::Breath`]: lips, direction, speed, and the law by which the jet spreads |
-//! | [`front`] | the travelling front of the jet: air that has left the lips and not yet arrived |
+//! | [`breath`] | [`breath::Breath`]: lips, direction, speed, and spreading law |
+//! | [`front`] | travelling front of a starting jet |
 //! | [`weather`] | ambient winds: fans, draughts, turbulence |
-//! | [`Surface`], [`Shelter`] | what the wind meets, and what shelters from it |
-//! | [`patches`] | sample points of a surface |
-//! | [`force`] | [`force::WindField`]: from air to forces on bodies |
+//! | [`Surface`], [`Shelter`] | surfaces that take wind forces, and meshes that shelter them |
+//! | [`patches`] | patches of a surface |
+//! | [`force`] | [`force::WindField`]: forces of all winds on bodies |
 //!
 //! ```
 //! use soffio_math::DVec3;
@@ -30,26 +30,28 @@
 //!
 //! `cargo run -p soffio-wind --example breath_on_a_plate` prints the force of a breath on a plate over the distance.
 
+use std::ops::RangeInclusive;
+
 use soffio_geometry::TriangleMesh;
 
-mod airs;
+mod patch_air;
 pub mod breath;
 mod drag;
-mod feeler;
+mod wind_surface;
 pub mod force;
-pub mod front;
+pub mod jet_front;
 pub mod patches;
-mod sight;
-pub mod weather;
+mod visibility;
+pub mod ambient;
 
-/// A surface that feels the wind.
+/// A surface that takes wind forces.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Index of the body that carries it.
     pub body: usize,
     /// Name of the glTF node, for messages.
     pub node: String,
-    /// What the wind meets.
+    /// Its geometry.
     pub shape: SurfaceShape,
     /// Drag coefficient for flow along the normal (plate 1.17, cylinder 1.2).
     pub drag_normal: f64,
@@ -68,9 +70,9 @@ pub enum SurfaceShape {
         mesh: TriangleMesh,
         /// Sample points per square metre.
         per_area: f64,
-        /// Fewest and most sample points.
-        count: (usize, usize),
-        /// Thin sheet: feel the front faces only once, not front and back twice.
+        /// Allowed number of sample points.
+        count: RangeInclusive<usize>,
+        /// Whether the mesh is one face of a thin sheet, so that wind acts on both its sides.
         sheet: bool,
         /// Seed of the sampling.
         seed: u64,
@@ -84,17 +86,17 @@ pub enum SurfaceShape {
     },
 }
 
-/// A mesh in the wind's way: what lies behind it feels none.
+/// A mesh that blocks directed wind and breath.
 #[derive(Clone, Debug)]
 pub struct Shelter {
-    /// Index of the body that carries it; `None` stands still.
+    /// Index of the body that carries it; `None` for a fixed mesh.
     pub body: Option<usize>,
     /// Node frame of the body, or the world's, m.
     pub mesh: TriangleMesh,
 }
 
 impl Shelter {
-    /// The shelters that the surfaces themselves are. Wires are too thin to give any.
+    /// The meshes of the surfaces as shelters. Wires are too thin to give any.
     pub fn of(surfaces: &[Surface]) -> Vec<Self> {
         let shelter = |surface: &Surface| match &surface.shape {
             SurfaceShape::Mesh { mesh, .. } => Some(Self { body: Some(surface.body), mesh: mesh.clone() }),

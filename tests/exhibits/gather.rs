@@ -1,6 +1,6 @@
 //! An exhibit gathers itself from scattered parts when it comes on, and then is as after a reset.
 
-use soffio_simulation::{Command, EventKind, GATHERING_LASTS, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, EventKind, ASSEMBLY_DURATION, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 use crate::{load, note};
 
@@ -20,15 +20,15 @@ pub fn gathers_itself_in_a_few_seconds(id: &str) {
     for seed in [1, 2] {
         let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
         let (mut first, mut last, mut open) = (0.0_f64, f64::INFINITY, 0.0);
-        for step in 0..steps(GATHERING_LASTS) {
-            let commands = [Command::Gather(seed)];
+        for step in 0..steps(ASSEMBLY_DURATION) {
+            let commands = [Command::Assemble(seed)];
             let commands = if step == 0 { &commands[..] } else { &[] };
             simulation.step(&StepInput { commands, ..StepInput::default() });
             assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "{id}, seed {seed}: step {step}");
             assert!(simulation.sounds().iter().all(|s| !matches!(s, soffio_sound::SoundCommand::Strike(_))), "{id}");
-            last = simulation.gathers_from().unwrap_or_else(|| panic!("{id} does not gather"));
+            last = simulation.assembly_distance().unwrap_or_else(|| panic!("{id} does not gather"));
             first = first.max(last);
-            if step == steps(2.0 / 3.0 * GATHERING_LASTS) {
+            if step == steps(2.0 / 3.0 * ASSEMBLY_DURATION) {
                 open = simulation.joint_error();
             }
         }
@@ -40,7 +40,7 @@ pub fn gathers_itself_in_a_few_seconds(id: &str) {
         let mut anew = Simulation::new(exhibit.clone(), Settings::default());
         simulation.step(&StepInput::default());
         anew.step(&StepInput::default());
-        assert_eq!(simulation.gathers_from(), None, "{id}");
+        assert_eq!(simulation.assembly_distance(), None, "{id}");
         assert_eq!(simulation.bodies(), anew.bodies(), "{id}, seed {seed}");
     }
 }

@@ -2,7 +2,7 @@
 
 use soffio_geometry::rays::Occluders;
 use soffio_math::noise::Random;
-use soffio_simulation::{Command, Hand, MotionMode, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, PointerGrab, MotionMode, Settings, Simulation, StepInput};
 
 use crate::tally::Tally;
 use crate::{load, note};
@@ -17,8 +17,8 @@ fn begin(id: &str) -> Simulation {
     Simulation::new(load(id), Settings::default())
 }
 
-fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[Hand]) {
-    simulation.step(&StepInput { mode: Some(mode), hands, ..StepInput::default() });
+fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[PointerGrab]) {
+    simulation.step(&StepInput { mode: Some(mode), pointer_grabs: hands, ..StepInput::default() });
 }
 
 pub fn the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle(id: &str) {
@@ -61,14 +61,14 @@ fn handled(id: &str, seconds: usize) {
     for mode in MODES {
         let mut simulation = begin(id);
         let mut random = Random::new(SEED);
-        let (mut hands, mut worst, mut fastest): (Vec<Hand>, f64, f64) = (Vec::new(), 0.0, 0.0);
+        let (mut hands, mut worst, mut fastest): (Vec<PointerGrab>, f64, f64) = (Vec::new(), 0.0, 0.0);
         let count = simulation.exhibit().bodies.len();
         for index in 0..seconds * 240 {
             if index % 60 == 0 {
                 hands.clear();
                 for hand in 0..1 + index / 60 % 4 {
                     let body = Some((random.unit() * count as f64) as usize);
-                    hands.push(Hand { id: (index + hand) as u64, at: [random.unit(), random.unit()], body });
+                    hands.push(PointerGrab { id: (index + hand) as u64, at: [random.unit(), random.unit()], body });
                 }
             } else if index % 12 == 0 {
                 hands.iter_mut().for_each(|hand| hand.at = [random.unit(), random.unit()]);

@@ -10,7 +10,7 @@ use soffio_exhibit::Exhibit;
 use soffio_kiosk::step::moments::Moments;
 use soffio_math::{DQuat, Pose};
 use soffio_render::{Frame, Gpu, Options, RenderError, Renderer};
-use soffio_simulation::{Mote, Settings, Simulation, Snapshot, StepInput};
+use soffio_simulation::{DustParticle, Settings, Simulation, Snapshot, StepInput};
 
 #[path = "../suite/require.rs"]
 mod require;
@@ -65,7 +65,7 @@ fn turned(exhibit: &Exhibit, angle: f64) -> Vec<Pose> {
     exhibit.bodies.iter().map(|body| pose(&body.pose)).collect()
 }
 
-fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], motes: &'a [Mote]) -> Frame<'a> {
+fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], motes: &'a [DustParticle]) -> Frame<'a> {
     let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
     Frame { poses, motes, view, size: SIZE, exposure: 1.0, time: 0.0 }
 }
@@ -77,11 +77,11 @@ fn a_frame_asks_for_no_memory_before_it_turns_to_the_device() {
     const FRAMES: usize = 8;
     let _alone = alone();
     let Some((gpu, target)) = device() else { return };
-    let motes: Vec<Mote> = (0..600)
-        .map(|i| Mote {
+    let motes: Vec<DustParticle> = (0..600)
+        .map(|i| DustParticle {
             position: [0.01 * (i % 20) as f32, 0.01 * (i / 20) as f32, 0.0],
             brightness: 0.5,
-            ..Mote::default()
+            ..DustParticle::default()
         })
         .collect();
     for id in ["steel-fish", "terry-clock", "wind-chimes-glass"] {

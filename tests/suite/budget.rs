@@ -29,8 +29,8 @@ fn loads_blow_drag_and_scatter_and_repeat_to_the_bit() {
             snapshot.poses.iter().zip(&home).map(|(pose, home)| pose.position.distance(*home)).fold(0.0, f64::max);
         match load {
             Load::Breath(_) => assert_eq!(snapshot.breath.speed, HARD),
-            Load::Drag => assert_eq!(snapshot.diagnostics.hands, 1),
-            Load::Assembly(_) => assert!(away > 0.1 && run.simulation.gathers_from().is_some(), "{away}"),
+            Load::Drag => assert_eq!(snapshot.diagnostics.grabs, 1),
+            Load::Assembly(_) => assert!(away > 0.1 && run.simulation.assembly_distance().is_some(), "{away}"),
         }
         for _ in 0..120 {
             run.step();
@@ -51,7 +51,7 @@ fn a_hand_takes_every_body_of_a_small_exhibit_in_turn() {
     let mut held = false;
     for _ in 0..run.steps() {
         run.step();
-        let holds = run.simulation.snapshot().diagnostics.hands > 0;
+        let holds = run.simulation.snapshot().diagnostics.grabs > 0;
         takes += usize::from(holds && !held);
         held = holds;
     }

@@ -9,12 +9,12 @@ use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, angular, linear};
 use soffio_math::{DVec3, PI, acos, atan2, cos, exp, sin};
 use soffio_simulation::{
-    Command, Event, EventKind, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics,
+    Command, Event, EventKind, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics,
 };
 use soffio_sound::SoundCommand;
 use soffio_wind::SurfaceShape;
-use soffio_wind::breath::{Breath, Law};
-use soffio_wind::force::{Blown, WindField};
+use soffio_wind::breath::{Breath, SpreadLaw};
+use soffio_wind::force::{BreathJet, WindField};
 
 const ASPECT: f64 = 16.0 / 9.0;
 const G: f64 = 9.81;
@@ -43,7 +43,7 @@ fn steps(seconds: f64) -> usize {
 /// Somebody before an exhibit.
 struct Visit {
     simulation: Simulation,
-    hands: Vec<Hand>,
+    hands: Vec<PointerGrab>,
     pointer: Option<[f64; 2]>,
     blow: Option<f64>,
     events: Vec<Event>,
@@ -62,7 +62,7 @@ impl Visit {
         self.simulation.step(&StepInput {
             commands: &commands,
             pointer: self.pointer,
-            hands: &hands,
+            pointer_grabs: &hands,
             ..StepInput::default()
         });
         self.hands = hands;
@@ -215,7 +215,7 @@ fn a_dragged_quill_scratches_and_a_resting_one_is_silent() {
     let from = visit.seen(start);
     for step in 0..steps(1.0) {
         let way = 0.12 * step as f64 / steps(1.0) as f64;
-        visit.hands = vec![Hand { id: 1, at: [from[0] + way, from[1]], body: Some(quill) }];
+        visit.hands = vec![PointerGrab { id: 1, at: [from[0] + way, from[1]], body: Some(quill) }];
         visit.step();
     }
     let way = visit.body("Quill").position.distance(start);
@@ -350,9 +350,9 @@ fn slid(way: f64) -> Visit {
     let from = visit.seen(held);
     for step in 0..steps(3.0) {
         let s = (step as f64 / steps(2.0) as f64).min(1.0);
-        visit.hands = vec![Hand { id: 1, at: [from[0] - way * s, from[1] + 0.018 * s], body: None }];
+        visit.hands = vec![PointerGrab { id: 1, at: [from[0] - way * s, from[1] + 0.018 * s], body: None }];
         visit.step();
-        assert_eq!(visit.simulation.snapshot().diagnostics.hands, 1, "the hand has the arm");
+        assert_eq!(visit.simulation.snapshot().diagnostics.grabs, 1, "the hand has the arm");
     }
     visit.hands.clear();
     visit.run(9.0);
@@ -452,15 +452,15 @@ impl Wound {
         let rotor = self.dynamics.bodies[self.body("Rotor")].position;
         let target = rotor + DVec3::new(0.03, 0.03, 0.0);
         let direction = DVec3::new(0.0, 0.0, -1.0);
-        let breath = Breath { mouth: target - 0.5 * direction, direction, lip_diameter: 0.01, speed, law: Law::Jet };
+        let breath = Breath { mouth: target - 0.5 * direction, direction, lip_diameter: 0.01, speed, law: SpreadLaw::Jet };
         let wheels = ["WindingWheel", "MinuteArbor"].map(|name| self.body(name));
         let angle = |body: &RigidBody| 2.0 * atan2(body.rotation.z, body.rotation.w);
         let mut hits = Vec::new();
         for _ in 0..steps(seconds) {
             self.wrenches.fill([0.0; 6]);
             if speed > 0.0 {
-                let blown = Blown { breath, front: None, gain: 10.0 };
-                self.air.push(&self.dynamics.bodies, self.step as f64 * dt, Some(&blown), &mut self.wrenches);
+                let blown = BreathJet { breath, jet_front: None, gain: 10.0 };
+                self.air.apply_forces(&self.dynamics.bodies, self.step as f64 * dt, Some(&blown), &mut self.wrenches);
             }
             let before = wheels.map(|wheel| angle(&self.dynamics.bodies[wheel]));
             let (power, loss) = (self.power(), self.losses());

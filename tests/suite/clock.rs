@@ -7,7 +7,7 @@ use soffio_math::Function;
 use soffio_math::{DVec3, PI, atan2, rotation};
 use soffio_multibody::articulation::LimitKind;
 use soffio_multibody::dynamics::Dynamics;
-use soffio_simulation::{Command, EventKind, Hand, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
+use soffio_simulation::{Command, EventKind, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
 
 const DT: f64 = 1.0 / 240.0;
 /// Beats an hour that its train is cut for.
@@ -356,10 +356,10 @@ impl Visited {
     }
 
     /// Goes on for a time under a breath (m/s) and hands; the widest swing, degrees, and how many teeth were let go.
-    fn go_on(&mut self, seconds: f64, breath: f64, hands: &[Hand]) -> (f64, usize) {
+    fn go_on(&mut self, seconds: f64, breath: f64, hands: &[PointerGrab]) -> (f64, usize) {
         let commands = [Command::Blow((breath > 0.0).then_some(breath))];
         let (mut widest, mut teeth): (f64, usize) = (0.0, 0);
-        let input = StepInput { commands: &commands, hands, pointer: Some(LEAF), ..StepInput::default() };
+        let input = StepInput { commands: &commands, pointer_grabs: hands, pointer: Some(LEAF), ..StepInput::default() };
         for _ in 0..(seconds * STEPS_PER_SECOND as f64) as u64 {
             self.simulation.step(&input);
             self.step += 1;
@@ -432,7 +432,7 @@ fn it_runs_down_when_its_weight_stands_and_whoever_lifts_the_weight_winds_it() {
     // A visitor takes the weight and lifts it by as much as a hand's breadth of the picture.
     let aspect = 16.0 / 9.0;
     let low = clock.simulation.view(aspect).project(clock.simulation.bodies()[weight].position, aspect).expect("seen");
-    let (before, grab) = (height(&clock), |y: f64| [Hand { id: 1, at: [low[0], y], body: Some(weight) }]);
+    let (before, grab) = (height(&clock), |y: f64| [PointerGrab { id: 1, at: [low[0], y], body: Some(weight) }]);
     clock.go_on(0.5, 0.0, &grab(low[1]));
     clock.go_on(1.0, 0.0, &grab(low[1] - 0.006));
     let lifted = height(&clock);
@@ -610,7 +610,7 @@ fn its_hands_are_carried_to_the_time_and_it_strikes_the_hour_that_is_passed() {
             let hits = || simulation.events().iter().filter(|e| e.kind == EventKind::Impact);
             struck += hits().filter(|e| e.bodies == [Some(hammer), None]).count();
             beats += hits().filter(|e| e.bodies.contains(&Some(anchor))).count();
-            if simulation.is_set() && set.is_none() {
+            if simulation.is_clock_set() && set.is_none() {
                 set = Some(step as f64 * DT);
             }
         }

@@ -361,7 +361,7 @@ fn the_chain_breaks_once_when_it_is_blown_falls_and_mends() {
     let exhibit = visit.simulation.exhibit();
     let broken = breaks[0];
     println!("breaks at {:.3} s, opens by {:.0} mm", broken.t, 1e3 * widest);
-    assert_eq!(broken.part.expect("a part").name(exhibit), "weak");
+    assert_eq!(broken.source.expect("a part").name(exhibit), "weak");
     assert_eq!(broken.bodies.map(|b| b.expect("a body")), ["Link4", "Link3"].map(|name| visit.index(name)));
     assert!((1.0..4.0).contains(&broken.t), "at {} s", broken.t);
     assert!((broken.point.y - (0.47 - 3.0 * 44e-3)).abs() < 20e-3, "it breaks where the joint is: {}", broken.point);

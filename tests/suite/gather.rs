@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_simulation::{
-    Command, EventKind, GATHERING_LASTS, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
+    Command, EventKind, ASSEMBLY_DURATION, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
 };
 
 fn load(id: &str) -> Arc<Exhibit> {
@@ -23,7 +23,7 @@ fn what_may_not_gather_is_reset() {
     let exhibit = Arc::new(exhibit);
     let [mut one, mut other] = [(); 2].map(|()| Simulation::new(exhibit.clone(), Settings::default()));
     for step in 0..100 {
-        let commands = [Command::Gather(3)];
+        let commands = [Command::Assemble(3)];
         one.step(&StepInput { commands: if step == 50 { &commands } else { &[] }, ..StepInput::default() });
         let commands = [Command::Reset];
         other.step(&StepInput { commands: if step == 50 { &commands } else { &[] }, ..StepInput::default() });
@@ -36,15 +36,15 @@ fn a_script_gathers_and_a_hand_and_a_breath_do_not_hinder_it() {
     let mut script = Script::parse("{\"t\": 0.5, \"gather\": 4}").expect("a good script");
     let mut simulation = Simulation::new(load("twelve-moons"), Settings::default());
     let mut gathered = false;
-    for step in 0..steps(0.5 + GATHERING_LASTS) + 2 {
+    for step in 0..steps(0.5 + ASSEMBLY_DURATION) + 2 {
         let mut commands = Vec::new();
         script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
         commands.push(Command::Blow(Some(8.0)));
         simulation.step(&StepInput { commands: &commands, ..StepInput::default() });
-        gathered |= simulation.gathers_from().is_some();
+        gathered |= simulation.assembly_distance().is_some();
         assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "step {step}");
     }
-    assert!(gathered && simulation.gathers_from().is_none());
+    assert!(gathered && simulation.assembly_distance().is_none());
     assert!(simulation.joint_error() < 1e-9, "{} m", simulation.joint_error());
 }
 
@@ -65,8 +65,8 @@ fn position_based_parts_gather_too_at_any_change_of_the_kind_of_motion() {
             let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
             let mut before: Option<Vec<_>> = None;
             let mut fastest = 0.0_f64;
-            for step in 0..steps(GATHERING_LASTS) {
-                let commands = [Command::Gather(5)];
+            for step in 0..steps(ASSEMBLY_DURATION) {
+                let commands = [Command::Assemble(5)];
                 let commands = if step == 0 { &commands[..] } else { &[] };
                 simulation.step(&StepInput { commands, mode: mode(step), ..StepInput::default() });
                 assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "{id}: step {step}");
@@ -76,12 +76,12 @@ fn position_based_parts_gather_too_at_any_change_of_the_kind_of_motion() {
                 }
                 before = Some(places);
             }
-            let away = simulation.gathers_from().expect("it still gathers");
+            let away = simulation.assembly_distance().expect("it still gathers");
             assert!(away < HOME, "{id}: {away} m from home");
             // Ω Δ₀/e of a metre a second at most, by the field's word; joints may pull somewhat harder.
             assert!(fastest * STEPS_PER_SECOND as f64 <= 4.0, "{id}: no part jumps: {fastest} m in a step");
             simulation.step(&StepInput { mode: positions, ..StepInput::default() });
-            assert_eq!(simulation.gathers_from(), None);
+            assert_eq!(simulation.assembly_distance(), None);
             assert!(simulation.joint_error() < 1e-6, "{id}: {} m", simulation.joint_error());
         }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use assert_no_alloc::assert_no_alloc;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::{DVec3, rotation};
-use soffio_simulation::{Hand, MotionMode, Script, Settings, Simulation, StepInput};
+use soffio_simulation::{PointerGrab, MotionMode, Script, Settings, Simulation, StepInput};
 
 const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
 const ASPECT: f64 = 16.0 / 9.0;
@@ -30,8 +30,8 @@ fn seen(simulation: &Simulation, body: usize) -> [f64; 2] {
     simulation.view(ASPECT).project(simulation.bodies()[body].position, ASPECT).expect("in front of the eye")
 }
 
-fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[Hand]) {
-    simulation.step(&StepInput { mode: Some(mode), hands, ..StepInput::default() });
+fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[PointerGrab]) {
+    simulation.step(&StepInput { mode: Some(mode), pointer_grabs: hands, ..StepInput::default() });
 }
 
 #[test]
@@ -50,14 +50,14 @@ fn what_is_taken_follows_the_finger_in_every_kind_of_motion() {
         for index in 0..480 {
             let s = (index as f64 / 240.0).min(1.0);
             at = [start[0] + 0.06 * s, start[1]];
-            let hands = [Hand { id: 7, at, body: Some(bob) }];
+            let hands = [PointerGrab { id: 7, at, body: Some(bob) }];
             if index < 60 {
                 // What grows to its size once has grown after a while.
                 step(&mut simulation, mode, &hands);
             } else {
                 assert_no_alloc(|| step(&mut simulation, mode, &hands));
             }
-            assert_eq!(simulation.snapshot().diagnostics.hands, 1, "{mode:?}: the finger has the bob");
+            assert_eq!(simulation.snapshot().diagnostics.grabs, 1, "{mode:?}: the finger has the bob");
         }
         // The bob swings about the z axis of its knife: of all places on that circle it is at the one that is nearest to
         // the finger's sight line, however obliquely the eye looks at the circle.
@@ -83,7 +83,7 @@ fn what_is_thrown_flies_on_and_what_is_held_still_stays() {
         let start = seen(&simulation, bob);
         for index in 0..60 {
             let at = [start[0] + 0.12 * f64::from(index) / 60.0, start[1]];
-            step(&mut simulation, mode, &[Hand { id: 1, at, body: None }]);
+            step(&mut simulation, mode, &[PointerGrab { id: 1, at, body: None }]);
         }
         let speed = simulation.bodies()[bob].velocity.length();
         step(&mut simulation, mode, &[]);
@@ -91,7 +91,7 @@ fn what_is_thrown_flies_on_and_what_is_held_still_stays() {
         println!("{mode:?}: {speed} m/s in the hand, {after} m/s after it");
         // One step of gravity on the bow.
         assert!(speed > 0.1 && (after - speed).abs() < 0.1 * speed + 9.81 / 240.0, "{mode:?}: {speed} {after}");
-        assert_eq!(simulation.snapshot().diagnostics.hands, 0);
+        assert_eq!(simulation.snapshot().diagnostics.grabs, 0);
     }
 }
 
@@ -105,7 +105,7 @@ fn what_may_not_be_touched_is_not() {
     let at = seen(&left, bob);
     for index in 0..240 {
         let at = [at[0] + 0.001 * f64::from(index), at[1]];
-        step(&mut left, MotionMode::Dynamic, &[Hand { id: 1, at, body: None }]);
+        step(&mut left, MotionMode::Dynamic, &[PointerGrab { id: 1, at, body: None }]);
         step(&mut right, MotionMode::Dynamic, &[]);
     }
     assert_eq!(left.state_hash(), right.state_hash());
@@ -121,15 +121,15 @@ fn a_script_has_hands() {
     let mut at = |t: f64| {
         let mut hands = Vec::new();
         script.due(t, &mut Vec::new());
-        script.hands(&simulation, ASPECT, &mut hands);
+        script.pointer_grabs(&simulation, ASPECT, &mut hands);
         hands
     };
     assert!(at(0.0).is_empty());
     let bob = body(&simulation, "Pendulum");
-    assert_eq!(at(0.1), [Hand { id: 1, at: seen(&simulation, bob), body: Some(bob) }]);
-    assert_eq!(at(0.25), [Hand { id: 1, at: [0.7, 0.6], body: Some(bob) }]);
+    assert_eq!(at(0.1), [PointerGrab { id: 1, at: seen(&simulation, bob), body: Some(bob) }]);
+    assert_eq!(at(0.25), [PointerGrab { id: 1, at: [0.7, 0.6], body: Some(bob) }]);
     assert_eq!(at(0.5).len(), 2);
-    assert_eq!(at(1.5), [Hand { id: 2, at: [0.5, 0.9], body: None }]);
+    assert_eq!(at(1.5), [PointerGrab { id: 2, at: [0.5, 0.9], body: None }]);
 
     let wrong =
         Script::parse("{\"t\": 0, \"reset\": true}\n{\"t\": 1, \"grab\": {\"body\": \"Bab\"}}").expect("a script");

@@ -9,7 +9,7 @@ use soffio_math::noise::Random;
 use soffio_math::{PI, StateHash, decibels, from_decibels, sin};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
-    AWeighting, CEILING, Exposure, InstrumentSpec, LoudnessMeter, PROGRAMME, Preset, RoomSpec, SUDDEN, SoundBody,
+    AWeighting, CEILING, Exposure, InstrumentSpec, LoudnessMeter, PROGRAMME, Preset, ReverbSpec, SUDDEN, SoundBody,
     SoundCommand, SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
 };
 
@@ -176,7 +176,7 @@ fn a_tick_eases_down_with_repetition() {
 /// A second of hits in a room.
 fn in_a_room(block: usize) -> Vec<f32> {
     let mut synth = synth(900.0, 0.5, 1.0);
-    synth.set_room(Some(&RoomSpec::GALLERY));
+    synth.set_reverb(Some(&ReverbSpec::GALLERY));
     synth.set_night(true);
     let mut random = Random::new(12);
     for _ in 0..30 {
@@ -215,7 +215,7 @@ const ROUNDED_TWICE: u64 = 0xa50b_3936_31b8_cdcc;
 #[test]
 fn a_room_adds_its_tail_and_keeps_the_sound_itself() {
     let mut with = synth(900.0, 0.05, 1.0);
-    with.set_room(Some(&RoomSpec::GALLERY));
+    with.set_reverb(Some(&ReverbSpec::GALLERY));
     let mut without = synth(900.0, 0.05, 1.0);
     for synth in [&mut with, &mut without] {
         synth.command(strike(0, 2e-4));
@@ -319,14 +319,14 @@ fn a_calibrated_kiosk_keeps_its_cap() {
     volume.step(-1);
     assert!(volume.db() < volume.cap_db(), "a step down is heard at once");
     // A minute at 76 dB(A): 6 dB too much are gone after 12 s, and come back slowly.
-    (0..12).for_each(|_| volume.heed(-24.0, 1.0));
-    assert_eq!(volume.eased_db(), 6.0);
-    (0..60).for_each(|_| volume.heed(-40.0, 1.0));
-    assert!((volume.eased_db() - 3.0).abs() < 1e-9, "{}", volume.eased_db());
+    (0..12).for_each(|_| volume.apply_exposure_limit(-24.0, 1.0));
+    assert_eq!(volume.attenuation_db(), 6.0);
+    (0..60).for_each(|_| volume.apply_exposure_limit(-40.0, 1.0));
+    assert!((volume.attenuation_db() - 3.0).abs() < 1e-9, "{}", volume.attenuation_db());
     // Without a calibration nobody knows what is too loud.
     let mut unknown = Volume::new(settings());
-    unknown.heed(0.0, 100.0);
-    assert_eq!((unknown.eased_db(), unknown.cap_db(), unknown.spl(-20.0)), (0.0, 0.0, None));
+    unknown.apply_exposure_limit(0.0, 100.0);
+    assert_eq!((unknown.attenuation_db(), unknown.cap_db(), unknown.spl(-20.0)), (0.0, 0.0, None));
 }
 
 #[test]
@@ -450,12 +450,12 @@ fn a_runs_loudness_is_that_of_another_meter() {
     let expected = meter.loudness_global().expect("a loudness");
     for piece in [1, 7, 200, 4_800, 9_999] {
         let mut meter = LoudnessMeter::new();
-        samples.as_chunks().0.chunks(piece).for_each(|frames| meter.hear(frames));
+        samples.as_chunks().0.chunks(piece).for_each(|frames| meter.push(frames));
         let own = meter.loudness();
         assert!((own - expected).abs() < SAME, "{own} LUFS in pieces of {piece}, {expected} by the other meter");
     }
     assert_eq!(LoudnessMeter::new().loudness(), f64::NEG_INFINITY);
     let mut silent = LoudnessMeter::new();
-    silent.hear(&[[0.0; 2]; 48_000]);
+    silent.push(&[[0.0; 2]; 48_000]);
     assert_eq!(silent.loudness(), f64::NEG_INFINITY);
 }

@@ -12,8 +12,8 @@ use soffio_multibody::articulation::{Anchor, ConstraintKind};
 use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as Laws};
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_wind::SurfaceShape;
-use soffio_wind::breath::{Breath, Law};
-use soffio_wind::force::{Blown, WindField};
+use soffio_wind::breath::{Breath, SpreadLaw};
+use soffio_wind::force::{BreathJet, WindField};
 
 const G: f64 = 9.81;
 /// Of turns and periods against the design sheets.
@@ -347,16 +347,16 @@ fn a_breaths_run_agrees_with_an_independent_integration_of_its_forces() {
         let target = start[surface.body].pose().point(mesh.ball().0);
         let direction = DVec3::new(0.1, 0.0, -1.0).normalize();
         let breath =
-            Breath { mouth: target - 0.5 * direction, direction, lip_diameter: 0.01, speed: 8.9, law: Law::Jet };
+            Breath { mouth: target - 0.5 * direction, direction, lip_diameter: 0.01, speed: 8.9, law: SpreadLaw::Jet };
         let mut impacts = Vec::new();
         let dt = 1.0 / STEPS_PER_SECOND as f64;
         let mut wrenches: Vec<Vec6> = vec![[0.0; 6]; start.len()];
         for step in 0..steps(SECONDS) {
             // A breath of a second and a half, whose forces both feel alike.
-            let blown = Blown { breath, front: None, gain: 4.0 };
+            let blown = BreathJet { breath, jet_front: None, gain: 4.0 };
             let time = step as f64 * dt;
             wrenches.fill([0.0; 6]);
-            air.push(&dynamics.bodies, time, Some(&blown).filter(|_| time < 1.5), &mut wrenches);
+            air.apply_forces(&dynamics.bodies, time, Some(&blown).filter(|_| time < 1.5), &mut wrenches);
             dynamics.step(dt, &wrenches, &mut impacts);
             for _ in 0..SUBSTEPS {
                 springy.step(dt / SUBSTEPS as f64, &wrenches);

@@ -5,7 +5,7 @@ use soffio_exhibit::model::{Appearance, Camera, Mesh, Model, Node, Primitive};
 use soffio_exhibit::{Body, Exhibit, Wire};
 use soffio_math::Pose;
 use soffio_render::{Frame, ImageRenderer, Look, Options, RenderError, Tonemap};
-use soffio_simulation::Mote;
+use soffio_simulation::DustParticle;
 
 use crate::require::require;
 
@@ -307,7 +307,7 @@ fn dust_adds_light_where_it_is_and_nowhere_else() {
     let exhibit = mobile();
     let Some(mut renderer) = renderer(&exhibit, |_| {}) else { return };
     let position = exhibit.bodies[0].pose.position + DVec3::Z * 0.1;
-    let mote = Mote { position: position.as_vec3().to_array(), velocity: [0.0; 3], brightness: 0.8 };
+    let mote = DustParticle { position: position.as_vec3().to_array(), velocity: [0.0; 3], brightness: 0.8 };
     let dark = frame(&exhibit, &[], (300, 200));
     let lit = Frame { motes: &[mote], ..dark };
     let [before, after] = [dark, lit].map(|f| renderer.draw(&f).expect("a picture"));

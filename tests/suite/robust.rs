@@ -251,7 +251,7 @@ fn a_breath_sets_off_what_waits_for_it_and_an_event_says_when() {
     for event in fired {
         assert_eq!(event.bodies, [Some(0), None]);
         assert!((event.t - event.sample as f64 / 48_000.0).abs() < 1e-12, "{} s", event.t);
-        assert_eq!(event.part.expect("a part").name(&exhibit), "catch");
+        assert_eq!(event.source.expect("a part").name(&exhibit), "catch");
     }
     assert!(simulation.bodies()[0].velocity.y < -1.0, "let go after half a second, it falls");
 }

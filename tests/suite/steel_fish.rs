@@ -129,7 +129,7 @@ fn energy_is_kept_for_a_minute_without_wind_and_friction() {
 fn a_minute_of_hard_breath_neither_breaks_nor_blows_it_apart() {
     const HARD: f64 = 17.0;
     let exhibit = steel_fish();
-    for profile in [Profile::Gallery, Profile::True] {
+    for profile in [Profile::Gallery, Profile::Physical] {
         let mut simulation = Simulation::new(exhibit.clone(), Settings { profile, ..Settings::default() });
         let blow = [Command::Blow(Some(HARD))];
         let mut worst: f64 = 0.0;

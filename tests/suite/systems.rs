@@ -3,8 +3,8 @@
 use soffio_exhibit::{self as exhibit, Exhibit, Motion, SoundTrigger};
 use soffio_geometry::support::Core;
 use soffio_multibody::articulation::{Constraint, ConstraintKind, LimitKind, Measure, SpringKind, Trigger};
-use soffio_wind::breath::Law;
-use soffio_wind::weather::WindKind;
+use soffio_wind::breath::SpreadLaw;
+use soffio_wind::ambient::WindKind;
 
 /// A system, and how an exhibit that shows it is known.
 type System = (&'static str, fn(&Exhibit) -> bool);
@@ -120,11 +120,11 @@ const SYSTEMS: &[System] = &[
         shape(e, |s| matches!(s, Core::Point)) && e.materials.iter().any(|m| m.resistance.rolling > 0.0)
     }),
     // 4: wind
-    ("breath as a jet", |e| e.breath.law == Law::Jet && !e.wind_surfaces.is_empty()),
-    ("breath as a cone", |e| e.breath.law == Law::Cone && !e.wind_surfaces.is_empty()),
+    ("breath as a jet", |e| e.breath.law == SpreadLaw::Jet && !e.wind_surfaces.is_empty()),
+    ("breath as a cone", |e| e.breath.law == SpreadLaw::Cone && !e.wind_surfaces.is_empty()),
     ("fan", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Fan { .. }))),
     ("draught or gust", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Draught { .. }))),
-    ("the room's own air", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Room { .. }))),
+    ("the room's own air", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Turbulence { .. }))),
     // 5: sound
     ("a tube that rings", |e| sounds(e, SoundTrigger::Impact, "chime-")),
     ("bell", |e| sounds(e, SoundTrigger::Impact, "bell")),

@@ -13,7 +13,7 @@ use soffio_math::{PI, exp, ln, sin};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 use soffio_sound::modal::{BLOCK, Bank, Partial, fuses};
 use soffio_sound::{
-    InstrumentSpec, Preset, Room, RoomSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
+    InstrumentSpec, Preset, Reverb, ReverbSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
 };
 
 /// Rounds of each measurement; the best is reported, as the machine's other work can only add.
@@ -180,7 +180,7 @@ fn preset(partials: &[Partial]) -> Result<Preset, Failure> {
 /// The gallery, busy, % of one core.
 fn room() -> f64 {
     let rate = f64::from(SAMPLE_RATE);
-    let Some(mut room) = Room::new(&RoomSpec::GALLERY, rate) else { return f64::NAN };
+    let Some(mut room) = Reverb::new(&ReverbSpec::GALLERY, rate) else { return f64::NAN };
     let mut random = Random::new(1);
     let noise: Vec<f32> = (0..SAMPLE_RATE).map(|_| random.signed() as f32).collect();
     let start = ThreadTime::now();
@@ -229,7 +229,7 @@ fn scene() -> Result<Scene, Failure> {
     let lasts = SCENE_BLOCK as f64 / f64::from(SAMPLE_RATE);
     for _ in 0..ROUNDS {
         let mut synth = Synth::with_presets(SAMPLE_RATE, &instruments, 1).map_err(Failure::input)?;
-        synth.set_room(Some(&RoomSpec::GALLERY));
+        synth.set_reverb(Some(&ReverbSpec::GALLERY));
         let mut random = Random::new(1);
         let mut strike = |sample: u64, instrument: usize| {
             SoundCommand::Strike(Strike {

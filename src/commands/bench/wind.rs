@@ -11,8 +11,8 @@ use soffio_geometry::TriangleMesh;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
 use soffio_math::{DMat3, DVec3, PI, Pose, rotation, sincos};
-use soffio_wind::breath::{Breath, Law};
-use soffio_wind::force::{Blown, WindField};
+use soffio_wind::breath::{Breath, SpreadLaw};
+use soffio_wind::force::{BreathJet, WindField};
 use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 /// Parts of the crowd, patches on each, and rings of a ball: 10,000 patches and 5,000 triangles.
@@ -64,20 +64,20 @@ fn measure() -> Row {
     let surfaces: Vec<Surface> = (0..PARTS).map(surface).collect();
     let steps: Vec<Vec<RigidBody>> = crowd(&mut random);
     let breath =
-        Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 17.0, law: Law::Jet };
+        Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 17.0, law: SpreadLaw::Jet };
     let mut field = WindField::new(&surfaces, &Shelter::of(&surfaces), &[], PARTS, SEED);
-    let blown = Blown { breath, front: None, gain: 1.0 };
+    let blown = BreathJet { breath, jet_front: None, gain: 1.0 };
     let mut out = vec![[0.0; 6]; PARTS];
     let whole = best(&steps, |step, bodies| {
         out.fill([0.0; 6]);
-        black_box(field.push(bodies, step as f64 / 240.0, Some(&blown), &mut out));
+        black_box(field.apply_forces(bodies, step as f64 / 240.0, Some(&blown), &mut out));
     });
     let mut seen = 0;
     let sight = best(&steps, |_, bodies| {
-        seen = black_box(field.samples(bodies, &breath)).iter().filter(|sample| sample.seen).count();
+        seen = black_box(field.sample_patches(bodies, &breath)).iter().filter(|sample| sample.visible).count();
     });
     let each = best(&steps[..1], |_, bodies| {
-        for sample in field.samples(bodies, &breath) {
+        for sample in field.sample_patches(bodies, &breath) {
             let way = breath.origin(sample.point) - sample.point;
             // A hand's breadth of the way is left out as the rays of a step leave out their own face.
             let start = sample.point + way * 1e-3;
@@ -86,7 +86,7 @@ fn measure() -> Row {
     });
     Row {
         parts: PARTS,
-        patches: field.patches(),
+        patches: field.patch_count(),
         triangles: field.occluders().triangles(),
         seen: seen as f64,
         ms_per_step: 1e3 * whole,
@@ -131,7 +131,7 @@ fn surface(body: usize) -> Surface {
     let shape = SurfaceShape::Mesh {
         mesh: ball(0.02),
         per_area: 1.0,
-        count: (PATCHES, PATCHES),
+        count: PATCHES..=PATCHES,
         sheet: true,
         seed: body as u64,
     };

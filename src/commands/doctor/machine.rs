@@ -153,7 +153,7 @@ fn sound(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
         if blow {
             let sensitivity_db = config.breath.sensitivity_db;
             let mut detector = BlowDetector::with_settings(rate, BlowSettings { sensitivity_db, ..Default::default() });
-            heard.share(0, 1, rate).reach(&mut detector);
+            heard.share(0, 1, rate).feed(&mut detector);
             findings.push(judge_blow(&listen(&mut audio, &mut detector), sensitivity_db).of_device());
         }
     }
@@ -223,7 +223,7 @@ fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate>
         std::thread::sleep(LOOK);
         heard.clear();
         let Some(rate) = audio.read_microphone(&mut heard) else { break };
-        heard.share(0, 1, rate).reach(detector);
+        heard.share(0, 1, rate).feed(detector);
         let (before, step) = (steps.last().copied().unwrap_or_default(), detector.estimate());
         if step.reason == Reason::Blow {
             breaths += usize::from(before.reason != Reason::Blow);

@@ -108,7 +108,7 @@ pub fn run(args: Args) -> Outcome {
     let settings = Settings {
         profile: match args.profile {
             ProfileArg::Gallery => Profile::Gallery,
-            ProfileArg::True => Profile::True,
+            ProfileArg::True => Profile::Physical,
         },
         seed: args.seed,
         wind: !args.no_wind,

@@ -312,9 +312,9 @@ impl Voice {
 fn last_words(commands: &[SoundCommand]) -> Vec<SoundCommand> {
     let goes_on = |command: &SoundCommand| match command {
         SoundCommand::Wind(_) => Some((0, 0)),
-        SoundCommand::Across(across) => Some((1, across.instrument)),
+        SoundCommand::WindExposure(across) => Some((1, across.instrument)),
         SoundCommand::Slide(slide) => Some((2, slide.instrument)),
-        SoundCommand::Strike(_) | SoundCommand::Touch(_) | SoundCommand::Silence { .. } => None,
+        SoundCommand::Strike(_) | SoundCommand::Damp(_) | SoundCommand::Silence { .. } => None,
     };
     let mut said = BTreeSet::new();
     let from_the_end = commands.iter().rev().filter(|command| goes_on(command).is_none_or(|key| said.insert(key)));

@@ -96,7 +96,7 @@ impl Context<'_> {
             shape: SurfaceShape::Mesh {
                 mesh,
                 per_area: given.sampling.per_area.0,
-                count: (given.sampling.min, given.sampling.max),
+                count: given.sampling.min..=given.sampling.max,
                 sheet,
                 seed: given.sampling.seed,
             },

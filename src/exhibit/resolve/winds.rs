@@ -8,8 +8,8 @@ use super::context::Context;
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 use soffio_math::Function;
-use soffio_wind::breath::Law;
-use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::breath::SpreadLaw;
+use soffio_wind::ambient::{Inlet, Modulation, Wind, WindKind};
 use soffio_wind::{Shelter, Surface};
 
 /// Size of the room's largest eddies (m) and time in which they change (s), where the sidecar does not say.
@@ -23,8 +23,8 @@ impl Context<'_> {
     pub(super) fn breath_tuning(&mut self) -> BreathTuning {
         let given = self.sidecar.wind.breath;
         let law = match given.law {
-            sidecar::Law::Cone => Law::Cone,
-            sidecar::Law::Jet => Law::Jet,
+            sidecar::Law::Cone => SpreadLaw::Cone,
+            sidecar::Law::Jet => SpreadLaw::Jet,
         };
         let place = "/wind/breath/lip_diameter";
         let lip_diameter = given.lip_diameter.map(|d| self.positive(d.0, place));
@@ -80,8 +80,8 @@ impl Context<'_> {
         let period = given.period.map_or(ROOM_PERIOD, |t| self.positive(t.0, &format!("{at}/period")));
         self.trace("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
         self.trace("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
-        let kind = WindKind::Room { scale, period, seed: given.seed };
-        Wind { name: ROOM.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), rhythm: Rhythm::Even }
+        let kind = WindKind::Turbulence { scale, period, seed: given.seed };
+        Wind { name: ROOM.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), modulation: Modulation::Steady }
     }
 
     fn fan(&mut self, given: &sidecar::Fan, at: &str) -> Option<Wind> {
@@ -92,7 +92,7 @@ impl Context<'_> {
         let speed = self.wind_speed(&given.speed, at, &given.name);
         let rhythm = self.gusts(given.gusts, at);
         let kind = WindKind::Fan { at: place?, direction: direction?, diameter };
-        Some(Wind { name: given.name.clone(), kind, speed, rhythm })
+        Some(Wind { name: given.name.clone(), kind, speed, modulation: rhythm })
     }
 
     fn draught(&mut self, given: &sidecar::Draught, at: &str) -> Option<Wind> {
@@ -100,7 +100,7 @@ impl Context<'_> {
         let kind = self.one_way(given.direction, given.at.as_ref(), given.width.map(|w| w.0), at, &used_for);
         let speed = self.wind_speed(&given.speed, at, &given.name);
         let rhythm = self.gusts(given.gusts, at);
-        Some(Wind { name: given.name.clone(), kind: kind?, speed, rhythm })
+        Some(Wind { name: given.name.clone(), kind: kind?, speed, modulation: rhythm })
     }
 
     fn gust(&mut self, given: &sidecar::Gust, at: &str) -> Option<Wind> {
@@ -114,8 +114,8 @@ impl Context<'_> {
             let problem = Diagnostic::new(codes::RANGE, message).help("puffs do not overlap: lasts ≤ every");
             self.report(&format!("{at}/lasts"), problem);
         }
-        let rhythm = Rhythm::Puffs { every, lasts, seed: given.seed };
-        Some(Wind { name: given.name.clone(), kind: kind?, speed, rhythm })
+        let rhythm = Modulation::Puffs { interval: every, duration: lasts, seed: given.seed };
+        Some(Wind { name: given.name.clone(), kind: kind?, speed, modulation: rhythm })
     }
 
     /// A wind that blows one way: everywhere, or from a place and so wide.
@@ -128,11 +128,11 @@ impl Context<'_> {
         used_for: &str,
     ) -> Option<WindKind> {
         let direction = self.unit(DVec3::from(direction), &format!("{at}/direction"));
-        let place = match (place, width) {
+        let inlet = match (place, width) {
             (None, None) => Some(None),
             (Some(place), Some(width)) => {
                 let width = self.positive(width, &format!("{at}/width"));
-                self.still_point(place, &format!("{at}/at"), used_for).map(|place| Some((place, width)))
+                self.still_point(place, &format!("{at}/at"), used_for).map(|center| Some(Inlet { center, width }))
             }
             _ => {
                 let message = format!("{used_for} needs both a place and a width, or neither");
@@ -141,7 +141,7 @@ impl Context<'_> {
                 None
             }
         };
-        Some(WindKind::Draught { direction: direction?, place: place? })
+        Some(WindKind::Draught { direction: direction?, inlet: inlet? })
     }
 
     fn wind_speed(
@@ -158,8 +158,8 @@ impl Context<'_> {
         speed
     }
 
-    fn gusts(&mut self, given: Option<Gusts>, at: &str) -> Rhythm {
-        given.map_or(Rhythm::Even, |gusts| Rhythm::Gusty {
+    fn gusts(&mut self, given: Option<Gusts>, at: &str) -> Modulation {
+        given.map_or(Modulation::Steady, |gusts| Modulation::Gusty {
             strength: gusts.strength,
             period: self.positive(gusts.period.0, &format!("{at}/gusts/period")),
             seed: gusts.seed,

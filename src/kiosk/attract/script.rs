@@ -93,7 +93,7 @@ impl Attract {
         if visitor {
             (self.idle, self.met) = (0, true);
             let over = self.round.take().is_some();
-            let commands = if over { vec![Command::Blow(None), Command::Calm] } else { Vec::new() };
+            let commands = if over { vec![Command::Blow(None), Command::Settle] } else { Vec::new() };
             return Cue { commands, ..Cue::default() };
         }
         self.idle += 1;
@@ -153,7 +153,7 @@ impl Attract {
         }
         if let Some((feed, detector)) = &mut round.breath {
             let over = feed.is_over();
-            feed.microphone().reach(detector);
+            feed.microphone().feed(detector);
             let speed = if over { 0.0 } else { detector.estimate().speed };
             let more = 1.0 / (SWELLS_S * STEPS_PER_SECOND as f64);
             round.swollen = if speed > 0.0 { (round.swollen + more).min(1.0) } else { 0.0 };
@@ -167,7 +167,7 @@ impl Attract {
         }
         round.swings = match round.swings {
             Some(0) => {
-                commands.push(Command::Calm);
+                commands.push(Command::Settle);
                 None
             }
             left => left.map(|left| left - 1),

@@ -11,7 +11,7 @@ use crate::staff::sight::Sight;
 use crate::staff::wish::Wish;
 use crate::visitor::input::{Phase, Signal};
 use soffio_config::Config;
-use soffio_simulation::Look;
+use soffio_simulation::InspectionScope;
 
 /// How long a message stays in the corner of a desk, s.
 const TOAST_S: f64 = 10.0;
@@ -77,12 +77,12 @@ impl Staff {
     }
 
     /// What the open page looks at.
-    pub fn look(&self, site: &Config) -> Look {
+    pub fn look(&self, site: &Config) -> InspectionScope {
         match self.page {
-            _ if !self.open || site.staff.pin.is_set() && !self.gate.is_open() => Look::Nothing,
-            Page::Bodies => Look::Bodies,
-            Page::Wind => Look::Wind,
-            _ => Look::Nothing,
+            _ if !self.open || site.staff.pin.is_set() && !self.gate.is_open() => InspectionScope::Nothing,
+            Page::Bodies => InspectionScope::Bodies,
+            Page::Wind => InspectionScope::Wind,
+            _ => InspectionScope::Nothing,
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a step is told as levels: the newest value counts.
 
 use crate::visitor::gesture::Press;
-use soffio_simulation::{Look, MotionMode};
+use soffio_simulation::{InspectionScope, MotionMode};
 
 /// What the visitor does and how the window stands, as levels: each value holds until a newer one overwrites it, and reading
 /// it twice means nothing more than reading it once. What happens once is a [`KioskCommand`](super::command::KioskCommand).
@@ -40,7 +40,7 @@ pub struct Controls {
     /// The house is closed: no sound, and no microphone.
     pub closed: bool,
     /// What staff look at.
-    pub look: Look,
+    pub look: InspectionScope,
 }
 
 impl Controls {

@@ -72,10 +72,10 @@ mod tests {
         const MORE: usize = 3;
         let mut inbox = Inbox::new(Controls::default());
         for number in 0..CAPACITY + MORE {
-            inbox.send(KioskCommand::Simulation(Command::Gather(number as u64)));
+            inbox.send(KioskCommand::Simulation(Command::Assemble(number as u64)));
         }
         assert_eq!(inbox.dropped(), MORE as u64);
-        let newest: Vec<Command> = (MORE..CAPACITY + MORE).map(|number| Command::Gather(number as u64)).collect();
+        let newest: Vec<Command> = (MORE..CAPACITY + MORE).map(|number| Command::Assemble(number as u64)).collect();
         assert_eq!(inbox.take().1.commands, newest);
         inbox.send(KioskCommand::Chirp);
         assert_eq!(inbox.dropped(), MORE as u64, "there is room again");

@@ -10,7 +10,7 @@ use soffio_exhibit::{Exhibit, Leeway, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::{
-    Command, Inspection, Look, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation,
+    Command, Inspection, InspectionScope, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation,
     Snapshot, StepInput,
 };
 use soffio_sound::SoundCommand;
@@ -121,10 +121,10 @@ impl Stage {
         }
         cue.commands.append(&mut self.commands);
         // Whoever blows or presses does not wait until the parts have gathered, and whoever wants less motion does not see it.
-        let impatient = (breathing || pressed || self.calm) && self.simulation.gathers_from().is_some();
+        let impatient = (breathing || pressed || self.calm) && self.simulation.assembly_distance().is_some();
         cue.commands.extend(self.called.take().or(impatient.then_some(Command::Reset)));
         let simulation = &mut self.simulation;
-        let takeable = |at| simulation.can_be_taken(at, controls.aspect);
+        let takeable = |at| simulation.hit_test(at, controls.aspect);
         let touch = Touch {
             presses: &controls.presses,
             lifts: &lifts,
@@ -159,9 +159,9 @@ impl Stage {
         let Told { pointer, aspect, turn, mode, ref commands } = self.told;
         self.simulation.step(&StepInput {
             microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
-            deaf: controls.inert,
+            ignore_microphone: controls.inert,
             hold: self.holds,
-            hands: self.gestures.hands(),
+            pointer_grabs: self.gestures.hands(),
             strength: controls.strength,
             pointer,
             aspect,
@@ -197,7 +197,7 @@ impl Stage {
     /// day now, s after midnight, to which it sets its hands where it has any.
     pub fn swap(&mut self, exhibit: Arc<Exhibit>, clock: Option<f64>) {
         let another = exhibit.id != self.exhibit().id;
-        self.called = (another && !self.calm).then_some(Command::Gather(self.steps));
+        self.called = (another && !self.calm).then_some(Command::Assemble(self.steps));
         self.gestures.unlatch();
         (self.orbit, self.leeway) = (Orbit::default(), None);
         self.attract = self.attract.take().map(|before| {
@@ -209,7 +209,7 @@ impl Stage {
 
     /// Lets an exhibit begin, before the same room.
     fn begin(&mut self, exhibit: Arc<Exhibit>, settings: Settings) {
-        self.simulation = Simulation::new(exhibit, settings).listening_on(&mut self.simulation);
+        self.simulation = Simulation::new(exhibit, settings).adopt_detector(&mut self.simulation);
         self.snapshot = self.simulation.snapshot();
     }
 
@@ -226,7 +226,7 @@ impl Stage {
     }
 
     /// Looks closer at the present moment.
-    pub fn inspect(&mut self, look: Look) -> Inspection {
+    pub fn inspect(&mut self, look: InspectionScope) -> Inspection {
         self.simulation.inspect(look)
     }
 
@@ -242,7 +242,7 @@ impl Stage {
 
     /// The camera of the last step.
     pub fn sight(&self) -> &View {
-        self.simulation.sight()
+        self.simulation.current_view()
     }
 
     /// Constants of the run.
@@ -258,7 +258,7 @@ impl Stage {
     /// What the last step was told; the breath is in the snapshot's speed.
     pub fn told(&self) -> StepInput<'_> {
         let Told { pointer, aspect, turn, mode, ref commands } = self.told;
-        StepInput { pointer, aspect, turn, mode, commands, hands: self.gestures.hands(), ..StepInput::default() }
+        StepInput { pointer, aspect, turn, mode, commands, pointer_grabs: self.gestures.hands(), ..StepInput::default() }
     }
 
     /// Did a press, a key or a switch blow in the last step?

@@ -54,12 +54,12 @@ impl Stillness {
         self.quiet += 1;
         let breath = &now.breath;
         let shaped = exhibit.shapes.iter().any(|track| track.moves(now.time));
-        let flies = now.motes.iter().any(|mote| mote.brightness > BRIGHT);
+        let flies = now.dust_particles.iter().any(|mote| mote.brightness > BRIGHT);
         let blown = breath.speed > 0.0 || breath.estimate.speed > 0.0;
         if blown
             || shaped
             || flies
-            || now.diagnostics.hands > 0
+            || now.diagnostics.grabs > 0
             || now.turn != self.turn
             || self.moved(now, view) > UNSEEN
         {

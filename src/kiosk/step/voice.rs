@@ -2,7 +2,7 @@
 
 use soffio_exhibit::Exhibit;
 use soffio_sound::timbre::{Specimen, names};
-use soffio_sound::{InstrumentSpec, Preset, RoomSpec, Slide, SoundCommand, Strike, Synth};
+use soffio_sound::{InstrumentSpec, Preset, ReverbSpec, Slide, SoundCommand, Strike, Synth};
 
 /// What strikes an instrument that staff try, kg: a small wooden beater.
 const BEATER: f64 = 0.01;
@@ -88,7 +88,7 @@ pub fn hit(instrument: u16, trial: &Trial, sample: u64) -> SoundCommand {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Voice {
     /// What they are heard in; `None` is the open air.
-    pub room: Option<RoomSpec>,
+    pub room: Option<ReverbSpec>,
     /// That ring at once.
     pub most_partials: usize,
     /// Of all that is random.
@@ -105,7 +105,7 @@ impl Voice {
                 tracing::error!("the exhibit stays silent: {error}");
                 Synth::silent(rate)
             });
-            synth.set_room(self.room.as_ref());
+            synth.set_reverb(self.room.as_ref());
             synth.set_most_partials(self.most_partials);
             synth
         }

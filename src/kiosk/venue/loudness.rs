@@ -134,7 +134,7 @@ impl Loudness {
         let (by, exposure) = (self.by, std::mem::take(&mut self.exposure));
         let before = if anew { (0.0, 0.0) } else { self.before };
         let mut kept = self.volume.clone();
-        kept.settle(volume);
+        kept.reconfigure(volume);
         *self = Self { volume: kept, by, exposure, before, ..Self::new(volume, hours, silent_attract) };
     }
 
@@ -189,7 +189,7 @@ impl Loudness {
         if passed > 0.0 {
             let day = 366 * u64::from(now.year().unsigned_abs()) + u64::from(now.day_of_year().unsigned_abs());
             self.exposure.note((energy - self.before.0) / passed, passed, day);
-            self.volume.heed(self.exposure.minute(), passed);
+            self.volume.apply_exposure_limit(self.exposure.minute(), passed);
             self.before = (energy, seconds);
         }
     }
@@ -203,7 +203,7 @@ impl Loudness {
             muted: self.volume.is_muted(),
             night: self.night,
             by: self.by,
-            eased_db: self.volume.eased_db(),
+            eased_db: self.volume.attenuation_db(),
             level_db,
             laeq_db: level_db.map(|level| self.volume.spl(level)),
         }

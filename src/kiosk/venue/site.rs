@@ -12,7 +12,7 @@ use crate::venue::shelf::{QUIET, is_change};
 use soffio_config::{AudioSettings, Config, ControllerSettings, Hours};
 use soffio_exhibit as exhibit;
 use soffio_simulation::Settings;
-use soffio_sound::{RoomSpec, VolumeSettings};
+use soffio_sound::{ReverbSpec, VolumeSettings};
 
 /// What the simulation thread needs of the configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Site {
     /// Devices.
     pub audio: AudioSettings,
     /// What the sounds are heard in; `None` is the open air.
-    pub room: Option<RoomSpec>,
+    pub room: Option<ReverbSpec>,
     /// How loud it may be.
     pub volume: VolumeSettings,
     /// When the house is quiet.

@@ -16,7 +16,7 @@
 //! towards where it lies.
 
 use crate::visitor::orbit;
-use soffio_simulation::{Hand, STEPS_PER_SECOND};
+use soffio_simulation::{PointerGrab, STEPS_PER_SECOND};
 
 /// A pointer button or finger that is down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +96,7 @@ struct Known {
 #[derive(Clone, Debug, Default)]
 pub struct Gestures {
     known: Vec<Known>,
-    hands: Vec<Hand>,
+    hands: Vec<PointerGrab>,
     /// Is a breath on that nobody holds?
     latched: bool,
     keyed: u64,
@@ -145,7 +145,7 @@ impl Gestures {
                     // It takes what lay under it when it came down.
                     let at = if known.held == 0 { known.from } else { press.at };
                     known.held += 1;
-                    self.hands.push(Hand { id: press.id, at, body: None });
+                    self.hands.push(PointerGrab { id: press.id, at, body: None });
                 }
                 Meaning::Blows if !touch.once => blows = blows.or(Some(press.at)),
                 // The first finger turns; another beside it would turn twice as far.
@@ -161,7 +161,7 @@ impl Gestures {
     }
 
     /// The hands on the sculpture.
-    pub fn hands(&self) -> &[Hand] {
+    pub fn hands(&self) -> &[PointerGrab] {
         &self.hands
     }
 
@@ -280,9 +280,9 @@ mod tests {
         step(&mut gestures, &[press(1, 0.52), press(2, 0.3)], true);
         let blows = step(&mut gestures, &[press(1, 0.52), press(2, 0.35)], true);
         assert_eq!(blows, Some([0.52, 0.5]));
-        assert_eq!(gestures.hands(), [Hand { id: 2, at: [0.3, 0.5], body: None }]);
+        assert_eq!(gestures.hands(), [PointerGrab { id: 2, at: [0.3, 0.5], body: None }]);
         step(&mut gestures, &[press(2, 0.4)], true);
-        assert_eq!(gestures.hands(), [Hand { id: 2, at: [0.4, 0.5], body: None }]);
+        assert_eq!(gestures.hands(), [PointerGrab { id: 2, at: [0.4, 0.5], body: None }]);
         step(&mut gestures, &[], true);
         assert!(gestures.hands().is_empty());
     }

@@ -91,7 +91,7 @@ impl App<'_> {
             frame.set_newest(&mut moment);
         }
         if self.visit.needs.calm {
-            moment.motes.clear();
+            moment.dust_particles.clear();
         }
         if moment.breath.speed > 0.0 && !frame.attracts {
             let seconds = begun.now.duration_since(begun.last).as_secs_f64().min(LONGEST_GIFT);

@@ -157,7 +157,7 @@ impl Bank {
     }
 
     /// Raises the decay of each partial by so much, 1/s: something rests on the body. Phasors stay, so nothing clicks.
-    pub fn touch(&mut self, more: impl Fn(usize) -> f64) {
+    pub fn damp(&mut self, more: impl Fn(usize) -> f64) {
         for i in 0..self.partials.len() {
             let more = more(i);
             let more = if more > 0.0 { more.min(FASTEST) } else { 0.0 };

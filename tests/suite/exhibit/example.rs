@@ -6,8 +6,8 @@ use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::DVec3;
 use soffio_multibody::articulation::ConstraintKind;
 use soffio_simulation::{Simulation, StepInput};
-use soffio_wind::breath::Law;
-use soffio_wind::weather::{Rhythm, WindKind};
+use soffio_wind::breath::SpreadLaw;
+use soffio_wind::ambient::{Inlet, Modulation, WindKind};
 
 use super::glb::{Folder, Scene, cuboid};
 
@@ -68,17 +68,18 @@ fn the_full_examples_winds_are_what_it_says() {
     let exhibit = load();
     let names: Vec<&str> = exhibit.winds.iter().map(|wind| wind.name.as_str()).collect();
     assert_eq!(names, ["room", "air-conditioner", "door", "passing-tram"]);
-    assert_eq!(exhibit.winds[0].kind, WindKind::Room { scale: 0.8, period: 5.0, seed: 3 });
+    assert_eq!(exhibit.winds[0].kind, WindKind::Turbulence { scale: 0.8, period: 5.0, seed: 3 });
     let WindKind::Fan { at, direction, diameter } = exhibit.winds[1].kind else { panic!("not a fan") };
     // The model holds single precision.
     assert!(at.distance(DVec3::new(0.1, 0.5, 0.0)) < 1e-6 && diameter == 0.15 && direction.is_normalized());
     assert_eq!(exhibit.winds[1].speed.at(2.5).value, 1.5);
-    let WindKind::Draught { direction, place } = exhibit.winds[2].kind else { panic!("not a draught") };
-    assert_eq!((direction, place), (DVec3::NEG_Z, Some((DVec3::new(0.0, 0.5, 2.0), 0.8))));
-    assert_eq!(exhibit.winds[2].rhythm, Rhythm::Gusty { strength: 0.5, period: 4.0, seed: 1 });
-    assert_eq!(exhibit.winds[3].rhythm, Rhythm::Puffs { every: 30.0, lasts: 2.0, seed: 0 });
-    assert_eq!(exhibit.winds[3].kind, WindKind::Draught { direction: DVec3::X, place: None });
-    assert_eq!((exhibit.breath.law, exhibit.breath.gain, exhibit.breath.lip_diameter), (Law::Jet, 1.5, Some(0.012)));
+    let WindKind::Draught { direction, inlet } = exhibit.winds[2].kind else { panic!("not a draught") };
+    let entrance = Inlet { center: DVec3::new(0.0, 0.5, 2.0), width: 0.8 };
+    assert_eq!((direction, inlet), (DVec3::NEG_Z, Some(entrance)));
+    assert_eq!(exhibit.winds[2].modulation, Modulation::Gusty { strength: 0.5, period: 4.0, seed: 1 });
+    assert_eq!(exhibit.winds[3].modulation, Modulation::Puffs { interval: 30.0, duration: 2.0, seed: 0 });
+    assert_eq!(exhibit.winds[3].kind, WindKind::Draught { direction: DVec3::X, inlet: None });
+    assert_eq!((exhibit.breath.law, exhibit.breath.gain, exhibit.breath.lip_diameter), (SpreadLaw::Jet, 1.5, Some(0.012)));
     // Every body with a mesh shelters; the rail, which stands still, is open.
     let mut carriers: Vec<Option<usize>> = exhibit.shelters.iter().map(|shelter| shelter.body).collect();
     carriers.sort_unstable();

@@ -125,7 +125,7 @@ fn wrong_types_words_and_grammar_are_located() {
 fn a_file_stands_over_the_defaults_key_by_key() {
     let config = Config::parse("[breath]\nprofile = \"true\"\ngain = 2\n", Path::new(FILE)).expect("it is valid");
     let settings = config.simulation_settings(7);
-    assert_eq!(settings.profile, soffio_simulation::Profile::True);
+    assert_eq!(settings.profile, soffio_simulation::Profile::Physical);
     assert_eq!((settings.breath_gain, settings.seed), (2.0, 7));
     assert_eq!(settings.distance, Config::default().breath.distance_m, "what is not said stays");
 }
@@ -396,7 +396,7 @@ mod live {
         assert!(!cue.active && !attract.is_active());
         assert_eq!(
             cue.commands,
-            [Command::Blow(None), Command::Calm],
+            [Command::Blow(None), Command::Settle],
             "the breath is the visitor's again, and the work"
         );
         assert_eq!(attract.text(), None);
@@ -427,11 +427,11 @@ mod live {
     #[test]
     fn what_the_attract_script_has_set_swinging_is_calmed_a_second_later() {
         let mut attract = Attract::new(Script { duration: 4.0, ..script() }, 1.0 / 240.0);
-        let calmed = (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Calm)).count();
+        let calmed = (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Settle)).count();
         assert_eq!(calmed, 1);
         // The breath ends at step 180 of each round.
         let calmed: Vec<u64> =
-            (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Calm)).collect();
+            (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Settle)).collect();
         assert_eq!(calmed, [420]);
     }
 

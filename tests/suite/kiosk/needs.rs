@@ -31,8 +31,8 @@ fn places(exhibit: &Arc<Exhibit>) -> ([f64; 2], [f64; 2]) {
     let view = simulation.view(ASPECT);
     let seen: Vec<[f64; 2]> =
         simulation.bodies().iter().filter_map(|body| view.project(body.position, ASPECT)).collect();
-    let on = seen.into_iter().find(|at| simulation.can_be_taken(*at, ASPECT)).expect("something can be taken");
-    assert!(!simulation.can_be_taken([0.03, 0.9], ASPECT), "the corner is free");
+    let on = seen.into_iter().find(|at| simulation.hit_test(*at, ASPECT)).expect("something can be taken");
+    assert!(!simulation.hit_test([0.03, 0.9], ASPECT), "the corner is free");
     (on, [0.03, 0.9])
 }
 
@@ -137,7 +137,7 @@ fn a_swipe_beside_the_work_leads_on_and_a_pull_at_it_does_not() {
         for step in 0..48 {
             let at = [from[0] + 0.3 * f64::from(step) / 48.0, from[1]];
             stage.step(&Controls { presses: vec![Press { id: 1, at }], ..still() }, None);
-            hands = hands.max(stage.snapshot().diagnostics.hands);
+            hands = hands.max(stage.snapshot().diagnostics.grabs);
         }
         let at = [from[0] + 0.3, from[1]];
         stage.lift(Lift { id: 1, from, at });

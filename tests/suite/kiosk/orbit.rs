@@ -62,7 +62,7 @@ fn a_pull_beside_the_work_turns_it_as_far_as_it_goes_and_nothing_else() {
             assert!((turn - wanted).abs() < THERE, "{way:?}: {:?} instead of {wanted:?}", state.turn);
         }
         assert_eq!(
-            (state.breath.speed, state.diagnostics.hands, stage.turned()),
+            (state.breath.speed, state.diagnostics.grabs, stage.turned()),
             (0.0, 0, 0),
             "no breath, hand or swipe"
         );
@@ -234,7 +234,7 @@ fn breath_and_hand_go_where_they_are_seen_to_go() {
     /// Half a pixel of a picture of full HD.
     const HALF_PIXEL: f64 = 0.5 / 1080.0;
     let exhibit = load("steel-fish");
-    let settings = Settings { profile: soffio_simulation::Profile::True, ..Settings::default() };
+    let settings = Settings { profile: soffio_simulation::Profile::Physical, ..Settings::default() };
     let mut stage = Stage::new(exhibit.clone(), settings, None, None);
     drag(&mut stage, &round(), [-0.4, 0.2]);
     wait(&mut stage, &round(), FOLLOWED);
@@ -245,7 +245,7 @@ fn breath_and_hand_go_where_they_are_seen_to_go() {
     assert!((seen[0] - aim[0]).abs() < HALF_PIXEL && (seen[1] - aim[1]).abs() < HALF_PIXEL, "{seen:?}");
     // A body is taken where this view shows it, and not where the other one would.
     let mut own = Simulation::new(exhibit.clone(), settings);
-    let free = |at: [f64; 2], own: &mut Simulation| !own.can_be_taken(at, ASPECT);
+    let free = |at: [f64; 2], own: &mut Simulation| !own.hit_test(at, ASPECT);
     let at = stage
         .snapshot()
         .poses
@@ -262,7 +262,7 @@ fn takes(stage: &Stage, at: [f64; 2]) -> bool {
         let press = Press { id: 8, at: [at[0] + 0.001 * f64::from(i), at[1]] };
         stage.step(&Controls { presses: vec![press], ..round() }, None);
     }
-    stage.snapshot().diagnostics.hands == 1
+    stage.snapshot().diagnostics.grabs == 1
 }
 
 #[test]

@@ -8,7 +8,7 @@ use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
 use soffio_kiosk::step::stillness::{BRIGHT, PICTURE_S, QUIET_S, Stillness, UNSEEN};
 use soffio_kiosk::window::rest::{Rest, Signs};
-use soffio_simulation::{Mote, STEPS_PER_SECOND, Settings, Simulation, Snapshot};
+use soffio_simulation::{DustParticle, STEPS_PER_SECOND, Settings, Simulation, Snapshot};
 
 use super::pages::load;
 
@@ -33,7 +33,7 @@ impl Watch {
     fn new(id: &str) -> Self {
         let exhibit = load(id);
         let mut moment = Simulation::new(exhibit.clone(), Settings::default()).snapshot();
-        moment.motes.clear();
+        moment.dust_particles.clear();
         Self { view: exhibit.view(ASPECT), exhibit, moment, stillness: Stillness::default() }
     }
 
@@ -61,23 +61,23 @@ fn what_stands_still_is_at_rest_after_half_a_second_and_each_sign_ends_it_in_its
     let signs: [Sign; 8] = [
         ("a breath", |moment| moment.breath.speed = 0.1),
         ("the detector", |moment| moment.breath.estimate.speed = 0.1),
-        ("a hand", |moment| moment.diagnostics.hands = 1),
+        ("a hand", |moment| moment.diagnostics.grabs = 1),
         ("the camera", |moment| moment.turn[0] += 1e-3),
         ("the aim", |moment| moment.breath.ring.center.x += 0.01),
         ("a body", |moment| moment.poses[0].position.y += 0.01),
         ("a turn", |moment| moment.poses[0].rotation *= DQuat::from_rotation_y(0.1)),
-        ("dust", |moment| moment.motes.push(Mote { brightness: 1.1 * BRIGHT, ..Mote::default() })),
+        ("dust", |moment| moment.dust_particles.push(DustParticle { brightness: 1.1 * BRIGHT, ..DustParticle::default() })),
     ];
     for (name, sign) in signs {
         assert!(!watch.step(sign), "{name} ends the rest at once");
         watch.step(|moment| {
-            moment.motes.clear();
-            (moment.breath.speed, moment.breath.estimate.speed, moment.diagnostics.hands) = (0.0, 0.0, 0);
+            moment.dust_particles.clear();
+            (moment.breath.speed, moment.breath.estimate.speed, moment.diagnostics.grabs) = (0.0, 0.0, 0);
         });
         watch.settle();
     }
     // Dust that floats in still air is too faint to be seen to move.
-    watch.step(|moment| moment.motes.push(Mote { brightness: 0.9 * BRIGHT, ..Mote::default() }));
+    watch.step(|moment| moment.dust_particles.push(DustParticle { brightness: 0.9 * BRIGHT, ..DustParticle::default() }));
     assert!(watch.step(|_| ()));
     // Another work begins anew, even a copy of the same.
     watch.exhibit = Arc::new((*watch.exhibit).clone());
@@ -170,7 +170,7 @@ fn a_still_work_is_shown_ten_times_a_second_and_a_breath_at_once() {
         let mut brightest: f32 = 0.0;
         for step in 0..5 * STEPS_PER_SECOND {
             alone.step(&told(step), None);
-            brightest = alone.snapshot().motes.iter().map(|mote| mote.brightness).fold(brightest, f32::max);
+            brightest = alone.snapshot().dust_particles.iter().map(|mote| mote.brightness).fold(brightest, f32::max);
         }
         assert!(brightest < BRIGHT, "{id}: dust of still air is {brightest}");
         let (times, onset) = pictures(&mut stage, 12 * STEPS_PER_SECOND, told);

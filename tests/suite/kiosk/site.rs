@@ -64,7 +64,7 @@ fn changed_breath_settings_begin_the_work_anew_and_others_leave_it_alone() {
     (0..100).for_each(|_| stage.step(&controls, None));
     stage.settle(Settings::default(), Some(30.0));
     assert_eq!((stage.steps(), stage.snapshot().step), (100, 100));
-    stage.settle(Settings { profile: Profile::True, ..Settings::default() }, Some(30.0));
+    stage.settle(Settings { profile: Profile::Physical, ..Settings::default() }, Some(30.0));
     assert_eq!((stage.steps(), stage.snapshot().step), (100, 0));
 }
 

@@ -16,7 +16,7 @@ use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
 use soffio_kiosk::venue::house::House;
 use soffio_kiosk::visitor::input::{Phase, Signal};
-use soffio_simulation::{Look, Settings};
+use soffio_simulation::{InspectionScope, Settings};
 
 const GLASS: [f32; 2] = [1280.0, 720.0];
 /// Points a millimetre of a 32-inch glass with that picture.
@@ -154,7 +154,7 @@ impl Before {
         if let Some(folder) = &self.folder {
             Arc::make_mut(&mut exhibit).folder.clone_from(folder);
         }
-        let inspection = (look != Look::Nothing).then(|| Arc::new(self.stage.inspect(look)));
+        let inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
         let frame = Frame { exhibit: exhibit.clone(), hears: true, inspection, ..Frame::new(&self.stage) };
         let vitals = Vitals { adapter: "none", frame_s: 0.02, size: [1280, 720], time: self.time, sight_s: 0.0 };
         let sight = Sight {
@@ -258,16 +258,16 @@ fn every_page_is_drawn_for_every_kind_of_work_and_says_what_it_is_for() {
 #[test]
 fn the_bodies_page_shows_each_joint_with_its_error_and_nothing_is_looked_at_elsewhere() {
     let mut staff = Before::new("steel-fish");
-    assert_eq!(staff.staff.look(&staff.site), Look::Nothing);
+    assert_eq!(staff.staff.look(&staff.site), InspectionScope::Nothing);
     staff.staff.turn_to(Page::Bodies);
-    assert_eq!(staff.staff.look(&staff.site), Look::Bodies);
+    assert_eq!(staff.staff.look(&staff.site), InspectionScope::Bodies);
     staff.look(Vec::new());
     staff.look(Vec::new());
     let exhibit = staff.stage.exhibit().clone();
     for name in exhibit.constraints.iter().map(|c| &c.name).chain(exhibit.bodies.iter().map(|b| &b.name)) {
         assert!(staff.said().contains(&name.as_str()), "{name}: {:?}", staff.said());
     }
-    let seen = staff.stage.inspect(Look::Bodies);
+    let seen = staff.stage.inspect(InspectionScope::Bodies);
     let worst = seen.joints.iter().filter(|j| !j.angle).fold(0.0, |worst: f64, j| worst.max(j.error));
     assert_eq!(worst, staff.stage.snapshot().diagnostics.joint_error, "the worst joint is the largest error");
     // The cup carries all that hangs on it, but for what its motion takes: within a tenth of the weight.
@@ -276,7 +276,7 @@ fn the_bodies_page_shows_each_joint_with_its_error_and_nothing_is_looked_at_else
     let load = seen.joints[cup].load.expect("a joint of lengths");
     assert!((load - weight).abs() < 0.1 * weight, "{load} N of {weight} N");
     staff.staff.toggle();
-    assert_eq!(staff.staff.look(&staff.site), Look::Nothing, "nobody looks at a closed panel");
+    assert_eq!(staff.staff.look(&staff.site), InspectionScope::Nothing, "nobody looks at a closed panel");
 }
 
 #[test]
@@ -291,12 +291,12 @@ fn wind_samples_say_where_the_cone_hits_and_looking_changes_nothing_of_the_run()
     for step in 0..120 {
         staff.stage.step(&controls, None);
         other.stage.step(&controls, None);
-        let seen = staff.stage.inspect(if step % 2 == 0 { Look::Wind } else { Look::Bodies });
+        let seen = staff.stage.inspect(if step % 2 == 0 { InspectionScope::Wind } else { InspectionScope::Bodies });
         assert_eq!(seen.wind.is_empty(), step % 2 == 1);
     }
     assert_eq!(staff.stage.state_hash(), other.stage.state_hash());
-    let seen = staff.stage.inspect(Look::Wind);
-    let hit: Vec<_> = seen.wind.iter().filter(|sample| sample.hit).collect();
+    let seen = staff.stage.inspect(InspectionScope::Wind);
+    let hit: Vec<_> = seen.wind.iter().filter(|sample| sample.in_breath).collect();
     assert!(!hit.is_empty() && hit.len() < seen.wind.len(), "{} of {} patches", hit.len(), seen.wind.len());
     let fastest = hit.iter().fold(0.0, |most: f64, sample| most.max(sample.speed));
     // A held breath of 9 m/s, half a metre away: the jet's centre has decayed to a fraction of that.
@@ -311,7 +311,7 @@ fn with_a_pin_the_panel_asks_for_it_and_opens_by_keyboard_and_by_finger() {
         staff.site.staff.pin = pin("2718");
         staff.look(Vec::new());
         assert!(!staff.says("joint error") && staff.says("PIN"), "{:?}", staff.said());
-        assert_eq!(staff.staff.look(&staff.site), Look::Nothing);
+        assert_eq!(staff.staff.look(&staff.site), InspectionScope::Nothing);
         if by_finger {
             for digit in ["2", "7", "1", "8", "OK"] {
                 staff.press(digit);

@@ -297,21 +297,21 @@ fn press_and_pull_takes_the_sculpture_and_press_and_hold_blows_at_it() {
     let view = simulation.view(aspect);
     let seen = simulation.bodies().iter().filter_map(|body| view.project(body.position, aspect));
     let places: Vec<[f64; 2]> = seen.collect();
-    let at = places.into_iter().find(|at| simulation.can_be_taken(*at, aspect)).expect("something can be taken");
+    let at = places.into_iter().find(|at| simulation.hit_test(*at, aspect)).expect("something can be taken");
     controls.presses = vec![Press { id: 1, at }];
     for index in 0..120 {
         controls.presses[0].at = [at[0] + 0.001 * f64::from(index.min(60)), at[1]];
         stage.step(&controls, None);
         let state = stage.snapshot();
         assert_eq!(state.breath.speed, 0.0, "a pull is no breath, step {index}");
-        assert_eq!(state.diagnostics.hands, usize::from(index > 8), "step {index}");
+        assert_eq!(state.diagnostics.grabs, usize::from(index > 8), "step {index}");
     }
     controls.presses.clear();
     stage.step(&controls, None);
-    assert_eq!(stage.snapshot().diagnostics.hands, 0);
+    assert_eq!(stage.snapshot().diagnostics.grabs, 0);
     controls.presses = vec![Press { id: 2, at }];
     (0..120).for_each(|_| stage.step(&controls, None));
-    assert!(stage.snapshot().breath.speed > 5.0 && stage.snapshot().diagnostics.hands == 0);
+    assert!(stage.snapshot().breath.speed > 5.0 && stage.snapshot().diagnostics.grabs == 0);
 }
 
 #[test]

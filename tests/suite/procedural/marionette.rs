@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::DVec3;
-use soffio_simulation::{Command, EventKind, Hand, MotionMode, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, EventKind, PointerGrab, MotionMode, Settings, Simulation, StepInput};
 use soffio_sound::SoundCommand;
 
 fn load() -> Arc<Exhibit> {
@@ -39,11 +39,11 @@ fn its_hands_are_dragged_while_its_feet_are_held() {
                 let angle = 2.0 * t + side;
                 *place += grow * 0.01 * (0.3 * side * angle.sin() * right + (angle.sin() - 0.5) * up);
             }
-            let hands: [Hand; 4] = std::array::from_fn(|k| {
+            let hands: [PointerGrab; 4] = std::array::from_fn(|k| {
                 let at = view.project(places[k], ASPECT).expect("in front of the eye");
-                Hand { id: k as u64, at, body: Some(held[k]) }
+                PointerGrab { id: k as u64, at, body: Some(held[k]) }
             });
-            simulation.step(&StepInput { mode: Some(mode), hands: &hands, ..StepInput::default() });
+            simulation.step(&StepInput { mode: Some(mode), pointer_grabs: &hands, ..StepInput::default() });
             // A hand wants what it holds on its sight line.
             for (body, place) in held.iter().zip(places) {
                 let sight = (place - view.eye).normalize();

@@ -8,7 +8,7 @@ use soffio_math::{PI, StateHash, asin, decibels, sin, sqrt};
 use soffio_simulation::{
     Command, Event, EventKind, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput,
 };
-use soffio_sound::{Across, Preset, Slide, SoundCommand, Strike, Synth, Touch, WindSound};
+use soffio_sound::{WindExposure, Preset, Slide, SoundCommand, Strike, Synth, Damp, WindSound};
 
 use super::{RATE, render, rms, spec, spectrum};
 use crate::exhibit::glb::{Folder, Scene, cuboid, sheet};
@@ -51,7 +51,7 @@ fn load(scene: &Scene, sidecar: &str) -> Arc<Exhibit> {
 struct Heard {
     strikes: Vec<Strike>,
     slides: Vec<Slide>,
-    touches: Vec<Touch>,
+    touches: Vec<Damp>,
     events: Vec<Event>,
     /// Commands of each step, the wind's left out.
     counts: Vec<usize>,
@@ -90,7 +90,7 @@ fn play(exhibit: &Arc<Exhibit>, seconds: f64) -> Heard {
             match *command {
                 SoundCommand::Strike(strike) => heard.strikes.push(strike),
                 SoundCommand::Slide(slide) => heard.slides.push(slide),
-                SoundCommand::Touch(touch) => heard.touches.push(touch),
+                SoundCommand::Damp(touch) => heard.touches.push(touch),
                 _ => continue,
             }
             let due = (simulation.steps() - 1) * SAMPLES_PER_STEP..=simulation.steps() * SAMPLES_PER_STEP;
@@ -336,7 +336,7 @@ fn a_reset_takes_away_what_lay_and_what_slid() {
         simulation.step(&StepInput { commands, ..StepInput::default() });
         for command in simulation.sounds() {
             synth.command(*command);
-            if let SoundCommand::Touch(touch) = command {
+            if let SoundCommand::Damp(touch) = command {
                 touched[usize::from(touch.instrument)] = touch.resistance;
                 assert!(step != 30 || touch.resistance == 0.0 || touch.sample > 30 * SAMPLES_PER_STEP, "{touch:?}");
             }
@@ -454,7 +454,7 @@ fn wires_hear_what_blows_across_them() {
             simulation.step(&StepInput { commands: &blow, pointer: Some(pointer), ..StepInput::default() });
             for command in simulation.sounds() {
                 match *command {
-                    SoundCommand::Across(Across { instrument, share, .. }) => {
+                    SoundCommand::WindExposure(WindExposure { instrument, share, .. }) => {
                         shares[usize::from(instrument)] = f64::from(share);
                     }
                     SoundCommand::Wind(wind) => last = wind,
@@ -475,7 +475,7 @@ fn wires_hear_what_blows_across_them() {
         let preset = Preset::shipped("wind-wire").expect("valid");
         let mut synth = Synth::with_preset(RATE, &preset, &spec("x"), 1).expect("compiles");
         synth.set_dry(true);
-        synth.command(SoundCommand::Across(Across { sample: 0, instrument: 0, share }));
+        synth.command(SoundCommand::WindExposure(WindExposure { sample: 0, instrument: 0, share }));
         synth.command(SoundCommand::Wind(WindSound { sample: 0, speed: 6.0, ..WindSound::default() }));
         render(&mut synth, RATE as usize / 2);
         let out: Vec<f64> = render(&mut synth, 10 * RATE as usize).chunks(2).map(|f| f64::from(f[0])).collect();

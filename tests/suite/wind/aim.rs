@@ -6,7 +6,7 @@ use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::DVec3;
 use soffio_simulation::{Command, Profile, Settings, Simulation, StepInput};
 use soffio_wind::breath::{SPREAD, TAN_HALF_ANGLE};
-use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::ambient::{Modulation, Wind, WindKind};
 
 const ROUNDING: f64 = 1e-12;
 
@@ -19,8 +19,8 @@ fn pendulum() -> Exhibit {
 fn the_ring_is_as_wide_as_the_breath_and_the_meter_as_full_as_it_is_strong() {
     for law in ["jet", "cone"] {
         let mut exhibit = pendulum();
-        exhibit.breath.law = if law == "jet" { Default::default() } else { soffio_wind::breath::Law::Cone };
-        let settings = Settings { profile: Profile::True, ..Settings::default() };
+        exhibit.breath.law = if law == "jet" { Default::default() } else { soffio_wind::breath::SpreadLaw::Cone };
+        let settings = Settings { profile: Profile::Physical, ..Settings::default() };
         let mut simulation = Simulation::new(Arc::new(exhibit), settings);
         let shown = |simulation: &mut Simulation, speed: f64| {
             let commands = [Command::Blow(Some(speed))];
@@ -57,7 +57,7 @@ fn the_gallery_never_weakens_a_breath_and_the_true_profile_never_changes_it() {
             && (force(17.0) / force(8.5) - 2.0).abs() < ROUNDING
     );
     for speed in [0.1, 1.0, 1.9, 3.8, 8.9, 17.0, 30.0, 60.0] {
-        assert_eq!(Profile::True.gain(speed), 1.0);
+        assert_eq!(Profile::Physical.gain(speed), 1.0);
         assert!((1.0..=GALLERY_MOST).contains(&Profile::Gallery.gain(speed)));
         // A harder blow is more wind, not less.
         assert!(force(1.01 * speed) > force(speed), "at {speed} m/s");
@@ -66,24 +66,24 @@ fn the_gallery_never_weakens_a_breath_and_the_true_profile_never_changes_it() {
 
 #[test]
 fn dust_goes_with_every_wind_and_none_is_lost() {
-    let way = DVec3::new(1.0, 0.0, 1.0).normalize();
+    let direction = DVec3::new(1.0, 0.0, 1.0).normalize();
     let mut exhibit = pendulum();
-    let kind = WindKind::Draught { direction: way, place: None };
-    exhibit.winds = vec![Wind { name: "draught".into(), kind, speed: 0.3.into(), rhythm: Rhythm::Even }];
+    let kind = WindKind::Draught { direction, inlet: None };
+    exhibit.winds = vec![Wind { name: "draught".into(), kind, speed: 0.3.into(), modulation: Modulation::Steady }];
     let mut simulation = Simulation::new(Arc::new(exhibit), Settings::default());
-    let count = simulation.snapshot().motes.len();
+    let count = simulation.snapshot().dust_particles.len();
     for step in 0..1200 {
         let commands = [Command::Blow(Some(if step / 240 % 2 == 1 { 9.0 } else { 0.0 }))];
         simulation.step(&StepInput { commands: &commands, ..StepInput::default() });
-        assert_eq!(simulation.snapshot().motes.len(), count);
+        assert_eq!(simulation.snapshot().dust_particles.len(), count);
     }
     for _ in 0..240 {
         simulation.step(&StepInput { commands: &[Command::Blow(Some(0.0))], ..StepInput::default() });
     }
-    let motes = simulation.snapshot().motes;
+    let motes = simulation.snapshot().dust_particles;
     let mean = motes.iter().map(|m| DVec3::from(m.velocity.map(f64::from))).sum::<DVec3>() / count as f64;
     // Some have just come back, at rest, and all have a slow drift of their own.
-    assert!(mean.dot(way) > 0.25 && mean.dot(way) < 0.35, "{mean}");
-    assert!((mean - mean.dot(way) * way).length() < 0.02, "{mean}");
+    assert!(mean.dot(direction) > 0.25 && mean.dot(direction) < 0.35, "{mean}");
+    assert!((mean - mean.dot(direction) * direction).length() < 0.02, "{mean}");
     assert!(motes.iter().all(|m| m.position.iter().all(|x| x.is_finite())));
 }

@@ -72,7 +72,7 @@ fn a_swing_fades_as_it_is_asked_to_once_nobody_blows() {
 #[test]
 fn the_true_profile_knows_no_calm() {
     let [with, without] = [Some(CALM), None].map(|calm| {
-        let mut simulation = blown_for_a_second(&pendulum(calm), Profile::True);
+        let mut simulation = blown_for_a_second(&pendulum(calm), Profile::Physical);
         wait(&mut simulation, 4.0);
         simulation.state_hash()
     });
@@ -101,7 +101,7 @@ fn what_a_visitor_finds_swinging_is_still_before_they_blow() {
     let lowest = lowest();
     let [called, left] = [true, false].map(|called| {
         let mut simulation = blown_for_a_second(&pendulum(Some(calm)), Profile::Gallery);
-        let commands: &[Command] = if called { &[Command::Calm] } else { &[] };
+        let commands: &[Command] = if called { &[Command::Settle] } else { &[] };
         simulation.step(&StepInput { commands, ..StepInput::default() });
         wait(&mut simulation, SOON);
         simulation.energy() - lowest
@@ -113,7 +113,7 @@ fn what_a_visitor_finds_swinging_is_still_before_they_blow() {
     let mut both = [true, false].map(|called| {
         let mut simulation = blown_for_a_second(&pendulum(Some(calm)), Profile::Gallery);
         let blow = Command::Blow(Some(9.0));
-        let commands: &[Command] = if called { &[Command::Calm, blow] } else { &[blow] };
+        let commands: &[Command] = if called { &[Command::Settle, blow] } else { &[blow] };
         simulation.step(&StepInput { commands, ..StepInput::default() });
         simulation
     });

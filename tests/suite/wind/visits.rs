@@ -7,7 +7,7 @@ use soffio_math::PI;
 use soffio_math::noise::Random;
 use soffio_simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_wind::SurfaceShape;
-use soffio_wind::weather::WindKind;
+use soffio_wind::ambient::WindKind;
 
 /// Size of a 55-inch picture, mm.
 const PICTURE: [f64; 2] = [1210.0, 680.0];
@@ -135,7 +135,7 @@ fn visit(exhibit: &Exhibit, seed: u64, (stirred, seconds): (f64, f64)) -> Visit 
     let mut random = Random::new(seed);
     let mut exhibit = exhibit.clone();
     for wind in &mut exhibit.winds {
-        if let WindKind::Room { seed, .. } = &mut wind.kind {
+        if let WindKind::Turbulence { seed, .. } = &mut wind.kind {
             *seed = random.word();
         }
     }

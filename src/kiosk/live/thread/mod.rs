@@ -29,7 +29,7 @@ use playback::Playback;
 use soffio_devices::controllers::{Controllers, Reading};
 use soffio_exhibit::Exhibit;
 use soffio_offline::trace::TraceWriter;
-use soffio_simulation::{Look, Settings};
+use soffio_simulation::{InspectionScope, Settings};
 
 /// What lives on the simulation thread.
 pub(super) struct Thread {
@@ -149,7 +149,7 @@ impl Thread {
         let chirp_at_db = chirps.then_some(self.site.audio.volume_db);
         self.playback.set_loudness(loudness, (self.stage.attracts(), controls.closed), chirp_at_db);
         let look = controls.look;
-        self.account.inspection = (look != Look::Nothing).then(|| Arc::new(self.stage.inspect(look)));
+        self.account.inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
         Ok(rate.is_some() && !self.account.load.microphone.is_silent() || self.recorded)
     }
 

@@ -123,7 +123,7 @@ fn motion(ui: &mut Ui, sight: &Sight) {
     row(ui, "step", format!("{:.3} ms of 4.167", 1e3 * load.step_s), load.step_s > 1.0 / 240.0);
     let changes = load.mode_changes;
     row(ui, "moved by", format!("{}, {changes} changes", state.mode.name()), state.mode != MotionMode::Dynamic);
-    row(ui, "hands", state.hands.to_string(), false);
+    row(ui, "hands", state.grabs.to_string(), false);
     row(ui, "steps dropped", load.dropped.to_string(), false);
     row(ui, "commands dropped", load.commands_dropped.to_string(), load.commands_dropped > 0);
 }

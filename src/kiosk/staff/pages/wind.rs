@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, sight: &Sight) {
         ui.end_row();
         for (index, surface) in exhibit.wind_surfaces.iter().enumerate() {
             let own = || seen.wind.iter().filter(|sample| sample.surface == index);
-            let hit = || own().filter(|sample| sample.hit);
+            let hit = || own().filter(|sample| sample.in_breath);
             let sum = hit().fold(0.0, |sum, sample| sum + sample.speed);
             let mean = sum / hit().count().max(1) as f64;
             let fastest = own().fold(0.0, |most: f64, sample| most.max(sample.speed));
@@ -53,7 +53,7 @@ fn dots(ui: &Ui, sight: &Sight, samples: &[WindSample]) {
         let share = (sample.speed / FULL).clamp(0.0, 1.0) as f32;
         let color = Color32::from_rgb((60.0 + 195.0 * share) as u8, (90.0 * (1.0 - share)) as u8, 110);
         painter.circle_filled(pos2(at.x, at.y), 2.5, color);
-        if sample.hit {
+        if sample.in_breath {
             painter.circle_stroke(pos2(at.x, at.y), 4.5, egui::Stroke::new(1.5, color));
         }
     }

@@ -330,8 +330,8 @@ fn a_touch_damps_without_a_step() {
         .map(|t| {
             match t / third {
                 _ if t % third != 0 => {}
-                1 => player.bank.touch(|_| more),
-                2 => player.bank.touch(|_| 0.0),
+                1 => player.bank.damp(|_| more),
+                2 => player.bank.damp(|_| 0.0),
                 _ => {}
             }
             f64::from(player.sample())

@@ -3,13 +3,13 @@
 use soffio_fourier::{Complex, real_forward, real_inverse};
 use soffio_math::noise::Random;
 use soffio_math::{decibels, from_decibels, ln};
-use soffio_sound::{BANDS, Room, RoomSpec};
+use soffio_sound::{BANDS, Reverb, ReverbSpec};
 
 const RATE: u32 = 48_000;
 
 /// The room's answer to an impulse on both sides (1 and 0 where only the left one is asked for).
-fn response(spec: &RoomSpec, impulse: [f32; 2], seconds: f64) -> [Vec<f64>; 2] {
-    let mut room = Room::new(spec, f64::from(RATE)).expect("it decays");
+fn response(spec: &ReverbSpec, impulse: [f32; 2], seconds: f64) -> [Vec<f64>; 2] {
+    let mut room = Reverb::new(spec, f64::from(RATE)).expect("it decays");
     let mut frames = vec![[0.0; 2]; (seconds * f64::from(RATE)) as usize];
     frames[0] = impulse;
     room.answer(&mut frames);
@@ -65,13 +65,13 @@ fn t60(samples: &[f64]) -> f64 {
 }
 
 /// Rooms as different as the configuration allows, and random ones.
-fn rooms() -> Vec<(String, RoomSpec)> {
+fn rooms() -> Vec<(String, ReverbSpec)> {
     let mut rooms = vec![
-        ("gallery".to_owned(), RoomSpec::GALLERY),
-        ("even".to_owned(), RoomSpec { level_db: 0.0, t60: [1.0; 7] }),
-        ("stone".to_owned(), RoomSpec { level_db: 0.0, t60: [4.5, 4.6, 4.4, 4.0, 3.2, 2.3, 1.5] }),
-        ("cabinet".to_owned(), RoomSpec { level_db: 0.0, t60: [0.45, 0.4, 0.35, 0.35, 0.3, 0.3, 0.28] }),
-        ("glass".to_owned(), RoomSpec { level_db: 0.0, t60: [0.9, 1.1, 1.3, 1.5, 1.6, 1.4, 1.15] }),
+        ("gallery".to_owned(), ReverbSpec::GALLERY),
+        ("even".to_owned(), ReverbSpec { level_db: 0.0, t60: [1.0; 7] }),
+        ("stone".to_owned(), ReverbSpec { level_db: 0.0, t60: [4.5, 4.6, 4.4, 4.0, 3.2, 2.3, 1.5] }),
+        ("cabinet".to_owned(), ReverbSpec { level_db: 0.0, t60: [0.45, 0.4, 0.35, 0.35, 0.3, 0.3, 0.28] }),
+        ("glass".to_owned(), ReverbSpec { level_db: 0.0, t60: [0.9, 1.1, 1.3, 1.5, 1.6, 1.4, 1.15] }),
     ];
     let mut random = Random::new(17);
     for i in 0..3 {
@@ -80,7 +80,7 @@ fn rooms() -> Vec<(String, RoomSpec)> {
             t = (t * random.range(1.0 / 1.2, 1.2)).clamp(0.3, 4.5);
             t
         });
-        rooms.push((format!("seed 17, {i}"), RoomSpec { level_db: 0.0, t60 }));
+        rooms.push((format!("seed 17, {i}"), ReverbSpec { level_db: 0.0, t60 }));
     }
     rooms
 }
@@ -116,7 +116,7 @@ fn its_level_is_what_was_asked_for() {
     // Both sides of one tail, against the sound that went in, in the octave of 1 kHz: within what two tails differ by.
     const TOLERANCE_DB: f64 = 1.0;
     for (level_db, impulse) in [(-8.0, [1.0, 1.0]), (0.0, [1.0, 0.0]), (-20.0, [0.0, 1.0])] {
-        let spec = RoomSpec { level_db, ..RoomSpec::GALLERY };
+        let spec = ReverbSpec { level_db, ..ReverbSpec::GALLERY };
         let energy = |x: &[f64]| octave(x, 1000.0).iter().map(|x| x * x).sum::<f64>();
         let direct = energy(&{
             let mut click = vec![0.0; RATE as usize];
@@ -145,7 +145,7 @@ fn echo_density(samples: &[f64], at: f64) -> f64 {
 fn echoes_are_soon_as_dense_as_noise() {
     // Rooms mix in 50 to 150 ms; 20 ms of noise that is dull like the tail vary by ± 0.1.
     const DENSE: f64 = 0.85;
-    let [left, right] = response(&RoomSpec::GALLERY, [1.0, 1.0], 1.0);
+    let [left, right] = response(&ReverbSpec::GALLERY, [1.0, 1.0], 1.0);
     for side in [&left, &right] {
         let course: Vec<String> =
             (1..12).map(|i| format!("{:.2}", echo_density(side, 0.02 * f64::from(i) + 0.01))).collect();
@@ -201,7 +201,7 @@ fn the_tail_does_not_ring_at_single_frequencies() {
 fn the_two_sides_are_not_alike() {
     // Correlation of diffuse sound at two far places is 0; of 1 s of it, within about 0.05.
     const ALIKE: f64 = 0.15;
-    let [left, right] = response(&RoomSpec::GALLERY, [1.0, 1.0], 1.0);
+    let [left, right] = response(&ReverbSpec::GALLERY, [1.0, 1.0], 1.0);
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let correlation = dot(&left, &right) / (dot(&left, &left) * dot(&right, &right)).sqrt();
     assert!(correlation.abs() < ALIKE, "{correlation}");
@@ -209,8 +209,8 @@ fn the_two_sides_are_not_alike() {
 
 #[test]
 fn it_stays_finite_forgets_and_sleeps() {
-    let spec = RoomSpec { level_db: 0.0, t60: [2.0; 7] };
-    let mut room = Room::new(&spec, f64::from(RATE)).expect("it decays");
+    let spec = ReverbSpec { level_db: 0.0, t60: [2.0; 7] };
+    let mut room = Reverb::new(&spec, f64::from(RATE)).expect("it decays");
     let mut random = Random::new(3);
     // Far beyond full scale, and what a broken voice might say.
     let said = |n: u32| match n % 1000 {
@@ -228,7 +228,7 @@ fn it_stays_finite_forgets_and_sleeps() {
     room.answer(&mut silence);
     let silent = silence.iter().filter(|frame| **frame == [0.0; 2]).count();
     assert!(silent > 3 * RATE as usize, "it never became silent");
-    let mut new = Room::new(&spec, f64::from(RATE)).expect("it decays");
+    let mut new = Reverb::new(&spec, f64::from(RATE)).expect("it decays");
     let energy = [&mut room, &mut new].map(|room| {
         let mut frames = vec![[0.0; 2]; RATE as usize];
         frames[0] = [1.0, 0.0];
@@ -240,7 +240,7 @@ fn it_stays_finite_forgets_and_sleeps() {
 
 #[test]
 fn its_energy_falls_from_window_to_window() {
-    let [left, right] = response(&RoomSpec::GALLERY, [1.0, 0.0], 2.0);
+    let [left, right] = response(&ReverbSpec::GALLERY, [1.0, 0.0], 2.0);
     // From 0.1 s on in windows of 50 ms, −1.9 dB each at 1.6 s; none may be louder than the one before by more than a dB.
     let levels: Vec<f64> = (2..38)
         .map(|i| {
@@ -255,11 +255,11 @@ fn its_energy_falls_from_window_to_window() {
 #[test]
 fn rooms_that_cannot_be_are_refused_by_their_octave() {
     let with = |band: usize, t: f64| {
-        let mut spec = RoomSpec::GALLERY;
+        let mut spec = ReverbSpec::GALLERY;
         spec.t60[band] = t;
-        (spec.problem(), Room::new(&spec, f64::from(RATE)).is_some())
+        (spec.problem(), Reverb::new(&spec, f64::from(RATE)).is_some())
     };
-    assert_eq!(RoomSpec::GALLERY.problem(), None);
+    assert_eq!(ReverbSpec::GALLERY.problem(), None);
     for (band, t, says) in
         [(0, 0.0, "125 Hz"), (3, 9.0, "1000 Hz"), (6, f64::NAN, "8000 Hz"), (4, 0.5, "from 1000 to 2000 Hz")]
     {
@@ -268,14 +268,14 @@ fn rooms_that_cannot_be_are_refused_by_their_octave() {
     }
     // Every rate a device may have.
     for rate in [8_000, 22_050, 44_100, 48_000, 96_000, 192_000] {
-        assert!(Room::new(&RoomSpec::GALLERY, f64::from(rate)).is_some(), "{rate} Hz");
+        assert!(Reverb::new(&ReverbSpec::GALLERY, f64::from(rate)).is_some(), "{rate} Hz");
     }
 }
 
 #[test]
 fn it_does_not_matter_how_frames_are_cut() {
     // Every chunk of the inner loop, sleep and waking, whole seconds beside single frames.
-    let spec = RoomSpec { level_db: 0.0, t60: [0.2; 7] };
+    let spec = ReverbSpec { level_db: 0.0, t60: [0.2; 7] };
     let mut random = Random::new(11);
     let mut frames = vec![[0.0f32; 2]; 4 * RATE as usize];
     for (n, frame) in frames.iter_mut().enumerate() {
@@ -286,8 +286,8 @@ fn it_does_not_matter_how_frames_are_cut() {
     }
     for rate in [48_000.0, 8_000.0] {
         let [mut whole, mut cut] = [frames.clone(), frames.clone()];
-        Room::new(&spec, rate).expect("it decays").answer(&mut whole);
-        let mut room = Room::new(&spec, rate).expect("it decays");
+        Reverb::new(&spec, rate).expect("it decays").answer(&mut whole);
+        let mut room = Reverb::new(&spec, rate).expect("it decays");
         let mut rest = &mut cut[..];
         while !rest.is_empty() {
             let n = (1 + (random.unit() * 40.0) as usize).min(rest.len());

@@ -4,8 +4,8 @@ use soffio_geometry::TriangleMesh;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sincos};
-use soffio_wind::breath::{Breath, Law};
-use soffio_wind::force::{Blown, WindField};
+use soffio_wind::breath::{Breath, SpreadLaw};
+use soffio_wind::force::{BreathJet, WindField};
 use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 pub const C_D: f64 = 1.17;
@@ -55,15 +55,15 @@ pub fn ball(radius: f64, rings: usize) -> TriangleMesh {
     mesh
 }
 
-/// A surface of a solid's outside, `count` patches.
+/// The outside of a solid as a surface of `count` patches.
 pub fn solid(body: usize, mesh: TriangleMesh, count: usize) -> Surface {
-    let shape = SurfaceShape::Mesh { mesh, per_area: 1.0, count: (count, count), sheet: false, seed: 3 };
+    let shape = SurfaceShape::Mesh { mesh, per_area: 1.0, count: count..=count, sheet: false, seed: 3 };
     Surface { body, node: String::new(), shape, drag_normal: C_D, drag_tangential: C_F, gain: 1.0 }
 }
 
-/// A surface of a thin sheet, `count` patches.
+/// A thin sheet as a surface of `count` patches.
 pub fn sheet(body: usize, mesh: TriangleMesh, count: usize) -> Surface {
-    let shape = SurfaceShape::Mesh { mesh, per_area: 1.0, count: (count, count), sheet: true, seed: 3 };
+    let shape = SurfaceShape::Mesh { mesh, per_area: 1.0, count: count..=count, sheet: true, seed: 3 };
     Surface { shape, ..solid(body, TriangleMesh::default(), 1) }
 }
 
@@ -72,7 +72,7 @@ pub fn body(position: DVec3) -> RigidBody {
     turned(position, DQuat::IDENTITY)
 }
 
-/// A body at rest, turned.
+/// A body at rest in this pose.
 pub fn turned(position: DVec3, rotation: DQuat) -> RigidBody {
     let properties =
         MassProperties { mass: 0.01, center: DVec3::ZERO, inertia: DMat3::from_diagonal(DVec3::splat(1e-5)) };
@@ -86,15 +86,15 @@ pub fn field(surfaces: &[Surface], bodies: usize) -> WindField {
 
 /// A breath from half a metre up the z axis, down it.
 pub fn breath(speed: f64) -> Breath {
-    Breath { mouth: DVec3::new(0.0, 0.0, 0.5), direction: DVec3::NEG_Z, lip_diameter: 0.01, speed, law: Law::Jet }
+    Breath { mouth: DVec3::new(0.0, 0.0, 0.5), direction: DVec3::NEG_Z, lip_diameter: 0.01, speed, law: SpreadLaw::Jet }
 }
 
-/// The same, everywhere at once.
-pub fn blown(speed: f64) -> Blown<'static> {
-    Blown { breath: breath(speed), front: None, gain: 1.0 }
+/// The same as a jet without delay.
+pub fn jet(speed: f64) -> BreathJet<'static> {
+    BreathJet { breath: breath(speed), jet_front: None, gain: 1.0 }
 }
 
-/// Any vector of length below `most`.
+/// A random vector of length below `most`.
 pub fn any_vector(random: &mut Random, most: f64) -> DVec3 {
     loop {
         let v = DVec3::new(random.signed(), random.signed(), random.signed());
@@ -104,7 +104,7 @@ pub fn any_vector(random: &mut Random, most: f64) -> DVec3 {
     }
 }
 
-/// Any attitude.
+/// A random orientation.
 pub fn any_turn(random: &mut Random) -> DQuat {
     rotation(any_vector(random, PI))
 }

@@ -1,14 +1,14 @@
-//! The source's way to see: an ID buffer drawn from the vertex of the cone. Each triangle is drawn into a square picture
-//! with its own number; a patch is seen where the picture shows its body.
+//! The source's visibility test: an ID buffer (item buffer) drawn from the vertex of the cone. Each triangle is drawn into a
+//! square picture with the number of its body; a patch is visible where the picture shows its body.
 //!
 //! With z the depth along the axis and (u, v) = (x, y)/z on the picture plane, 1/z is linear in u and v over a triangle.
-//! Nothing here knows the hierarchies or the rays of the library.
+//! This code shares nothing with the hierarchies and rays of the library.
 
 use soffio_geometry::TriangleMesh;
 use soffio_math::{DVec3, Pose, tangents};
 use soffio_wind::breath::Breath;
 
-/// What each pixel shows.
+/// A picture of body numbers with a depth buffer.
 pub struct IdBuffer {
     size: usize,
     half_width: f64,
@@ -18,7 +18,7 @@ pub struct IdBuffer {
     pixels: Vec<(f64, u32)>,
 }
 
-/// A pixel that shows nothing.
+/// Value of an empty pixel.
 const NOTHING: u32 = u32::MAX;
 
 impl IdBuffer {
@@ -37,7 +37,7 @@ impl IdBuffer {
         [pixel(x), pixel(y), 1.0 / z]
     }
 
-    /// Draws a mesh, all of it before the eye.
+    /// Draws a mesh that lies wholly before the eye.
     pub fn draw(&mut self, id: u32, mesh: &TriangleMesh, pose: &Pose) {
         for corners in mesh.corners() {
             let [a, b, c] = corners.map(|p| self.project(pose.point(p)));
@@ -70,7 +70,7 @@ impl IdBuffer {
         }
     }
 
-    /// Number of the body that is seen in the direction of a point; `None` where there is none.
+    /// Number of the nearest body in the direction of a point, if any.
     pub fn seen_at(&self, point: DVec3) -> Option<u32> {
         let [column, row, _] = self.project(point);
         let id = self.pixels.get(row as usize * self.size + column as usize)?.1;

@@ -1,13 +1,13 @@
-//! The wind's force against formulas: drag, damping, momentum, turbulence, fronts.
+//! Wind forces against formulas: drag, damping, momentum, turbulence, travelling jet_front.
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, linear};
 use soffio_math::{DVec3, PI};
-use soffio_wind::breath::{AIR_DENSITY, Law};
-use soffio_wind::force::{Blown, TURBULENCE, WindField};
-use soffio_wind::front::Front;
-use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::breath::{AIR_DENSITY, SpreadLaw};
+use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
+use soffio_wind::jet_front::JetFront;
+use soffio_wind::ambient::{Modulation, Wind, WindKind};
 use soffio_wind::{Surface, SurfaceShape};
 
 use super::bodies::*;
@@ -17,14 +17,14 @@ const ROUNDING: f64 = 1e-12;
 const DT: f64 = 1.0 / 240.0;
 
 fn draught(v: DVec3) -> Wind {
-    let kind = WindKind::Draught { direction: v.normalize(), place: None };
-    Wind { name: "draught".into(), kind, speed: v.length().into(), rhythm: Rhythm::Even }
+    let kind = WindKind::Draught { direction: v.normalize(), inlet: None };
+    Wind { name: "draught".into(), kind, speed: v.length().into(), modulation: Modulation::Steady }
 }
 
 /// Force on one body in a wind that is the same everywhere, N.
 fn force_in(wind: DVec3, surface: Surface, body: RigidBody) -> DVec3 {
     let mut out = [[0.0; 6]];
-    WindField::new(&[surface], &[], &[draught(wind)], 1, 1).push(&[body], 0.0, None, &mut out);
+    WindField::new(&[surface], &[], &[draught(wind)], 1, 1).apply_forces(&[body], 0.0, None, &mut out);
     linear(&out[0])
 }
 
@@ -43,7 +43,7 @@ fn any_case(random: &mut Random) -> (DVec3, RigidBody) {
 }
 
 #[test]
-fn a_sheet_feels_the_formula_at_any_angle_and_speed() {
+fn drag_of_a_sheet_matches_the_formula_at_any_angle_and_speed() {
     const SEED: u64 = 21;
     let mut random = Random::new(SEED);
     let a = 0.1;
@@ -58,7 +58,7 @@ fn a_sheet_feels_the_formula_at_any_angle_and_speed() {
 }
 
 #[test]
-fn a_solid_feels_the_wind_on_its_windward_faces_and_its_own_motion_on_all() {
+fn wind_acts_on_windward_faces_of_a_solid_and_its_own_motion_on_all() {
     const SEED: u64 = 22;
     let mut random = Random::new(SEED);
     let size = DVec3::new(0.1, 0.08, 0.06);
@@ -100,20 +100,20 @@ fn a_wire_is_a_cylinder_across_and_along() {
 }
 
 #[test]
-fn still_air_brakes_a_moving_plate_as_quadratic_drag() {
+fn still_air_slows_a_moving_plate_by_quadratic_drag() {
     let a = 0.1;
     for speed in [0.2, 1.0, 3.0] {
         let mut moving = body(DVec3::ZERO);
         moving.velocity = DVec3::Z * speed;
         let mut out = [[0.0; 6]];
-        field(&[sheet(0, face(a), 64)], 1).push(&[moving], 0.0, None, &mut out);
+        field(&[sheet(0, face(a), 64)], 1).apply_forces(&[moving], 0.0, None, &mut out);
         let expected = -0.5 * AIR_DENSITY * C_D * a * a * speed * speed;
         assert!((linear(&out[0]).z / expected - 1.0).abs() < ROUNDING, "{:?} at {speed} m/s", out[0]);
     }
 }
 
 #[test]
-fn what_turns_is_braked_by_its_own_patches() {
+fn patches_damp_rotation() {
     // A plate about an axis in its plane: τ = −½ ρ C_D ω² ∫ |x|³ dA = −½ ρ C_D ω² a · 2 (a/2)⁴/4; a wire of length L
     // about its middle: −½ ρ C_D 2 r ω² · 2 (L/2)⁴/4; a plate in its own plane: skin friction alone, which still brakes.
     const SAMPLED: f64 = 0.05;
@@ -122,7 +122,7 @@ fn what_turns_is_braked_by_its_own_patches() {
         let mut turning = body(DVec3::ZERO);
         turning.angular_velocity = axis * spin;
         let mut out = [[0.0; 6]];
-        field(&[surface], 1).push(&[turning], 0.0, None, &mut out);
+        field(&[surface], 1).apply_forces(&[turning], 0.0, None, &mut out);
         DVec3::new(out[0][3], out[0][4], out[0][5]).dot(axis)
     };
     let h: f64 = 0.5 * a;
@@ -139,7 +139,7 @@ fn what_turns_is_braked_by_its_own_patches() {
 
 #[test]
 fn a_breath_never_pushes_harder_than_its_momentum_times_the_gain() {
-    // Whatever it meets: walls that would take more than the breath carries, plates that fly against it, many at once.
+    // Walls that would take more than the breath carries, plates that fly against it, many at once.
     const SEED: u64 = 24;
     let mut random = Random::new(SEED);
     let surfaces: Vec<Surface> = (0..4).map(|i| sheet(i, face(if i == 0 { 0.6 } else { 0.08 }), 200)).collect();
@@ -154,11 +154,11 @@ fn a_breath_never_pushes_harder_than_its_momentum_times_the_gain() {
                 moving
             })
             .collect();
-        let mut blown = blown(random.range(0.5, 30.0));
-        blown.breath.law = if case % 2 == 0 { Law::Jet } else { Law::Cone };
-        blown.gain = random.range(0.5, 8.0);
-        let report = field.push(&bodies, random.range(0.0, 100.0), Some(&blown), &mut [[0.0; 6]; 4]);
-        let bound = blown.breath.momentum_flow(blown.breath.speed) * blown.gain;
+        let mut jet = jet(random.range(0.5, 30.0));
+        jet.breath.law = if case % 2 == 0 { SpreadLaw::Jet } else { SpreadLaw::Cone };
+        jet.gain = random.range(0.5, 8.0);
+        let report = field.apply_forces(&bodies, random.range(0.0, 100.0), Some(&jet), &mut [[0.0; 6]; 4]);
+        let bound = jet.breath.momentum_flow(jet.breath.speed) * jet.gain;
         assert!((report.bound - bound).abs() < ROUNDING * bound || report.bound == 0.0);
         let share = report.breath.length() / bound;
         assert!(share <= 1.0 + ROUNDING, "seed {SEED}, case {case}: {share} of the bound");
@@ -171,7 +171,7 @@ fn a_breath_never_pushes_harder_than_its_momentum_times_the_gain() {
 fn the_lee_side_and_the_air_behind_the_lips_are_still() {
     let mut field = field(&[solid(0, plate(0.1, 1e-3), 200)], 1);
     let mut out = [[0.0; 6]];
-    field.push(&[body(DVec3::new(0.0, 0.0, 0.7))], 0.0, Some(&blown(17.0)), &mut out);
+    field.apply_forces(&[body(DVec3::new(0.0, 0.0, 0.7))], 0.0, Some(&jet(17.0)), &mut out);
     assert_eq!(linear(&out[0]), DVec3::ZERO);
 }
 
@@ -179,23 +179,23 @@ fn the_lee_side_and_the_air_behind_the_lips_are_still() {
 fn a_sheet_of_one_face_is_pushed_from_either_side() {
     let mut field = field(&[sheet(0, face(0.1), 200)], 1);
     let mut force = |mouth: f64| {
-        let mut blown = blown(8.9);
-        blown.breath.mouth.z = mouth;
-        blown.breath.direction.z = -mouth.signum();
+        let mut jet = jet(8.9);
+        jet.breath.mouth.z = mouth;
+        jet.breath.direction.z = -mouth.signum();
         let mut out = [[0.0; 6]];
-        field.push(&[body(DVec3::ZERO)], 0.0, Some(&blown), &mut out);
+        field.apply_forces(&[body(DVec3::ZERO)], 0.0, Some(&jet), &mut out);
         linear(&out[0]).z
     };
-    let (front, back) = (force(0.5), force(-0.5));
-    assert!(front < 0.0 && back > 0.0, "{front} N and {back} N");
+    let (before, behind) = (force(0.5), force(-0.5));
+    assert!(before < 0.0 && behind > 0.0, "{before} N and {behind} N");
 }
 
 /// Force of a breath on a plate of one patch, and the same without turbulence, N.
 fn on_one_patch(field: &mut WindField, at: DVec3, time: f64) -> (DVec3, DVec3) {
-    let blown = blown(8.9);
-    let report = field.push(&[body(at)], time, Some(&blown), &mut [[0.0; 6]]);
+    let jet = jet(8.9);
+    let report = field.apply_forces(&[body(at)], time, Some(&jet), &mut [[0.0; 6]]);
     // The sample is somewhere on the plate, which is so small that the wind is the same all over it.
-    (report.breath, on_face(1e-8, DVec3::Z, blown.breath.velocity(at), C_D))
+    (report.breath, on_face(1e-8, DVec3::Z, jet.breath.velocity(at), C_D))
 }
 
 #[test]
@@ -236,9 +236,9 @@ fn the_same_seed_is_the_same_wind_to_the_bit() {
     let surfaces = [sheet(0, face(0.1), 64), solid(1, ball(0.03, 8), 64)];
     let wind = Wind {
         name: "room".into(),
-        kind: WindKind::Room { scale: 0.3, period: 4.0, seed: 5 },
+        kind: WindKind::Turbulence { scale: 0.3, period: 4.0, seed: 5 },
         speed: 0.2.into(),
-        rhythm: Rhythm::Even,
+        modulation: Modulation::Steady,
     };
     let run = |seed: u64| -> Vec<Vec6> {
         let shelters = soffio_wind::Shelter::of(&surfaces);
@@ -247,7 +247,7 @@ fn the_same_seed_is_the_same_wind_to_the_bit() {
         let mut all = Vec::new();
         for step in 0..100 {
             let mut out = [[0.0; 6]; 2];
-            field.push(&bodies, f64::from(step) * DT, Some(&blown(8.9)), &mut out);
+            field.apply_forces(&bodies, f64::from(step) * DT, Some(&jet(8.9)), &mut out);
             all.extend(out);
         }
         all
@@ -259,48 +259,48 @@ fn the_same_seed_is_the_same_wind_to_the_bit() {
 #[test]
 fn air_on_its_way_pushes_after_the_lips_have_closed() {
     let mut field = field(&[sheet(0, face(0.1), 64)], 1);
-    let mut front = Front::default();
-    let mut push = |front: &Front, speed: f64| {
-        let blown = Blown { breath: breath(speed), front: Some(front), gain: 1.0 };
-        field.push(&[body(DVec3::ZERO)], 0.0, Some(&blown), &mut [[0.0; 6]]).breath.length()
+    let mut jet_front = JetFront::default();
+    let mut force = |jet_front: &JetFront, speed: f64| {
+        let jet = BreathJet { breath: breath(speed), jet_front: Some(jet_front), gain: 1.0 };
+        field.apply_forces(&[body(DVec3::ZERO)], 0.0, Some(&jet), &mut [[0.0; 6]]).breath.length()
     };
     // Half a metre at 8.9 m/s takes 0.468 s: a puff of 0.2 s has left before any of it arrives.
     for _ in 0..48 {
-        front.advance(8.9, DT);
-        assert_eq!(push(&front, 8.9), 0.0, "nothing arrives before the front");
+        jet_front.advance(8.9, DT);
+        assert_eq!(force(&jet_front, 8.9), 0.0, "nothing arrives before the front");
     }
     let mut impulse = 0.0;
     for _ in 0..480 {
-        front.advance(0.0, DT);
-        let force = push(&front, 0.0);
+        jet_front.advance(0.0, DT);
+        let force = force(&jet_front, 0.0);
         assert!(force <= breath(0.0).momentum_flow(8.9) * (1.0 + ROUNDING));
         impulse += force * DT;
     }
     // A fifth of a second of momentum flow is 1.5 mN s; the plate takes a part of it, slowed on its way.
     assert!(impulse > 2e-5, "the puff arrives: {impulse} N s");
-    assert_eq!(push(&front, 0.0), 0.0, "and has passed");
+    assert_eq!(force(&jet_front, 0.0), 0.0, "and has passed");
 }
 
 #[test]
-fn the_rooms_air_hardly_hides_a_solid_from_a_breath_that_the_gallery_makes_stronger() {
+fn undirected_wind_hardly_changes_a_breath_of_large_gain_on_a_solid() {
     const SEED: u64 = 27;
-    /// At a hundredfold gain the room's air, a tenth as fast beside the breath, changes it by a tenth as much, but for squares.
+    /// At a gain of 100 the undirected wind counts a tenth as much beside the breath, but for squares.
     const GAIN: f64 = 100.0;
     const LEFT: f64 = 0.2;
     let breath = breath(3.0);
     let speed = breath.velocity(DVec3::ZERO).length();
-    let kind = WindKind::Room { scale: 0.5, period: 2.0, seed: SEED };
-    let room = [Wind { name: "room".into(), kind, speed: speed.into(), rhythm: Rhythm::Even }];
-    let felt = |gain: f64, winds: &[Wind], time: f64| {
+    let kind = WindKind::Turbulence { scale: 0.5, period: 2.0, seed: SEED };
+    let turbulence = [Wind { name: "room".into(), kind, speed: speed.into(), modulation: Modulation::Steady }];
+    let force = |gain: f64, winds: &[Wind], time: f64| {
         let mut field = WindField::new(&[solid(0, plate(0.02, 0.002), 64)], &[], winds, 1, 1);
-        let blown = Blown { breath, front: None, gain };
-        field.push(&[body(DVec3::ZERO)], time, Some(&blown), &mut [[0.0; 6]]).breath.length() / gain
+        let jet = BreathJet { breath, jet_front: None, gain };
+        field.apply_forces(&[body(DVec3::ZERO)], time, Some(&jet), &mut [[0.0; 6]]).breath.length() / gain
     };
     let changed = |gain: f64| {
-        let share = |second: i32| felt(gain, &room, f64::from(second)) / felt(gain, &[], f64::from(second)) - 1.0;
+        let share = |second: i32| force(gain, &turbulence, f64::from(second)) / force(gain, &[], f64::from(second)) - 1.0;
         (0..60).map(share).fold(0.0, |most: f64, change| most.max(change.abs()))
     };
     let [alike, stronger] = [1.0, GAIN].map(changed);
-    println!("the room's air changes a breath by {alike:.2}, with a gain of {GAIN} by {stronger:.2}");
+    println!("the undirected wind changes a breath by {alike:.2}, with a gain of {GAIN} by {stronger:.2}");
     assert!(alike > 0.3 && stronger < LEFT * alike, "{alike} and {stronger}");
 }

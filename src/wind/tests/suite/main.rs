@@ -1,4 +1,4 @@
-//! Wind: forces against formulas, and what the lips see against a depth buffer.
+//! Wind: forces against formulas, and visibility from the lips against a depth buffer.
 
 use assert_no_alloc::AllocDisabler;
 

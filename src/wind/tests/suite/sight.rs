@@ -1,4 +1,4 @@
-//! What sees the lips: rays against the depth buffer of the source and against every triangle, and what half a cover does.
+//! Visibility of the lips: rays against the source's depth buffer and against every triangle; partial shelter.
 
 use std::cell::Cell;
 
@@ -9,13 +9,13 @@ use soffio_math::DVec3;
 use soffio_math::noise::Random;
 use soffio_math::spatial::linear;
 use soffio_wind::force::WindField;
-use soffio_wind::weather::{Rhythm, Wind, WindKind};
+use soffio_wind::ambient::{Modulation, Wind, WindKind};
 use soffio_wind::{Shelter, Surface};
 
 use super::bodies::*;
 use super::depth_buffer::IdBuffer;
 
-/// Balls and plates, one a body, that overlap in the breath's cone in every way.
+/// Balls and plates, one a body, at random positions in the breath's cone.
 struct Crowd {
     surfaces: Vec<Surface>,
     meshes: Vec<TriangleMesh>,
@@ -39,30 +39,30 @@ fn crowd(seed: u64) -> Crowd {
     crowd
 }
 
-/// Every body somewhere else, and turned.
+/// Moves every body to a random pose.
 fn scatter(crowd: &mut Crowd, random: &mut Random) {
     for place in &mut crowd.bodies {
         *place = turned(DVec3::new(0.1, 0.1, 0.2) * any_vector(random, 1.0), any_turn(random));
     }
 }
 
-/// Patches that rays and an ID buffer of `pixels` see differently, and the areas that they see, m².
+/// Number of patches on which rays and an ID buffer of `pixels` disagree, and the visible area by each, m².
 fn compared(crowd: &Crowd, pixels: usize) -> (usize, [f64; 2]) {
     let breath = breath(8.9);
     let mut buffer = IdBuffer::new(&breath, pixels, 0.45);
     for (id, (mesh, body)) in crowd.meshes.iter().zip(&crowd.bodies).enumerate() {
         buffer.draw(id as u32, mesh, &body.pose());
     }
-    let samples = field(&crowd.surfaces, crowd.bodies.len()).samples(&crowd.bodies, &breath);
+    let samples = field(&crowd.surfaces, crowd.bodies.len()).sample_patches(&crowd.bodies, &breath);
     let (mut differ, mut seen, mut hidden, mut areas) = (0, 0, 0, [0.0; 2]);
     for sample in &samples {
-        // A solid's lee side is hidden by its own front; the buffer shows the same body there.
+        // The buffer shows the same body on a solid's lee side, which its front hides.
         let faces = sample.surface % 2 == 1 || sample.axis.dot(breath.vertex() - sample.point) > 0.0;
         let drawn = faces && buffer.seen_at(sample.point) == Some(sample.surface as u32);
-        differ += usize::from(drawn != sample.seen);
-        seen += usize::from(sample.seen);
-        hidden += usize::from(faces && !sample.seen);
-        areas[0] += f64::from(u8::from(sample.seen)) * sample.area;
+        differ += usize::from(drawn != sample.visible);
+        seen += usize::from(sample.visible);
+        hidden += usize::from(faces && !sample.visible);
+        areas[0] += f64::from(u8::from(sample.visible)) * sample.area;
         areas[1] += f64::from(u8::from(drawn)) * sample.area;
     }
     println!("{pixels} pixels: {seen} patches seen, {hidden} sheltered, {differ} of {} differ", samples.len());
@@ -91,7 +91,7 @@ fn rays_and_the_depth_buffer_see_the_same() {
 }
 
 #[test]
-fn the_hierarchies_miss_nothing_that_every_triangle_would_stop() {
+fn the_hierarchies_find_every_blocking_triangle() {
     const SEED: u64 = 34;
     let mut random = Random::new(SEED);
     let mut crowd = crowd(SEED);
@@ -99,14 +99,14 @@ fn the_hierarchies_miss_nothing_that_every_triangle_would_stop() {
     let hint = Cell::default();
     let (mut blocked, mut open) = (0, 0);
     for round in 0..20 {
-        // Refitted, never rebuilt: parts go anywhere.
+        // Refitted, never rebuilt: parts move to any pose.
         scatter(&mut crowd, &mut random);
-        field.samples(&crowd.bodies, &breath(8.9));
+        field.sample_patches(&crowd.bodies, &breath(8.9));
         for _ in 0..200 {
             let origin = any_vector(&mut random, 0.15);
-            let way = any_vector(&mut random, 1.0);
-            let (direction, far) = (way.normalize(), random.range(0.01, 1.0));
-            // The hint is that of another ray: it must mislead nobody.
+            let toward = any_vector(&mut random, 1.0);
+            let (direction, far) = (toward.normalize(), random.range(0.01, 1.0));
+            // The hint is that of another ray and must not change the result.
             let found = field.occluders().block(origin, direction, far, &hint);
             let expected = field.occluders().block_by_each(origin, direction, far);
             assert_eq!(found, expected, "seed {SEED}, round {round}: from {origin} along {direction} for {far} m");
@@ -117,19 +117,19 @@ fn the_hierarchies_miss_nothing_that_every_triangle_would_stop() {
     assert!(blocked > 200 && open > 200, "{blocked} blocked, {open} open");
 }
 
-/// Share of the open plate's force that is left behind a screen, in a wind that is the same everywhere.
-fn left_behind(screen: DVec3, patches: usize) -> f64 {
+/// Force on a plate behind a screen over that on an open one, in a uniform wind.
+fn sheltered_share(screen: DVec3, patches: usize) -> f64 {
     let surfaces = [sheet(0, face(0.1), patches), sheet(1, face(1.0), 16)];
     let wind = Wind {
         name: "draught".into(),
-        kind: WindKind::Draught { direction: DVec3::NEG_Z, place: None },
+        kind: WindKind::Draught { direction: DVec3::NEG_Z, inlet: None },
         speed: 2.0.into(),
-        rhythm: Rhythm::Even,
+        modulation: Modulation::Steady,
     };
     let mut field = WindField::new(&surfaces, &Shelter::of(&surfaces), &[wind], 2, 1);
     let mut force = |screen: DVec3| {
         let mut out = [[0.0; 6]; 2];
-        field.push(&[body(DVec3::ZERO), body(screen)], 0.0, None, &mut out);
+        field.apply_forces(&[body(DVec3::ZERO), body(screen)], 0.0, None, &mut out);
         linear(&out[0]).length()
     };
     force(screen) / force(DVec3::new(9.0, 0.0, 0.1))
@@ -142,7 +142,7 @@ fn a_half_covered_plate_feels_half() {
     for patches in [64, 256, 1024] {
         for covered in [0.0, 0.25, 0.5, 0.75, 1.0] {
             let edge = -0.05 + 0.1 * covered;
-            let left = left_behind(DVec3::new(edge - 0.5, 0.0, 0.1), patches);
+            let left = sheltered_share(DVec3::new(edge - 0.5, 0.0, 0.1), patches);
             let sampling = 2.0 / (patches as f64).sqrt();
             let exact = covered == 0.0 || covered == 1.0;
             let off = (left - (1.0 - covered)).abs();
@@ -157,7 +157,7 @@ fn a_breath_is_sheltered_like_any_wind() {
     let mut field = field(&surfaces, 2);
     let mut force = |screen: DVec3| {
         let mut out = [[0.0; 6]; 2];
-        field.push(&[body(DVec3::ZERO), body(screen)], 0.0, Some(&blown(8.9)), &mut out);
+        field.apply_forces(&[body(DVec3::ZERO), body(screen)], 0.0, Some(&jet(8.9)), &mut out);
         linear(&out[0]).length()
     };
     let open = force(DVec3::new(9.0, 0.0, 0.1));
@@ -169,8 +169,8 @@ fn a_breath_is_sheltered_like_any_wind() {
 }
 
 #[test]
-fn what_stands_behind_the_lips_hides_nothing() {
-    let breath = blown(8.9).breath;
+fn objects_behind_the_lips_give_no_shelter() {
+    let breath = jet(8.9).breath;
     let screens = Shelter { body: None, mesh: cuboid(DVec3::new(0.4, 0.4, 1e-3)) };
     let screen = |behind: f64| {
         let at = breath.mouth - behind * breath.direction;
@@ -181,7 +181,7 @@ fn what_stands_behind_the_lips_hides_nothing() {
     let force = |shelters: &[Shelter]| {
         let mut out = [[0.0; 6]];
         let mut field = WindField::new(&[sheet(0, face(0.1), 64)], shelters, &[], 1, 1);
-        field.push(&[body(DVec3::ZERO)], 0.0, Some(&blown(8.9)), &mut out);
+        field.apply_forces(&[body(DVec3::ZERO)], 0.0, Some(&jet(8.9)), &mut out);
         linear(&out[0])
     };
     let open = force(&[]);
@@ -193,13 +193,13 @@ fn what_stands_behind_the_lips_hides_nothing() {
 }
 
 #[test]
-fn what_stands_still_and_feels_no_wind_shelters_too() {
+fn fixed_shelters_without_a_surface_shelter_too() {
     let plate = sheet(0, face(0.1), 64);
     let post = Shelter { body: None, mesh: cuboid(DVec3::new(0.4, 0.4, 0.02)) };
     let force = |shelters: &[Shelter]| {
         let mut out = [[0.0; 6]];
         let mut field = WindField::new(std::slice::from_ref(&plate), shelters, &[], 1, 1);
-        field.push(&[body(DVec3::NEG_Z * 0.1)], 0.0, Some(&blown(8.9)), &mut out);
+        field.apply_forces(&[body(DVec3::NEG_Z * 0.1)], 0.0, Some(&jet(8.9)), &mut out);
         linear(&out[0]).length()
     };
     assert!(force(&[]) > 0.0);
@@ -208,21 +208,21 @@ fn what_stands_still_and_feels_no_wind_shelters_too() {
 
 /// The allocator that watches is that of `realtime.rs`; it acts in debug builds.
 #[test]
-fn a_warm_wind_asks_for_no_memory() {
+fn apply_forces_does_not_allocate() {
     let crowd = crowd(35);
     let kind = WindKind::Fan { at: DVec3::Z, direction: DVec3::NEG_Z, diameter: 0.1 };
     let winds = [
-        Wind { name: "fan".into(), kind, speed: 2.0.into(), rhythm: Rhythm::Even },
+        Wind { name: "fan".into(), kind, speed: 2.0.into(), modulation: Modulation::Steady },
         Wind {
             name: "room".into(),
-            kind: WindKind::Room { scale: 0.3, period: 4.0, seed: 1 },
+            kind: WindKind::Turbulence { scale: 0.3, period: 4.0, seed: 1 },
             speed: 0.2.into(),
-            rhythm: Rhythm::Gusty { strength: 0.5, period: 2.0, seed: 2 },
+            modulation: Modulation::Gusty { strength: 0.5, period: 2.0, seed: 2 },
         },
     ];
     let mut field = WindField::new(&crowd.surfaces, &Shelter::of(&crowd.surfaces), &winds, 40, 1);
     let mut out = vec![[0.0; 6]; 40];
     for step in 0..10 {
-        assert_no_alloc(|| field.push(&crowd.bodies, f64::from(step), Some(&blown(8.9)), &mut out));
+        assert_no_alloc(|| field.apply_forces(&crowd.bodies, f64::from(step), Some(&jet(8.9)), &mut out));
     }
 }

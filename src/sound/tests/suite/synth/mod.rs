@@ -15,7 +15,7 @@ use soffio_math::{PI, StateHash, decibels};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
     CEILING, FADING_VOICES, InstrumentSpec, MAX_COMMANDS, MAX_VOICES, Preset, SoundBody, SoundCommand, SoundMaterial,
-    Strike, Synth, Touch, WindSound, free_plate_modes, timbre,
+    Strike, Synth, Damp, WindSound, free_plate_modes, timbre,
 };
 
 const RATE: u32 = 48_000;
@@ -441,7 +441,7 @@ fn a_hand_on_a_bell_stills_it() {
         let mut synth = synth(&[spec("bell")]);
         synth.set_dry(true);
         synth.command(SoundCommand::Strike(strike(0, 1e-3)));
-        synth.command(SoundCommand::Touch(Touch { sample: 24_000, instrument: 0, position: [0.0; 2], resistance }));
+        synth.command(SoundCommand::Damp(Damp { sample: 24_000, instrument: 0, position: [0.0; 2], resistance }));
         let out = render(&mut synth, 36_000);
         rms(&out[60_000..])
     };

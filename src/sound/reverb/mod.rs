@@ -55,14 +55,14 @@ const MIDDLE: usize = 3;
 
 /// A room as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoomSpec {
+pub struct ReverbSpec {
     /// Energy of the reverberation over the direct sound's, dB, at 1 kHz.
     pub level_db: f64,
     /// Decay by 60 dB in the octaves of [`BANDS`], s.
     pub t60: [f64; BANDS.len()],
 }
 
-impl RoomSpec {
+impl ReverbSpec {
     /// A gallery of some 350 m³: plastered walls, a wooden floor, a few visitors. Its level is low, because the kiosk
     /// stands in a room already.
     pub const GALLERY: Self = Self { level_db: -8.0, t60: [1.6, 1.5, 1.4, 1.3, 1.15, 0.95, 0.7] };
@@ -97,7 +97,7 @@ impl RoomSpec {
 }
 
 /// A room that sounds.
-pub struct Room {
+pub struct Reverb {
     /// Which instructions there are.
     simd: Level,
     diffusers: [[Delay; 3]; 2],
@@ -111,9 +111,9 @@ pub struct Room {
     forgets: usize,
 }
 
-impl Room {
+impl Reverb {
     /// A silent room; `None` when it would not decay ([`RoomSpec::problem`] says why).
-    pub fn new(spec: &RoomSpec, sample_rate: f64) -> Option<Self> {
+    pub fn new(spec: &ReverbSpec, sample_rate: f64) -> Option<Self> {
         if spec.problem().is_some() {
             return None;
         }

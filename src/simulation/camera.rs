@@ -1,34 +1,34 @@
-//! Where the visitor looks from: the exhibit's own camera, or elsewhere on the sphere about its target.
+//! Camera of the visitor: the exhibit's own view, or one turned about its target.
 //!
-//! A breath is aimed and a hand takes along sight lines of this very eye, so that they hit what is seen there.
+//! The breath is aimed and pointers grab along rays of this camera, so that they act on what the picture shows there.
 
 use soffio_exhibit::{Exhibit, View};
 
-/// Width over height of a picture nobody described.
+/// Width over height of the picture where none is given.
 pub(crate) const DEFAULT_ASPECT: f64 = 16.0 / 9.0;
 
-/// The eye of the step.
+/// The camera of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Eye {
+pub struct Camera {
     /// Width over height of the picture.
     pub aspect: f64,
-    /// How far it is turned from the exhibit's own view: to the right and up, rad.
+    /// Turn about the target from the exhibit's own view: to the right and up, rad.
     pub turn: [f64; 2],
-    /// What it sees.
+    /// The view from there.
     pub view: View,
-    /// The exhibit's own view at this aspect: to find it costs a look at every vertex.
+    /// The exhibit's own view at this aspect, kept because it depends on every vertex.
     own: View,
 }
 
-impl Eye {
+impl Camera {
     /// The exhibit's own view.
     pub fn new(exhibit: &Exhibit) -> Self {
         let own = exhibit.view(DEFAULT_ASPECT);
         Self { aspect: DEFAULT_ASPECT, turn: [0.0; 2], view: own, own }
     }
 
-    /// Looks as a step is told; an aspect that is no number is the usual one, a turn that is none is not taken.
-    pub fn look(&mut self, exhibit: &Exhibit, aspect: f64, turn: [f64; 2]) {
+    /// Sets aspect and turn. An aspect that is not positive becomes 16:9; a turn that is not finite is ignored.
+    pub fn update(&mut self, exhibit: &Exhibit, aspect: f64, turn: [f64; 2]) {
         let aspect = if aspect > 0.0 { aspect } else { DEFAULT_ASPECT };
         let turn = if turn.iter().all(|angle| angle.is_finite()) { turn } else { self.turn };
         if aspect != self.aspect {
