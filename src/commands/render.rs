@@ -70,7 +70,8 @@ pub fn run(args: Args) -> Outcome {
     let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(Failure::of_picture)?.finer(FINER);
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
-    let frame = Frame { poses: &snapshot.poses, motes: &snapshot.dust_particles, view, size, exposure, time: snapshot.time };
+    let frame =
+        Frame { poses: &snapshot.poses, motes: &snapshot.dust_particles, view, size, exposure, time: snapshot.time };
     let picture = renderer.draw(&frame).map_err(Failure::of_picture)?;
     write_png(&picture, &args.output).map_err(Failure::input)
 }

@@ -172,12 +172,13 @@ impl Default for Breath {
     }
 }
 
-/// The two profiles as the file spells them.
+/// Names of the two profiles in the file; `true` is the old name of `physical`.
 #[derive(Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(remote = "Profile", rename_all = "lowercase")]
 enum ProfileName {
     Gallery,
-    True,
+    #[serde(alias = "true")]
+    Physical,
 }
 
 /// Microphone and loudspeaker.

@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::scene::times::{StepTimes, TimesReport};
 use soffio_exhibit::Exhibit;
 use soffio_math::{PI, sin};
-use soffio_simulation::{Command, ASSEMBLY_DURATION, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_simulation::{ASSEMBLY_DURATION, Command, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 /// A hard breath, m/s at the lips.
 pub const HARD: f64 = 17.0;

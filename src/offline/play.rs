@@ -16,7 +16,7 @@ use super::trace::TraceWriter;
 use soffio_exhibit::Exhibit;
 use soffio_simulation::record::RecordSection;
 use soffio_simulation::{
-    Command, PointerGrab, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput,
+    Command, MotionMode, PointerGrab, STEPS_PER_SECOND, Script, Settings, Simulation, Snapshot, StepInput,
 };
 use soffio_sound::ReverbSpec;
 

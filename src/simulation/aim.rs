@@ -242,8 +242,8 @@ impl Aim {
     /// the aim follows the ray.
     pub fn track(&mut self, target: Option<&AimTarget>, dt: f64) {
         let aim_point = target.map(|target| self.ray.aim_point(target));
-        let (goal, mut displacement) = aim_point
-            .map_or((self.ray.on_plane, DVec3::ZERO), |goal| (goal, self.ray.lip_displacement(goal)));
+        let (goal, mut displacement) =
+            aim_point.map_or((self.ray.on_plane, DVec3::ZERO), |goal| (goal, self.ray.lip_displacement(goal)));
         let first = self.direction == DVec3::ZERO;
         if let Some(target) = target {
             let to_goal = goal - self.ray.lips - displacement;

@@ -102,7 +102,10 @@ impl Assembly {
         let constraints: Vec<Constraint> = exhibit.constraints.iter().filter(acts).map(permanent).collect();
         let at_start = |drive: &KinematicBody| {
             let keys = drive.motion.keys.first().map(|&(_, pose): &(f64, Pose)| vec![(0.0, pose)]).unwrap_or_default();
-            KinematicBody { body: drive.body, motion: KeyframeMotion { keys, interpolation: Interpolation::Step, repeat: false } }
+            KinematicBody {
+                body: drive.body,
+                motion: KeyframeMotion { keys, interpolation: Interpolation::Step, repeat: false },
+            }
         };
         let drives: Vec<KinematicBody> = exhibit.drives.iter().map(at_start).collect();
         let figure = Articulation {
@@ -162,7 +165,11 @@ impl Assembly {
 
     /// Greatest distance of a body from its final position, m.
     pub fn max_distance(&self, bodies: &[RigidBody]) -> f64 {
-        bodies.iter().zip(&self.final_poses).map(|(body, pose)| body.position.distance(pose.position)).fold(0.0, f64::max)
+        bodies
+            .iter()
+            .zip(&self.final_poses)
+            .map(|(body, pose)| body.position.distance(pose.position))
+            .fold(0.0, f64::max)
     }
 }
 

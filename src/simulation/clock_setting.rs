@@ -131,8 +131,8 @@ impl ClockSetting {
             let rate = body.angular_velocity.dot(axis);
             // Change of the rate in a step by the clutch's friction alone, rad/s.
             let friction_rate = dynamics.angular_response(clock.hand, axis) * dt * clock.friction;
-            self.load = (self.load + (self.desired_rate - rate) / friction_rate)
-                .clamp(-TUNING.most_torque, TUNING.most_torque);
+            self.load =
+                (self.load + (self.desired_rate - rate) / friction_rate).clamp(-TUNING.most_torque, TUNING.most_torque);
             self.desired_rate = ((self.set_point - angle) / TUNING.time_constant).min(TUNING.most_rate);
             self.stick_torque = 1.0;
             1.0 + self.load + (self.desired_rate - rate) / friction_rate

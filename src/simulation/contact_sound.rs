@@ -25,7 +25,7 @@ use soffio_exhibit::{Exhibit, SoundTrigger};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::LimitKind;
-use soffio_multibody::dynamics::{Impact, ImpactKind, ContactReport};
+use soffio_multibody::dynamics::{ContactReport, Impact, ImpactKind};
 use soffio_sound::{Damp, Slide, SoundCommand, Strike};
 
 /// Two thresholds of a state with hysteresis, m/s.

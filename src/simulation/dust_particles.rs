@@ -126,7 +126,8 @@ impl DustParticles {
                 let noise = perlin3_vector(at, TUNING.drift_seed) * TUNING.drift_speed;
                 particle.slow_velocity = noise + (air.undirected)(particle.position);
             }
-            particle.velocity = particle.velocity.lerp((air.directed)(particle.position) + particle.slow_velocity, share);
+            particle.velocity =
+                particle.velocity.lerp((air.directed)(particle.position) + particle.slow_velocity, share);
             particle.position += dt * particle.velocity;
             particle.age += dt;
             let in_breath = breath.filter(|_| index < BREATH_COUNT);
@@ -254,8 +255,13 @@ mod tests {
     #[test]
     fn a_breath_is_visible_at_once() {
         let mut cloud = DustParticles::new(DVec3::ZERO, SEED);
-        let breath =
-            Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 9.0, law: SpreadLaw::Jet };
+        let breath = Breath {
+            mouth: DVec3::Z * 0.5,
+            direction: DVec3::NEG_Z,
+            lip_diameter: 0.01,
+            speed: 9.0,
+            law: SpreadLaw::Jet,
+        };
         for _ in 0..24 {
             cloud.advect(Some(&breath), AirVelocity { directed: |p| breath.velocity(p), undirected: still }, DT);
         }

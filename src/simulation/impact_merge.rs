@@ -91,7 +91,8 @@ mod tests {
     #[test]
     fn impacts_within_a_window_merge_without_loss() {
         let mut window = MergeWindow::default();
-        let sound = |pulse: Option<ImpactPulse>| pulse.map(|pulse| (pulse.sample / 48, (pulse.impulse * 1e6).round() as i64));
+        let sound =
+            |pulse: Option<ImpactPulse>| pulse.map(|pulse| (pulse.sample / 48, (pulse.impulse * 1e6).round() as i64));
         assert_eq!(sound(window.push(pulse(100, 4e-3))), Some((100, 4000)));
         // Two softer ones pend and sound together: √(2.4² + 3.2²) = 4.
         assert_eq!(sound(window.push(pulse(103, 2.4e-3))), None);

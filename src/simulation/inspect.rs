@@ -106,8 +106,7 @@ impl Simulation {
         let jet = aimed.jet(&air.jet_front);
         let sample = |sample: soffio_wind::force::PatchSample| {
             let jet = jet.as_ref().filter(|_| sample.visible);
-            let velocity =
-                air.wind.directed_velocity(jet, sample.point) + air.wind.undirected_velocity(sample.point);
+            let velocity = air.wind.directed_velocity(jet, sample.point) + air.wind.undirected_velocity(sample.point);
             let in_breath = sample.visible && breath.relative_speed(sample.point).is_some();
             WindSample { surface: sample.surface, point: sample.point, in_breath, speed: velocity.length() }
         };

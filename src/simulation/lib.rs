@@ -35,22 +35,22 @@
 //! ```
 
 mod aim;
+mod aim_assist;
 mod air;
-mod idle_damping;
+mod assembly;
+mod camera;
 mod clock_setting;
 mod contact_sound;
+mod dust_particles;
 mod emit;
 mod event;
-mod camera;
-mod assembly;
-mod pointer_grabs;
+mod idle_damping;
+mod impact_merge;
 mod input;
 mod inspect;
-mod aim_assist;
-mod impact_merge;
-mod dust_particles;
 mod motion;
 mod onset_compensation;
+mod pointer_grabs;
 mod rate;
 pub mod record;
 mod script;
@@ -60,12 +60,12 @@ mod source;
 mod start;
 mod step;
 
-pub use event::{Event, EventKind, EventSource};
 pub use assembly::DURATION as ASSEMBLY_DURATION;
-pub use pointer_grabs::PointerGrab;
-pub use input::{CENTRE, Command, Microphone, MotionMode, Profile, Settings, StepInput};
-pub use inspect::{BodyState, Inspection, JointState, InspectionScope, WindSample};
 pub use dust_particles::DustParticle;
+pub use event::{Event, EventKind, EventSource};
+pub use input::{CENTRE, Command, Microphone, MotionMode, Profile, Settings, StepInput};
+pub use inspect::{BodyState, Inspection, InspectionScope, JointState, WindSample};
+pub use pointer_grabs::PointerGrab;
 pub use rate::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND};
 pub use script::{Script, ScriptError};
 pub use snapshot::{AimRing, BreathView, Diagnostics, Snapshot};

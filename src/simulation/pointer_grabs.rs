@@ -62,14 +62,8 @@ struct Tuning {
     finger: f64,
 }
 
-const TUNING: Tuning = Tuning {
-    time_constant: 0.05,
-    most_speed: 2.5,
-    most_acceleration: 50.0,
-    damping: 0.02,
-    sweeps: 12,
-    finger: 0.012,
-};
+const TUNING: Tuning =
+    Tuning { time_constant: 0.05, most_speed: 2.5, most_acceleration: 50.0, damping: 0.02, sweeps: 12, finger: 0.012 };
 /// Pick positions around a finger under which there is nothing, in pick radii.
 const AROUND: [[f64; 2]; 8] =
     [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [0.7, 0.7], [-0.7, 0.7], [0.7, -0.7], [-0.7, -0.7]];

@@ -18,8 +18,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::pointer_grabs::PointerGrab;
 use super::input::{CENTRE, Command, MotionMode, Settings, StepInput};
+use super::pointer_grabs::PointerGrab;
 
 /// Version of the format.
 const VERSION: u32 = 1;
@@ -261,7 +261,9 @@ pub fn parse(text: &str) -> Result<Vec<RecordSection>, RecordError> {
                 sections.push(RecordSection::new(begin));
                 Ok(())
             }
-            RecordLine::Change(change) => sections.last_mut().ok_or_else(not_begun).and_then(|section| section.push(change)),
+            RecordLine::Change(change) => {
+                sections.last_mut().ok_or_else(not_begun).and_then(|section| section.push(change))
+            }
             RecordLine::End(end) => sections.last_mut().ok_or_else(not_begun).map(|section| section.end = Some(end)),
         };
         done.map_err(|problem| fail(index, problem))?;
@@ -313,7 +315,10 @@ mod tests {
             }
             assert_eq!(speed, *expected_speed, "step {step}");
             assert_eq!(again.pointer, Some(input.pointer.unwrap_or(CENTRE)));
-            assert_eq!((again.aspect, again.mode, again.pointer_grabs), (input.aspect, input.mode, input.pointer_grabs));
+            assert_eq!(
+                (again.aspect, again.mode, again.pointer_grabs),
+                (input.aspect, input.mode, input.pointer_grabs)
+            );
             assert_eq!(again.turn, input.turn);
             let commands = again.commands.iter().filter(|command| !matches!(command, Command::Blow(_)));
             assert!(commands.eq(input.commands), "step {step}");

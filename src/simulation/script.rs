@@ -18,8 +18,8 @@
 
 use serde::Deserialize;
 
-use super::pointer_grabs::PointerGrab;
 use super::input::{Command, MotionMode};
+use super::pointer_grabs::PointerGrab;
 use super::step::Simulation;
 use soffio_exhibit::Exhibit;
 
@@ -176,7 +176,8 @@ impl Script {
                 let mode = mode.map_err(|problem: String| fail(format!("{problem}, auto")))?;
                 actions.push((line.t, Action::Solver(mode)));
             }
-            let grabbed = line.grab.iter().find_map(|grab| if let GrabTarget::At(at) = grab { Some(*at) } else { None });
+            let grabbed =
+                line.grab.iter().find_map(|grab| if let GrabTarget::At(at) = grab { Some(*at) } else { None });
             for (what, place) in [("aim", line.aim), ("grab", grabbed), ("drag", line.drag)] {
                 if let Some([x, y]) = place.filter(|at| !at.iter().all(|v| (0.0..=1.0).contains(v))) {
                     return Err(fail(format!(

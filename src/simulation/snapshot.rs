@@ -1,7 +1,7 @@
 //! Snapshot: the state of one moment for pictures, traces and panels.
 
-use super::input::MotionMode;
 use super::dust_particles::DustParticle;
+use super::input::MotionMode;
 use super::step::Simulation;
 use soffio_detector::BlowEstimate;
 use soffio_geometry::bodies::RigidBody;

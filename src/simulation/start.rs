@@ -22,7 +22,11 @@ pub(super) fn start_bodies(exhibit: &Exhibit, settings: &Settings) -> Vec<RigidB
 }
 
 /// The clock setting of a run, if the exhibit has a clock and the run has a time of day.
-pub(super) fn start_clock_setting(exhibit: &Exhibit, settings: &Settings, bodies: &[RigidBody]) -> Option<ClockSetting> {
+pub(super) fn start_clock_setting(
+    exhibit: &Exhibit,
+    settings: &Settings,
+    bodies: &[RigidBody],
+) -> Option<ClockSetting> {
     let (clock, time) = exhibit.clock.as_ref().zip(settings.clock)?;
     Some(ClockSetting::new(clock, bodies, time))
 }

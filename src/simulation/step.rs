@@ -155,7 +155,8 @@ impl Simulation {
     fn update_aim(&mut self, input: &StepInput) {
         let Self { exhibit, settings, clock, camera, breath, aim_assist, air, motion, .. } = self;
         camera.update(exhibit, input.aspect, input.turn);
-        let context = AimContext { exhibit, settings, camera, breath, bodies: &motion.dynamics.bodies, step: clock.step };
+        let context =
+            AimContext { exhibit, settings, camera, breath, bodies: &motion.dynamics.bodies, step: clock.step };
         aim_assist.update(input, &context, &mut air.wind);
     }
 

@@ -2,7 +2,7 @@
 
 use super::graph::CONTROL;
 use super::timbre::{Inputs, Player};
-use super::{WindExposure, Slide, SoundCommand, WindSound};
+use super::{Slide, SoundCommand, WindExposure, WindSound};
 use soffio_math::{PI, exp};
 
 /// Time constant with which the sound of the wind follows its commands, s.

@@ -23,7 +23,7 @@ use super::reverb::ReverbSpec;
 use super::shared::Shared;
 use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{InstrumentSpec, SoundCommand, Strike, Damp};
+use super::{Damp, InstrumentSpec, SoundCommand, Strike};
 use soffio_math::noise::hash_words;
 use soffio_math::{PI, sincos};
 

@@ -145,8 +145,9 @@ fn modulation_at(modulation: &Modulation, gusts: &[Perlin1; OCTAVES], left: f64)
         }
         Modulation::Puffs { interval, duration, seed } => {
             let number = (left / interval).floor();
-            let unit =
-                |word: u64| (hash_words(&[seed, number as i64 as u64, word]) >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
+            let unit = |word: u64| {
+                (hash_words(&[seed, number as i64 as u64, word]) >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+            };
             let since = left - number * interval - unit(0) * (interval - duration);
             if (0.0..duration).contains(&since) {
                 let s = sin(PI * since / duration);
@@ -270,7 +271,10 @@ impl AmbientWind {
 
     /// Sum of the undirected winds at a point (world, m), m/s.
     pub fn undirected_velocity(&self, point: DVec3) -> DVec3 {
-        (0..self.len()).filter(|&index| self.wind_origin(index).is_none()).map(|index| self.velocity(index, point)).sum()
+        (0..self.len())
+            .filter(|&index| self.wind_origin(index).is_none())
+            .map(|index| self.velocity(index, point))
+            .sum()
     }
 
     /// Velocity of one wind at a point (world, m), without shelter, m/s.
@@ -279,7 +283,8 @@ impl AmbientWind {
         if speed <= 0.0 {
             return DVec3::ZERO;
         }
-        let modulation = |along: f64| modulation_at(&wind.modulation, &self.gusts[index], self.time - along / convection);
+        let modulation =
+            |along: f64| modulation_at(&wind.modulation, &self.gusts[index], self.time - along / convection);
         match wind.kind {
             WindKind::Fan { at, direction, diameter } => {
                 let jet = fan(at, direction, diameter, speed);

@@ -19,7 +19,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
 use super::breath::AIR_DENSITY;
-use super::patches::{PatchKind, Patch};
+use super::patches::{Patch, PatchKind};
 use soffio_math::lanes::{All, Four, Lanes, V3, WIDTH};
 use soffio_math::{DVec3, PI};
 

@@ -34,15 +34,15 @@ use std::ops::RangeInclusive;
 
 use soffio_geometry::TriangleMesh;
 
-mod patch_air;
+pub mod ambient;
 pub mod breath;
 mod drag;
-mod wind_surface;
 pub mod force;
 pub mod jet_front;
+mod patch_air;
 pub mod patches;
 mod visibility;
-pub mod ambient;
+mod wind_surface;
 
 /// A surface that takes wind forces.
 #[derive(Clone, Debug)]

@@ -141,7 +141,8 @@ fn assign_leftover_area(patches: &mut [Patch], leftover: &[LeftoverArea], total:
             };
             point.distance_squared(center) / total + NORMAL_WEIGHT * (1.0 - facing)
         };
-        let nearest = (0..places.len()).min_by(|&i, &j| dissimilarity(&places[i]).total_cmp(&dissimilarity(&places[j])));
+        let nearest =
+            (0..places.len()).min_by(|&i, &j| dissimilarity(&places[i]).total_cmp(&dissimilarity(&places[j])));
         if let Some(nearest) = nearest {
             patches[nearest].area += area;
         }

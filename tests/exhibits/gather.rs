@@ -1,6 +1,6 @@
 //! An exhibit gathers itself from scattered parts when it comes on, and then is as after a reset.
 
-use soffio_simulation::{Command, EventKind, ASSEMBLY_DURATION, STEPS_PER_SECOND, Settings, Simulation, StepInput};
+use soffio_simulation::{ASSEMBLY_DURATION, Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 use crate::{load, note};
 

@@ -2,7 +2,7 @@
 
 use soffio_geometry::rays::Occluders;
 use soffio_math::noise::Random;
-use soffio_simulation::{Command, PointerGrab, MotionMode, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, MotionMode, PointerGrab, Settings, Simulation, StepInput};
 
 use crate::tally::Tally;
 use crate::{load, note};

@@ -20,7 +20,10 @@ fn play(simulation: &mut Simulation, steps: usize) -> Vec<Event> {
         simulation.step(&StepInput::default());
         assert!(simulation.bodies().iter().all(RigidBody::is_finite), "bad numbers at step {}", simulation.steps());
         let snapshot = simulation.snapshot();
-        assert!(snapshot.dust_particles.iter().all(|mote| mote.position.iter().all(|x| x.is_finite())), "the dust is lost");
+        assert!(
+            snapshot.dust_particles.iter().all(|mote| mote.position.iter().all(|x| x.is_finite())),
+            "the dust is lost"
+        );
         assert!(snapshot.breath.target.is_finite() && snapshot.diagnostics.wind_force.is_finite());
         events.extend_from_slice(simulation.events());
     }

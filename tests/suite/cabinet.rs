@@ -452,7 +452,8 @@ impl Wound {
         let rotor = self.dynamics.bodies[self.body("Rotor")].position;
         let target = rotor + DVec3::new(0.03, 0.03, 0.0);
         let direction = DVec3::new(0.0, 0.0, -1.0);
-        let breath = Breath { mouth: target - 0.5 * direction, direction, lip_diameter: 0.01, speed, law: SpreadLaw::Jet };
+        let breath =
+            Breath { mouth: target - 0.5 * direction, direction, lip_diameter: 0.01, speed, law: SpreadLaw::Jet };
         let wheels = ["WindingWheel", "MinuteArbor"].map(|name| self.body(name));
         let angle = |body: &RigidBody| 2.0 * atan2(body.rotation.z, body.rotation.w);
         let mut hits = Vec::new();

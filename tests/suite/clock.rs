@@ -7,7 +7,9 @@ use soffio_math::Function;
 use soffio_math::{DVec3, PI, atan2, rotation};
 use soffio_multibody::articulation::LimitKind;
 use soffio_multibody::dynamics::Dynamics;
-use soffio_simulation::{Command, EventKind, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics};
+use soffio_simulation::{
+    Command, EventKind, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput, start_dynamics,
+};
 
 const DT: f64 = 1.0 / 240.0;
 /// Beats an hour that its train is cut for.
@@ -359,7 +361,8 @@ impl Visited {
     fn go_on(&mut self, seconds: f64, breath: f64, hands: &[PointerGrab]) -> (f64, usize) {
         let commands = [Command::Blow((breath > 0.0).then_some(breath))];
         let (mut widest, mut teeth): (f64, usize) = (0.0, 0);
-        let input = StepInput { commands: &commands, pointer_grabs: hands, pointer: Some(LEAF), ..StepInput::default() };
+        let input =
+            StepInput { commands: &commands, pointer_grabs: hands, pointer: Some(LEAF), ..StepInput::default() };
         for _ in 0..(seconds * STEPS_PER_SECOND as f64) as u64 {
             self.simulation.step(&input);
             self.step += 1;

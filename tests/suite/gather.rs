@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_simulation::{
-    Command, EventKind, ASSEMBLY_DURATION, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
+    ASSEMBLY_DURATION, Command, EventKind, MotionMode, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput,
 };
 
 fn load(id: &str) -> Arc<Exhibit> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use assert_no_alloc::assert_no_alloc;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::{DVec3, rotation};
-use soffio_simulation::{PointerGrab, MotionMode, Script, Settings, Simulation, StepInput};
+use soffio_simulation::{MotionMode, PointerGrab, Script, Settings, Simulation, StepInput};
 
 const MODES: [MotionMode; 3] = [MotionMode::Dynamic, MotionMode::Procedural, MotionMode::PositionBased];
 const ASPECT: f64 = 16.0 / 9.0;

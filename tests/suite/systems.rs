@@ -3,8 +3,8 @@
 use soffio_exhibit::{self as exhibit, Exhibit, Motion, SoundTrigger};
 use soffio_geometry::support::Core;
 use soffio_multibody::articulation::{Constraint, ConstraintKind, LimitKind, Measure, SpringKind, Trigger};
-use soffio_wind::breath::SpreadLaw;
 use soffio_wind::ambient::WindKind;
+use soffio_wind::breath::SpreadLaw;
 
 /// A system, and how an exhibit that shows it is known.
 type System = (&'static str, fn(&Exhibit) -> bool);

@@ -126,7 +126,8 @@ fn draw(
         if i == WARM {
             began = (ProcessTime::now(), Instant::now());
         }
-        let frame = Frame { poses: &moment.poses, motes: &moment.dust_particles, view, size, exposure: 1.0, time: moment.time };
+        let frame =
+            Frame { poses: &moment.poses, motes: &moment.dust_particles, view, size, exposure: 1.0, time: moment.time };
         renderer.draw(gpu, &target, &frame);
         let finished = gpu.device.poll(wgpu::PollType::wait_indefinitely());
         finished.map_err(|error| soffio_render::RenderError::NoDevice(error.to_string()))?;

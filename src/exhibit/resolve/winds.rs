@@ -8,8 +8,8 @@ use super::context::Context;
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 use soffio_math::Function;
-use soffio_wind::breath::SpreadLaw;
 use soffio_wind::ambient::{Inlet, Modulation, Wind, WindKind};
+use soffio_wind::breath::SpreadLaw;
 use soffio_wind::{Shelter, Surface};
 
 /// Size of the room's largest eddies (m) and time in which they change (s), where the sidecar does not say.
@@ -81,7 +81,12 @@ impl Context<'_> {
         self.trace("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
         self.trace("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
         let kind = WindKind::Turbulence { scale, period, seed: given.seed };
-        Wind { name: ROOM.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), modulation: Modulation::Steady }
+        Wind {
+            name: ROOM.into(),
+            kind,
+            speed: self.wind_speed(&given.speed, at, "room"),
+            modulation: Modulation::Steady,
+        }
     }
 
     fn fan(&mut self, given: &sidecar::Fan, at: &str) -> Option<Wind> {

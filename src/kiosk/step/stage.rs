@@ -10,8 +10,8 @@ use soffio_exhibit::{Exhibit, Leeway, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::{
-    Command, Inspection, InspectionScope, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation,
-    Snapshot, StepInput,
+    Command, Inspection, InspectionScope, Microphone, MotionMode, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings,
+    Simulation, Snapshot, StepInput,
 };
 use soffio_sound::SoundCommand;
 
@@ -258,7 +258,15 @@ impl Stage {
     /// What the last step was told; the breath is in the snapshot's speed.
     pub fn told(&self) -> StepInput<'_> {
         let Told { pointer, aspect, turn, mode, ref commands } = self.told;
-        StepInput { pointer, aspect, turn, mode, commands, pointer_grabs: self.gestures.hands(), ..StepInput::default() }
+        StepInput {
+            pointer,
+            aspect,
+            turn,
+            mode,
+            commands,
+            pointer_grabs: self.gestures.hands(),
+            ..StepInput::default()
+        }
     }
 
     /// Did a press, a key or a switch blow in the last step?

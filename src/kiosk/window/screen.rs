@@ -213,8 +213,14 @@ impl Screen {
         let light = frame.texture.create_view(&as_srgb);
         let plain = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let size = (self.config.width, self.config.height);
-        let picture =
-            Frame { poses: &moment.poses, motes: &moment.dust_particles, view: *view, size, exposure: 1.0, time: moment.time };
+        let picture = Frame {
+            poses: &moment.poses,
+            motes: &moment.dust_particles,
+            view: *view,
+            size,
+            exposure: 1.0,
+            time: moment.time,
+        };
         self.scene.draw(&self.gpu, &light, &picture);
 
         let pixels_per_point = laid_out.pixels_per_point;

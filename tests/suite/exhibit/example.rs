@@ -6,8 +6,8 @@ use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::DVec3;
 use soffio_multibody::articulation::ConstraintKind;
 use soffio_simulation::{Simulation, StepInput};
-use soffio_wind::breath::SpreadLaw;
 use soffio_wind::ambient::{Inlet, Modulation, WindKind};
+use soffio_wind::breath::SpreadLaw;
 
 use super::glb::{Folder, Scene, cuboid};
 
@@ -79,7 +79,10 @@ fn the_full_examples_winds_are_what_it_says() {
     assert_eq!(exhibit.winds[2].modulation, Modulation::Gusty { strength: 0.5, period: 4.0, seed: 1 });
     assert_eq!(exhibit.winds[3].modulation, Modulation::Puffs { interval: 30.0, duration: 2.0, seed: 0 });
     assert_eq!(exhibit.winds[3].kind, WindKind::Draught { direction: DVec3::X, inlet: None });
-    assert_eq!((exhibit.breath.law, exhibit.breath.gain, exhibit.breath.lip_diameter), (SpreadLaw::Jet, 1.5, Some(0.012)));
+    assert_eq!(
+        (exhibit.breath.law, exhibit.breath.gain, exhibit.breath.lip_diameter),
+        (SpreadLaw::Jet, 1.5, Some(0.012))
+    );
     // Every body with a mesh shelters; the rail, which stands still, is open.
     let mut carriers: Vec<Option<usize>> = exhibit.shelters.iter().map(|shelter| shelter.body).collect();
     carriers.sort_unstable();

@@ -66,7 +66,9 @@ fn what_stands_still_is_at_rest_after_half_a_second_and_each_sign_ends_it_in_its
         ("the aim", |moment| moment.breath.ring.center.x += 0.01),
         ("a body", |moment| moment.poses[0].position.y += 0.01),
         ("a turn", |moment| moment.poses[0].rotation *= DQuat::from_rotation_y(0.1)),
-        ("dust", |moment| moment.dust_particles.push(DustParticle { brightness: 1.1 * BRIGHT, ..DustParticle::default() })),
+        ("dust", |moment| {
+            moment.dust_particles.push(DustParticle { brightness: 1.1 * BRIGHT, ..DustParticle::default() })
+        }),
     ];
     for (name, sign) in signs {
         assert!(!watch.step(sign), "{name} ends the rest at once");
@@ -77,7 +79,9 @@ fn what_stands_still_is_at_rest_after_half_a_second_and_each_sign_ends_it_in_its
         watch.settle();
     }
     // Dust that floats in still air is too faint to be seen to move.
-    watch.step(|moment| moment.dust_particles.push(DustParticle { brightness: 0.9 * BRIGHT, ..DustParticle::default() }));
+    watch.step(|moment| {
+        moment.dust_particles.push(DustParticle { brightness: 0.9 * BRIGHT, ..DustParticle::default() })
+    });
     assert!(watch.step(|_| ()));
     // Another work begins anew, even a copy of the same.
     watch.exhibit = Arc::new((*watch.exhibit).clone());

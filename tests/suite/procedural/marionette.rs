@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::DVec3;
-use soffio_simulation::{Command, EventKind, PointerGrab, MotionMode, Settings, Simulation, StepInput};
+use soffio_simulation::{Command, EventKind, MotionMode, PointerGrab, Settings, Simulation, StepInput};
 use soffio_sound::SoundCommand;
 
 fn load() -> Arc<Exhibit> {

@@ -8,7 +8,7 @@ use soffio_math::{PI, StateHash, asin, decibels, sin, sqrt};
 use soffio_simulation::{
     Command, Event, EventKind, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput,
 };
-use soffio_sound::{WindExposure, Preset, Slide, SoundCommand, Strike, Synth, Damp, WindSound};
+use soffio_sound::{Damp, Preset, Slide, SoundCommand, Strike, Synth, WindExposure, WindSound};
 
 use super::{RATE, render, rms, spec, spectrum};
 use crate::exhibit::glb::{Folder, Scene, cuboid, sheet};

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::DVec3;
 use soffio_simulation::{Command, Profile, Settings, Simulation, StepInput};
-use soffio_wind::breath::{SPREAD, TAN_HALF_ANGLE};
 use soffio_wind::ambient::{Modulation, Wind, WindKind};
+use soffio_wind::breath::{SPREAD, TAN_HALF_ANGLE};
 
 const ROUNDING: f64 = 1e-12;
 

@@ -4,10 +4,10 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, linear};
 use soffio_math::{DVec3, PI};
+use soffio_wind::ambient::{Modulation, Wind, WindKind};
 use soffio_wind::breath::{AIR_DENSITY, SpreadLaw};
 use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
 use soffio_wind::jet_front::JetFront;
-use soffio_wind::ambient::{Modulation, Wind, WindKind};
 use soffio_wind::{Surface, SurfaceShape};
 
 use super::bodies::*;
@@ -297,7 +297,8 @@ fn undirected_wind_hardly_changes_a_breath_of_large_gain_on_a_solid() {
         field.apply_forces(&[body(DVec3::ZERO)], time, Some(&jet), &mut [[0.0; 6]]).breath.length() / gain
     };
     let changed = |gain: f64| {
-        let share = |second: i32| force(gain, &turbulence, f64::from(second)) / force(gain, &[], f64::from(second)) - 1.0;
+        let share =
+            |second: i32| force(gain, &turbulence, f64::from(second)) / force(gain, &[], f64::from(second)) - 1.0;
         (0..60).map(share).fold(0.0, |most: f64, change| most.max(change.abs()))
     };
     let [alike, stronger] = [1.0, GAIN].map(changed);

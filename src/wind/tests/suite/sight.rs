@@ -8,8 +8,8 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::noise::Random;
 use soffio_math::spatial::linear;
-use soffio_wind::force::WindField;
 use soffio_wind::ambient::{Modulation, Wind, WindKind};
+use soffio_wind::force::WindField;
 use soffio_wind::{Shelter, Surface};
 
 use super::bodies::*;

@@ -4,8 +4,8 @@ use soffio_geometry::TriangleMesh;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, rotation};
-use soffio_wind::force::{BreathJet, PatchSample, WindField};
 use soffio_wind::ambient::{Inlet, Modulation, Wind, WindKind};
+use soffio_wind::force::{BreathJet, PatchSample, WindField};
 use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 use super::bodies::*;
@@ -100,7 +100,8 @@ fn each_wind_acts_on_the_patches_that_no_triangle_hides() {
     let shelters = Shelter::of(&surfaces);
     let jet = BreathJet { breath: breath(8.9), jet_front: None, gain: 1.0 };
     for kind in wind_kinds.map(Some).into_iter().chain([None]) {
-        let wind = kind.map(|kind| Wind { name: "wind".into(), kind, speed: 2.0.into(), modulation: Modulation::Steady });
+        let wind =
+            kind.map(|kind| Wind { name: "wind".into(), kind, speed: 2.0.into(), modulation: Modulation::Steady });
         let mut field = WindField::new(&surfaces, &shelters, wind.as_slice(), 120, SEED);
         let bodies = moving(SEED, 120);
         let jet = kind.is_none().then_some(&jet);

@@ -14,8 +14,8 @@ use soffio_math::noise::Random;
 use soffio_math::{PI, StateHash, decibels};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
-    CEILING, FADING_VOICES, InstrumentSpec, MAX_COMMANDS, MAX_VOICES, Preset, SoundBody, SoundCommand, SoundMaterial,
-    Strike, Synth, Damp, WindSound, free_plate_modes, timbre,
+    CEILING, Damp, FADING_VOICES, InstrumentSpec, MAX_COMMANDS, MAX_VOICES, Preset, SoundBody, SoundCommand,
+    SoundMaterial, Strike, Synth, WindSound, free_plate_modes, timbre,
 };
 
 const RATE: u32 = 48_000;
