@@ -43,13 +43,13 @@ struct Globals {
     pixel_angle: f32,       // size of a pixel at distance 1
     up: vec3f,
     shadow_taps: f32,
-    room_center: vec3f,
+    gallery_center: vec3f,
     dither: f32,            // height of the dither, LSB
-    room_half: vec3f,
-    mote_radius: f32,       // m
-    room_x: vec3f,
+    gallery_half: vec3f,
+    dust_radius: f32,       // m
+    gallery_x: vec3f,
     env_intensity: f32,
-    room_z: vec3f,
+    gallery_z: vec3f,
     env_lods: f32,
     wall_albedo: vec3f,
     lamp_count: u32,
@@ -65,7 +65,7 @@ struct Globals {
     shadow_near: f32,
     background: vec3f,
     shadow_far: f32,
-    room_work: vec3f,       // where the environment cube was taken: the middle of the work
+    environment_origin: vec3f,       // where the environment cube was taken: the middle of the work
     spare: f32,
     irradiance: array<vec4f, 9>,
     lamps: array<Lamp, 2>,

@@ -125,16 +125,16 @@ fn ribbon_vertex(@builtin(vertex_index) index: u32, r: Ribbon) -> Varying {
     var corners = array<vec2f, 6>(vec2f(0.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, -1.0), vec2f(1.0, 1.0), vec2f(0.0, 1.0));
     let c = corners[index];
     let end = select(r.a, r.b, c.x > 0.5);
-    let sight = end - globals.eye;
+    let ray = end - globals.eye;
     let forward = cross(globals.up, globals.right);
-    let reach = RIBBON_REACH * globals.pixel_angle * dot(sight, forward);
+    let reach = RIBBON_REACH * globals.pixel_angle * dot(ray, forward);
     // Along and across the edge in the picture.
     let a = globals.clip_from_world * vec4f(r.a, 1.0);
     let b = globals.clip_from_world * vec4f(r.b, 1.0);
-    let way = b.xy / b.w - a.xy / a.w;
+    let screen_edge = b.xy / b.w - a.xy / a.w;
     let aspect = globals.clip_from_world * vec4f(globals.right, 0.0);
     let scale = vec2f(length(globals.clip_from_world * vec4f(globals.up, 0.0)) / length(aspect), 1.0);
-    let flat = way * scale;
+    let flat = screen_edge * scale;
     let along = select(vec2f(1.0, 0.0), flat * inverseSqrt(max(dot(flat, flat), 1e-30)), dot(flat, flat) > 1e-20);
     let offset = (along * (2.0 * c.x - 1.0) + vec2f(-along.y, along.x) * c.y) * reach;
     var out: Varying;
@@ -305,9 +305,9 @@ fn tint_fragment(v: Varying) -> @location(0) vec4f {
     let fresnel = s.f0 + (s.f90 - s.f0) * (x * x * x * x * x);
     // Way through the wall by Snell's law; where a bent wall is seen along itself, as far as it goes.
     let refracted = sqrt(max(1.0 - (1.0 - nv * nv) / (material.ior * material.ior), 0.05));
-    let way = (1.0 / refracted) + 4.0 * x * x * x;
+    let path_length = (1.0 / refracted) + 4.0 * x * x * x;
     // The base colour is that of a whole pane, two crossings.
-    let color = pow(max(it.base.rgb, vec3f(1e-3)), vec3f(0.5 * way)) * exp(-material.absorption * it.thickness * way);
+    let color = pow(max(it.base.rgb, vec3f(1e-3)), vec3f(0.5 * path_length)) * exp(-material.absorption * it.thickness * path_length);
     let through = s.transmission * (1.0 - s.metallic) * (1.0 - fresnel) * color;
     return vec4f(through, 1.0);
 }

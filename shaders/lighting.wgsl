@@ -102,12 +102,12 @@ fn box_projected(p: vec3f, d: vec3f) -> vec3f {
     if !GALLERY {
         return d;
     }
-    let axes = mat3x3f(globals.room_x, vec3f(0.0, 1.0, 0.0), globals.room_z);
-    let start = (p - globals.room_center) * axes;
-    let way = d * axes;
-    let safe = select(way, vec3f(1e-6), abs(way) < vec3f(1e-6));
-    let t = (sign(safe) * globals.room_half - start) / safe;
-    return p + d * max(min(t.x, min(t.y, t.z)), 0.0) - globals.room_work;
+    let axes = mat3x3f(globals.gallery_x, vec3f(0.0, 1.0, 0.0), globals.gallery_z);
+    let start = (p - globals.gallery_center) * axes;
+    let local_direction = d * axes;
+    let safe = select(local_direction, vec3f(1e-6), abs(local_direction) < vec3f(1e-6));
+    let t = (sign(safe) * globals.gallery_half - start) / safe;
+    return p + d * max(min(t.x, min(t.y, t.z)), 0.0) - globals.environment_origin;
 }
 
 fn image_light(s: Surface, r: Reflector) -> vec3f {

@@ -37,9 +37,9 @@ fn right_of(a: vec2f, b: vec2f) -> f32 {
     let slope = (b.x - a.x) / select(rise, 1.0, abs(rise) < 1e-9);
     let xa = a.x + slope * (ya - a.y);
     let xb = a.x + slope * (yb - a.y);
-    let way = xb - xa;
+    let span = xb - xa;
     let middle = clamp(0.5 * (xa + xb), 0.0, 1.0);
-    let mean = select((integral_of_clamp(xb) - integral_of_clamp(xa)) / way, middle, abs(way) < 1e-3);
+    let mean = select((integral_of_clamp(xb) - integral_of_clamp(xa)) / span, middle, abs(span) < 1e-3);
     return (yb - ya) * (1.0 - select(mean, middle, min(xa, xb) >= 1.0 || max(xa, xb) <= 0.0));
 }
 

@@ -29,13 +29,13 @@ fn vertex(
     let end = select(a.xyz, b.xyz, c.x > 0.5);
     let axis = b.xyz - a.xyz;
     let unit = axis * inverseSqrt(max(dot(axis, axis), 1e-20));
-    let sight = end - globals.eye;
-    let sideways = cross(unit, sight);
+    let ray = end - globals.eye;
+    let sideways = cross(unit, ray);
     let side = sideways * inverseSqrt(max(dot(sideways, sideways), 1e-20));
     // The quad holds the wire and one pixel more on each side, and reaches over a joint as far as a bend may need: in
     // the picture, so that a wire that points at the eye has room too.
-    let reach = a.w + 1.5 * globals.pixel_angle * length(sight);
-    let beyond = cross(sight, side);
+    let reach = a.w + 1.5 * globals.pixel_angle * length(ray);
+    let beyond = cross(ray, side);
     let ahead = beyond * (sign(dot(beyond, unit)) * inverseSqrt(max(dot(beyond, beyond), 1e-20)));
     let p = end + side * c.y * reach + ahead * (2.0 * c.x - 1.0) * reach;
     var out: Varying;
@@ -56,15 +56,15 @@ fn vertex(
 fn fragment(v: Varying) -> @location(0) vec4f {
     let axis = v.b.xyz - v.a.xyz;
     let unit = axis * inverseSqrt(max(dot(axis, axis), 1e-20));
-    let sight = normalize(v.position - globals.eye);
+    let ray = normalize(v.position - globals.eye);
     // Common perpendicular of sight line and axis, and where on the axis it stands.
-    let across = cross(unit, sight);
+    let across = cross(unit, ray);
     let sine2 = max(dot(across, across), 1e-8);
     let side = across * inverseSqrt(sine2);
     let from_a = globals.eye - v.a.xyz;
     let offset = dot(from_a, side);
-    let cosine = dot(unit, sight);
-    let on_axis = v.a.xyz + unit * ((dot(from_a, unit) - cosine * dot(from_a, sight)) / sine2);
+    let cosine = dot(unit, ray);
+    let on_axis = v.a.xyz + unit * ((dot(from_a, unit) - cosine * dot(from_a, ray)) / sine2);
     // Metres of offset from one pixel to the next; exact off the picture's middle too.
     let pixel = max(length(vec2f(dpdx(offset), dpdy(offset))), 1e-9);
     let r = v.a.w / pixel;
@@ -73,8 +73,8 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     // Where the sight line enters the round, before it is nearest to the axis. A joint is cut there, so that both
     // segments judge by the same point; an end shows where any of the way through the round lies within it.
     let back = sqrt(max(v.a.w * v.a.w - offset * offset, 0.0) / sine2);
-    let nearest = (cosine * dot(from_a, unit) - dot(from_a, sight)) / sine2;
-    let enters = globals.eye + sight * (nearest - back);
+    let nearest = (cosine * dot(from_a, unit) - dot(from_a, ray)) / sine2;
+    let enters = globals.eye + ray * (nearest - back);
     let along = dot(on_axis - v.a.xyz, unit);
     let through = abs(cosine) * back;
     let inside_a = select(dot(enters - v.a.xyz, v.cut_a.xyz), along + through, v.cut_a.w > 0.5) / pixel;
@@ -85,10 +85,10 @@ fn fragment(v: Varying) -> @location(0) vec4f {
         discard;
     }
     let towards = normalize(cross(across, unit));
-    let front = select(-towards, towards, dot(towards, sight) < 0.0);
+    let front = select(-towards, towards, dot(towards, ray) < 0.0);
     var s = plain_surface();
     s.position = on_axis + front * v.a.w;
-    s.view = -sight;
+    s.view = -ray;
     s.facing = front;
     s.albedo = v.color.rgb;
     s.metallic = v.b.w;

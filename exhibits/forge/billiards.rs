@@ -5,8 +5,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 use soffio_authoring::glb::{Finish, Scene};
 use soffio_authoring::outline::Polygon;
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::{Solid, sheet, turned};
-use soffio_authoring::stock::{MM, WOOD, finishes, part, rod};
+use soffio_authoring::solid::{Solid, extrude, revolve, revolve_ring};
+use soffio_authoring::stock_parts::{MM, WOOD, finishes, part, rod};
 
 /// Radius of a ball; the sidecar says the same, and what a shell of celluloid of that size weighs.
 const RADIUS: f64 = 20.0 * MM;
@@ -39,32 +39,47 @@ const PLANES: [([&str; 2], DVec2); 4] = [
 /// The model.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
-    let stock = finishes(&mut scene);
+    let stock_parts = finishes(&mut scene);
     let mut add = |name, color, roughness| scene.finish(&Finish { name, color, metallic: 0.0, roughness });
     let ivory = add("Ivory", [0.80, 0.72, 0.56], 0.22);
     let cloth = add("Green cloth", [0.02, 0.16, 0.07], 0.95);
     let rubber = add("Dark green cloth", [0.012, 0.10, 0.045], 0.9);
     let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
     let flat = rotation(-0.5 * PI * DVec3::X);
-    let frame = |inner: f64, outer: f64, height: f64| sheet(&field(outer), &[field(inner)], height, 1.5 * MM);
+    let frame = |inner: f64, outer: f64, height: f64| extrude(&field(outer), &[field(inner)], height, 1.5 * MM);
     let leg = |x: f64, z: f64| DVec3::new(x * (FIELD.x + 20.0 * MM), 0.0, z * (FIELD.y + 20.0 * MM));
     let mut parts = vec![
         part("Bed", bed(), none, upright, WOOD, cloth),
         part("Cushions", frame(0.0, 14.0 * MM, 28.0 * MM), (BED + 14.0 * MM) * DVec3::Y, flat, WOOD, rubber),
-        part("Rails", frame(12.0 * MM, 46.0 * MM, 62.0 * MM), (BED + 3.0 * MM) * DVec3::Y, flat, WOOD, stock.wood),
+        part(
+            "Rails",
+            frame(12.0 * MM, 46.0 * MM, 62.0 * MM),
+            (BED + 3.0 * MM) * DVec3::Y,
+            flat,
+            WOOD,
+            stock_parts.wood,
+        ),
     ];
     for (name, x, z) in [("Leg1", -1.0, -1.0), ("Leg2", 1.0, -1.0), ("Leg3", -1.0, 1.0), ("Leg4", 1.0, 1.0)] {
-        parts.push(part(name, rod(11.0 * MM, 0.0, BED - 26.0 * MM), leg(x, z), upright, WOOD, stock.wood));
+        parts.push(part(name, rod(11.0 * MM, 0.0, BED - 26.0 * MM), leg(x, z), upright, WOOD, stock_parts.wood));
     }
-    let table = Piece { name: "Table", parts, bends: Vec::new(), marks: Vec::new() };
+    let table = Piece { name: "Table", parts, wires: Vec::new(), markers: Vec::new() };
     table.write(&mut scene, Pose::IDENTITY);
 
     for ([slope, cushion], out) in PLANES {
         let wall = DVec3::new(out.x * FIELD.x, BED + RISE, out.y * FIELD.y);
-        scene.node(slope, None, BED * DVec3::Y, facing(slope_normal(out)));
-        scene.node(cushion, None, wall, facing(-DVec3::new(out.x, 0.0, out.y)));
+        scene.node(slope, None, BED * DVec3::Y, y_to_z(slope_normal(out)));
+        scene.node(cushion, None, wall, y_to_z(-DVec3::new(out.x, 0.0, out.y)));
     }
-    let colors = [stock.red, stock.blue, stock.black, stock.red, stock.brass, stock.blue, stock.black];
+    let colors = [
+        stock_parts.red,
+        stock_parts.blue,
+        stock_parts.black,
+        stock_parts.red,
+        stock_parts.brass,
+        stock_parts.blue,
+        stock_parts.black,
+    ];
     for (k, ((names, at), color)) in BALLS.into_iter().zip(colors).enumerate() {
         let ball = Piece {
             name: names[0],
@@ -72,8 +87,8 @@ pub fn glb() -> Vec<u8> {
                 part(names[0], sphere(), none, upright, WOOD, ivory),
                 part(names[1], stripe(), none, upright, WOOD, color),
             ],
-            bends: Vec::new(),
-            marks: Vec::new(),
+            wires: Vec::new(),
+            markers: Vec::new(),
         };
         let turn = rotation(DVec3::new(0.9 + 0.5 * k as f64, 0.7 * k as f64, 0.4));
         ball.write(&mut scene, Pose { rotation: turn, position: resting(DVec2::from(at) * MM) });
@@ -95,7 +110,7 @@ fn slope_normal(out: DVec2) -> DVec3 {
 }
 
 /// The least turn that brings Y to face along a unit vector.
-fn facing(normal: DVec3) -> DQuat {
+fn y_to_z(normal: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Y, normal)
 }
 
@@ -142,7 +157,7 @@ fn sphere() -> Solid {
     let profile: Vec<DVec2> = (0..=ARCS)
         .map(|k| if k == 0 || k == ARCS { DVec2::new(0.0, arc(k).y.signum() * RADIUS) } else { arc(k) })
         .collect();
-    turned(&profile, false, AROUND)
+    revolve(&profile, AROUND)
 }
 
 /// A band about the equator, so that one sees it roll.
@@ -150,5 +165,5 @@ fn stripe() -> Solid {
     const HALF: f64 = 0.22;
     let outer = (0..=6).map(|k| on_circle(RADIUS + 0.08 * MM, HALF * (k as f64 / 3.0 - 1.0)));
     let inner = [HALF, -HALF].map(|angle| on_circle(RADIUS - 0.6 * MM, angle));
-    turned(&outer.chain(inner).collect::<Vec<_>>(), true, AROUND)
+    revolve_ring(&outer.chain(inner).collect::<Vec<_>>(), AROUND)
 }

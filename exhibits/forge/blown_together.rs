@@ -4,8 +4,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{MM, ROUND, STEEL, WOOD, finishes, gallows, part, rod, write};
+use soffio_authoring::solid::{revolve, revolve_ring};
+use soffio_authoring::stock_parts::{MM, ROUND, STEEL, WOOD, bent_rod_stand, finishes, part, rod, write};
 
 /// Height of the hook, and of the tray's floor.
 const HOOK: f64 = 400.0 * MM;
@@ -29,21 +29,21 @@ pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
     let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
-    let mut stand = gallows(HOOK * DVec3::Y, DVec2::new(0.0, -170.0 * MM), finishes.black);
+    let mut stand = bent_rod_stand(HOOK * DVec3::Y, DVec2::new(0.0, -170.0 * MM), finishes.black);
     let floor = [(0.0, 0.0), (126.0, 0.0), (130.0, 3.0), (130.0, 10.0), (0.0, 10.0)];
-    let floor = turned(&floor.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let floor = revolve(&floor.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let wall = [(122.0, 10.0), (130.0, 10.0), (130.0, 34.0), (128.0, 36.0), (124.0, 36.0), (122.0, 34.0)];
-    let wall = turned(&wall.map(|(r, y)| DVec2::new(r, y) * MM), true, 2 * ROUND);
+    let wall = revolve_ring(&wall.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     stand.parts.push(part("TrayFloor", floor, none, along, STEEL, finishes.black));
     stand.parts.push(part("TrayWall", wall, none, along, STEEL, finishes.black));
-    stand.marks.push(("TrayTop", DVec3::ZERO));
+    stand.markers.push(("TrayTop", DVec3::ZERO));
     let mut pieces = vec![(stand, none)];
     let bead = (0..=16).map(|k| {
         let (s, c) = soffio_math::sincos(PI * f64::from(k) / 16.0);
         DVec2::new(if k % 16 == 0 { 0.0 } else { RADIUS * s }, -RADIUS * c)
     });
-    let bead = turned(&bead.collect::<Vec<_>>(), false, ROUND);
-    let thread = rod(1.2 * MM, -RADIUS - EYE, RADIUS + EYE).lying();
+    let bead = revolve(&bead.collect::<Vec<_>>(), ROUND);
+    let thread = rod(1.2 * MM, -RADIUS - EYE, RADIUS + EYE).y_to_x();
     let colors = [finishes.red, finishes.white, finishes.blue, finishes.wood, finishes.red];
     for (([name, ball, eyes, top, end], (x, z, turn)), color) in NAMES.into_iter().zip(PLACES).zip(colors) {
         let lies = rotation(turn * DVec3::Y);
@@ -54,8 +54,8 @@ pub fn glb() -> Vec<u8> {
                 part(ball, bead.clone(), none, lies, WOOD, color),
                 part(eyes, thread.clone(), none, lies, STEEL, finishes.steel),
             ],
-            bends: Vec::new(),
-            marks: vec![(top, -hold), (end, hold)],
+            wires: Vec::new(),
+            markers: vec![(top, -hold), (end, hold)],
         };
         pieces.push((piece, DVec3::new(x * MM, FLOOR + RADIUS, z * MM)));
     }

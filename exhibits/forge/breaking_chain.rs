@@ -3,11 +3,11 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hung::disc;
+use soffio_authoring::hanging::disc;
 use soffio_authoring::mobile::EYE_STEPS;
 use soffio_authoring::outline::ring;
-use soffio_authoring::piece::{Bend, Piece};
-use soffio_authoring::stock::{ALUMINIUM, MM, STEEL, finishes, gallows, part, rod, slab, write};
+use soffio_authoring::piece::{BentWire, Piece};
+use soffio_authoring::stock_parts::{ALUMINIUM, MM, STEEL, bent_rod_stand, finishes, part, rod, slab, write};
 
 /// From eye to eye of a link.
 const PITCH: f64 = 44.0 * MM;
@@ -18,11 +18,11 @@ const EYES: [&str; 6] = ["Eye1", "Eye2", "Eye3", "Eye4", "Eye5", "Eye6"];
 const ENDS: [&str; 6] = ["End1", "End2", "End3", "End4", "End5", "End6"];
 
 /// The wire of a link: an eye around its hook, one around its end, each across the other, and the core between.
-fn eyes(name: &'static str) -> Bend {
+fn eyes(name: &'static str) -> BentWire {
     let (wire, eye) = (0.6 * MM, 2.6 * MM);
     let top = ring((wire - eye) * DVec3::Y, eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
     let bottom = ring((eye - wire - PITCH) * DVec3::Y, eye, DVec3::Y, DVec3::Z, EYE_STEPS);
-    Bend { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
+    BentWire { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
 }
 
 /// The model: each link hangs by its origin, its end is marked.
@@ -31,7 +31,7 @@ pub fn glb() -> Vec<u8> {
     let finishes = finishes(&mut scene);
     let along = DQuat::IDENTITY;
     let hook = HOOK * DVec3::Y;
-    let mut stand = gallows(hook, DVec2::new(0.0, -90.0 * MM), finishes.black);
+    let mut stand = bent_rod_stand(hook, DVec2::new(0.0, -90.0 * MM), finishes.black);
     let flat = rotation(0.5 * PI * DVec3::X);
     // As far as a hard breath throws what falls: mostly forwards and to the left, where the chain swings back.
     let tray = slab(520.0 * MM, 400.0 * MM, 6.0 * MM);
@@ -44,8 +44,8 @@ pub fn glb() -> Vec<u8> {
         let link = Piece {
             name,
             parts: vec![part(name, bar, DVec3::ZERO, along, STEEL, finish)],
-            bends: vec![eyes(EYES[i])],
-            marks: vec![(ENDS[i], -PITCH * DVec3::Y)],
+            wires: vec![eyes(EYES[i])],
+            markers: vec![(ENDS[i], -PITCH * DVec3::Y)],
         };
         pieces.push((link, hook - PITCH * i as f64 * DVec3::Y));
     }

@@ -23,8 +23,8 @@ use super::terry_layout::{
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::Piece;
-use soffio_authoring::stock::{
-    BRASS, Finishes, LEAD, MM, STEEL, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane,
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, LEAD, MM, STEEL, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, y_to_z,
 };
 
 /// Teeth of the winding train, each pair from the slower wheel to the faster pinion.
@@ -59,12 +59,12 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let pinion = |k: usize, phase: f64| {
         let (wheel, teeth) = WINDING[k];
         let phase = meshing_phase(teeth, wheel, phase, toward(places[k], places[k + 1]));
-        spur(teeth, MODULE, 6.0 * MM, phase, &[])
+        spur_gear(teeth, MODULE, 6.0 * MM, phase, &[])
     };
     let planet = |name, angle: f64| {
         let out = 13.0 * MM * DVec3::new(soffio_math::cos(angle), soffio_math::sin(angle), 0.0);
         let at = out + (BEHIND + 0.5 * MM) * DVec3::Z;
-        part(name, spur(12, 0.9 * MM, 5.0 * MM, 0.0, &[]), at, DQuat::IDENTITY, BRASS, finishes.brass)
+        part(name, spur_gear(12, 0.9 * MM, 5.0 * MM, 0.0, &[]), at, DQuat::IDENTITY, BRASS, finishes.brass)
     };
     let drum = piece(
         "Drum",
@@ -133,16 +133,16 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     let hand = |name, size, out, z, angle| clock::hand(name, size, out, z, angle, finishes.black);
     let minute_parts = vec![
         flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
-        flat("MinutePinion", spur(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("MinutePinion", spur_gear(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
-        flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
+        flat("Cannon", spur_gear(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
         hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, clock::minute_hand()),
     ];
     pieces.push((piece("MinuteArbor", minute_parts), at(minute)));
     phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
     let third_parts = vec![
         flat("ThirdWheel", wheel(THIRD.0, 0.0), FRONT, WOOD, wood),
-        flat("ThirdPinion", spur(MINUTE.1, MODULE, 6.0 * MM, phase, &[]), MIDDLE, WOOD, wood),
+        flat("ThirdPinion", spur_gear(MINUTE.1, MODULE, 6.0 * MM, phase, &[]), MIDDLE, WOOD, wood),
         along_z("ThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     pieces.push((piece("ThirdWheel", third_parts), at(third)));
@@ -151,7 +151,7 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     let tooth = DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING);
     let escape_parts = vec![
         flat("EscapeWheel", clock::escape_wheel(), ESCAPING, BRASS, finishes.brass),
-        flat("EscapePinion", spur(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
+        flat("EscapePinion", spur_gear(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
         along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
         part("EscapeTooth", rod(TOOTH, -MM, MM), tooth, DQuat::IDENTITY, BRASS, finishes.brass),
     ];
@@ -163,14 +163,14 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio_math::sin(0.9), -soffio_math::cos(0.9), 0.0);
     phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
     let motion_parts = vec![
-        flat("MinuteWheel", spur(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
-        flat("HourPinion", spur(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
+        flat("MinuteWheel", spur_gear(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
+        flat("HourPinion", spur_gear(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
     ];
     pieces.push((piece("MinuteWheel", motion_parts), at(minute_wheel_at)));
     phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
     let bore: Polygon = ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32);
     let hour_parts = vec![
-        flat("HourWheel", spur(HOUR.1, 0.96 * MM, WHEEL, phase, &[bore]), MOTION + 5.0 * MM, WOOD, wood),
+        flat("HourWheel", spur_gear(HOUR.1, 0.96 * MM, WHEEL, phase, &[bore]), MOTION + 5.0 * MM, WOOD, wood),
         hand("HourHand", [54.0 * MM, 4.0 * MM], 31.0 * MM, MOTION + 8.0 * MM, clock::hour_hand()),
     ];
     pieces.push((piece("HourWheel", hour_parts), at(CENTER)));
@@ -210,12 +210,12 @@ pub fn glb() -> Vec<u8> {
             WOOD,
             finishes.black,
         ),
-        part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass),
+        part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, y_to_z(), BRASS, finishes.brass),
         post("PostLeft", -0.17),
         post("PostRight", 0.06),
     ];
     let bracket = DVec3::new(places[4].x, places[4].y, 24.0 * MM);
-    parts.push(part("RotorBearing", rod(5.0 * MM, -5.0 * MM, 5.0 * MM), bracket, facing(), BRASS, finishes.brass));
+    parts.push(part("RotorBearing", rod(5.0 * MM, -5.0 * MM, 5.0 * MM), bracket, y_to_z(), BRASS, finishes.brass));
     let mut pieces = vec![(piece("Frame", parts), Pose::IDENTITY)];
     pieces.extend(going(&finishes));
     let at = |position| Pose { rotation: DQuat::IDENTITY, position };

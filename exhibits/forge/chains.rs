@@ -6,11 +6,11 @@
 use soffio_math::{DQuat, DVec3, PI};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hung::disc;
+use soffio_authoring::hanging::disc;
 use soffio_authoring::mobile::EYE_STEPS;
 use soffio_authoring::outline::ring;
-use soffio_authoring::piece::{Bend, Piece};
-use soffio_authoring::stock::{Finishes, MM, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio_authoring::piece::{BentWire, Piece};
+use soffio_authoring::stock_parts::{Finishes, MM, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// From eye to eye of a link.
 const PITCH: f64 = 44.0 * MM;
@@ -38,11 +38,11 @@ const HEAVY: Names = Names([
 ]);
 
 /// The wire of a link, of this radius: an eye around its hook, one around its end, each across the other.
-fn eyes(name: &'static str, wire: f64) -> Bend {
+fn eyes(name: &'static str, wire: f64) -> BentWire {
     let eye = 2.6 * MM;
     let top = ring((wire - eye) * DVec3::Y, eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
     let bottom = ring((eye - wire - PITCH) * DVec3::Y, eye, DVec3::Y, DVec3::Z, EYE_STEPS);
-    Bend { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
+    BentWire { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
 }
 
 fn light(names: [&'static str; 3], finishes: &Finishes) -> Piece {
@@ -51,19 +51,19 @@ fn light(names: [&'static str; 3], finishes: &Finishes) -> Piece {
     Piece {
         name,
         parts: vec![part(name, stick, DVec3::ZERO, DQuat::IDENTITY, WOOD, finishes.wood)],
-        bends: vec![eyes(eye, 0.4 * MM)],
-        marks: vec![(end, -PITCH * DVec3::Y)],
+        wires: vec![eyes(eye, 0.4 * MM)],
+        markers: vec![(end, -PITCH * DVec3::Y)],
     }
 }
 
 fn heavy(names: [&'static str; 3], finishes: &Finishes) -> Piece {
     let [name, eye, end] = names;
-    let plate = slab(BROAD, PITCH - 10.0 * MM, THICK).moved(-0.5 * PITCH * DVec3::Y);
+    let plate = slab(BROAD, PITCH - 10.0 * MM, THICK).translated(-0.5 * PITCH * DVec3::Y);
     Piece {
         name,
         parts: vec![part(name, plate, DVec3::ZERO, DQuat::IDENTITY, STEEL, finishes.steel)],
-        bends: vec![eyes(eye, 0.8 * MM)],
-        marks: vec![(end, -PITCH * DVec3::Y)],
+        wires: vec![eyes(eye, 0.8 * MM)],
+        markers: vec![(end, -PITCH * DVec3::Y)],
     }
 }
 
@@ -98,15 +98,15 @@ fn carriage(chains: &[Chain], finishes: &Finishes) -> Piece {
     let bar = slab(2.0 * reach + 30.0 * MM, 12.0 * MM, 12.0 * MM);
     let mut parts = vec![part("CarriageBar", bar, 17.0 * MM * DVec3::Y, along, STEEL, finishes.red)];
     parts.extend(chains.iter().map(|chain| peg(chain.peg, chain.aside)));
-    let marks = chains.iter().map(|chain| (chain.hook, chain.aside * DVec3::X)).collect();
-    Piece { name: "Carriage", parts, bends: Vec::new(), marks }
+    let markers = chains.iter().map(|chain| (chain.hook, chain.aside * DVec3::X)).collect();
+    Piece { name: "Carriage", parts, wires: Vec::new(), markers }
 }
 
 /// The frame that the carriage runs on.
 fn frame(finishes: &Finishes) -> Piece {
     let along = DQuat::IDENTITY;
     let half = 330.0 * MM;
-    let rail = rod(4.0 * MM, -half, half).lying();
+    let rail = rod(4.0 * MM, -half, half).y_to_x();
     let top = HOOK + 17.0 * MM;
     let post =
         |name, x: f64| part(name, rod(5.0 * MM, 0.0, top), DVec3::new(x, 0.0, 0.0), along, STEEL, finishes.black);
@@ -123,8 +123,8 @@ fn frame(finishes: &Finishes) -> Piece {
             foot("LeftFoot", -half),
             foot("RightFoot", half),
         ],
-        bends: Vec::new(),
-        marks: Vec::new(),
+        wires: Vec::new(),
+        markers: Vec::new(),
     }
 }
 

@@ -5,8 +5,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::ellipse;
 use soffio_authoring::piece::{Part, Piece};
-use soffio_authoring::stock::{
-    BRASS, Finishes, LEAD, MM, WOOD, facing, finishes, meshing_phase, part, rod, slab, spur, vane, write,
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, LEAD, MM, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, write, y_to_z,
 };
 
 /// Pitch diameter over number of teeth.
@@ -35,19 +35,19 @@ fn wheels(finishes: &Finishes) -> (Vec<(Piece, DVec3)>, Vec<Part>) {
                 ellipse(0.58 * radius * DVec2::new(cos(angle), sin(angle)), DVec2::splat(0.24 * radius), 0.0, 24)
             })
             .collect();
-        let wheel = spur(teeth, MODULE, THICKNESS, phase, &holes);
+        let wheel = spur_gear(teeth, MODULE, THICKNESS, phase, &holes);
         let density = if i % 2 == 0 { WOOD } else { BRASS };
         pieces.push((
             Piece {
                 name,
                 parts: vec![part(name, wheel, DVec3::ZERO, DQuat::IDENTITY, density, colors[i])],
-                bends: Vec::new(),
-                marks: Vec::new(),
+                wires: Vec::new(),
+                markers: Vec::new(),
             },
             center,
         ));
         let pin = rod(2.0 * MM, -16.0 * MM, 12.0 * MM);
-        pins.push(part(["Pin1", "Pin2", "Pin3", "Pin4"][i], pin, center, facing(), BRASS, finishes.steel));
+        pins.push(part(["Pin1", "Pin2", "Pin3", "Pin4"][i], pin, center, y_to_z(), BRASS, finishes.steel));
         if let Some((_, next, _)) = WHEELS.get(i + 1) {
             let apart = 0.5 * MODULE * (teeth + next) as f64;
             phase = meshing_phase(*next, teeth, phase, toward);
@@ -102,7 +102,7 @@ fn stand(finishes: &Finishes, pins: Vec<Part>) -> Piece {
         part("Guide", guide, DVec3::new(line.x, 0.0, line.z), along, WOOD, finishes.steel),
     ];
     parts.extend(pins);
-    Piece { name: "Stand", parts, bends: Vec::new(), marks: Vec::new() }
+    Piece { name: "Stand", parts, wires: Vec::new(), markers: Vec::new() }
 }
 
 /// The model: all axles are z axes.
@@ -111,7 +111,7 @@ pub fn glb() -> Vec<u8> {
     let finishes = finishes(&mut scene);
     let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
     let (mut pieces, pins) = wheels(&finishes);
-    let drum = part("Drum", rod(DRUM, 4.0 * MM, 20.0 * MM), none, facing(), WOOD, finishes.wood);
+    let drum = part("Drum", rod(DRUM, 4.0 * MM, 20.0 * MM), none, y_to_z(), WOOD, finishes.wood);
     pieces[0].0.parts.push(drum);
     for (k, name) in ["Fan1", "Fan2", "Fan3", "Fan4"].into_iter().enumerate() {
         let size = [46.0 * MM, 18.0 * MM, 0.8 * MM];
@@ -119,12 +119,12 @@ pub fn glb() -> Vec<u8> {
         blade.place.position.z += 22.0 * MM;
         pieces[3].0.parts.push(blade);
     }
-    pieces[3].0.parts.push(part("Arbor", rod(3.0 * MM, 3.0 * MM, 26.0 * MM), none, facing(), WOOD, finishes.wood));
+    pieces[3].0.parts.push(part("Arbor", rod(3.0 * MM, 3.0 * MM, 26.0 * MM), none, y_to_z(), WOOD, finishes.wood));
     let weight = Piece {
         name: "Weight",
         parts: vec![part("Weight", rod(9.0 * MM, -14.0 * MM, 14.0 * MM), none, along, LEAD, finishes.lead)],
-        bends: Vec::new(),
-        marks: Vec::new(),
+        wires: Vec::new(),
+        markers: Vec::new(),
     };
     pieces.push((weight, line() - 45.0 * MM * DVec3::Y));
     pieces.insert(0, (stand(&finishes, pins), none));

@@ -13,11 +13,11 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hung::hung_plate;
+use soffio_authoring::hanging::hanging_plate;
 use soffio_authoring::outline::{Polygon, ellipse, open_spline, ring as circle};
-use soffio_authoring::piece::{Bend, Piece, load, yaw};
-use soffio_authoring::solid::{sheet, turned};
-use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
+use soffio_authoring::piece::{BentWire, Piece, load, yaw};
+use soffio_authoring::solid::{extrude, revolve};
+use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
 
 /// Where the bar of the loop is, and how far the swivel is above it.
 const BAR: DVec3 = DVec3::new(0.0, 0.52, 0.0);
@@ -53,7 +53,7 @@ fn plate(names: [&'static str; 3], size: DVec2, thickness: f64, color: usize) ->
     let top = DVec2::new(0.0, 3.0 * MM - size.y);
     let hole = ellipse(DVec2::ZERO, DVec2::splat(1.0 * MM), 0.0, 16);
     let outline: Polygon = ellipse(top, size, 0.0, 64);
-    hung_plate(names, (sheet(&outline, &[hole], thickness, 0.15 * MM), WOOD, color), 34.0 * MM)
+    hanging_plate(names, (extrude(&outline, &[hole], thickness, 0.15 * MM), WOOD, color), 34.0 * MM)
 }
 
 /// The arm with its loads, and where it hangs level: (b, −h).
@@ -74,27 +74,28 @@ fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
         let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { HAMMER * s }, -HAMMER * c)
     });
-    let sphere = turned(&sphere.collect::<Vec<_>>(), false, ROUND / 2);
+    let sphere = revolve(&sphere.collect::<Vec<_>>(), ROUND / 2);
     let along = DQuat::IDENTITY;
     let piece = Piece {
         name: "Arm",
         parts: vec![
-            part("ArmRail", rod(WIRE, -STRAIGHT, STRAIGHT).lying(), DVec3::ZERO, along, STEEL, black),
+            part("ArmRail", rod(WIRE, -STRAIGHT, STRAIGHT).y_to_x(), DVec3::ZERO, along, STEEL, black),
             part("Hammer", sphere, at(RIGHT + REACH, -DROOP), along, BRASS, brass),
         ],
-        bends: vec![
-            Bend { name: "ArmWire", points, radius: WIRE, density: STEEL },
-            Bend { name: "ArmEyeLeft", points: eye(LEFT), radius: 0.8 * MM, density: STEEL },
-            Bend { name: "ArmEyeRight", points: eye(RIGHT), radius: 0.8 * MM, density: STEEL },
+        wires: vec![
+            BentWire { name: "ArmWire", points, radius: WIRE, density: STEEL },
+            BentWire { name: "ArmEyeLeft", points: eye(LEFT), radius: 0.8 * MM, density: STEEL },
+            BentWire { name: "ArmEyeRight", points: eye(RIGHT), radius: 0.8 * MM, density: STEEL },
         ],
-        marks: vec![
+        markers: vec![
             ("ArmMiddle", DVec3::ZERO),
             ("ArmLeft", at(LEFT, -DROOP - 6.0 * MM)),
             ("ArmRight", at(RIGHT, -DROOP - 6.0 * MM)),
         ],
     };
     let [left, right] = loads;
-    let whole = piece.mass().combine(&load(left, piece.mark("ArmLeft"))).combine(&load(right, piece.mark("ArmRight")));
+    let whole =
+        piece.mass().combine(&load(left, piece.marker("ArmLeft"))).combine(&load(right, piece.marker("ArmRight")));
     (piece, DVec2::new(whole.center.x, whole.center.y))
 }
 
@@ -103,7 +104,7 @@ fn cymbal([name, disc, stem, hook]: [&'static str; 4], radius: f64, brass: usize
     let (edge, half) = (0.3 * SHEET, 0.5 * SHEET);
     let profile = [(0.0, -half), (radius - edge, -half), (radius, edge - half), (radius, half - edge)];
     let profile = profile.into_iter().chain([(radius - edge, half), (0.0, half)]).map(|(r, y)| DVec2::new(r, y));
-    let solid = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
+    let solid = revolve(&profile.collect::<Vec<_>>(), 2 * ROUND);
     let along = DQuat::IDENTITY;
     Piece {
         name,
@@ -111,8 +112,8 @@ fn cymbal([name, disc, stem, hook]: [&'static str; 4], radius: f64, brass: usize
             part(disc, solid, -HANG * DVec3::Y, along, BRASS, brass),
             part(stem, rod(0.8 * MM, -HANG, 0.0), DVec3::ZERO, along, STEEL, steel),
         ],
-        bends: Vec::new(),
-        marks: vec![(hook, DVec3::ZERO)],
+        wires: Vec::new(),
+        markers: vec![(hook, DVec3::ZERO)],
     }
 }
 
@@ -132,8 +133,8 @@ pub fn glb() -> Vec<u8> {
     let normal = DVec3::new(-sin(tilt), cos(tilt), 0.0);
     let foot = BAR + (BAR_RADIUS + WIRE) * normal;
     let arm_pose = Pose { rotation: turn, position: foot - turn * ((level + OFF) * DVec3::X) };
-    let left_pose = Pose { rotation: yaw(0.5), position: arm_pose.point(arm.mark("ArmLeft")) };
-    let right_pose = Pose { rotation: yaw(-0.4), position: arm_pose.point(arm.mark("ArmRight")) };
+    let left_pose = Pose { rotation: yaw(0.5), position: arm_pose.point(arm.marker("ArmLeft")) };
+    let right_pose = Pose { rotation: yaw(-0.4), position: arm_pose.point(arm.marker("ArmRight")) };
 
     let swivel = BAR + SWIVEL * DVec3::Y;
     let ring_at = -(SWIVEL - 2.5 * MM) * DVec3::Y;
@@ -149,8 +150,8 @@ pub fn glb() -> Vec<u8> {
             part("LoopGuard", bar(7.5 * MM), upper, across, STEEL, finishes.brass),
             part("LoopStem", rod(1.5 * MM, -6.0 * MM, 8.0 * MM), DVec3::ZERO, DQuat::IDENTITY, STEEL, finishes.brass),
         ],
-        bends: Vec::new(),
-        marks: vec![("LoopSeat", -SWIVEL * DVec3::Y)],
+        wires: Vec::new(),
+        markers: vec![("LoopSeat", -SWIVEL * DVec3::Y)],
     };
 
     let path = RIGHT + REACH - level;
@@ -164,11 +165,11 @@ pub fn glb() -> Vec<u8> {
     for own in &mut stand.parts {
         own.place.position += swivel - 5.0 * MM * DVec3::Y;
     }
-    stand.bends.clear();
-    stand.marks = vec![("SwivelPoint", swivel)];
-    for ((_, hook), (name, mark)) in cymbals.iter().zip([("RodBack", "PointBack"), ("RodFront", "PointFront")]) {
+    stand.wires.clear();
+    stand.markers = vec![("SwivelPoint", swivel)];
+    for ((_, hook), (name, marker)) in cymbals.iter().zip([("RodBack", "PointBack"), ("RodFront", "PointFront")]) {
         stand.parts.push(part(name, rod(1.2 * MM, 0.0, 0.9), *hook, DQuat::IDENTITY, STEEL, finishes.black));
-        stand.marks.push((mark, *hook));
+        stand.markers.push((marker, *hook));
     }
 
     let at = |position| Pose { rotation: DQuat::IDENTITY, position };

@@ -11,12 +11,12 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hung::cut_plate;
+use soffio_authoring::hanging::cut_plate;
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Knot, Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ring};
-use soffio_authoring::piece::{Bend, Piece, named};
-use soffio_authoring::stock::{ALUMINIUM, MM, STEEL, ceiling};
-use soffio_authoring::tree::{Bough, Hanging, hang};
+use soffio_authoring::piece::{BentWire, Piece, named};
+use soffio_authoring::stock_parts::{ALUMINIUM, MM, STEEL, ceiling};
+use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 /// Sheet of all plates.
 const SHEET: f64 = 0.6 * MM;
@@ -53,14 +53,14 @@ fn plate(
     stem: f64,
     turn: f64,
     finish: usize,
-) -> Hanging {
+) -> TreeNode {
     let names = [named(name.clone()), named(format!("{name}Hook")), named(format!("{name}Stem"))];
     let mass = weight(&outline, &holes);
-    Hanging::Plate(cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, mass, finish)), turn)
+    TreeNode::Plate(cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, mass, finish)), turn)
 }
 
 /// The red one: a tail of two lobes with a slit between.
-fn tail(finish: usize) -> Hanging {
+fn tail(finish: usize) -> TreeNode {
     #[rustfmt::skip] // rows of a drawing
     let knots = [
         Corner(-8.0, 62.0), Smooth(-13.0, 30.0), Smooth(-24.0, 0.0), Smooth(-47.0, -34.0), Corner(-66.0, -52.0),
@@ -84,14 +84,14 @@ struct Twig {
 }
 
 /// Twig `k` with leaves 3k+1 … 3k+3.
-fn twig(k: usize, drawn: &Twig, finish: usize) -> Hanging {
+fn twig(k: usize, drawn: &Twig, finish: usize) -> TreeNode {
     let leaf = |i: usize| {
         let outline = leaf_outline(drawn.leaves[i], (i + k) % 2 == 1);
         plate(format!("Leaf{}", 3 * k + i + 1), (outline, Vec::new()), drawn.stems[i], drawn.leaf_turns[i], finish)
     };
-    let bough = |name: String, i: usize, rise: f64, ends| {
+    let branch = |name: String, i: usize, rise: f64, ends| {
         let chord = drawn.wires[i] * MM;
-        Hanging::bough(Bough {
+        TreeNode::branch(BranchNode {
             name,
             radius: 0.5 * MM,
             chord,
@@ -101,8 +101,8 @@ fn twig(k: usize, drawn: &Twig, finish: usize) -> Hanging {
             ends,
         })
     };
-    let lower = bough(format!("Twig{}b", k + 1), 1, -16.0, [leaf(2), leaf(1)]);
-    bough(format!("Twig{}a", k + 1), 0, -22.0, [lower, leaf(0)])
+    let lower = branch(format!("Twig{}b", k + 1), 1, -16.0, [leaf(2), leaf(1)]);
+    branch(format!("Twig{}a", k + 1), 0, -22.0, [lower, leaf(0)])
 }
 
 /// The trap: a basket of ribs and hoops about a level axis, on a stem.
@@ -113,20 +113,20 @@ fn trap() -> Piece {
     let middle = -(stem + belly) * MM * DVec3::Y;
     let radius = |x: f64| belly * (1.0 - (x / half) * (x / half)).max(0.0).sqrt();
     let at = |x: f64, angle: f64| middle + DVec3::new(x, radius(x) * cos(angle), radius(x) * sin(angle)) * MM;
-    let wire = |name, points| Bend { name, points, radius: 0.6 * MM, density: STEEL };
-    let mut bends: Vec<Bend> = Vec::new();
+    let wire = |name, points| BentWire { name, points, radius: 0.6 * MM, density: STEEL };
+    let mut wires: Vec<BentWire> = Vec::new();
     for (k, name) in RIBS.into_iter().enumerate() {
         let angle = 2.0 * PI * k as f64 / RIBS.len() as f64;
-        bends.push(wire(name, (0..=16).map(|i| at(-half * cos(PI * f64::from(i) / 16.0), angle)).collect()));
+        wires.push(wire(name, (0..=16).map(|i| at(-half * cos(PI * f64::from(i) / 16.0), angle)).collect()));
     }
     for (name, x) in HOOPS {
         let center = middle + x * MM * DVec3::X;
-        bends.push(wire(name, ring(center, radius(x) * MM, DVec3::Y, DVec3::Z, 24)));
+        wires.push(wire(name, ring(center, radius(x) * MM, DVec3::Y, DVec3::Z, 24)));
     }
     let mut line = ring(DVec3::new(0.0, -1.4 * MM, 0.0), 1.7 * MM, DVec3::NEG_Y, DVec3::X, 12);
     line.push(-(stem - 1.0) * MM * DVec3::Y);
-    bends.push(Bend { name: "TrapStem", points: line, radius: 0.4 * MM, density: STEEL });
-    Piece { name: "Trap", parts: Vec::new(), bends, marks: vec![("TrapHook", DVec3::ZERO), ("TrapMiddle", middle)] }
+    wires.push(BentWire { name: "TrapStem", points: line, radius: 0.4 * MM, density: STEEL });
+    Piece { name: "Trap", parts: Vec::new(), wires, markers: vec![("TrapHook", DVec3::ZERO), ("TrapMiddle", middle)] }
 }
 
 /// Draws, balances and writes the model.
@@ -162,21 +162,21 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let mut twigs = twigs.iter().enumerate().map(|(k, drawn)| twig(k, drawn, black)).collect::<Vec<_>>().into_iter();
     let mut next = || twigs.next().expect("three twigs");
     let [first, second, third] = [next(), next(), next()];
-    let bough = |name: &str, [wire, chord, rise, depth, turn]: [f64; 5], ends| {
+    let branch = |name: &str, [wire, chord, rise, depth, turn]: [f64; 5], ends| {
         let [radius, chord, rise, depth] = [0.5 * wire, chord, rise, depth].map(|x| x * MM);
-        Hanging::bough(Bough { name: name.to_owned(), radius, chord, rise, depth, turn, ends })
+        TreeNode::branch(BranchNode { name: name.to_owned(), radius, chord, rise, depth, turn, ends })
     };
-    let d = bough("BoughD", [1.2, 230.0, -34.0, 40.0, 0.20], [second, third]);
-    let c = bough("BoughC", [1.4, 300.0, -44.0, 46.0, -0.30], [d, first]);
-    let b = bough("BoughB", [1.6, 380.0, -24.0, 44.0, 0.22], [c, tail(red)]);
-    let a = bough("BoughA", [2.0, 470.0, 34.0, 30.0, -0.06], [b, Hanging::Plate(trap(), 0.35)]);
-    let work = Mobile { pieces: hang(HOOK, a), stand: ceiling(iron) };
-    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
-    for (piece, pose) in &work.pieces {
+    let d = branch("BoughD", [1.2, 230.0, -34.0, 40.0, 0.20], [second, third]);
+    let c = branch("BoughC", [1.4, 300.0, -44.0, 46.0, -0.30], [d, first]);
+    let b = branch("BoughB", [1.6, 380.0, -24.0, 44.0, 0.22], [c, tail(red)]);
+    let a = branch("BoughA", [2.0, 470.0, 34.0, 30.0, -0.06], [b, TreeNode::Plate(trap(), 0.35)]);
+    let mobile = Mobile { pieces: assemble_tree(HOOK, a), stand: ceiling(iron) };
+    mobile.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
     let target = DVec3::new(0.04, 0.52, 0.0);
     let away = DVec3::new(-0.22, 0.05, 1.0).normalize();
     scene.camera("CamFront", target + 1.38 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
-    (work, scene.into_glb("Tree with a trap", "Original composition of the Soffio project; MIT OR Apache-2.0"))
+    (mobile, scene.into_glb("Tree with a trap", "Original composition of the Soffio project; MIT OR Apache-2.0"))
 }

@@ -4,8 +4,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// Height of the rail, and half its length.
 const RAIL: f64 = 400.0 * MM;
@@ -29,22 +29,22 @@ pub fn glb() -> Vec<u8> {
     }
     // A mark where the nail is fast.
     parts.push(part("Mark", rod(4.5 * MM, -2.0 * MM, 2.0 * MM), RAIL * DVec3::Y, lay, BRASS, finishes.brass));
-    let stand = Piece { name: "Stand", parts, bends: Vec::new(), marks: vec![("Middle", RAIL * DVec3::Y)] };
+    let stand = Piece { name: "Stand", parts, wires: Vec::new(), markers: vec![("Middle", RAIL * DVec3::Y)] };
     let bead = (0..=12).map(|k| {
         let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { 9.0 * s }, -9.0 * c) * MM
     });
     let plate = [(0.0, -2.0), (36.0, -2.0), (38.0, 0.0), (36.0, 2.0), (0.0, 2.0)];
-    let plate = turned(&plate.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let plate = revolve(&plate.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let pendulum = Piece {
         name: "Pendulum",
         parts: vec![
-            part("Bead", turned(&bead.collect::<Vec<_>>(), false, ROUND), none, along, WOOD, finishes.red),
+            part("Bead", revolve(&bead.collect::<Vec<_>>(), ROUND), none, along, WOOD, finishes.red),
             part("Rod", rod(1.2 * MM, -DEPTH + 30.0 * MM, 0.0), none, along, STEEL, finishes.steel),
             part("Plate", plate, -DEPTH * DVec3::Y, rotation(0.5 * PI * DVec3::Z), WOOD, finishes.blue),
         ],
-        bends: Vec::new(),
-        marks: Vec::new(),
+        wires: Vec::new(),
+        markers: Vec::new(),
     };
     let pieces = [(stand, none), (pendulum, RAIL * DVec3::Y)];
     // From beside, so that a breath goes along the rail rather than across it.

@@ -32,7 +32,7 @@ fn main() -> ExitCode {
             println!("wrote  {} ({} bytes)", artifact.path, artifact.bytes.len());
         }
     }
-    for (name, work) in [
+    for (name, mobile) in [
         ("steel-fish", forge::steel_fish::glb().0),
         ("plates", forge::plates::glb().0),
         ("lobster-tree", forge::lobster_tree::glb().0),
@@ -41,17 +41,17 @@ fn main() -> ExitCode {
         ("windy-corner", forge::windy_corner::glb().0),
     ] {
         println!("\n{name}");
-        report(&work);
+        report(&mobile);
     }
     if stale == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// What a curator or a reader wants to know of the balanced work.
-fn report(work: &soffio_authoring::mobile::Mobile) {
-    for (piece, _) in &work.pieces {
+fn report(mobile: &soffio_authoring::mobile::Mobile) {
+    for (piece, _) in &mobile.pieces {
         println!("{:<12} {:7.3} g", piece.name, 1e3 * piece.mass().mass);
     }
-    let s = work.statics();
+    let s = mobile.statics();
     println!("moving mass  {:7.3} g", 1e3 * s.total_mass);
     println!("imbalance    {:7.1e} m (worst hook)", s.worst_offset);
     println!("yaw inertia  {:7.5} kg m²", s.yaw_inertia);

@@ -15,9 +15,11 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::piece::{Bend, Part, Piece};
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, rod, slab, write};
+use soffio_authoring::piece::{BentWire, Part, Piece};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{
+    Finishes, MM, ROUND, STEEL, WOOD, bent_rod_stand, finishes, part, rod, slab, write, y_to_z,
+};
 
 const HOOK: DVec3 = DVec3::new(0.0, 452.0 * MM, 0.0);
 /// The bar's line under its hook, and where the hand rods hang on it.
@@ -52,10 +54,10 @@ fn limb(name: &'static str, to: DVec3, radius: f64, gap: f64, finish: usize) -> 
 }
 
 /// A rod of wire from the origin along `to`.
-fn led(name: &'static str, wire: &'static str, mark: &'static str, to: DVec3) -> Piece {
+fn led(name: &'static str, wire: &'static str, marker: &'static str, to: DVec3) -> Piece {
     let points = (0..=4).map(|k| to * (f64::from(k) / 4.0)).collect();
-    let bends = vec![Bend { name: wire, points, radius: 0.7 * MM, density: STEEL }];
-    Piece { name, parts: Vec::new(), bends, marks: vec![(mark, to)] }
+    let wires = vec![BentWire { name: wire, points, radius: 0.7 * MM, density: STEEL }];
+    Piece { name, parts: Vec::new(), wires, markers: vec![(marker, to)] }
 }
 
 /// A ball of beech about `center`.
@@ -64,22 +66,22 @@ fn ball(name: &'static str, radius: f64, center: DVec3, finish: usize) -> Part {
         let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { radius * s }, -radius * c)
     });
-    part(name, turned(&arc.collect::<Vec<_>>(), false, ROUND), center, DQuat::IDENTITY, WOOD, finish)
+    part(name, revolve(&arc.collect::<Vec<_>>(), ROUND), center, DQuat::IDENTITY, WOOD, finish)
 }
 
 fn bar(finishes: &Finishes) -> Piece {
     let along = DQuat::IDENTITY;
-    let beam = rod(5.0 * MM, -BAR_END - 8.0 * MM, BAR_END + 8.0 * MM).lying();
+    let beam = rod(5.0 * MM, -BAR_END - 8.0 * MM, BAR_END + 8.0 * MM).y_to_x();
     let hand = rod(4.0 * MM, -40.0 * MM, 40.0 * MM);
     Piece {
         name: "Bar",
         parts: vec![
             part("BarBeam", beam, BAR * DVec3::Y, along, WOOD, finishes.wood),
-            part("BarCross", hand, BAR * DVec3::Y, facing(), WOOD, finishes.wood),
+            part("BarCross", hand, BAR * DVec3::Y, y_to_z(), WOOD, finishes.wood),
             part("BarPin", rod(1.5 * MM, BAR, 0.0), DVec3::ZERO, along, STEEL, finishes.steel),
         ],
-        bends: Vec::new(),
-        marks: vec![
+        wires: Vec::new(),
+        markers: vec![
             ("BarHook", DVec3::ZERO),
             ("BarMiddle", BAR * DVec3::Y),
             ("BarLeft", DVec3::new(-BAR_END, BAR, 0.0)),
@@ -133,7 +135,7 @@ fn side(names: &Side, finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let [fore, fore_stick, hand_ball, hand] = names.fore;
     let [thigh, thigh_stick, knee] = names.thigh;
     let [shin, shin_stick, foot] = names.shin;
-    let piece = |name, parts, marks| Piece { name, parts, bends: Vec::new(), marks };
+    let piece = |name, parts, markers| Piece { name, parts, wires: Vec::new(), markers };
     let sleeve = finishes.red;
     let sole = slab(18.0 * MM, 40.0 * MM, 8.0 * MM);
     let sole_at = DVec3::new(0.0, ANKLE - KNEE.y, 9.0 * MM - BEHIND - KNEE.z);
@@ -186,13 +188,13 @@ pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
     let along = DQuat::IDENTITY;
-    let piece = |name, parts, marks| Piece { name, parts, bends: Vec::new(), marks };
+    let piece = |name, parts, markers| Piece { name, parts, wires: Vec::new(), markers };
     let head = piece(
         "Head",
         vec![
             ball("HeadBall", 19.0 * MM, -19.0 * MM * DVec3::Y, finishes.wood),
             part("Neck", rod(5.0 * MM, NECK.y - CROWN.y, -34.0 * MM), DVec3::ZERO, along, WOOD, finishes.wood),
-            part("Nose", rod(3.0 * MM, 17.0 * MM, 25.0 * MM), -19.0 * MM * DVec3::Y, facing(), WOOD, finishes.red),
+            part("Nose", rod(3.0 * MM, 17.0 * MM, 25.0 * MM), -19.0 * MM * DVec3::Y, y_to_z(), WOOD, finishes.red),
         ],
         vec![("HeadNeck", NECK - CROWN)],
     );
@@ -202,10 +204,10 @@ pub fn glb() -> Vec<u8> {
     let torso =
         piece("Torso", vec![part("Chest", chest, -37.0 * MM * DVec3::Y, along, WOOD, finishes.red)], torso_marks);
     let hips = slab(46.0 * MM, 22.0 * MM, 22.0 * MM);
-    let marks = SIDES.iter().map(|side| (side.hip, on(side.sign, HIP) - WAIST)).collect();
-    let pelvis = piece("Pelvis", vec![part("Hips", hips, -14.0 * MM * DVec3::Y, along, WOOD, finishes.blue)], marks);
+    let markers = SIDES.iter().map(|side| (side.hip, on(side.sign, HIP) - WAIST)).collect();
+    let pelvis = piece("Pelvis", vec![part("Hips", hips, -14.0 * MM * DVec3::Y, along, WOOD, finishes.blue)], markers);
     let mut pieces = vec![
-        (gallows(HOOK, DVec2::new(0.0, -110.0 * MM), finishes.black), DVec3::ZERO),
+        (bent_rod_stand(HOOK, DVec2::new(0.0, -110.0 * MM), finishes.black), DVec3::ZERO),
         (bar(&finishes), HOOK),
         (led("RodHead", "RodHeadWire", "RodHeadEnd", CROWN - HOOK - BAR * DVec3::Y), HOOK + BAR * DVec3::Y),
         (head, CROWN),

@@ -4,9 +4,9 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, sin};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Knot, closed_spline, reversed};
-use soffio_authoring::piece::{Bend, Piece};
-use soffio_authoring::solid::sheet;
-use soffio_authoring::stock::{MM, STEEL, WOOD, finishes, gallows, part, rod, write};
+use soffio_authoring::piece::{BentWire, Piece};
+use soffio_authoring::solid::extrude;
+use soffio_authoring::stock_parts::{MM, STEEL, WOOD, bent_rod_stand, finishes, part, rod, write};
 
 /// Half width and half depth of the eight, and its height. The sidecar says when the nail is where.
 const EIGHT: DVec2 = DVec2::new(150.0 * MM, 60.0 * MM);
@@ -24,13 +24,13 @@ pub fn glb() -> Vec<u8> {
     let finishes = finishes(&mut scene);
     let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
     let top = DVec3::new(0.0, HEIGHT + 60.0 * MM, 0.0);
-    let mut stand = gallows(top, DVec2::new(0.0, -120.0 * MM), finishes.black);
+    let mut stand = bent_rod_stand(top, DVec2::new(0.0, -120.0 * MM), finishes.black);
     let rail = (0..=64).map(|k| place(f64::from(k) / 64.0) + 3.0 * MM * DVec3::Y).collect();
-    stand.bends.push(Bend { name: "EightRail", points: rail, radius: 1.0 * MM, density: STEEL });
+    stand.wires.push(BentWire { name: "EightRail", points: rail, radius: 1.0 * MM, density: STEEL });
     for (name, side) in [("StayLeft", -1.0), ("StayRight", 1.0)] {
         let end = place(0.25 * side) + 3.0 * MM * DVec3::Y;
         let points = (0..=6).map(|k| top + (end - top) * (f64::from(k) / 6.0)).collect();
-        stand.bends.push(Bend { name, points, radius: 0.8 * MM, density: STEEL });
+        stand.wires.push(BentWire { name, points, radius: 0.8 * MM, density: STEEL });
     }
     let wings = [
         Knot::Corner(0.0, 34.0),
@@ -47,18 +47,25 @@ pub fn glb() -> Vec<u8> {
         Knot::Smooth(-10.0, 18.0),
     ];
     let outline = reversed(closed_spline(&wings, 6).into_iter().map(|p| p * MM).collect());
-    let hang = 46.0 * MM;
+    let assemble_tree = 46.0 * MM;
     let swallow = Piece {
         name: "Swallow",
         parts: vec![
-            part("Thread", rod(0.6 * MM, -hang + 12.0 * MM, 0.0), none, along, STEEL, finishes.steel),
-            part("Wings", sheet(&outline, &[], 1.2 * MM, 0.2 * MM), -hang * DVec3::Y, along, WOOD, finishes.blue),
+            part("Thread", rod(0.6 * MM, -assemble_tree + 12.0 * MM, 0.0), none, along, STEEL, finishes.steel),
+            part(
+                "Wings",
+                extrude(&outline, &[], 1.2 * MM, 0.2 * MM),
+                -assemble_tree * DVec3::Y,
+                along,
+                WOOD,
+                finishes.blue,
+            ),
         ],
-        bends: Vec::new(),
-        marks: vec![("SwallowTail", -(hang + 34.0 * MM) * DVec3::Y)],
+        wires: Vec::new(),
+        markers: vec![("SwallowTail", -(assemble_tree + 34.0 * MM) * DVec3::Y)],
     };
     let mut pieces = vec![(stand, none), (swallow, place(0.0))];
-    let mut hook = place(0.0) - (hang + 34.0 * MM) * DVec3::Y;
+    let mut hook = place(0.0) - (assemble_tree + 34.0 * MM) * DVec3::Y;
     for (name, stick, end, color) in [
         ("Tail1", "Tail1Stick", "Tail1End", finishes.white),
         ("Tail2", "Tail2Stick", "Tail2End", finishes.white),
@@ -68,8 +75,8 @@ pub fn glb() -> Vec<u8> {
         let piece = Piece {
             name,
             parts: vec![part(stick, rod(2.2 * MM, -28.0 * MM, -2.0 * MM), none, along, WOOD, color)],
-            bends: Vec::new(),
-            marks: vec![(end, way)],
+            wires: Vec::new(),
+            markers: vec![(end, way)],
         };
         pieces.push((piece, hook));
         hook += way;

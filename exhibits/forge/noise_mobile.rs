@@ -7,13 +7,13 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hung::{cut_plate, disc};
+use soffio_authoring::hanging::{cut_plate, disc};
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Knot::Corner, Knot::Smooth, closed_spline, ring};
-use soffio_authoring::piece::{Bend, Piece, named, yaw};
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
-use soffio_authoring::tree::{Bough, Hanging, hang};
+use soffio_authoring::piece::{BentWire, Piece, named, yaw};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
+use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 const HOOK: DVec3 = DVec3::new(0.0, 0.66, 0.0);
 /// Of the hoop, and how far it is above the hook.
@@ -38,14 +38,14 @@ fn hammer(stem: f64, finish: usize) -> Piece {
         let angle = PI * (f64::from(i) / 16.0 - 0.5);
         DVec2::new(if i % 16 == 0 { 0.0 } else { HEAD * cos(angle) }, HEAD * sin(angle))
     });
-    let ball = turned(&ball.collect::<Vec<_>>(), false, 32);
+    let ball = revolve(&ball.collect::<Vec<_>>(), 32);
     let mut points = ring(DVec3::new(0.0, -1.3 * MM, 0.0), 1.8 * MM, DVec3::NEG_Y, DVec3::X, 12);
     points.push((HEAD - stem) * DVec3::Y);
     Piece {
         name: "Hammer",
         parts: vec![part("HammerHead", ball, -stem * DVec3::Y, DQuat::IDENTITY, STEEL, finish)],
-        bends: vec![Bend { name: "HammerStem", points, radius: 0.6 * MM, density: STEEL }],
-        marks: vec![("HammerHook", DVec3::ZERO)],
+        wires: vec![BentWire { name: "HammerStem", points, radius: 0.6 * MM, density: STEEL }],
+        markers: vec![("HammerHook", DVec3::ZERO)],
     }
 }
 
@@ -62,16 +62,16 @@ fn vane(finish: usize) -> Piece {
 }
 
 /// The hoop on three spokes, about the hook.
-fn hoop() -> Vec<Bend> {
-    let wire = |name, points, radius| Bend { name, points, radius, density: STEEL };
-    let mut bends = vec![wire("Hoop", ring(RAISED * DVec3::Y, HOOP, DVec3::X, DVec3::Z, 72), 1.6 * MM)];
+fn hoop() -> Vec<BentWire> {
+    let wire = |name, points, radius| BentWire { name, points, radius, density: STEEL };
+    let mut wires = vec![wire("Hoop", ring(RAISED * DVec3::Y, HOOP, DVec3::X, DVec3::Z, 72), 1.6 * MM)];
     for (k, name) in ["SpokeA", "SpokeB", "SpokeC"].into_iter().enumerate() {
         let angle = 2.0 * PI * (k as f64 / 3.0 + 0.04);
         let out = |r: f64, y: f64| DVec3::new(r * cos(angle), y * MM, r * sin(angle));
         let knots = [out(0.0, 96.0), out(0.3 * HOOP, 78.0), out(0.7 * HOOP, 50.0), out(HOOP, RAISED / MM)];
-        bends.push(wire(name, soffio_authoring::outline::open_spline(&knots, 6), 1.2 * MM));
+        wires.push(wire(name, soffio_authoring::outline::open_spline(&knots, 6), 1.2 * MM));
     }
-    bends
+    wires
 }
 
 /// Draws, balances and writes the model.
@@ -82,17 +82,17 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let red = add("Vermilion", [0.62, 0.045, 0.012], 0.0, 0.40);
     let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
     let mut stand = ceiling(iron);
-    stand.bends.extend(hoop());
-    let arm = Hanging::bough(Bough {
+    stand.wires.extend(hoop());
+    let arm = TreeNode::branch(BranchNode {
         name: "Arm".to_owned(),
         radius: 1.0 * MM,
         chord: 250.0 * MM,
         rise: 6.0 * MM,
         depth: 12.0 * MM,
         turn: TURN,
-        ends: [Hanging::Plate(vane(red), -0.15), Hanging::Plate(hammer(104.0 * MM, iron), 0.0)],
+        ends: [TreeNode::Plate(vane(red), -0.15), TreeNode::Plate(hammer(104.0 * MM, iron), 0.0)],
     });
-    let mut pieces = hang(HOOK, arm);
+    let mut pieces = assemble_tree(HOOK, arm);
     for (k, pitch) in PITCHES.into_iter().enumerate() {
         // Evenly about the circle; the hammer rests between the first and the last.
         let angle = PI + TURN + 2.0 * PI * (k as f64 + 0.5) / PITCHES.len() as f64;
@@ -101,16 +101,16 @@ pub fn glb() -> (Mobile, Vec<u8>) {
         let [name, hook, stem] = ["", "Hook", "Stem"].map(|end| named(format!("Gong{}{end}", k + 1)));
         let length = LEVEL + RAISED - 0.5 * diameter + HOLE;
         let gong = disc([name, hook, stem], (diameter, SHEET), length, (BRASS, brass));
-        stand.marks.push((named(format!("Hoop{}", k + 1)), at));
+        stand.markers.push((named(format!("Hoop{}", k + 1)), at));
         pieces.push((gong, Pose { rotation: yaw(angle), position: HOOK + at }));
     }
-    let work = Mobile { pieces, stand };
-    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
-    for (piece, pose) in &work.pieces {
+    let mobile = Mobile { pieces, stand };
+    mobile.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
     let target = DVec3::new(0.0, 0.585, 0.0);
     let away = DVec3::new(-0.10, 0.30, 1.0).normalize();
     scene.camera("CamFront", target + 1.02 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
-    (work, scene.into_glb("Mobile with gongs", "Original composition of the Soffio project; MIT OR Apache-2.0"))
+    (mobile, scene.into_glb("Mobile with gongs", "Original composition of the Soffio project; MIT OR Apache-2.0"))
 }

@@ -7,8 +7,10 @@ use soffio_math::{DQuat, DVec2, DVec3, PI};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{BRASS, Finishes, MM, ROUND, STEEL, facing, finishes, gallows, part, rod, write};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, MM, ROUND, STEEL, bent_rod_stand, finishes, part, rod, write, y_to_z,
+};
 
 /// To and fro, s: 6720 beats an hour.
 const PERIOD: f64 = 2.0 * 3600.0 / 6720.0;
@@ -21,7 +23,7 @@ const BOB_RADIUS: f64 = 24.0;
 /// The pendulum in its own frame, the pivot at the origin.
 fn pendulum(finishes: &Finishes) -> Piece {
     let lens = [(0.0, -6.0), (10.0, -5.6), (18.0, -3.9), (BOB_RADIUS, 0.0), (18.0, 3.9), (10.0, 5.6), (0.0, 6.0)];
-    let lens = turned(&lens.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let lens = revolve(&lens.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let with_bob = |depth: f64| {
         let (top, bottom) = (depth - BOB_RADIUS * MM, depth + BOB_RADIUS * MM);
         let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
@@ -29,11 +31,11 @@ fn pendulum(finishes: &Finishes) -> Piece {
             name: "Pendulum",
             parts: vec![
                 part("Rod", rod(1.2 * MM, -top, 5.0 * MM), none, along, STEEL, finishes.steel),
-                part("Bob", lens.clone(), -depth * DVec3::Y, facing(), BRASS, finishes.brass),
+                part("Bob", lens.clone(), -depth * DVec3::Y, y_to_z(), BRASS, finishes.brass),
                 part("Nut", rod(3.0 * MM, -bottom - 5.0 * MM, -bottom), none, along, BRASS, finishes.brass),
             ],
-            bends: Vec::new(),
-            marks: Vec::new(),
+            wires: Vec::new(),
+            markers: Vec::new(),
         }
     };
     let length = |piece: &Piece| {
@@ -50,8 +52,8 @@ pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
     let pivot = PIVOT * DVec3::Y;
-    let mut stand = gallows(pivot + 8.0 * MM * DVec3::Y, DVec2::new(0.0, -70.0 * MM), finishes.black);
-    let knife = part("Knife", rod(2.0 * MM, -9.0 * MM, 9.0 * MM), pivot, facing(), STEEL, finishes.steel);
+    let mut stand = bent_rod_stand(pivot + 8.0 * MM * DVec3::Y, DVec2::new(0.0, -70.0 * MM), finishes.black);
+    let knife = part("Knife", rod(2.0 * MM, -9.0 * MM, 9.0 * MM), pivot, y_to_z(), STEEL, finishes.steel);
     stand.parts.push(knife);
     // From the side, so that the breath goes along the swing and not across it.
     let target = DVec3::new(0.0, 0.22, 0.0);

@@ -3,9 +3,9 @@
 use soffio_math::{DVec2, DVec3, PI, Pose};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hung::disc;
-use soffio_authoring::mobile::{Mobile, Wires, cascade};
-use soffio_authoring::stock::{MM, STEEL, finishes, gallows};
+use soffio_authoring::hanging::disc;
+use soffio_authoring::mobile::{CascadeBranches, Mobile, cascade};
+use soffio_authoring::stock_parts::{MM, STEEL, bent_rod_stand, finishes};
 
 /// Where the mobile hangs.
 const HOOK: f64 = 330.0 * MM;
@@ -22,21 +22,21 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let large = plate(["LargeDisc", "LargeHook", "LargeStem"], 62.0 * MM, 66.0 * MM, finishes.steel);
     let middle = plate(["MiddleDisc", "MiddleHook", "MiddleStem"], 46.0 * MM, 62.0 * MM, finishes.blue);
     let small = plate(["SmallDisc", "SmallHook", "SmallStem"], 36.0 * MM, 70.0 * MM, finishes.red);
-    let wires = Wires {
+    let wires = CascadeBranches {
         radius: [0.8 * MM, 0.6 * MM],
         eye: [2.2 * MM, 1.8 * MM],
         chord: [80.0 * MM, 98.0 * MM],
         droop: [8.0 * MM, 5.0 * MM],
         lower_yaw: LOWER_YAW,
     };
-    let stand = gallows(HOOK * DVec3::Y, DVec2::new(0.0, -110.0 * MM), finishes.black);
-    let work = cascade(HOOK * DVec3::Y, &wires, [large, middle, small], stand);
-    work.stand.write(&mut scene, Pose::IDENTITY);
-    for (piece, pose) in &work.pieces {
+    let stand = bent_rod_stand(HOOK * DVec3::Y, DVec2::new(0.0, -110.0 * MM), finishes.black);
+    let mobile = cascade(HOOK * DVec3::Y, &wires, [large, middle, small], stand);
+    mobile.stand.write(&mut scene, Pose::IDENTITY);
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
     let target = DVec3::new(0.01, 0.20, 0.0);
     scene.camera("CamFront", DVec3::new(0.16, 0.28, 0.85), target, 27.0 * PI / 180.0, 16.0 / 9.0);
     let copyright = "Original work of the Soffio project; MIT OR Apache-2.0";
-    (work, scene.into_glb("Three plates", copyright))
+    (mobile, scene.into_glb("Three plates", copyright))
 }

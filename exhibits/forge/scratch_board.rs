@@ -5,8 +5,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Knot, closed_spline};
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::{sheet, turned};
-use soffio_authoring::stock::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
+use soffio_authoring::solid::{extrude, revolve};
+use soffio_authoring::stock_parts::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
 /// Board: length, width, thickness, and the height of its upper face.
 const SIZE: [f64; 3] = [360.0 * MM, 240.0 * MM, 12.0 * MM];
@@ -42,9 +42,9 @@ pub fn glb() -> Vec<u8> {
         let at = DVec3::new(x, 0.5 * (high - thickness), z);
         parts.push(part(name, slab(size[0], size[1], high + thickness), at, flat, WOOD, finishes.black));
     }
-    let board = Piece { name: "Board", parts, bends: Vec::new(), marks: Vec::new() };
+    let board = Piece { name: "Board", parts, wires: Vec::new(), markers: Vec::new() };
     let foot = part("Foot", slab(length, 0.18, 0.02), DVec3::new(0.0, 0.01, 0.0), flat, WOOD, finishes.black);
-    let stand = Piece { name: "Stand", parts: vec![foot], bends: Vec::new(), marks: Vec::new() };
+    let stand = Piece { name: "Stand", parts: vec![foot], wires: Vec::new(), markers: Vec::new() };
 
     // The quill leans back and to the right; its frame stands upright all the same.
     let lean = rotation(DVec3::new(-LEAN, 0.0, -0.6 * LEAN));
@@ -53,7 +53,7 @@ pub fn glb() -> Vec<u8> {
         let (s, c) = (sin(PI * f64::from(k) / 8.0), cos(PI * f64::from(k) / 8.0));
         DVec2::new(if k % 8 == 0 { 0.0 } else { NIB * s }, -NIB * c)
     });
-    let point = turned(&point.collect::<Vec<_>>(), false, ROUND / 2);
+    let point = revolve(&point.collect::<Vec<_>>(), ROUND / 2);
     let vane = [
         Knot::Corner(0.0, 38.0),
         Knot::Smooth(13.0, 62.0),
@@ -70,10 +70,10 @@ pub fn glb() -> Vec<u8> {
         parts: vec![
             part("Nib", point, none, along, STEEL, finishes.steel),
             part("Shaft", rod(1.3 * MM, 0.5 * NIB, SHAFT), none, lean, WOOD, finishes.white),
-            part("Feather", sheet(&outline, &[], 0.5 * MM, 0.06 * MM), 0.9 * MM * up, lean, 300.0, finishes.blue),
+            part("Feather", extrude(&outline, &[], 0.5 * MM, 0.06 * MM), 0.9 * MM * up, lean, 300.0, finishes.blue),
         ],
-        bends: Vec::new(),
-        marks: Vec::new(),
+        wires: Vec::new(),
+        markers: Vec::new(),
     };
     let stands = DVec3::new(-60.0 * MM, TOP + NIB, 30.0 * MM);
     let pieces = [(stand, none), (board, TOP * DVec3::Y), (quill, stands)];

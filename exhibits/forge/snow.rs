@@ -10,9 +10,9 @@ use soffio_authoring::glb::{Finish, Scene};
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::ellipse;
 use soffio_authoring::piece::{Part, named};
-use soffio_authoring::solid::sheet;
-use soffio_authoring::stock::{ALUMINIUM, MM, ceiling};
-use soffio_authoring::tree::{Bough, Hanging, hang};
+use soffio_authoring::solid::extrude;
+use soffio_authoring::stock_parts::{ALUMINIUM, MM, ceiling};
+use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 /// Boughs of a chain; it has one disc more.
 const CHAIN: usize = 12;
@@ -36,7 +36,7 @@ fn flake(chain: char, i: usize, lean: f64, finish: usize) -> Part {
     let outline = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.0, 40);
     Part {
         name: named(format!("Disc{chain}{}", i + 1)),
-        solid: sheet(&outline, &[], SHEET, 0.15 * MM),
+        solid: extrude(&outline, &[], SHEET, 0.15 * MM),
         place: Pose { rotation: rotation(lean * DVec3::X), position: DVec3::ZERO },
         density: ALUMINIUM,
         finish,
@@ -44,20 +44,20 @@ fn flake(chain: char, i: usize, lean: f64, finish: usize) -> Part {
 }
 
 /// A chain whose first bough points along `turn`; it whirls to the right or, `sense` −1, to the left.
-fn chain(name: char, turn: f64, sense: f64, finish: usize) -> Hanging {
+fn chain(name: char, turn: f64, sense: f64, finish: usize) -> TreeNode {
     // Leaning now to one side, now to the other: some are seen as discs, some as lines.
     let lean = |i: usize| [-0.35, 0.55, -0.75, 0.25][i % 4];
-    let mut below = Hanging::Fixed(flake(name, CHAIN, lean(CHAIN), finish));
+    let mut below = TreeNode::Fixed(flake(name, CHAIN, lean(CHAIN), finish));
     for k in (0..CHAIN).rev() {
         let share = k as f64 / (CHAIN - 1) as f64;
-        below = Hanging::bough(Bough {
+        below = TreeNode::branch(BranchNode {
             name: format!("Flake{name}{}", k + 1),
             radius: (0.6 - 0.25 * share) * MM,
             chord: graded(LENGTHS, share) * MM,
             rise: (24.0 - 26.0 * share) * MM,
             depth: DEPTH,
             turn: turn + sense * 2.2 * k as f64,
-            ends: [below, Hanging::Fixed(flake(name, k, lean(k), finish))],
+            ends: [below, TreeNode::Fixed(flake(name, k, lean(k), finish))],
         });
     }
     below
@@ -69,20 +69,20 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
     let ice = add("Ice", [0.47, 0.64, 0.76], 0.0, 0.42);
     let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
-    let bough = |name: &str, [wire, chord, rise, depth, turn]: [f64; 5], ends| {
+    let branch = |name: &str, [wire, chord, rise, depth, turn]: [f64; 5], ends| {
         let [radius, chord, rise, depth] = [0.5 * wire, chord, rise, depth].map(|x| x * MM);
-        Hanging::bough(Bough { name: name.to_owned(), radius, chord, rise, depth, turn, ends })
+        TreeNode::branch(BranchNode { name: name.to_owned(), radius, chord, rise, depth, turn, ends })
     };
     let [a, b, c] = [chain('A', 0.3, 1.0, ice), chain('B', 2.3, -1.0, ice), chain('C', 0.9, 1.0, ice)];
-    let right = bough("Right", [1.6, 440.0, -60.0, 40.0, 0.16], [c, b]);
-    let top = bough("Top", [2.0, 560.0, 50.0, 24.0, -0.12], [right, a]);
-    let work = Mobile { pieces: hang(HOOK, top), stand: ceiling(iron) };
-    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
-    for (piece, pose) in &work.pieces {
+    let right = branch("Right", [1.6, 440.0, -60.0, 40.0, 0.16], [c, b]);
+    let top = branch("Top", [2.0, 560.0, 50.0, 24.0, -0.12], [right, a]);
+    let mobile = Mobile { pieces: assemble_tree(HOOK, top), stand: ceiling(iron) };
+    mobile.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
     let target = DVec3::new(-0.05, 0.62, 0.0);
     let away = DVec3::new(-0.12, 0.10, 1.0).normalize();
     scene.camera("CamFront", target + 1.62 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
-    (work, scene.into_glb("Snow", "Original composition of the Soffio project; MIT OR Apache-2.0"))
+    (mobile, scene.into_glb("Snow", "Original composition of the Soffio project; MIT OR Apache-2.0"))
 }

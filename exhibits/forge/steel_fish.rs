@@ -18,13 +18,13 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hung::{self, HOLE_RADIUS, hung_plate, to_mass};
+use soffio_authoring::hanging::{self, HOLE_RADIUS, hanging_plate, to_mass};
 use soffio_authoring::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
 use soffio_authoring::outline::{
     Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring,
 };
-use soffio_authoring::piece::{Bend, Part, Piece, load, yaw};
-use soffio_authoring::solid::{Solid, turned};
+use soffio_authoring::piece::{BentWire, Part, Piece, load, yaw};
+use soffio_authoring::solid::{Solid, revolve, revolve_ring};
 
 /// m.
 const MM: f64 = 1e-3;
@@ -105,7 +105,7 @@ pub fn glb() -> (Mobile, Vec<u8>) {
 }
 
 fn draw(finishes: &Finishes) -> Mobile {
-    let disc = |names, diameter, length, finish| hung::disc(names, (diameter, SHEET), length, (ALUMINIUM, finish));
+    let disc = |names, diameter, length, finish| hanging::disc(names, (diameter, SHEET), length, (ALUMINIUM, finish));
     let orange = disc(["OrangeDisc", "OrangeHook", "OrangeStem"], 35.4 * MM, 67.0 * MM, finishes.orange);
     let white = disc(["WhiteDisc", "WhiteHook", "WhiteStem"], 25.8 * MM, 76.0 * MM, finishes.white);
     let b4 = branch(&Branch {
@@ -134,13 +134,15 @@ fn draw(finishes: &Finishes) -> Mobile {
     let boom = boom(finishes, tip_load);
 
     let boom_pose = Pose { rotation: DQuat::IDENTITY, position: DVec3::new(0.0, POINT_HEIGHT, 0.0) };
-    let hung =
-        |pose: Pose, piece: &Piece, mark, turn| Pose { rotation: yaw(turn), position: pose.point(piece.mark(mark)) };
-    let b2_pose = hung(boom_pose, &boom, "BoomTip", B2_YAW);
-    let red_pose = hung(b2_pose, &b2, "B2Red", RED_YAW);
-    let b4_pose = hung(b2_pose, &b2, "B2Branch", B4_YAW);
-    let white_pose = hung(b4_pose, &b4, "B4White", WHITE_YAW);
-    let orange_pose = hung(b4_pose, &b4, "B4Orange", ORANGE_YAW);
+    let hanging = |pose: Pose, piece: &Piece, marker, turn| Pose {
+        rotation: yaw(turn),
+        position: pose.point(piece.marker(marker)),
+    };
+    let b2_pose = hanging(boom_pose, &boom, "BoomTip", B2_YAW);
+    let red_pose = hanging(b2_pose, &b2, "B2Red", RED_YAW);
+    let b4_pose = hanging(b2_pose, &b2, "B2Branch", B4_YAW);
+    let white_pose = hanging(b4_pose, &b4, "B4White", WHITE_YAW);
+    let orange_pose = hanging(b4_pose, &b4, "B4Orange", ORANGE_YAW);
     Mobile {
         pieces: vec![
             (boom, boom_pose),
@@ -168,7 +170,7 @@ fn stand(finishes: &Finishes) -> Piece {
         mm(0.0, 11.6), mm(6.0, 11.6), mm(6.0, 20.0), mm(3.4, 24.0), mm(2.6, 120.0), mm(2.0, top - 24.0),
         mm(3.0, top - 22.0), mm(3.0, top - 17.0), mm(2.0, top - 15.0), mm(1.6, top - 8.0), mm(0.0, top),
     ];
-    let (footing, post) = (turned(&footing, false, 2 * ROUND), turned(&post, false, ROUND / 2));
+    let (footing, post) = (revolve(&footing, 2 * ROUND), revolve(&post, ROUND / 2));
     let part = |name, solid, finish| Part { name, solid, place: Pose::IDENTITY, density: STEEL, finish };
     let stays = ["StayA", "StayB", "StayC"].into_iter().enumerate().map(|(i, name)| {
         let turn = yaw(2.0 * PI * (i as f64 / 3.0 + 0.08));
@@ -177,13 +179,13 @@ fn stand(finishes: &Finishes) -> Piece {
             DVec3::new(58.0, 8.0, 0.0), DVec3::new(30.0, 45.0, 0.0), DVec3::new(9.0, 110.0, 0.0),
             DVec3::new(3.2, 185.0, 0.0),
         ];
-        Bend { name, points: open_spline(&knots.map(|k| turn * (k * MM)), 6), radius: 0.9 * MM, density: STEEL }
+        BentWire { name, points: open_spline(&knots.map(|k| turn * (k * MM)), 6), radius: 0.9 * MM, density: STEEL }
     });
     Piece {
         name: "Stand",
         parts: vec![part("Footing", footing, finishes.black), part("Post", post, finishes.steel)],
-        bends: stays.collect(),
-        marks: vec![("PostPoint", DVec3::new(0.0, POINT_HEIGHT, 0.0))],
+        wires: stays.collect(),
+        markers: vec![("PostPoint", DVec3::new(0.0, POINT_HEIGHT, 0.0))],
     }
 }
 
@@ -211,9 +213,8 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
     let mm = |r: f64, y: f64| DVec2::new(r, y) * MM;
     // An inverted cup. Its hollow has a half-angle of 23.5°, the needle one of 11.3°: it can tilt by the 12° that
     // the sidecar states before the rim meets the needle.
-    let cup = turned(
+    let cup = revolve(
         &[mm(0.0, 0.0), mm(2.3, -5.3), mm(3.1, -5.3), mm(3.1, -4.4), mm(2.0, 2.4), mm(1.4, 3.1), mm(0.0, 3.1)],
-        false,
         ROUND / 2,
     );
     let fish = fish_plate();
@@ -227,8 +228,8 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
             Part { name: "FishPlate", solid: fish, place: fish_place, density: STEEL, finish: finishes.black },
             Part { name: "Cup", solid: cup, place: Pose::IDENTITY, density: BRASS, finish: finishes.brass },
         ],
-        bends: vec![Bend { name: "BoomRod", points: rod, radius: BOOM_RADIUS, density: STEEL }],
-        marks: vec![("BoomPivot", DVec3::ZERO), ("BoomTip", tip)],
+        wires: vec![BentWire { name: "BoomRod", points: rod, radius: BOOM_RADIUS, density: STEEL }],
+        markers: vec![("BoomPivot", DVec3::ZERO), ("BoomTip", tip)],
     };
     // What the lead must weigh for Σ m x = 0, and where across the rod it must sit for Σ m z = 0.
     let others = boom.mass().combine(&load(tip_load, tip));
@@ -265,7 +266,7 @@ fn lead_weight(mass: f64) -> Solid {
             DVec2::new(radius - edge, half),
             DVec2::new(bore, half),
         ];
-        turned(&profile, true, ROUND / 2).lying()
+        revolve_ring(&profile, ROUND / 2).y_to_x()
     };
     let (short, long) = (10.0 * MM, 20.0 * MM);
     let (light, heavy) = (barrel(short).mass(LEAD).mass, barrel(long).mass(LEAD).mass);
@@ -313,7 +314,7 @@ fn red_plate(finish: usize) -> Piece {
     // The hole itself moved the centre by some micrometres; take them out.
     solid = {
         let x = solid.mass(STEEL).center.x;
-        solid.moved(DVec3::new(-x, 0.0, 0.0))
+        solid.translated(DVec3::new(-x, 0.0, 0.0))
     };
-    hung_plate(["RedPlate", "RedHook", "RedStem"], (solid, STEEL, finish), 84.0 * MM)
+    hanging_plate(["RedPlate", "RedHook", "RedStem"], (solid, STEEL, finish), 84.0 * MM)
 }

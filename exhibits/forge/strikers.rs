@@ -6,8 +6,10 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::{Part, Piece};
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, write};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write, y_to_z,
+};
 
 /// Height of the rail.
 const RAIL: f64 = 400.0 * MM;
@@ -27,7 +29,7 @@ fn ball(radius: f64) -> soffio_authoring::solid::Solid {
         let (s, c) = soffio_math::sincos(PI * f64::from(k) / 12.0);
         DVec2::new(if k % 12 == 0 { 0.0 } else { radius * s }, -radius * c)
     });
-    turned(&arc.collect::<Vec<_>>(), false, ROUND)
+    revolve(&arc.collect::<Vec<_>>(), ROUND)
 }
 
 /// A mallet in its own frame, hung from the origin: stick, head, and a sail below it.
@@ -42,13 +44,13 @@ fn mallet(names: [&'static str; 4], finishes: &Finishes, color: usize) -> Piece 
             part(head, ball(RADIUS), -HEAD * DVec3::Y, along, WOOD, finishes.wood),
             part(sail, slab(66.0 * MM, 56.0 * MM, 0.8 * MM), sail_at, along, WOOD, color),
         ],
-        bends: Vec::new(),
-        marks: Vec::new(),
+        wires: Vec::new(),
+        markers: Vec::new(),
     }
 }
 
 fn instrument(name: &'static str, parts: Vec<Part>) -> Piece {
-    Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
+    Piece { name, parts, wires: Vec::new(), markers: Vec::new() }
 }
 
 /// The four things to be struck, their frames at the heads' height in the plane of their faces.
@@ -58,21 +60,21 @@ fn instruments(finishes: &Finishes) -> [Piece; 4] {
     let inside = [(0.0, 32.0), (11.0, 30.0), (16.5, 24.0), (19.5, 6.0), (26.0, -17.0), (38.0, -33.0), (40.0, -38.0)];
     // Walked from the axis inside, round the mouth, to the axis outside: the material lies on the left.
     let bell: Vec<DVec2> = inside.iter().chain(&bell).map(|&(r, y)| DVec2::new(r, y) * MM).collect();
-    let bell = turned(&bell, false, 2 * ROUND);
+    let bell = revolve(&bell, 2 * ROUND);
     let drum = rod(52.0 * MM, -64.0 * MM, 0.0);
     let skin = rod(50.0 * MM, 0.0, 0.6 * MM);
     let metal = [(0.0, -9.0), (44.0, -9.0), (46.0, -7.0), (46.0, 0.0), (36.0, 0.0), (34.0, -2.0), (0.0, -2.0)];
-    let metal = turned(&metal.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let metal = revolve(&metal.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     [
         instrument("Bell", vec![part("Bell", bell, none, along, BRASS, finishes.brass)]),
         instrument(
             "Drum",
             vec![
-                part("DrumShell", drum, none, facing(), WOOD, finishes.red),
-                part("DrumSkin", skin, none, facing(), WOOD, finishes.white),
+                part("DrumShell", drum, none, y_to_z(), WOOD, finishes.red),
+                part("DrumSkin", skin, none, y_to_z(), WOOD, finishes.white),
             ],
         ),
-        instrument("Metal", vec![part("MetalPan", metal, none, facing(), STEEL, finishes.steel)]),
+        instrument("Metal", vec![part("MetalPan", metal, none, y_to_z(), STEEL, finishes.steel)]),
         instrument(
             "Wood",
             vec![part(
@@ -157,7 +159,7 @@ fn stand(finishes: &Finishes) -> Piece {
         STEEL,
         finishes.black,
     ));
-    Piece { name: "Stand", parts, bends: Vec::new(), marks: Vec::new() }
+    Piece { name: "Stand", parts, wires: Vec::new(), markers: Vec::new() }
 }
 
 /// The model.

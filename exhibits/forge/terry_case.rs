@@ -7,8 +7,8 @@ use super::terry_layout::{CENTER, piece};
 use soffio_authoring::glb::{Finish, Glass, Scene};
 use soffio_authoring::outline::{Polygon, ellipse, reversed};
 use soffio_authoring::piece::{Part, Piece};
-use soffio_authoring::solid::{Solid, sheet, turned};
-use soffio_authoring::stock::{BRASS, Finishes, MM, ROUND, WOOD, facing, part, ring, rod, slab};
+use soffio_authoring::solid::{Solid, extrude, revolve};
+use soffio_authoring::stock_parts::{BRASS, Finishes, MM, ROUND, WOOD, part, ring, rod, slab, y_to_z};
 
 /// The inside: left, right, bottom, top, back and front, m.
 const INSIDE: ([f64; 2], [f64; 2], [f64; 2]) = ([-0.200, 0.220], [0.034, 0.492], [-0.098, 0.050]);
@@ -84,7 +84,7 @@ fn boards(woods: &Woods) -> Vec<Part> {
         board("Cornice", LEDGE, 0.8 * BOARD, y[1] + 1.4 * BOARD),
     ];
     let bun = [(0.0, 0.0), (9.0, 0.0), (14.0, 4.0), (14.5, 9.0), (11.0, 15.0), (0.0, 15.0)];
-    let bun = turned(&bun.map(|(r, h)| DVec2::new(r, h) * MM), false, ROUND);
+    let bun = revolve(&bun.map(|(r, h)| DVec2::new(r, h) * MM), ROUND);
     for (name, right, front) in
         [("FootBackLeft", 0, 0), ("FootFrontLeft", 0, 1), ("FootBackRight", 1, 0), ("FootFrontRight", 1, 1)]
     {
@@ -92,8 +92,8 @@ fn boards(woods: &Woods) -> Vec<Part> {
         parts.push(part(name, bun.clone(), foot, DQuat::IDENTITY, WOOD, wood));
     }
     let window: Polygon = rectangle(size(z) - 60.0 * MM, size(y) - 70.0 * MM);
-    let wall = sheet(&rectangle(size(z) + BOARD, size(y)), &[window], BOARD, 0.6 * MM);
-    let pane = sheet(&rectangle(size(z) - 56.0 * MM, size(y) - 66.0 * MM), &[], 2.0 * MM, 0.2 * MM);
+    let wall = extrude(&rectangle(size(z) + BOARD, size(y)), &[window], BOARD, 0.6 * MM);
+    let pane = extrude(&rectangle(size(z) - 56.0 * MM, size(y) - 66.0 * MM), &[], 2.0 * MM, 0.2 * MM);
     for (side, glass, place) in
         [("SideLeft", "PaneLeft", x[0] - 0.5 * BOARD), ("SideRight", "PaneRight", x[1] + 0.5 * BOARD)]
     {
@@ -124,13 +124,13 @@ fn pillar(x: f64, name: &'static str, woods: &Woods, finishes: &Finishes) -> Vec
     let ends = [DVec2::new(0.0, shaft[0].y), DVec2::new(0.0, shaft[24].y)];
     let shaft: Vec<DVec2> = ends[..1].iter().chain(&shaft).chain(&ends[1..]).copied().collect();
     let knop = [(0.0, 0.0), (10.0, 0.0), (10.0, 3.0), (8.0, 5.0), (9.0, 7.5), (7.0, 10.5), (0.0, 10.5)];
-    let knop = turned(&knop.map(|(r, h)| DVec2::new(r, h) * MM), false, ROUND);
+    let knop = revolve(&knop.map(|(r, h)| DVec2::new(r, h) * MM), ROUND);
     let [shaft_name, base, head] = match name {
         "Left" => ["PillarLeft", "PillarFootLeft", "PillarHeadLeft"],
         _ => ["PillarRight", "PillarFootRight", "PillarHeadRight"],
     };
     vec![
-        part(shaft_name, turned(&shaft, false, ROUND), foot, DQuat::IDENTITY, WOOD, woods.mahogany),
+        part(shaft_name, revolve(&shaft, ROUND), foot, DQuat::IDENTITY, WOOD, woods.mahogany),
         part(base, knop.clone(), foot, DQuat::IDENTITY, BRASS, finishes.brass),
         part(head, knop, foot + long * DVec3::Y, rotation(PI * DVec3::X), BRASS, finishes.brass),
     ]
@@ -168,14 +168,14 @@ fn pediment(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
         (1.5, 34.0),
         (0.0, 37.0),
     ];
-    let urn = turned(&urn.map(|(r, h)| DVec2::new(r, h) * MM), false, ROUND);
+    let urn = revolve(&urn.map(|(r, h)| DVec2::new(r, h) * MM), ROUND);
     let rosette = rod(14.0 * MM, -6.0 * MM, 6.0 * MM);
     let mut parts = Vec::new();
     for (side, scroll, flower) in [(-1.0, "ScrollLeft", "RosetteLeft"), (1.0, "ScrollRight", "RosetteRight")] {
-        let neck = sheet(&neck(side), &[], 9.0 * MM, 0.8 * MM);
+        let neck = extrude(&neck(side), &[], 9.0 * MM, 0.8 * MM);
         parts.push(part(scroll, neck, ground, DQuat::IDENTITY, WOOD, woods.mahogany));
         let end = ground + DVec3::new(side * near, 0.5 * (low + 1.72 * rise), 0.0);
-        parts.push(part(flower, rosette.clone(), end, facing(), BRASS, finishes.brass));
+        parts.push(part(flower, rosette.clone(), end, y_to_z(), BRASS, finishes.brass));
     }
     let plinth = slab(22.0 * MM, 40.0 * MM, 12.0 * MM);
     parts.push(part("Plinth", plinth, ground + 20.0 * MM * DVec3::Y, DQuat::IDENTITY, WOOD, woods.mahogany));
@@ -197,13 +197,13 @@ fn pediment(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
 /// A painted ring with the hours in Roman numerals and a dot for each minute, open in the middle.
 fn dial(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
     let at = CENTER + DIAL * DVec3::Z;
-    let ground = part("ChapterRing", ring(CHAPTERS.0, CHAPTERS.1, 1.6 * MM), at, facing(), WOOD, woods.paint);
+    let ground = part("ChapterRing", ring(CHAPTERS.0, CHAPTERS.1, 1.6 * MM), at, y_to_z(), WOOD, woods.paint);
     let mut ink = Solid::default();
     for minute in 0..60 {
         let angle = 0.5 * PI - 2.0 * PI * f64::from(minute) / 60.0;
         let size = if minute % 5 == 0 { 1.1 } else { 0.6 } * MM;
         let dot = ellipse((CHAPTERS.1 - 2.4 * MM) * DVec2::new(cos(angle), sin(angle)), DVec2::splat(size), 0.0, 16);
-        join(&mut ink, &sheet(&dot, &[], 0.3 * MM, 0.05 * MM));
+        join(&mut ink, &extrude(&dot, &[], 0.3 * MM, 0.05 * MM));
     }
     for (hour, numeral) in
         ["XII", "I", "II", "III", "IIII", "V", "VI", "VII", "VIII", "IX", "X", "XI"].iter().enumerate()
@@ -212,7 +212,7 @@ fn dial(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
         for stroke in strokes(numeral) {
             // Numerals stand upright at twelve and turn with the ring.
             let turn = |p: DVec2| DVec2::from_angle(angle).rotate(p + DVec2::Y * (CHAPTERS.0 + 7.6 * MM));
-            join(&mut ink, &sheet(&stroke.into_iter().map(turn).collect(), &[], 0.3 * MM, 0.05 * MM));
+            join(&mut ink, &extrude(&stroke.into_iter().map(turn).collect(), &[], 0.3 * MM, 0.05 * MM));
         }
     }
     let ink = part("Numerals", ink, at + 0.9 * MM * DVec3::Z, DQuat::IDENTITY, WOOD, finishes.black);

@@ -34,9 +34,9 @@ use super::{terry_case, terry_strike};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Part, Piece};
-use soffio_authoring::solid::{Solid, sheet, turned};
-use soffio_authoring::stock::{
-    BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, finishes, meshing_phase, part, ring, rod, slab, spur,
+use soffio_authoring::solid::{Solid, extrude, revolve};
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, finishes, meshing_phase, part, ring, rod, slab, spur_gear, y_to_z,
 };
 
 /// Teeth of the wheels and of the pinions that they drive.
@@ -131,7 +131,7 @@ pub fn escape_wheel() -> Solid {
             ellipse(11.0 * MM * DVec2::new(cos(angle), sin(angle)), DVec2::splat(4.6 * MM), 0.0, 24)
         })
         .collect();
-    sheet(&outline, &holes, 1.2 * MM, 0.03 * MM)
+    extrude(&outline, &holes, 1.2 * MM, 0.03 * MM)
 }
 
 /// Where the pallet on one side (−1 at E, +1 at X) has its middle in the frame of the anchor at rest, and how it is
@@ -161,13 +161,13 @@ pub fn escape_phase() -> f64 {
 pub fn pendulum(finishes: &Finishes, simple: f64, with_leaf: bool) -> Piece {
     let b = BOB_RADIUS;
     let lens = [(0.0, -5.5), (9.0, -5.2), (15.0, -3.8), (1e3 * b, 0.0), (15.0, 3.8), (9.0, 5.2), (0.0, 5.5)];
-    let lens = turned(&lens.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
-    let leaf = sheet(&ellipse(DVec2::ZERO, DVec2::new(20.0, 44.0) * MM, 0.0, 2 * ROUND), &[], 0.2 * MM, 0.05 * MM);
+    let lens = revolve(&lens.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
+    let leaf = extrude(&ellipse(DVec2::ZERO, DVec2::new(20.0, 44.0) * MM, 0.0, 2 * ROUND), &[], 0.2 * MM, 0.05 * MM);
     let with_bob = |depth: f64| {
         let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
         let mut parts = vec![
             part("Rod", rod(0.9 * MM, -depth + b, 3.0 * MM), none, along, STEEL, finishes.steel),
-            part("Bob", lens.clone(), -depth * DVec3::Y, facing(), BRASS, finishes.brass),
+            part("Bob", lens.clone(), -depth * DVec3::Y, y_to_z(), BRASS, finishes.brass),
             part("Nut", rod(2.5 * MM, -depth - b - 4.0 * MM, -depth - b), none, along, BRASS, finishes.brass),
         ];
         if with_leaf {
@@ -183,7 +183,7 @@ pub fn pendulum(finishes: &Finishes, simple: f64, with_leaf: bool) -> Piece {
     // A longer rod makes the same difference longer a pendulum, nearly.
     let depth = (0..40).fold(simple, |depth, _| depth + simple - length(&with_bob(depth)));
     let mut piece = with_bob(depth);
-    piece.marks.push(("RodSlot", DVec3::new(0.0, -45.0 * MM, 0.0)));
+    piece.markers.push(("RodSlot", DVec3::new(0.0, -45.0 * MM, 0.0)));
     piece
 }
 
@@ -194,7 +194,7 @@ pub fn anchor(finishes: &Finishes) -> Piece {
     for (name, strap, side) in [("PalletEntry", "StrapEntry", -1.0), ("PalletExit", "StrapExit", 1.0)] {
         let mut place = pallet(side);
         place.position.z = plane;
-        let strip = sheet(
+        let strip = extrude(
             &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
                 .map(|(x, y)| DVec2::new(0.5 * FACE * x, 0.5 * THICKNESS * y))
                 .into(),
@@ -221,7 +221,7 @@ pub fn anchor(finishes: &Finishes) -> Piece {
         finishes.steel,
     ));
     let mut piece = piece("Anchor", parts);
-    piece.marks.push(("CrutchEye", DVec3::new(0.0, -45.0 * MM, 0.0)));
+    piece.markers.push(("CrutchEye", DVec3::new(0.0, -45.0 * MM, 0.0)));
     piece
 }
 
@@ -248,11 +248,11 @@ fn going_train(finishes: &Finishes) -> [Placed; 5] {
     let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(great, minute));
     let arbor_parts = vec![
         flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
-        flat("MinutePinion", spur(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("MinutePinion", spur_gear(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
     ];
     let phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
-    let pinion = spur(MINUTE.1, MODULE, 6.0 * MM, phase, &[]);
+    let pinion = spur_gear(MINUTE.1, MODULE, 6.0 * MM, phase, &[]);
     let third_wheel = piece(
         "ThirdWheel",
         vec![
@@ -275,7 +275,7 @@ fn going_train(finishes: &Finishes) -> [Placed; 5] {
 /// The cannon sits tight on the arbor, and yet can be turned: with it go the hand, the motion work and the strike.
 fn cannon(finishes: &Finishes) -> Piece {
     let cannon_parts = vec![
-        flat("Cannon", spur(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, finishes.wood),
+        flat("Cannon", spur_gear(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, finishes.wood),
         hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
         terry_strike::peg(
             "LiftingPin",
@@ -293,7 +293,7 @@ fn escape_piece(finishes: &Finishes, phase: f64) -> Piece {
         "EscapeWheel",
         vec![
             flat("EscapeWheel", escape_wheel(), ESCAPING, BRASS, finishes.brass),
-            flat("EscapePinion", spur(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, finishes.wood),
+            flat("EscapePinion", spur_gear(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, finishes.wood),
             along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, finishes.wood),
             part(
                 "EscapeTooth",
@@ -315,8 +315,8 @@ fn motion_work(finishes: &Finishes) -> [Placed; 2] {
     let minute_wheel = piece(
         "MinuteWheel",
         vec![
-            flat("MinuteWheel", spur(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
-            flat("HourPinion", spur(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
+            flat("MinuteWheel", spur_gear(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
+            flat("HourPinion", spur_gear(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
         ],
     );
     let phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
@@ -325,7 +325,7 @@ fn motion_work(finishes: &Finishes) -> [Placed; 2] {
         vec![
             flat(
                 "HourWheel",
-                spur(HOUR.1, 0.96 * MM, WHEEL, phase, &[ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32)]),
+                spur_gear(HOUR.1, 0.96 * MM, WHEEL, phase, &[ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32)]),
                 MOTION + 5.0 * MM,
                 WOOD,
                 wood,
@@ -361,7 +361,7 @@ fn frame(finishes: &Finishes, pivot: DVec3) -> Piece {
         WOOD,
         finishes.wood,
     );
-    let cock = part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, facing(), BRASS, finishes.brass);
+    let cock = part("AnchorCock", rod(4.0 * MM, -4.0 * MM, 4.0 * MM), pivot, y_to_z(), BRASS, finishes.brass);
     piece("Frame", vec![back_plate, cock])
 }
 
@@ -380,10 +380,10 @@ pub fn glb() -> Vec<u8> {
     pieces.extend(motion_work(&finishes));
     pieces.push((weight(&finishes), at(hangs)));
     let bell = terry_strike::bell(&finishes);
-    let hung = at(bell.place.position);
+    let hanging = at(bell.place.position);
     let at_home =
         Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
-    pieces.push((piece("Bell", vec![at_home]), hung));
+    pieces.push((piece("Bell", vec![at_home]), hanging));
     pieces.extend(terry_strike::pieces(&finishes, HOURS));
     for (piece, pose) in &pieces {
         piece.write(&mut scene, *pose);

@@ -5,7 +5,7 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, atan2, cos, sin};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::solid::Solid;
-use soffio_authoring::stock::{MM, facing, part, rod, spur};
+use soffio_authoring::stock_parts::{MM, part, rod, spur_gear, y_to_z};
 
 /// Pitch diameter over number of teeth.
 pub const MODULE: f64 = 1.0 * MM;
@@ -40,17 +40,17 @@ pub fn wheel(teeth: usize, phase: f64) -> Solid {
             ellipse(0.58 * radius * DVec2::new(cos(angle), sin(angle)), DVec2::splat(0.22 * radius), 0.0, 24)
         })
         .collect();
-    spur(teeth, MODULE, WHEEL, phase, &holes)
+    spur_gear(teeth, MODULE, WHEEL, phase, &holes)
 }
 
 /// A round bar along z, from `low` to `high`.
 pub(crate) fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), density: f64, finish: usize) -> Part {
-    part(name, rod(radius, low, high), DVec3::ZERO, facing(), density, finish)
+    part(name, rod(radius, low, high), DVec3::ZERO, y_to_z(), density, finish)
 }
 
 /// A piece with its own node's mesh first.
 pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
-    Piece { name, parts, bends: Vec::new(), marks: Vec::new() }
+    Piece { name, parts, wires: Vec::new(), markers: Vec::new() }
 }
 
 /// A flat part at the height `z` of the piece.

@@ -19,9 +19,9 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 use super::terry_layout::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Part, Piece};
-use soffio_authoring::solid::{Solid, sheet, turned};
-use soffio_authoring::stock::{
-    BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, facing, meshing_phase, part, rod, slab, spur,
+use soffio_authoring::solid::{Solid, extrude, revolve};
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, meshing_phase, part, rod, slab, spur_gear, y_to_z,
 };
 
 /// Teeth of the wheels and of the pinions that they drive.
@@ -125,7 +125,7 @@ pub fn lifting_pin_at_the_hour() -> f64 {
 /// A pin along z.
 pub fn peg(name: &'static str, at: DVec3, (low, high): (f64, f64), finish: usize) -> Part {
     let middle = 0.5 * (low + high);
-    part(name, rod(PEG, low - middle, high - middle), at.with_z(middle), facing(), STEEL, finish)
+    part(name, rod(PEG, low - middle, high - middle), at.with_z(middle), y_to_z(), STEEL, finish)
 }
 
 /// A round arm from one point to another of the piece's plane.
@@ -157,7 +157,7 @@ fn rise(hour: usize, now: f64) -> Solid {
         at(first + TOP + share * (hour as f64 - TOP - EDGE), RIM)
     }));
     outline.reverse();
-    sheet(&outline, &[], WHEEL - 0.4 * MM, 0.1 * MM)
+    extrude(&outline, &[], WHEEL - 0.4 * MM, 0.1 * MM)
 }
 
 const RISES: [&str; 11] =
@@ -192,7 +192,7 @@ fn great_wheel(finishes: &Finishes) -> Piece {
             flat("StrikeWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
             along_z("StrikeDrum", DRUM - 0.5 * MM, (BACK + 4.0 * MM, BACK + 30.0 * MM), WOOD, wood),
             along_z("StrikeArbor", 3.0 * MM, (-48.0 * MM, 7.0 * MM), WOOD, wood),
-            flat("CountPinion", spur(COUNT.0, MM, WHEEL, 0.0, &[]), COUNT_LAYER, WOOD, wood),
+            flat("CountPinion", spur_gear(COUNT.0, MM, WHEEL, 0.0, &[]), COUNT_LAYER, WOOD, wood),
         ],
     )
 }
@@ -209,7 +209,7 @@ fn pin_wheel(p: &Places, finishes: &Finishes) -> Piece {
     let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(p.great, p.pin));
     let mut parts = vec![
         flat("PinWheel", wheel(PIN.0, 0.0), PIN_LAYER, WOOD, wood),
-        flat("PinPinion", spur(GREAT.1, MM, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("PinPinion", spur_gear(GREAT.1, MM, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("PinArbor", 2.2 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     let met = hammer_met(p);
@@ -234,8 +234,8 @@ fn lock_wheel(p: &Places, finishes: &Finishes) -> Piece {
     piece(
         "LockWheel",
         vec![
-            flat("LockWheel", spur(LOCK.0, FINE, WHEEL, 0.0, &holes), LOCK_LAYER, WOOD, wood),
-            flat("LockPinion", spur(PIN.1, MM, 6.0 * MM, phase, &[]), PIN_LAYER, WOOD, wood),
+            flat("LockWheel", spur_gear(LOCK.0, FINE, WHEEL, 0.0, &holes), LOCK_LAYER, WOOD, wood),
+            flat("LockPinion", spur_gear(PIN.1, MM, 6.0 * MM, phase, &[]), PIN_LAYER, WOOD, wood),
             along_z("LockArbor", 2.0 * MM, (-48.0 * MM, -12.0 * MM), WOOD, wood),
             peg("LockPin", polar(LOCK_PIN, LOCKED), (-20.0 * MM, -13.0 * MM), steel),
         ],
@@ -253,7 +253,7 @@ fn fly(p: &Places, finishes: &Finishes) -> Piece {
     piece(
         "Fly",
         vec![
-            flat("FlyPinion", spur(LOCK.1, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
+            flat("FlyPinion", spur_gear(LOCK.1, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
             along_z("FlyArbor", 1.5 * MM, (-48.0 * MM, 8.0 * MM), STEEL, steel),
             part(
                 "FlyHub",
@@ -273,14 +273,11 @@ fn fly(p: &Places, finishes: &Finishes) -> Piece {
 fn count_wheel(p: &Places, finishes: &Finishes, hour: usize) -> Piece {
     let wood = finishes.wood;
     let phase = meshing_phase(COUNT.1, COUNT.0, 0.0, toward(p.great, p.count));
-    let disc = turned(
-        &[(0.0, -2.0), (42.0, -2.0), (42.0, 2.0), (0.0, 2.0)].map(|(r, y)| DVec2::new(r, y) * MM),
-        false,
-        2 * ROUND,
-    );
+    let disc =
+        revolve(&[(0.0, -2.0), (42.0, -2.0), (42.0, 2.0), (0.0, 2.0)].map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let mut parts = vec![
-        part("CountDisc", disc, DVec3::Z * COUNT_LAYER, facing(), WOOD, wood),
-        flat("CountGear", spur(COUNT.1, MM, WHEEL, phase, &[]), COUNT_LAYER - 4.2 * MM, WOOD, wood),
+        part("CountDisc", disc, DVec3::Z * COUNT_LAYER, y_to_z(), WOOD, wood),
+        flat("CountGear", spur_gear(COUNT.1, MM, WHEEL, phase, &[]), COUNT_LAYER - 4.2 * MM, WOOD, wood),
     ];
     let now = (hour * (hour + 1) / 2) as f64;
     for (k, name) in RISES.into_iter().enumerate() {
@@ -323,7 +320,7 @@ fn count_lever(p: &Places, finishes: &Finishes) -> Piece {
         vec![
             along_z("LeverArbor", 1.5 * MM, (-24.0 * MM, 8.0 * MM), STEEL, steel),
             arm("FeelerArm", DVec3::ZERO, feeler, COUNT_LAYER, steel),
-            part("Feeler", rod(FEELER, -1.5 * MM, 1.5 * MM), feeler.with_z(COUNT_LAYER), facing(), STEEL, steel),
+            part("Feeler", rod(FEELER, -1.5 * MM, 1.5 * MM), feeler.with_z(COUNT_LAYER), y_to_z(), STEEL, steel),
             arm("StopArm", DVec3::ZERO, stop, LEVER_LAYER - 4.0 * MM, steel),
             peg("Stop", stop, (-22.0 * MM, -13.0 * MM), steel),
             arm("KickArm", DVec3::ZERO, DVec3::X * 14.0 * MM, FLIRT_LAYER + 4.0 * MM, steel),
@@ -369,5 +366,5 @@ pub fn bell(finishes: &Finishes) -> Part {
     let profile: Vec<DVec2> = inside.iter().chain(&outside).map(|&(r, y)| DVec2::new(r, y) * MM).collect();
     let place = places().hammer + DVec3::new(0.0, -80.0 * MM, 0.0);
     let middle = place + DVec3::new(5.0 * MM + 1.0 * MM + 40.0 * MM, 0.0, BELL_LAYER + 4.0 * MM);
-    part("Bell", turned(&profile, false, 2 * ROUND), middle, rotation(-0.5 * PI * DVec3::X), BRASS, finishes.brass)
+    part("Bell", revolve(&profile, 2 * ROUND), middle, rotation(-0.5 * PI * DVec3::X), BRASS, finishes.brass)
 }

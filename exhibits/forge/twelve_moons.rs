@@ -7,12 +7,12 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hung::cut_plate;
+use soffio_authoring::hanging::cut_plate;
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Piece, named};
-use soffio_authoring::stock::{ALUMINIUM, MM, ceiling};
-use soffio_authoring::tree::{Bough, Hanging, hang};
+use soffio_authoring::stock_parts::{ALUMINIUM, MM, ceiling};
+use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 /// Sheet of all moons.
 const SHEET: f64 = 1.0 * MM;
@@ -89,11 +89,11 @@ pub fn glb() -> (Mobile, Vec<u8>) {
         _ => gold,
     };
     let [diameter, mass, turn, stem] = LAST;
-    let mut below = Hanging::Plate(moon(11, [diameter, mass, stem], night), turn);
+    let mut below = TreeNode::Plate(moon(11, [diameter, mass, stem], night), turn);
     for (k, row) in BOUGHS.iter().enumerate().rev() {
         let [diameter, mass, wire, length, rise, bough_turn, turn, stem] = *row;
-        let moon = Hanging::Plate(moon(k, [diameter, mass, stem], finish(k)), turn);
-        below = Hanging::bough(Bough {
+        let moon = TreeNode::Plate(moon(k, [diameter, mass, stem], finish(k)), turn);
+        below = TreeNode::branch(BranchNode {
             name: format!("Bough{}", k + 1),
             radius: 0.5 * wire * MM,
             chord: length * MM,
@@ -103,13 +103,13 @@ pub fn glb() -> (Mobile, Vec<u8>) {
             ends: [below, moon],
         });
     }
-    let work = Mobile { pieces: hang(HOOK, below), stand: ceiling(iron) };
-    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
-    for (piece, pose) in &work.pieces {
+    let mobile = Mobile { pieces: assemble_tree(HOOK, below), stand: ceiling(iron) };
+    mobile.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: HOOK });
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
     let target = DVec3::new(-0.02, 0.50, 0.0);
     let away = DVec3::new(-0.30, 0.07, 1.0).normalize();
     scene.camera("CamFront", target + 2.25 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
-    (work, scene.into_glb("Twelve moons", "Original composition of the Soffio project; MIT OR Apache-2.0"))
+    (mobile, scene.into_glb("Twelve moons", "Original composition of the Soffio project; MIT OR Apache-2.0"))
 }

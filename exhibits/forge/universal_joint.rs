@@ -4,8 +4,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, ring, rod, slab, vane};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, ring, rod, slab, vane, y_to_z};
 
 /// Height of both shafts, and the angle between them, rad.
 const SHAFT: f64 = 200.0 * MM;
@@ -20,10 +20,10 @@ pub fn glb() -> Vec<u8> {
     let finishes = finishes(&mut scene);
     let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
     let mut parts = vec![
-        part("InShaft", rod(2.5 * MM, 8.0 * MM, ROTOR), none, facing(), STEEL, finishes.steel),
+        part("InShaft", rod(2.5 * MM, 8.0 * MM, ROTOR), none, y_to_z(), STEEL, finishes.steel),
         part("InFork", slab(5.0 * MM, 22.0 * MM, 4.0 * MM), 9.0 * MM * DVec3::Z, along, STEEL, finishes.steel),
         part("InPinUp", rod(2.0 * MM, -12.0 * MM, 12.0 * MM), none, along, BRASS, finishes.brass),
-        part("Hub", rod(8.0 * MM, ROTOR - 6.0 * MM, ROTOR + 8.0 * MM), none, facing(), BRASS, finishes.brass),
+        part("Hub", rod(8.0 * MM, ROTOR - 6.0 * MM, ROTOR + 8.0 * MM), none, y_to_z(), BRASS, finishes.brass),
     ];
     for (k, name) in ["Vane1", "Vane2", "Vane3", "Vane4"].into_iter().enumerate() {
         let size = [74.0 * MM, 34.0 * MM, 1.0 * MM];
@@ -31,9 +31,9 @@ pub fn glb() -> Vec<u8> {
         blade.place.position.z += ROTOR;
         parts.push(blade);
     }
-    let rotor = Piece { name: "Rotor", parts, bends: Vec::new(), marks: Vec::new() };
+    let rotor = Piece { name: "Rotor", parts, wires: Vec::new(), markers: Vec::new() };
     let face = [(0.0, -1.5), (52.0, -1.5), (54.0, 0.0), (52.0, 1.5), (0.0, 1.5)];
-    let face = turned(&face.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let face = revolve(&face.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let lay = rotation(0.5 * PI * DVec3::Z);
     // As long on either side of the shaft: nothing pulls it round.
     let pointer = |name, side: f64, color| {
@@ -43,19 +43,19 @@ pub fn glb() -> Vec<u8> {
     let dial = Piece {
         name: "Dial",
         parts: vec![
-            part("OutShaft", rod(2.5 * MM, -DIAL - 12.0 * MM, -8.0 * MM), none, facing(), STEEL, finishes.steel),
+            part("OutShaft", rod(2.5 * MM, -DIAL - 12.0 * MM, -8.0 * MM), none, y_to_z(), STEEL, finishes.steel),
             part("OutFork", slab(22.0 * MM, 5.0 * MM, 4.0 * MM), -9.0 * MM * DVec3::Z, along, STEEL, finishes.steel),
             part("OutPin", rod(2.0 * MM, -12.0 * MM, 12.0 * MM), none, lay, BRASS, finishes.brass),
-            part("DialFace", face, -DIAL * DVec3::Z, facing(), WOOD, finishes.white),
+            part("DialFace", face, -DIAL * DVec3::Z, y_to_z(), WOOD, finishes.white),
             pointer("Pointer", 1.0, finishes.red),
             pointer("PointerTail", -1.0, finishes.wood),
         ],
-        bends: Vec::new(),
-        marks: vec![("DialEnd", (-DIAL - 12.0 * MM) * DVec3::Z)],
+        wires: Vec::new(),
+        markers: vec![("DialEnd", (-DIAL - 12.0 * MM) * DVec3::Z)],
     };
     let top = SHAFT * DVec3::Y;
     let turn = rotation(-BEND * DVec3::Y);
-    let bearing = |z: f64| ring(2.7 * MM, 6.0 * MM, 8.0 * MM).moved(z * DVec3::Y);
+    let bearing = |z: f64| ring(2.7 * MM, 6.0 * MM, 8.0 * MM).translated(z * DVec3::Y);
     let end = top + turn * ((-DIAL - 12.0 * MM) * DVec3::Z);
     let stand = Piece {
         name: "Stand",
@@ -68,8 +68,8 @@ pub fn glb() -> Vec<u8> {
                 WOOD,
                 finishes.black,
             ),
-            part("InBearing", bearing(50.0 * MM), top, facing(), BRASS, finishes.brass),
-            part("OutBearing", bearing(-DIAL - 12.0 * MM), top, turn * facing(), BRASS, finishes.brass),
+            part("InBearing", bearing(50.0 * MM), top, y_to_z(), BRASS, finishes.brass),
+            part("OutBearing", bearing(-DIAL - 12.0 * MM), top, turn * y_to_z(), BRASS, finishes.brass),
             part(
                 "InPost",
                 rod(5.0 * MM, 8.0 * MM, SHAFT - 5.0 * MM),
@@ -80,8 +80,8 @@ pub fn glb() -> Vec<u8> {
             ),
             part("OutPost", rod(5.0 * MM, 8.0 * MM, SHAFT - 5.0 * MM), end.with_y(0.0), along, WOOD, finishes.black),
         ],
-        bends: Vec::new(),
-        marks: vec![("OutEnd", end)],
+        wires: Vec::new(),
+        markers: vec![("OutEnd", end)],
     };
     let pose = |rotation, position| Pose { rotation, position };
     stand.write(&mut scene, pose(along, none));

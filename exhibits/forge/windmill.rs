@@ -4,8 +4,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::turned;
-use soffio_authoring::stock::{BRASS, MM, ROUND, STEEL, WOOD, facing, finishes, part, rod, slab, vane, write};
+use soffio_authoring::solid::revolve;
+use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, vane, write, y_to_z};
 
 /// Height of the shaft above the floor.
 const SHAFT: f64 = 330.0 * MM;
@@ -20,20 +20,20 @@ pub fn glb() -> Vec<u8> {
     let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
     let mast =
         [(0.0, 0.0), (66.0, 0.0), (68.0, 3.0), (22.0, 16.0), (9.0, 60.0), (5.5, 300.0), (5.5, 319.0), (0.0, 319.0)];
-    let mast = turned(&mast.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let mast = revolve(&mast.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let stand = Piece {
         name: "Mast",
         parts: vec![part("Tower", mast, none, upright, WOOD, finishes.white)],
-        bends: Vec::new(),
-        marks: Vec::new(),
+        wires: Vec::new(),
+        markers: Vec::new(),
     };
     // Bored along z, its frame at the crossing of mast and shaft; the tail keeps the rotor's weight in balance.
     let sideways = rotation(0.5 * PI * DVec3::Y);
     let head = Piece {
         name: "Head",
         parts: vec![
-            part("Nacelle", rod(9.0 * MM, -34.0 * MM, 34.0 * MM), none, facing(), WOOD, finishes.wood),
-            part("Boom", rod(1.6 * MM, -150.0 * MM, -34.0 * MM), none, facing(), STEEL, finishes.steel),
+            part("Nacelle", rod(9.0 * MM, -34.0 * MM, 34.0 * MM), none, y_to_z(), WOOD, finishes.wood),
+            part("Boom", rod(1.6 * MM, -150.0 * MM, -34.0 * MM), none, y_to_z(), STEEL, finishes.steel),
             part(
                 "TailVane",
                 slab(56.0 * MM, 66.0 * MM, 1.0 * MM),
@@ -43,15 +43,15 @@ pub fn glb() -> Vec<u8> {
                 finishes.red,
             ),
         ],
-        bends: Vec::new(),
-        marks: vec![("HeadShaft", OVERHANG * DVec3::Z)],
+        wires: Vec::new(),
+        markers: vec![("HeadShaft", OVERHANG * DVec3::Z)],
     };
-    let mut parts = vec![part("Hub", rod(8.0 * MM, -6.0 * MM, 8.0 * MM), none, facing(), BRASS, finishes.brass)];
+    let mut parts = vec![part("Hub", rod(8.0 * MM, -6.0 * MM, 8.0 * MM), none, y_to_z(), BRASS, finishes.brass)];
     parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
         let size = [82.0 * MM, 30.0 * MM, 1.0 * MM];
         vane(name, size, 49.0 * MM, 0.5 * PI * k as f64, 0.6, (WOOD, finishes.blue))
     }));
-    let rotor = Piece { name: "Rotor", parts, bends: Vec::new(), marks: Vec::new() };
+    let rotor = Piece { name: "Rotor", parts, wires: Vec::new(), markers: Vec::new() };
     let top = SHAFT * DVec3::Y;
     let pieces = [(stand, none), (head, top), (rotor, top + OVERHANG * DVec3::Z)];
     write(scene, "Windmill", &pieces, DVec3::new(0.42, 0.36, 0.95), DVec3::new(0.0, 0.23, 0.0))

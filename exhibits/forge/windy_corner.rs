@@ -3,13 +3,13 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hung::{HOLE_RADIUS, hung_plate};
-use soffio_authoring::mobile::{Mobile, Wires, cascade};
+use soffio_authoring::hanging::{HOLE_RADIUS, hanging_plate};
+use soffio_authoring::mobile::{CascadeBranches, Mobile, cascade};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::{sheet, turned};
-use soffio_authoring::stock::{
-    BRASS, Finishes, MM, ROUND, STEEL, WOOD, facing, finishes, gallows, part, ring, rod, vane,
+use soffio_authoring::solid::{extrude, revolve};
+use soffio_authoring::stock_parts::{
+    BRASS, Finishes, MM, ROUND, STEEL, WOOD, bent_rod_stand, finishes, part, ring, rod, vane, y_to_z,
 };
 
 /// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
@@ -36,14 +36,14 @@ fn strip(names: [&'static str; 3], size: [f64; 2], stem: f64, finish: usize) -> 
     let (inset, radius) = (4.0 * MM, HOLE_RADIUS * MM);
     let outline = rectangle((inset - 0.5 * size[1]) * DVec2::Y, size.into());
     let hole = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.0, ROUND / 4);
-    hung_plate(names, (sheet(&outline, &[hole], THICKNESS, 0.2 * THICKNESS), CARD, finish), stem)
+    hanging_plate(names, (extrude(&outline, &[hole], THICKNESS, 0.2 * THICKNESS), CARD, finish), stem)
 }
 
 /// The post on which the pinwheel turns.
 fn post(finishes: &Finishes) -> Piece {
     let profile = [(0.0, 0.0), (46.0, 0.0), (48.0, 3.0), (16.0, 11.0), (6.0, 40.0), (4.0, 230.0), (4.0, 256.0)];
     let profile = profile.map(|(r, y)| DVec2::new(r, y) * MM).into_iter().chain([DVec2::new(0.0, 256.0 * MM)]);
-    let pillar = turned(&profile.collect::<Vec<_>>(), false, 2 * ROUND);
+    let pillar = revolve(&profile.collect::<Vec<_>>(), 2 * ROUND);
     let behind = -34.0 * MM;
     let spindle = rod(1.5 * MM, behind - 6.0 * MM, -6.0 * MM);
     let at = DVec3::new(0.0, PINWHEEL.y, behind);
@@ -51,22 +51,22 @@ fn post(finishes: &Finishes) -> Piece {
         name: "Post",
         parts: vec![
             part("Pillar", pillar, behind * DVec3::Z, DQuat::IDENTITY, WOOD, finishes.wood),
-            part("Spindle", spindle, PINWHEEL.y * DVec3::Y, facing(), STEEL, finishes.steel),
+            part("Spindle", spindle, PINWHEEL.y * DVec3::Y, y_to_z(), STEEL, finishes.steel),
         ],
-        bends: Vec::new(),
-        marks: vec![("SpindleEnd", at - behind * DVec3::Z)],
+        wires: Vec::new(),
+        markers: vec![("SpindleEnd", at - behind * DVec3::Z)],
     }
 }
 
 /// The pinwheel, its sails red and white in turn.
 fn pinwheel(finishes: &Finishes) -> Piece {
-    let mut parts = vec![part("Hub", rod(6.0 * MM, -5.0 * MM, 6.0 * MM), DVec3::ZERO, facing(), BRASS, finishes.brass)];
+    let mut parts = vec![part("Hub", rod(6.0 * MM, -5.0 * MM, 6.0 * MM), DVec3::ZERO, y_to_z(), BRASS, finishes.brass)];
     parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
         let size = [44.0 * MM, 26.0 * MM, 1.0 * MM];
         let finish = if k % 2 == 0 { finishes.red } else { finishes.white };
         vane(name, size, 28.0 * MM, 2.0 * PI * k as f64 / VANES.len() as f64, 0.7, (WOOD, finish))
     }));
-    Piece { name: "Pinwheel", parts, bends: Vec::new(), marks: Vec::new() }
+    Piece { name: "Pinwheel", parts, wires: Vec::new(), markers: Vec::new() }
 }
 
 /// The vent behind it, a ring on a leg.
@@ -77,12 +77,12 @@ fn vent(finishes: &Finishes) -> Piece {
     Piece {
         name: "Vent",
         parts: vec![
-            part("VentRing", ring(46.0 * MM, 52.0 * MM, 36.0 * MM), height, facing(), STEEL, finishes.steel),
+            part("VentRing", ring(46.0 * MM, 52.0 * MM, 36.0 * MM), height, y_to_z(), STEEL, finishes.steel),
             part("VentLeg", leg, none, upright, STEEL, finishes.black),
             part("VentFoot", rod(40.0 * MM, 0.0, 6.0 * MM), none, upright, STEEL, finishes.black),
         ],
-        bends: Vec::new(),
-        marks: vec![("VentMouth", height + 18.0 * MM * DVec3::Z)],
+        wires: Vec::new(),
+        markers: vec![("VentMouth", height + 18.0 * MM * DVec3::Z)],
     }
 }
 
@@ -92,12 +92,12 @@ fn window(finishes: &Finishes) -> Piece {
     let middle = WINDOW.y * DVec2::Y;
     let frame = rectangle(0.19 * DVec2::Y, DVec2::new(0.20, 0.38));
     let opening = rectangle(middle, DVec2::new(0.16, 0.24));
-    let frame = sheet(&frame, &[opening], 10.0 * MM, 1.0 * MM);
+    let frame = extrude(&frame, &[opening], 10.0 * MM, 1.0 * MM);
     Piece {
         name: "Window",
         parts: vec![part("Frame", frame, DVec3::ZERO, rotation(atan2(way.x, way.z) * DVec3::Y), WOOD, finishes.white)],
-        bends: Vec::new(),
-        marks: vec![("WindowMiddle", WINDOW.y * DVec3::Y)],
+        wires: Vec::new(),
+        markers: vec![("WindowMiddle", WINDOW.y * DVec3::Y)],
     }
 }
 
@@ -106,24 +106,24 @@ fn mobile(finishes: &Finishes) -> Mobile {
     let large = strip(["LargeStrip", "LargeHook", "LargeStem"], [30.0 * MM, 130.0 * MM], 40.0 * MM, finishes.blue);
     let middle = strip(["MiddleStrip", "MiddleHook", "MiddleStem"], [24.0 * MM, 100.0 * MM], 36.0 * MM, finishes.red);
     let small = strip(["SmallStrip", "SmallHook", "SmallStem"], [20.0 * MM, 80.0 * MM], 44.0 * MM, finishes.white);
-    let wires = Wires {
+    let wires = CascadeBranches {
         radius: [0.5 * MM, 0.4 * MM],
         eye: [2.2 * MM, 1.8 * MM],
         chord: [120.0 * MM, 92.0 * MM],
         droop: [8.0 * MM, 5.0 * MM],
         lower_yaw: LOWER_YAW,
     };
-    cascade(HOOK, &wires, [large, middle, small], gallows(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black))
+    cascade(HOOK, &wires, [large, middle, small], bent_rod_stand(HOOK, DVec2::new(HOOK.x, -0.10), finishes.black))
 }
 
 /// Draws, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let work = mobile(&finishes);
+    let mobile = mobile(&finishes);
     let floor = |point: DVec3| DVec3::new(point.x, 0.0, point.z);
     let standing = [
-        (&work.stand, DVec3::ZERO),
+        (&mobile.stand, DVec3::ZERO),
         (&post(&finishes), floor(PINWHEEL)),
         (&pinwheel(&finishes), PINWHEEL),
         (&vent(&finishes), floor(PINWHEEL) - VENT * DVec3::Z),
@@ -132,11 +132,11 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     for (piece, position) in standing {
         piece.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position });
     }
-    for (piece, pose) in &work.pieces {
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
     let (eye, target) = (DVec3::new(0.03, 0.32, 1.0), DVec3::new(0.02, 0.20, 0.0));
     scene.camera("CamFront", eye, target, 27.0 * PI / 180.0, 16.0 / 9.0);
     let copyright = "Original work of the Soffio project; MIT OR Apache-2.0";
-    (work, scene.into_glb("Windy corner", copyright))
+    (mobile, scene.into_glb("Windy corner", copyright))
 }

@@ -7,11 +7,11 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
 use super::glb::{Finish, Glass, Scene};
-use super::hung::{BEVEL, to_mass};
+use super::hanging::{BEVEL, to_mass};
 use super::outline::{Polygon, area_and_centroid, ring};
-use super::piece::{Bend, Piece, load, named};
-use super::solid::{Solid, sheet, turned};
-use super::stock::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
+use super::piece::{BentWire, Piece, load, named};
+use super::solid::{Solid, extrude, revolve, revolve_ring};
+use super::stock_parts::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
 
 /// Where the crown hangs.
 const HOOK: f64 = 1.26;
@@ -33,7 +33,7 @@ const SAIL_MASS: f64 = 10e-3;
 const LIME_WOOD: f64 = 530.0;
 
 /// What a chime is made of.
-pub struct Make<'a> {
+pub struct ChimeDesign<'a> {
     /// Title of the scene.
     pub title: &'a str,
     /// Lengths of the tubes, mm, the longest first.
@@ -51,7 +51,7 @@ pub struct Make<'a> {
 }
 
 /// Aluminium 6061-T6, C5 to C6.
-pub const ALUMINIUM: Make<'static> = Make {
+pub const ALUMINIUM: ChimeDesign<'static> = ChimeDesign {
     title: "Wind chimes of aluminium",
     lengths: &[533.8, 503.4, 474.7, 434.6, 409.7, 374.9],
     tube: [25.4, 1.65],
@@ -62,7 +62,7 @@ pub const ALUMINIUM: Make<'static> = Make {
 };
 
 /// Bamboo, C5 to A5.
-pub const BAMBOO: Make<'static> = Make {
+pub const BAMBOO: ChimeDesign<'static> = ChimeDesign {
     title: "Wind chimes of bamboo",
     lengths: &[497.0, 468.0, 440.0, 401.0, 377.0],
     tube: [30.0, 4.0],
@@ -73,7 +73,7 @@ pub const BAMBOO: Make<'static> = Make {
 };
 
 /// Soda-lime glass, C5 to A5.
-pub const GLASS: Make<'static> = Make {
+pub const GLASS: ChimeDesign<'static> = ChimeDesign {
     title: "Wind chimes of glass",
     lengths: &[480.3, 453.0, 427.3, 391.4, 369.1],
     tube: [20.0, 1.8],
@@ -83,7 +83,7 @@ pub const GLASS: Make<'static> = Make {
     sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
 };
 
-struct Looks {
+struct FinishIndices {
     tubes: usize,
     sail: usize,
     wood: usize,
@@ -91,68 +91,72 @@ struct Looks {
 }
 
 /// From the crown's underside down to the height at which all tubes are struck.
-fn drop(make: &Make) -> f64 {
-    STRUCK * make.lengths[0] * MM + HEADROOM
+fn drop(design: &ChimeDesign) -> f64 {
+    STRUCK * design.lengths[0] * MM + HEADROOM
 }
 
 /// A tube of `length` along y about the origin.
 fn tube([outer, wall]: [f64; 2], length: f64) -> Solid {
     let (radius, inner, half) = (0.5 * outer * MM, (0.5 * outer - wall) * MM, 0.5 * length);
-    turned(
+    revolve_ring(
         &[(inner, -half), (radius, -half), (radius, half), (inner, half)].map(|(r, y)| DVec2::new(r, y)),
-        true,
         2 * ROUND,
     )
 }
 
 /// A cord of `length` from the origin down, threaded through a bead at its foot.
-fn cord(k: usize, length: f64, looks: &Looks) -> Piece {
+fn cord(k: usize, length: f64, finishes: &FinishIndices) -> Piece {
     let name = named(format!("Cord{k}"));
     let radius = 6.0 * MM;
     let ball = (0..=12).map(|i| {
         let angle = PI * (f64::from(i) / 12.0 - 0.5);
         DVec2::new(if i % 12 == 0 { 0.0 } else { radius * cos(angle) }, radius * sin(angle))
     });
-    let bead = turned(&ball.collect::<Vec<_>>(), false, ROUND / 2);
+    let bead = revolve(&ball.collect::<Vec<_>>(), ROUND / 2);
     let at = -0.35 * length * DVec3::Y;
     Piece {
         name,
-        parts: vec![part(named(format!("Bead{k}")), bead, at, DQuat::IDENTITY, WOOD, looks.wood)],
-        bends: vec![line(named(format!("CordLine{k}")), length)],
-        marks: vec![(named(format!("CordEnd{k}")), -length * DVec3::Y)],
+        parts: vec![part(named(format!("Bead{k}")), bead, at, DQuat::IDENTITY, WOOD, finishes.wood)],
+        wires: vec![line(named(format!("CordLine{k}")), length)],
+        markers: vec![(named(format!("CordEnd{k}")), -length * DVec3::Y)],
     }
 }
 
 /// Braided cord, drawn straight down from the origin: 0.7 mm in radius, as heavy as nylon.
-fn line(name: &'static str, length: f64) -> Bend {
-    Bend { name, points: vec![DVec3::ZERO, -length * DVec3::Y], radius: 0.7 * MM, density: 1150.0 }
+fn line(name: &'static str, length: f64) -> BentWire {
+    BentWire { name, points: vec![DVec3::ZERO, -length * DVec3::Y], radius: 0.7 * MM, density: 1150.0 }
 }
 
 /// The crown: a turned board on a bridle of three cords; its origin is the ring they meet in. Long tubes are heavier: the
 /// board hangs `aside` of the ring, so that it is level.
-fn crown(make: &Make, circle: f64, aside: DVec3, looks: &Looks) -> Piece {
-    let rim = (circle + 0.5 * make.tube[0] * MM + 10.0 * MM) / MM;
+fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndices) -> Piece {
+    let rim = (circle + 0.5 * design.tube[0] * MM + 10.0 * MM) / MM;
     let top = 16.0;
     #[rustfmt::skip] // rows of a drawing
     let board = [
         (0.0, 0.0), (rim - 3.0, 0.0), (rim, 3.0), (rim, 7.5), (rim - 2.0, 9.5), (rim - 7.0, 10.5),
         (rim - 12.0, 13.5), (rim - 18.0, top), (0.0, top),
     ];
-    let board = turned(&board.map(|(r, y)| DVec2::new(r, y) * MM), false, 3 * ROUND);
+    let board = revolve(&board.map(|(r, y)| DVec2::new(r, y) * MM), 3 * ROUND);
     let loops = ring(DVec3::new(0.0, -4.0 * MM, 0.0), 5.0 * MM, DVec3::Y, DVec3::Z, 16);
-    let mut bends = vec![Bend { name: "CrownRing", points: loops, radius: 1.0 * MM, density: STEEL }];
+    let mut wires = vec![BentWire { name: "CrownRing", points: loops, radius: 1.0 * MM, density: STEEL }];
     for (k, name) in ["BridleA", "BridleB", "BridleC"].into_iter().enumerate() {
         let angle = 2.0 * PI * (k as f64 / 3.0 + 0.06);
         let out = (rim - 20.0) * MM;
         let foot = aside + DVec3::new(out * cos(angle), top * MM - BRIDLE, out * sin(angle));
-        bends.push(Bend { name, points: vec![-8.0 * MM * DVec3::Y, foot], radius: 0.7 * MM, density: 1150.0 });
+        wires.push(BentWire { name, points: vec![-8.0 * MM * DVec3::Y, foot], radius: 0.7 * MM, density: 1150.0 });
     }
     let under = aside - BRIDLE * DVec3::Y;
-    let mut marks = vec![("CrownHook", DVec3::ZERO), ("CrownMiddle", under)];
-    for (k, at) in places(make.lengths.len(), circle).into_iter().enumerate() {
-        marks.push((named(format!("CrownHole{}", k + 1)), under + at));
+    let mut markers = vec![("CrownHook", DVec3::ZERO), ("CrownMiddle", under)];
+    for (k, at) in places(design.lengths.len(), circle).into_iter().enumerate() {
+        markers.push((named(format!("CrownHole{}", k + 1)), under + at));
     }
-    Piece { name: "Crown", parts: vec![part("Board", board, under, DQuat::IDENTITY, WOOD, looks.wood)], bends, marks }
+    Piece {
+        name: "Crown",
+        parts: vec![part("Board", board, under, DQuat::IDENTITY, WOOD, finishes.wood)],
+        wires,
+        markers,
+    }
 }
 
 /// Where the tubes hang, from the middle: evenly about a circle, none right before another.
@@ -165,23 +169,23 @@ fn places(count: usize, circle: f64) -> Vec<DVec3> {
 }
 
 /// The striker on its line; the line goes on to the sail.
-fn striker(drop: f64, looks: &Looks) -> Piece {
+fn striker(drop: f64, finishes: &FinishIndices) -> Piece {
     let height = STRIKER_MASS / (WOOD * PI * STRIKER * STRIKER);
     let (h, edge) = (0.5 * height, 1.5 * MM);
     let profile =
         [(0.0, -h), (STRIKER - edge, -h), (STRIKER, edge - h), (STRIKER, h - edge), (STRIKER - edge, h), (0.0, h)];
-    let disc = turned(&profile.map(|(r, y)| DVec2::new(r, y)), false, 2 * ROUND);
+    let disc = revolve(&profile.map(|(r, y)| DVec2::new(r, y)), 2 * ROUND);
     Piece {
         name: "Striker",
-        parts: vec![part("StrikerDisc", disc, -drop * DVec3::Y, DQuat::IDENTITY, WOOD, looks.wood)],
-        bends: vec![line("StrikerLine", drop)],
-        marks: vec![("StrikerHook", DVec3::ZERO), ("StrikerFoot", -drop * DVec3::Y)],
+        parts: vec![part("StrikerDisc", disc, -drop * DVec3::Y, DQuat::IDENTITY, WOOD, finishes.wood)],
+        wires: vec![line("StrikerLine", drop)],
+        markers: vec![("StrikerHook", DVec3::ZERO), ("StrikerFoot", -drop * DVec3::Y)],
     }
 }
 
 /// The sail on its line: two crossed leaves of 60 mm by 100 mm, their corners rounded. However the line twists, one of them
 /// faces the wind.
-fn sail(looks: &Looks) -> Piece {
+fn sail(finishes: &FinishIndices) -> Piece {
     let (x, y) = (30.0, 50.0);
     // |x/a|⁴ + |y/b|⁴ = 1: a card with soft corners.
     let soft = |share: f64| share.abs().sqrt().copysign(share);
@@ -196,29 +200,29 @@ fn sail(looks: &Looks) -> Piece {
     let solid = to_mass(outline, Vec::new(), thickness, (LIME_WOOD, mass));
     // The other leaf is let in: half of it on either side.
     let half: Polygon = (0..=ROUND / 2).map(|k| corner(k) * MM).map(|p| p.with_x(p.x.max(0.5 * thickness))).collect();
-    let half = sheet(&half, &[], thickness, BEVEL);
+    let half = extrude(&half, &[], thickness, BEVEL);
     let middle = -SAIL_LINE * DVec3::Y;
     let about = |quarters: f64| rotation(0.5 * PI * quarters * DVec3::Y);
-    let leaf = |name, solid, place, turn| part(name, solid, place, turn, LIME_WOOD, looks.sail);
+    let leaf = |name, solid, place, turn| part(name, solid, place, turn, LIME_WOOD, finishes.sail);
     let leaves = vec![
-        leaf("Sail", solid.moved(middle), DVec3::ZERO, DQuat::IDENTITY),
+        leaf("Sail", solid.translated(middle), DVec3::ZERO, DQuat::IDENTITY),
         leaf("SailFront", half.clone(), middle, about(-1.0)),
         leaf("SailBack", half, middle, about(1.0)),
     ];
     Piece {
         name: "Sail",
         parts: leaves,
-        bends: vec![line("SailLine", SAIL_LINE - y * MM)],
-        marks: vec![("SailHook", DVec3::ZERO)],
+        wires: vec![line("SailLine", SAIL_LINE - y * MM)],
+        markers: vec![("SailHook", DVec3::ZERO)],
     }
 }
 
 /// Draws and writes a chime.
-pub fn glb(make: &Make) -> Vec<u8> {
+pub fn glb(design: &ChimeDesign) -> Vec<u8> {
     let mut scene = Scene::default();
-    let looks = Looks {
-        tubes: scene.finish(&make.tubes),
-        sail: scene.finish(&make.sail),
+    let finishes = FinishIndices {
+        tubes: scene.finish(&design.tubes),
+        sail: scene.finish(&design.sail),
         wood: scene.finish(&Finish {
             name: "Oiled cherry",
             color: [0.30, 0.115, 0.045],
@@ -227,38 +231,38 @@ pub fn glb(make: &Make) -> Vec<u8> {
         }),
         iron: scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 }),
     };
-    if let Some(glass) = &make.glass {
-        scene.clear(looks.tubes, glass);
+    if let Some(glass) = &design.glass {
+        scene.clear(finishes.tubes, glass);
     }
-    let circle = STRIKER + GAP + 0.5 * make.tube[0] * MM;
-    let (top, drop) = (HOOK * DVec3::Y, drop(make));
-    let lengths = make.lengths.iter().map(|length| length * MM);
-    let hung: Vec<(Piece, Piece, f64)> = (1..)
+    let circle = STRIKER + GAP + 0.5 * design.tube[0] * MM;
+    let (top, drop) = (HOOK * DVec3::Y, drop(design));
+    let lengths = design.lengths.iter().map(|length| length * MM);
+    let hanging: Vec<(Piece, Piece, f64)> = (1..)
         .zip(lengths)
         .map(|(k, length)| {
             let down = drop - (STRUCK - PIN) * length;
             let middle = (PIN - 0.5) * length * DVec3::Y;
-            let pipe = tube(make.tube, length);
-            let own = part(named(format!("Pipe{k}")), pipe, middle, DQuat::IDENTITY, make.density, looks.tubes);
-            let marks = vec![(named(format!("Pin{k}")), DVec3::ZERO)];
-            let tube = Piece { name: named(format!("Tube{k}")), parts: vec![own], bends: Vec::new(), marks };
-            (cord(k, down, &looks), tube, down)
+            let pipe = tube(design.tube, length);
+            let own = part(named(format!("Pipe{k}")), pipe, middle, DQuat::IDENTITY, design.density, finishes.tubes);
+            let markers = vec![(named(format!("Pin{k}")), DVec3::ZERO)];
+            let tube = Piece { name: named(format!("Tube{k}")), parts: vec![own], wires: Vec::new(), markers };
+            (cord(k, down, &finishes), tube, down)
         })
         .collect();
-    let (striker, sail) = (striker(drop, &looks), sail(&looks));
+    let (striker, sail) = (striker(drop, &finishes), sail(&finishes));
     // The bridle's cords stay where they meet, so the board's way aside is not quite that of the whole: three rounds.
-    let places = places(make.lengths.len(), circle);
+    let places = places(design.lengths.len(), circle);
     let aside = (0..3).fold(DVec3::ZERO, |aside, _| {
-        let mut whole = crown(make, circle, aside, &looks).mass();
-        for ((cord, tube, _), at) in hung.iter().zip(&places) {
+        let mut whole = crown(design, circle, aside, &finishes).mass();
+        for ((cord, tube, _), at) in hanging.iter().zip(&places) {
             whole = whole.combine(&load(cord.mass().mass + tube.mass().mass, aside + *at));
         }
         whole = whole.combine(&load(striker.mass().mass + sail.mass().mass, aside));
         aside - DVec3::new(whole.center.x, 0.0, whole.center.z)
     });
     let under = top + aside - BRIDLE * DVec3::Y;
-    let mut pieces = vec![(ceiling(looks.iron), top), (crown(make, circle, aside, &looks), top)];
-    for ((cord, tube, down), at) in hung.into_iter().zip(places) {
+    let mut pieces = vec![(ceiling(finishes.iron), top), (crown(design, circle, aside, &finishes), top)];
+    for ((cord, tube, down), at) in hanging.into_iter().zip(places) {
         pieces.push((cord, under + at));
         pieces.push((tube, under + at - down * DVec3::Y));
     }
@@ -266,5 +270,5 @@ pub fn glb(make: &Make) -> Vec<u8> {
     pieces.push((sail, under - drop * DVec3::Y));
     let target = DVec3::new(0.0, 0.75, 0.0);
     let away = DVec3::new(0.28, 0.04, 1.0).normalize();
-    write(scene, make.title, &pieces, target + 2.35 * away, target)
+    write(scene, design.title, &pieces, target + 2.35 * away, target)
 }

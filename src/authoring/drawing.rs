@@ -10,8 +10,8 @@ use kurbo::{Affine, BezPath, PathEl, Shape};
 use roxmltree::{Document, Node};
 use svgtypes::{Length, LengthUnit, PointsParser, ViewBox};
 
-use super::given::Outline;
 use super::outline::area_and_centroid;
+use super::plate_mobile::Outline;
 use soffio_exhibit::codes;
 use soffio_exhibit::diagnostic::{Diagnostic, Location, Report};
 use soffio_math::DVec2;
@@ -19,14 +19,14 @@ use soffio_math::DVec2;
 /// How far a polygon may be from its curve, mm; corners nearer to each other are one.
 const FLATNESS: f64 = 0.05;
 /// Most corners of a plate.
-const CORNERS: usize = 2000;
+const MAX_CORNERS: usize = 2000;
 /// mm of an inch, and of a CSS pixel.
 const INCH: f64 = 25.4;
 const PIXEL: f64 = INCH / 96.0;
 
 /// Elements that hold others, and those that say nothing about plates.
 const GROUPS: [&str; 4] = ["svg", "g", "a", "switch"];
-const SILENT: [&str; 11] = [
+const IGNORED: [&str; 11] = [
     "defs",
     "title",
     "desc",
@@ -89,7 +89,7 @@ impl Reader<'_> {
     fn refuse(&mut self, node: Node, what: &str, help: &str) {
         let all = node.range();
         let head = self.text[all.clone()].find(['>', '\n']).map_or(all.end, |i| all.start + i + 1);
-        self.report(all.start..head, format!("{} {what}", called(node)), help);
+        self.report(all.start..head, format!("{} {what}", element_name(node)), help);
     }
 
     fn root(&mut self, document: &Document) {
@@ -113,7 +113,7 @@ impl Reader<'_> {
         for node in group.children().filter(Node::is_element) {
             let name = node.tag_name().name();
             let foreign = node.tag_name().namespace().is_some_and(|space| !space.ends_with("/svg"));
-            if foreign || SILENT.contains(&name) || node.attribute("display") == Some("none") {
+            if foreign || IGNORED.contains(&name) || node.attribute("display") == Some("none") {
                 continue;
             }
             let own = match node.attribute("transform").map(str::parse::<svgtypes::Transform>) {
@@ -164,8 +164,8 @@ impl Reader<'_> {
         while points.len() > 1 && near(points[0], points[points.len() - 1]) {
             points.pop();
         }
-        if points.len() > CORNERS {
-            let what = format!("has {} corners; the limit is {CORNERS}", points.len());
+        if points.len() > MAX_CORNERS {
+            let what = format!("has {} corners; the limit is {MAX_CORNERS}", points.len());
             return self.refuse(node, &what, "simplify the path (Inkscape: Path, Simplify)");
         }
         if let Some([a, b]) = crossing(&points) {
@@ -179,12 +179,12 @@ impl Reader<'_> {
         if area < 0.0 {
             points.reverse();
         }
-        self.plates.push(Outline { name: called(node), polygon: points });
+        self.plates.push(Outline { name: element_name(node), polygon: points });
     }
 }
 
 /// How an element is called in messages: `<path id="fin">`.
-fn called(node: Node) -> String {
+fn element_name(node: Node) -> String {
     let name = node.tag_name().name();
     node.attribute("id").map_or_else(|| format!("<{name}>"), |id| format!("<{name} id=\"{id}\">"))
 }

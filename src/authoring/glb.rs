@@ -78,7 +78,7 @@ impl Scene {
     }
 
     /// Adds a mark: an empty node that names a point of its parent's frame.
-    pub fn mark(&mut self, name: &str, parent: Option<usize>, point: DVec3) {
+    pub fn marker(&mut self, name: &str, parent: Option<usize>, point: DVec3) {
         self.node(name, parent, point, DQuat::IDENTITY);
     }
 

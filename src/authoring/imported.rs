@@ -10,9 +10,9 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::khr;
-use super::nodes::{called, fit, meshes, solid, written};
-use super::words::{attract, labels, quoted, three};
-use super::{File, Made};
+use super::nodes::{fit, meshes, sidecar_name, toml_vector, world_meshes};
+use super::texts::{AttractBreath, attract, in_three_languages, labels, quoted};
+use super::{ExhibitFolder, FolderFile};
 use soffio_exhibit::diagnostic::{Diagnostic, Report};
 use soffio_exhibit::model::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, Model, import};
 use soffio_exhibit::{SIDECAR, codes, materials, paths};
@@ -20,29 +20,29 @@ use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 
 /// Words of names of what stands still.
-const STILL: [&str; 14] = [
+const STATIC_WORDS: [&str; 14] = [
     "stand", "base", "floor", "ground", "wall", "room", "frame", "ceiling", "post", "plinth", "foot", "table", "case",
     "support",
 ];
 /// Proposed for what has no physics of its own, and of its sheet, m.
 const MATERIAL: &str = "aluminium";
-const SHEET: f64 = 1e-3;
+const SHEET_THICKNESS: f64 = 1e-3;
 
 /// Makes the folder's files from the model at `path`.
 ///
 /// # Errors
 /// What the loader says about the model, and files beside it that cannot be read.
-pub fn folder(path: &Path, id: &str) -> Result<Made, Report> {
+pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
     let Imported { model, warnings } = import(path)?;
-    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::of)?;
-    let json = document(&bytes).map_err(Report::of)?;
+    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
+    let json = document(&bytes).map_err(Report::single)?;
     let binary = bytes.starts_with(b"glTF");
     let name = format!("{id}.{}", if binary { "glb" } else { "gltf" });
-    let mut made = Made { files: beside(path, &json).map_err(Report::of)?, remarks: Vec::new() };
+    let mut made = ExhibitFolder { files: referenced_files(path, &json).map_err(Report::single)?, remarks: Vec::new() };
     made.remarks.extend(warnings.into_iter().map(|warning| warning.message));
     let text = sidecar(id, &name, &model, &json, &mut made.remarks);
-    made.files.push((name, bytes));
-    made.files.push((SIDECAR.into(), text.into_bytes()));
+    made.files.push(FolderFile { name, bytes });
+    made.files.push(FolderFile { name: SIDECAR.into(), bytes: text.into_bytes() });
     Ok(made)
 }
 
@@ -59,18 +59,18 @@ fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
 }
 
 /// Buffers and images that lie beside the model, by the paths that it names them with.
-fn beside(path: &Path, json: &Value) -> Result<Vec<File>, Diagnostic> {
+fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagnostic> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut files: Vec<File> = Vec::new();
+    let mut files: Vec<FolderFile> = Vec::new();
     for kind in ["buffers", "images"] {
         for uri in json[kind].as_array().into_iter().flatten().filter_map(|entry| entry["uri"].as_str()) {
             if uri.starts_with("data:") {
                 continue;
             }
             let name = paths::percent_decoded(uri);
-            if files.iter().all(|(known, _)| *known != name) {
+            if files.iter().all(|file| file.name != name) {
                 let bytes = paths::read_limited(&paths::inside(folder, &name)?, MAX_FILE_BYTES)?;
-                files.push((name, bytes));
+                files.push(FolderFile { name, bytes });
             }
         }
     }
@@ -87,7 +87,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     );
     let camera = model.nodes.iter().position(|node| node.camera.is_some());
     match camera {
-        Some(node) => _ = writeln!(out, "camera = {}", quoted(&called(model, node))),
+        Some(node) => _ = writeln!(out, "camera = {}", quoted(&sidecar_name(model, node))),
         None => {
             out.push_str("# The model has no camera: its bounds are framed. camera = \"NodeName\" looks through one.\n")
         }
@@ -95,7 +95,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     out.push_str("# Loudness beside the other exhibits: `soffio loudness --write` finds it.\nlevel = \"0 dB\"\n\n");
     let moving = match physics {
         Some(physics) => {
-            if physics.apart {
+            if physics.joints_open {
                 out.push_str("# Joints of the model are open at the start, and draw themselves together.\n[solver]\nassemble = true\n\n");
             }
             out.push_str("# ---- from the model's own physics (KHR_physics_rigid_bodies) -------------------------------------------------\n\n");
@@ -109,11 +109,11 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
             remarks.extend(physics.remarks);
             physics.moving
         }
-        None => propose(&mut out, model, remarks),
+        None => propose_bodies(&mut out, model, remarks),
     };
     let seen: Vec<usize> = moving.iter().copied().filter(|&node| !meshes(model, node).is_empty()).collect();
     for (seed, node) in (1..).zip(&seen) {
-        let name = quoted(&called(model, *node));
+        let name = quoted(&sidecar_name(model, *node));
         let _ = write!(
             out,
             "[[wind_surface]]\nnode = {name}\nsampling = {{ per_area = \"4000 /m2\", min = 16, max = 64, seed = {seed} }}\n\n"
@@ -121,7 +121,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     }
     let mut captions = Vec::new();
     if let Some(node) = seen.first() {
-        let name = quoted(&called(model, *node));
+        let name = quoted(&sidecar_name(model, *node));
         let _ = write!(
             out,
             "# `soffio sound --list` names the timbres; on = \"impact\" sounds a body when something hits it.\n\
@@ -129,9 +129,12 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
         );
         captions.push(("wind", ["[breath rushes past]", "[숨결이 스치는 소리]", "[fruscio del soffio]"]));
     }
-    out.push_str(&attract(&[(5.0, 0.35, [0.5, 0.5]), (22.0, 0.5, [0.5, 0.6])]));
+    out.push_str(&attract(&[
+        AttractBreath { at: 5.0, strength: 0.35, aim: [0.5, 0.5] },
+        AttractBreath { at: 22.0, strength: 0.5, aim: [0.5, 0.6] },
+    ]));
     out.push('\n');
-    let words = three(
+    let words = in_three_languages(
         ["Replace this title", "제목을 바꾸세요", "Titolo da sostituire"],
         ["", "", ""],
         [
@@ -150,35 +153,39 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
 }
 
 /// Bodies for what has no physics of its own; those that move.
-fn propose(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<usize> {
+fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<usize> {
     out.push_str(
         "# ---- bodies, as proposed --------------------------------------------------------------------------------------\n\
          # A body moves as one, with what hangs below its node. Each hangs by a nail above its centre: put the nail where the\n\
          # thing really hangs, or join two of them ([[constraint.point-to-point]]). What is listed nowhere stands still.\n\n",
     );
     // What holds all (an empty node at the top) is no thing itself.
-    let mut things: Vec<usize> = model.roots.clone();
-    while let [only] = things[..]
+    let mut objects: Vec<usize> = model.roots.clone();
+    while let [only] = objects[..]
         && model.nodes[only].mesh.is_none()
     {
-        things = model.nodes[only].children.clone();
+        objects = model.nodes[only].children.clone();
     }
-    let boxes: Vec<(DVec3, DVec3)> = things.iter().map(|&node| bounds(&solid(model, node))).collect();
+    let boxes: Vec<(DVec3, DVec3)> = objects.iter().map(|&node| bounds(&world_meshes(model, node))).collect();
     let mut moving = Vec::new();
-    for (i, &node) in things.iter().enumerate() {
-        let (name, solids) = (called(model, node), solid(model, node));
+    for (i, &node) in objects.iter().enumerate() {
+        let (name, solids) = (sidecar_name(model, node), world_meshes(model, node));
         if solids.is_empty() {
             continue;
         }
         let lower = model.nodes[node].name.to_lowercase();
-        if let Some(word) = STILL.iter().find(|word| lower.contains(**word)) {
+        if let Some(word) = STATIC_WORDS.iter().find(|word| lower.contains(**word)) {
             remarks.push(format!("node \"{name}\" stands still: its name says {word}"));
             continue;
         }
         let density = materials::builtin(MATERIAL).map_or(1.0, |material| material.density);
         let open = solids.iter().any(|mesh| mesh.open_edges() > 0);
         let moments = solids.iter().map(|mesh| {
-            if mesh.open_edges() > 0 { mesh.sheet_moments(SHEET, density) } else { mesh.solid_moments(density) }
+            if mesh.open_edges() > 0 {
+                mesh.sheet_moments(SHEET_THICKNESS, density)
+            } else {
+                mesh.solid_moments(density)
+            }
         });
         let (mut mass, mut first) = (0.0, DVec3::ZERO);
         for own in moments {
@@ -193,24 +200,24 @@ fn propose(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<us
         // A hand's width above what it hangs by, as on a cord; at least its own height's tenth.
         let hook = (first / mass).with_y(high.y + (0.1 * (high.y - low.y)).max(0.02));
         let local = model.nodes[node].world.inverse().transform_point3(hook);
-        let sheet = if open {
-            format!("thickness = \"{} mm\"  # its mesh is open: taken for sheet\n", 1e3 * SHEET)
+        let sheet_thickness = if open {
+            format!("thickness = \"{} mm\"  # its mesh is open: taken for sheet\n", 1e3 * SHEET_THICKNESS)
         } else {
             String::new()
         };
         let (shown, node_name) = (hook.to_array().map(|x| (x * 1e4).round() / 1e4), quoted(&name));
         let _ = write!(
             out,
-            "# {:.1} g as {MATERIAL}.\n[[body]]\nnode = {node_name}\nmaterial = \"{MATERIAL}\"\n{sheet}\n\
+            "# {:.1} g as {MATERIAL}.\n[[body]]\nnode = {node_name}\nmaterial = \"{MATERIAL}\"\n{sheet_thickness}\n\
              # At {shown:?} m of the world.\n[[constraint.nail]]\nname = \"hangs-{node}\"\nbody = {node_name}\nat = {}\nto = {}\n\
              friction = {{ coefficient = 0.3, radius = \"0.3 mm\" }}\n\n",
             1e3 * mass,
-            written(local),
-            written(hook)
+            toml_vector(local),
+            toml_vector(hook)
         );
         remarks.push(format!("node \"{name}\" is a body of {:.1} g as {MATERIAL}, hung above its centre", 1e3 * mass));
         let touches = |k: usize| k != i && boxes[k].0.cmple(high).all() && low.cmple(boxes[k].1).all();
-        if (0..things.len()).any(touches) {
+        if (0..objects.len()).any(touches) {
             remarks.push(format!("node \"{name}\" reaches into another's bounds: it has no collider yet"));
         } else if let Some(fit) = fit(model, node) {
             let _ = write!(out, "[[collider]]\nnode = {node_name}\nshape = {{ fit = \"{fit}\" }}\n\n");

@@ -10,9 +10,9 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use super::khr_joint;
-use super::nodes::{called, fit, written};
-use super::piece::NOTHING;
-use super::words::quoted;
+use super::nodes::{fit, sidecar_name, toml_vector};
+use super::piece::NO_MASS;
+use super::texts::quoted;
 use soffio_exhibit::model::Model;
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose};
@@ -24,7 +24,7 @@ pub const SHAPES: &str = "KHR_implicit_shapes";
 /// The extension knows no density: water's, kg/m³.
 const DENSITY: f64 = 1000.0;
 /// Most pairs of materials and of colliders that are written one by one.
-const MOST_PAIRS: usize = 400;
+const MAX_PAIRS: usize = 400;
 
 /// A model's physics in our words.
 #[derive(Clone, Debug, Default)]
@@ -36,13 +36,13 @@ pub struct Physics {
     /// Nodes that move by forces.
     pub moving: Vec<usize>,
     /// Are joints open at the start?
-    pub apart: bool,
+    pub joints_open: bool,
 }
 
 /// Reads a model's physics; `None` where it has none. `json` is the file's own.
 pub fn physics(model: &Model, json: &Value) -> Option<Physics> {
     let mut reader = Reader { model, json, out: Physics::default() };
-    let carries = (0..model.nodes.len()).any(|node| reader.own(node).is_some());
+    let carries = (0..model.nodes.len()).any(|node| reader.extension(node).is_some());
     carries.then(|| {
         reader.materials();
         reader.bodies();
@@ -82,7 +82,7 @@ impl Solid {
     fn toml(&self) -> String {
         match self {
             Self::Sphere { radius } => format!("{{ sphere = {{ radius = {radius:?} }} }}"),
-            Self::Box { size } => format!("{{ box = {{ size = {} }} }}", written(*size)),
+            Self::Box { size } => format!("{{ box = {{ size = {} }} }}", toml_vector(*size)),
             Self::Capsule { height, radius } => {
                 format!("{{ capsule = {{ height = {height:?}, radius = {radius:?} }} }}")
             }
@@ -125,7 +125,7 @@ pub(super) struct Reader<'a> {
 
 impl Reader<'_> {
     /// A node's physics.
-    pub(super) fn own(&self, node: usize) -> Option<&Value> {
+    pub(super) fn extension(&self, node: usize) -> Option<&Value> {
         self.json["nodes"].get(node)?.get("extensions")?.get(PHYSICS)
     }
 
@@ -134,15 +134,15 @@ impl Reader<'_> {
         self.json["extensions"][PHYSICS][key].as_array().map_or(&[], Vec::as_slice)
     }
 
-    pub(super) fn say(&mut self, node: usize, what: impl std::fmt::Display) {
-        let name = called(self.model, node);
+    pub(super) fn remark(&mut self, node: usize, what: impl std::fmt::Display) {
+        let name = sidecar_name(self.model, node);
         self.out.remarks.push(format!("node \"{name}\": {what}"));
     }
 
     /// The node with a motion that this one moves with.
-    pub(super) fn mover(&self, node: usize) -> Option<usize> {
+    pub(super) fn moving_ancestor(&self, node: usize) -> Option<usize> {
         std::iter::successors(Some(node), |&n| self.model.nodes[n].parent)
-            .find(|&n| self.own(n).is_some_and(|own| own.get("motion").is_some()))
+            .find(|&n| self.extension(n).is_some_and(|extension| extension.get("motion").is_some()))
     }
 
     fn materials(&mut self) {
@@ -160,7 +160,7 @@ impl Reader<'_> {
                 number(material, "restitution", 0.0).clamp(0.0, 1.0),
             );
         }
-        if list.len() * (list.len() + 1) / 2 > MOST_PAIRS {
+        if list.len() * (list.len() + 1) / 2 > MAX_PAIRS {
             self.out
                 .remarks
                 .push(format!("{} materials: their pairs combine by our rule, the geometric mean", list.len()));
@@ -185,10 +185,12 @@ impl Reader<'_> {
 
     fn bodies(&mut self) {
         for node in 0..self.model.nodes.len() {
-            let Some(motion) = self.own(node).and_then(|own| own.get("motion")).cloned() else { continue };
+            let Some(motion) = self.extension(node).and_then(|extension| extension.get("motion")).cloned() else {
+                continue;
+            };
             let animated =
                 self.model.animations.iter().any(|a| a.channels.iter().any(|c| c.node == node && !c.shapes()));
-            let mut table = format!("[[body]]\nnode = {}\n", quoted(&called(self.model, node)));
+            let mut table = format!("[[body]]\nnode = {}\n", quoted(&sidecar_name(self.model, node)));
             let kinematic = motion["isKinematic"].as_bool() == Some(true);
             let infinite = motion["mass"].as_f64() == Some(0.0);
             if animated {
@@ -198,26 +200,26 @@ impl Reader<'_> {
             }
             if kinematic || infinite {
                 let why = if kinematic { "is kinematic and has no animation" } else { "has an infinite mass" };
-                self.say(node, format_args!("{why}: it stands still"));
+                self.remark(node, format_args!("{why}: it stands still"));
                 table.push_str("motion = \"static\"\n\n");
                 self.out.text.push_str(&table);
                 continue;
             }
             self.out.moving.push(node);
-            self.weigh(node, &motion, &mut table);
+            self.write_mass(node, &motion, &mut table);
             let turn = rotation_of(self.model, node);
             let speeds = [("velocity", "linearVelocity"), ("angular_velocity", "angularVelocity")];
             let initial: Vec<String> = speeds
                 .iter()
                 .filter_map(|(ours, theirs)| Some((ours, turn * vector(&motion[*theirs])?)))
                 .filter(|(_, v)| *v != DVec3::ZERO)
-                .map(|(ours, v)| format!("{ours} = {}", written(v)))
+                .map(|(ours, v)| format!("{ours} = {}", toml_vector(v)))
                 .collect();
             if !initial.is_empty() {
                 let _ = writeln!(table, "initial = {{ {} }}", initial.join(", "));
             }
             if motion["gravityFactor"].as_f64().is_some_and(|factor| factor != 1.0) {
-                self.say(node, "gravityFactor is not taken over: gravity is one for all, [scene] gravity");
+                self.remark(node, "gravityFactor is not taken over: gravity is one for all, [scene] gravity");
             }
             table.push('\n');
             self.out.text.push_str(&table);
@@ -225,9 +227,11 @@ impl Reader<'_> {
     }
 
     /// Material, mass, centre and inertia: as given; else of the shapes, as the extension has it; else of the mesh.
-    fn weigh(&mut self, node: usize, motion: &Value, table: &mut String) {
-        let material =
-            self.parts(node).into_iter().find_map(|part| self.own(part)?["collider"]["physicsMaterial"].as_u64());
+    fn write_mass(&mut self, node: usize, motion: &Value, table: &mut String) {
+        let material = self
+            .nodes_of_body(node)
+            .into_iter()
+            .find_map(|part| self.extension(part)?["collider"]["physicsMaterial"].as_u64());
         let _ = match material {
             Some(i) => writeln!(table, "material = \"khr-{i}\""),
             None => writeln!(table, "material = \"beech\"  # the model names none"),
@@ -241,14 +245,14 @@ impl Reader<'_> {
                 if given.is_none() { "  # volume of its shapes × density" } else { "" }
             );
             if let Some(center) = vector(&motion["centerOfMass"]) {
-                let _ = writeln!(table, "center_of_mass = {}", written(center));
+                let _ = writeln!(table, "center_of_mass = {}", toml_vector(center));
             } else if shapes.mass > 0.0 {
                 // Node space may be scaled.
                 let center = self.model.nodes[node]
                     .world
                     .inverse()
-                    .transform_point3(frame(self.model, node).point(shapes.center));
-                let _ = writeln!(table, "center_of_mass = {}", written(center));
+                    .transform_point3(rigid_frame(self.model, node).point(shapes.center));
+                let _ = writeln!(table, "center_of_mass = {}", toml_vector(center));
             }
             let diagonal = vector(&motion["inertiaDiagonal"]);
             match diagonal {
@@ -256,11 +260,11 @@ impl Reader<'_> {
                     let turn = motion["inertiaOrientation"].as_array().into_iter().flatten().filter_map(Value::as_f64);
                     let turn = <[f64; 4]>::try_from(turn.collect::<Vec<_>>());
                     let turn = turn.map_or(String::new(), |q| format!(", orientation = {q:?}"));
-                    let _ = writeln!(table, "inertia = {{ diagonal = {}{turn} }}", written(d));
+                    let _ = writeln!(table, "inertia = {{ diagonal = {}{turn} }}", toml_vector(d));
                 }
                 other => {
                     if other.is_some() {
-                        self.say(
+                        self.remark(
                             node,
                             "an infinite moment of inertia is not taken over; hold its axis by a constraint",
                         );
@@ -272,7 +276,7 @@ impl Reader<'_> {
                         let _ = writeln!(
                             table,
                             "inertia = {{ diagonal = {}, orientation = [{:?}, {:?}, {:?}, {:?}] }}",
-                            written(moments),
+                            toml_vector(moments),
                             q.x,
                             q.y,
                             q.z,
@@ -285,42 +289,42 @@ impl Reader<'_> {
     }
 
     /// Nodes that move with a motion's node.
-    fn parts(&self, node: usize) -> Vec<usize> {
-        (0..self.model.nodes.len()).filter(|&n| self.mover(n) == Some(node)).collect()
+    fn nodes_of_body(&self, node: usize) -> Vec<usize> {
+        (0..self.model.nodes.len()).filter(|&n| self.moving_ancestor(n) == Some(node)).collect()
     }
 
     /// What the shapes of a body weigh, in its rigid frame.
     fn shape_mass(&mut self, node: usize) -> MassProperties {
-        let base = frame(self.model, node);
-        let mut whole = NOTHING;
-        for part in self.parts(node) {
+        let base = rigid_frame(self.model, node);
+        let mut total = NO_MASS;
+        for part in self.nodes_of_body(node) {
             let Some((solid, _)) = self.solid(part, false) else { continue };
             let (volume, moments) = solid.volume();
-            let own = frame(self.model, part);
-            let turn = DMat3::from_quat(base.rotation.inverse() * own.rotation);
+            let extension = rigid_frame(self.model, part);
+            let turn = DMat3::from_quat(base.rotation.inverse() * extension.rotation);
             let mass = DENSITY * volume;
             let inertia = turn * DMat3::from_diagonal(mass * moments) * turn.transpose();
-            whole = whole.combine(&MassProperties { mass, center: base.inverse_point(own.position), inertia });
+            total = total.combine(&MassProperties { mass, center: base.inverse_point(extension.position), inertia });
         }
-        whole
+        total
     }
 
     /// The shape that a node collides as, at its node's scale, and what is lost in our words.
-    fn solid(&self, node: usize, told: bool) -> Option<(Solid, Option<String>)> {
-        let collider = self.own(node)?.get("collider")?;
+    fn solid(&self, node: usize, reported: bool) -> Option<(Solid, Option<String>)> {
+        let collider = self.extension(node)?.get("collider")?;
         // The draft has moved it: collider.shape, then collider.geometry.shape.
         let index = collider["geometry"]["shape"].as_u64().or(collider["shape"].as_u64())?;
         let shape = self.json["extensions"][SHAPES]["shapes"].get(usize::try_from(index).ok()?)?;
         let kind = shape["type"].as_str()?;
-        let own = &shape[kind];
+        let extension = &shape[kind];
         let axes = DMat3::from_mat4(self.model.nodes[node].world);
         let scale = DVec3::new(axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length());
         let round = 0.5 * (scale.x + scale.z);
-        let number = |key: &str, default: f64| own[key].as_f64().unwrap_or(default);
+        let number = |key: &str, default: f64| extension[key].as_f64().unwrap_or(default);
         let mut lost = None;
         let mut radius = |default: f64| {
             let (top, bottom) = (number("radiusTop", default), number("radiusBottom", default));
-            if told && top != bottom {
+            if reported && top != bottom {
                 lost =
                     Some(format!("its {kind} is {bottom} m wide at one end and {top} m at the other: taken as even"));
             }
@@ -328,11 +332,11 @@ impl Reader<'_> {
         };
         let solid = match kind {
             "sphere" => Solid::Sphere { radius: number("radius", 0.5) * scale.max_element() },
-            "box" => Solid::Box { size: vector(&own["size"]).unwrap_or(DVec3::ONE) * scale },
+            "box" => Solid::Box { size: vector(&extension["size"]).unwrap_or(DVec3::ONE) * scale },
             "capsule" => Solid::Capsule { height: number("height", 0.5) * scale.y, radius: radius(0.25) },
             "cylinder" => Solid::Cylinder { height: number("height", 0.5) * scale.y, radius: radius(0.25) },
             "plane" => {
-                if told && (own.get("sizeX").is_some() || own.get("sizeZ").is_some()) {
+                if reported && (extension.get("sizeX").is_some() || extension.get("sizeZ").is_some()) {
                     lost = Some("its plane has an end: taken as endless".to_owned());
                 }
                 Solid::Plane
@@ -345,18 +349,18 @@ impl Reader<'_> {
     fn colliders(&mut self) {
         let mut filtered: Vec<(usize, Value)> = Vec::new();
         for node in 0..self.model.nodes.len() {
-            let Some(own) = self.own(node).cloned() else { continue };
-            if own.get("trigger").is_some() {
-                self.say(
+            let Some(extension) = self.extension(node).cloned() else { continue };
+            if extension.get("trigger").is_some() {
+                self.remark(
                     node,
                     "its trigger is not taken over: constraints here wait for hits or a breath (trigger = …)",
                 );
             }
-            let Some(collider) = own.get("collider") else { continue };
+            let Some(collider) = extension.get("collider") else { continue };
             let Some(shape) = self.shape_of(node, collider) else { continue };
             let material =
                 collider["physicsMaterial"].as_u64().map_or(String::new(), |i| format!("material = \"khr-{i}\"\n"));
-            let name = quoted(&called(self.model, node));
+            let name = quoted(&sidecar_name(self.model, node));
             let _ = write!(self.out.text, "[[collider]]\nnode = {name}\n{material}shape = {shape}\n\n");
             if let Some(i) = collider["collisionFilter"].as_u64()
                 && let Some(filter) = self.list("collisionFilters").get(i as usize)
@@ -364,25 +368,27 @@ impl Reader<'_> {
                 filtered.push((node, filter.clone()));
             }
         }
-        let mut apart = Vec::new();
+        let mut joints_open = Vec::new();
         for (i, (a, one)) in filtered.iter().enumerate() {
             for (b, other) in &filtered[i + 1..] {
-                if !(meets(one, other) && meets(other, one)) {
-                    apart.push(format!(
+                if !(collides(one, other) && collides(other, one)) {
+                    joints_open.push(format!(
                         "    [{}, {}],\n",
-                        quoted(&called(self.model, *a)),
-                        quoted(&called(self.model, *b))
+                        quoted(&sidecar_name(self.model, *a)),
+                        quoted(&sidecar_name(self.model, *b))
                     ));
                 }
             }
         }
-        if apart.len() > MOST_PAIRS {
-            self.out.remarks.push(format!("{} pairs that its filters keep apart are not taken over", apart.len()));
-        } else if !apart.is_empty() {
+        if joints_open.len() > MAX_PAIRS {
+            self.out
+                .remarks
+                .push(format!("{} pairs that its filters keep apart are not taken over", joints_open.len()));
+        } else if !joints_open.is_empty() {
             let _ = write!(
                 self.out.text,
                 "[collision]\n# The model's collisionFilters.\nexclude = [\n{}]\n\n",
-                apart.concat()
+                joints_open.concat()
             );
         }
     }
@@ -391,11 +397,11 @@ impl Reader<'_> {
     fn shape_of(&mut self, node: usize, collider: &Value) -> Option<String> {
         if let Some((solid, lost)) = self.solid(node, true) {
             if let Some(lost) = lost {
-                self.say(node, lost);
+                self.remark(node, lost);
             }
-            let still = self.mover(node).is_none();
+            let still = self.moving_ancestor(node).is_none();
             if matches!(solid, Solid::Plane) && !still {
-                self.say(node, "its plane moves: not taken over, write a box");
+                self.remark(node, "its plane moves: not taken over, write a box");
                 return None;
             }
             return Some(solid.toml());
@@ -406,27 +412,29 @@ impl Reader<'_> {
         let here = of.unwrap_or(node);
         let by_number = geometry["mesh"].as_u64().map(|m| m as usize);
         if here != node || by_number.is_some_and(|mesh| self.model.nodes[node].mesh != Some(mesh)) {
-            self.say(node, "collides as the mesh of another node: not taken over; give it that mesh, or a shape");
+            self.remark(node, "collides as the mesh of another node: not taken over; give it that mesh, or a shape");
             return None;
         }
         if self.model.nodes[node].mesh.is_none() {
-            self.say(node, "collides as nothing that is known here: not taken over");
+            self.remark(node, "collides as nothing that is known here: not taken over");
             return None;
         }
         let Some(fit) = fit(self.model, node) else {
-            self.say(node, "nothing can be fitted to its mesh: it has no collider");
+            self.remark(node, "nothing can be fitted to its mesh: it has no collider");
             return None;
         };
         if geometry["convexHull"].as_bool() != Some(true) {
-            self.say(node, "collides as its triangles: its convex hull is taken");
+            self.remark(node, "collides as its triangles: its convex hull is taken");
         }
         Some(format!("{{ fit = \"{fit}\" }}"))
     }
 
     fn joints(&mut self) {
         for node in 0..self.model.nodes.len() {
-            let Some(joint) = self.own(node).and_then(|own| own.get("joint")).cloned() else { continue };
-            khr_joint::take(self, node, &joint);
+            let Some(joint) = self.extension(node).and_then(|extension| extension.get("joint")).cloned() else {
+                continue;
+            };
+            khr_joint::convert_joint(self, node, &joint);
         }
     }
 }
@@ -446,7 +454,7 @@ fn combined(x: f64, y: f64, rules: [&str; 2]) -> f64 {
 }
 
 /// Does what has filter `a` wish to meet what has filter `b`?
-fn meets(a: &Value, b: &Value) -> bool {
+fn collides(a: &Value, b: &Value) -> bool {
     let words = |value: &Value| -> Option<Vec<String>> {
         Some(value.as_array()?.iter().filter_map(|word| word.as_str().map(str::to_owned)).collect())
     };
@@ -465,6 +473,6 @@ pub(super) fn rotation_of(model: &Model, node: usize) -> DQuat {
 }
 
 /// Pose of a node without its scale.
-fn frame(model: &Model, node: usize) -> Pose {
+fn rigid_frame(model: &Model, node: usize) -> Pose {
     Pose { rotation: rotation_of(model, node), position: model.nodes[node].world.w_axis.truncate() }
 }

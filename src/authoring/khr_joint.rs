@@ -17,14 +17,14 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use super::khr::{Reader, rotation_of};
-use super::nodes::{called, written};
-use super::words::quoted;
+use super::nodes::{sidecar_name, toml_vector};
+use super::texts::quoted;
 use soffio_math::{DVec3, PI, acos};
 
 /// Frames that are nearer to each other at rest are together, m and rad: seven digits of a file.
-const TOGETHER: f64 = 1e-6;
+const SAME_POINT: f64 = 1e-6;
 /// What is left by a limit that leaves nothing, m or rad.
-const NOTHING: f64 = 1e-9;
+const ZERO_LIMIT: f64 = 1e-9;
 
 /// What limits say.
 #[derive(Default)]
@@ -43,35 +43,35 @@ fn axes(limit: &Value, key: &str) -> Vec<usize> {
 }
 
 /// Takes a joint over; says what is lost.
-pub(super) fn take(reader: &mut Reader, node: usize, joint: &Value) {
+pub(super) fn convert_joint(reader: &mut Reader, node: usize, joint: &Value) {
     let count = reader.model.nodes.len();
     let Some(other) = joint["connectedNode"].as_u64().map(|n| n as usize).filter(|&n| n < count) else {
-        return reader.say(node, "its joint connects nothing: not taken over");
+        return reader.remark(node, "its joint connects nothing: not taken over");
     };
     let description = joint["joint"].as_u64().and_then(|i| reader.list("physicsJoints").get(i as usize)).cloned();
     let Some(description) = description else {
-        return reader.say(node, "its joint has no description: not taken over");
+        return reader.remark(node, "its joint has no description: not taken over");
     };
-    let (own, theirs) = (reader.mover(node), reader.mover(other));
-    if own == theirs {
-        return reader.say(node, "its joint holds nothing that moves against another: not taken over");
+    let (extension, theirs) = (reader.moving_ancestor(node), reader.moving_ancestor(other));
+    if extension == theirs {
+        return reader.remark(node, "its joint holds nothing that moves against another: not taken over");
     }
     if joint["enableCollision"].as_bool() == Some(true) {
-        reader.say(node, "joined bodies never collide here, unless [collision] constrained_pairs = \"collide\"");
+        reader.remark(node, "joined bodies never collide here, unless [collision] constrained_pairs = \"collide\"");
     }
     let limits = read(reader, node, &description);
     // The first body of a constraint moves.
-    let (a, b, sign) = if own.is_some() { (node, other, -1.0) } else { (other, node, 1.0) };
+    let (a, b, sign) = if extension.is_some() { (node, other, -1.0) } else { (other, node, 1.0) };
     let place = |n: usize| reader.model.nodes[n].world.w_axis.truncate();
     let gap = place(a).distance(place(b));
     let turn = 2.0 * acos(rotation_of(reader.model, a).dot(rotation_of(reader.model, b)).abs().min(1.0));
-    if gap > TOGETHER {
-        reader.say(node, format_args!("its two frames are {gap:.6} m apart: they come together at the start"));
-        reader.out.apart = true;
+    if gap > SAME_POINT {
+        reader.remark(node, format_args!("its two frames are {gap:.6} m apart: they come together at the start"));
+        reader.out.joints_open = true;
     }
-    if turn > 1e3 * TOGETHER && limits.angular.iter().any(|locked| *locked) {
+    if turn > 1e3 * SAME_POINT && limits.angular.iter().any(|locked| *locked) {
         let degrees = turn * 180.0 / PI;
-        reader.say(node, format_args!("its two frames are turned by {degrees:.3}°: that is held as it is at rest"));
+        reader.remark(node, format_args!("its two frames are turned by {degrees:.3}°: that is held as it is at rest"));
     }
     let name = slug(&reader.model.nodes[node].name, node);
     let text = constraint(reader, &name, [a, b], &limits, sign);
@@ -84,7 +84,7 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
     for limit in description["limits"].as_array().into_iter().flatten() {
         let (min, max) = (limit["min"].as_f64(), limit["max"].as_f64());
         if limit["stiffness"].as_f64().is_some() {
-            reader.say(node, "a soft limit is taken as a hard one");
+            reader.remark(node, "a soft limit is taken as a hard one");
         }
         for (key, angular) in [("linearAxes", false), ("angularAxes", true)] {
             let on = axes(limit, key);
@@ -94,7 +94,7 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
             // A distance in a plane or in space has no sign: its least is nothing.
             let least = if on.len() > 1 { min.unwrap_or(0.0) } else { min.unwrap_or(f64::NEG_INFINITY) };
             let greatest = max.unwrap_or(f64::INFINITY);
-            if least.abs() < NOTHING && greatest.abs() < NOTHING {
+            if least.abs() < ZERO_LIMIT && greatest.abs() < ZERO_LIMIT {
                 let locked = if angular { &mut limits.angular } else { &mut limits.linear };
                 on.iter().for_each(|&axis| locked[axis] = true);
             } else if on.len() == 1 {
@@ -102,7 +102,7 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
                 ranges.push((on[0], min, max));
             } else {
                 let what = if angular { "a cone" } else { "a distance" };
-                reader.say(
+                reader.remark(
                     node,
                     format_args!("{what} within {least} to {greatest} is not taken over; see constraint.limit"),
                 );
@@ -113,16 +113,16 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
 }
 
 /// Axes that are locked, or that are not.
-fn which(locked: [bool; 3], wanted: bool) -> Vec<usize> {
+fn axes_where(locked: [bool; 3], wanted: bool) -> Vec<usize> {
     (0..3).filter(|&i| locked[i] == wanted).collect()
 }
 
 fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limits, sign: f64) -> String {
-    let [first, second] = [a, b].map(|node| quoted(&called(reader.model, node)));
+    let [first, second] = [a, b].map(|node| quoted(&sidecar_name(reader.model, node)));
     let pivot = format!("name = \"{name}\"\nbody = {first}\nto = {{ node = {second} }}\n");
-    let unit = |i: usize| written(DVec3::AXES[i]);
-    let (linear, angular) = (which(limits.linear, true), which(limits.angular, true));
-    let (free_ways, free_turns) = (which(limits.linear, false), which(limits.angular, false));
+    let unit = |i: usize| toml_vector(DVec3::AXES[i]);
+    let (linear, angular) = (axes_where(limits.linear, true), axes_where(limits.angular, true));
+    let (free_ways, free_turns) = (axes_where(limits.linear, false), axes_where(limits.angular, false));
     let stops = |ranges: &[(usize, Option<f64>, Option<f64>)], axis: usize| {
         let (_, min, max) = ranges.iter().find(|range| range.0 == axis)?;
         let (min, max) = if sign < 0.0 { (max.map(|x| -x), min.map(|x| -x)) } else { (*min, *max) };
@@ -145,8 +145,8 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
             format!("[[constraint.hinge]]\n{pivot}axis = {}\n{stops}\n", unit(axis))
         }
         (3, 1) => {
-            let (own, other) = (unit(free_turns[0]), unit(free_turns[1]));
-            format!("[[constraint.universal]]\n{pivot}axis = {own}\nother_axis = {other}\n\n")
+            let (extension, other) = (unit(free_turns[0]), unit(free_turns[1]));
+            format!("[[constraint.universal]]\n{pivot}axis = {extension}\nother_axis = {other}\n\n")
         }
         (3, 3) => format!("[[constraint.weld]]\n{pivot}\n"),
         (2, 3) => {
@@ -170,11 +170,11 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
                 (2, Some(&axis)) => angular.iter().map(|&i| (axis, i)).collect(),
                 _ => angular.iter().map(|&i| ((i + 1) % 3, (i + 2) % 3)).collect(),
             };
-            for (own, other) in pairs {
+            for (extension, other) in pairs {
                 let _ = write!(
                     text,
-                    "[[constraint.orientation]]\nname = \"{name}-r{own}{other}\"\nbody = {first}\nbody_axis = {}\nother = {{ body = {second}, axis = {} }}\n\n",
-                    unit(own),
+                    "[[constraint.orientation]]\nname = \"{name}-r{extension}{other}\"\nbody = {first}\nbody_axis = {}\nother = {{ body = {second}, axis = {} }}\n\n",
+                    unit(extension),
                     unit(other)
                 );
             }
@@ -182,29 +182,29 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
         }
     };
     if used < limits.ways.len() + limits.turns.len() {
-        reader.say(a, "bounds beside a hinge's turn and a slider's way are not taken over; see constraint.limit");
+        reader.remark(a, "bounds beside a hinge's turn and a slider's way are not taken over; see constraint.limit");
     }
     if text.is_empty() {
-        reader.say(a, "its joint leaves all free: nothing to take over");
+        reader.remark(a, "its joint leaves all free: nothing to take over");
     }
     text
 }
 
 /// Drives: a spring about a hinge's axis; others are told.
 fn drives(reader: &mut Reader, node: usize, name: &str, description: &Value, limits: &Limits, sign: f64) {
-    let free = which(limits.angular, false);
-    let hinge = which(limits.linear, true).len() == 3 && free.len() == 1;
+    let free = axes_where(limits.angular, false);
+    let hinge = axes_where(limits.linear, true).len() == 3 && free.len() == 1;
     for drive in description["drives"].as_array().into_iter().flatten() {
         let number = |key: &str| drive[key].as_f64();
         let about = drive["axis"].as_u64().map(|axis| axis as usize);
         let spring = drive["type"] == "angular" && hinge && about == free.first().copied();
         let moved = number("velocityTarget").is_some_and(|v| v != 0.0);
         if !spring || drive["mode"] == "acceleration" || moved {
-            reader.say(node, "a drive that is no spring about a hinge is not taken over; see constraint.spring");
+            reader.remark(node, "a drive that is no spring about a hinge is not taken over; see constraint.spring");
             continue;
         }
         if number("maxForce").is_some() {
-            reader.say(node, "its spring has no greatest force here");
+            reader.remark(node, "its spring has no greatest force here");
         }
         let (target, stiffness) = (sign * number("positionTarget").unwrap_or(0.0), number("stiffness").unwrap_or(0.0));
         let damping = number("damping").unwrap_or(0.0);

@@ -4,15 +4,15 @@
 //! Invariant: no clock, no randomness without a stated seed, software transcendentals: the same dimensions give the same
 //! bytes on any machine. Drawings alone ([`drawing`]) pass through arithmetic that is not ours.
 //!
-//! It never writes a file: it returns the bytes of a folder ([`Made`]), and the program writes them. It never simulates.
+//! It never writes a file: it returns the bytes of a folder ([`ExhibitFolder`]), and the program writes them. It never simulates.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`starter`], [`template`], [`notes`] | the folders that `soffio new` begins: a mobile, a chime, a copy, an empty one |
 //! | [`imported`], [`khr`] | a sidecar for a glTF model from elsewhere |
 //! | [`drawing`], [`outline`] | outlines from an SVG, splines, rings |
-//! | [`solid`], [`piece`], [`stock`] | sheet metal, turned parts and wire, with their mass |
-//! | [`mobile`], [`hung`] | branches that balance, and what hangs on them |
+//! | [`solid`], [`piece`], [`stock_parts`] | sheet metal, turned parts and wire, with their mass |
+//! | [`mobile`], [`hanging`] | branches that balance, and what hangs on them |
 //! | [`glb`], [`model_writer`] | the glTF writer |
 //!
 //! ```
@@ -22,7 +22,7 @@
 //! assert!(id_problem("My mobile!").is_some());
 //!
 //! let made = starter::empty("my-mobile");
-//! let names: Vec<&str> = made.files.iter().map(|(name, _)| name.as_str()).collect();
+//! let names: Vec<&str> = made.files.iter().map(|file| file.name.as_str()).collect();
 //! assert!(names.contains(&"exhibit.toml"), "{names:?}");
 //! assert_eq!(made.files, starter::empty("my-mobile").files, "the same input gives the same bytes");
 //! ```
@@ -31,9 +31,8 @@ use soffio_exhibit::diagnostic::Diagnostic;
 
 pub mod chimes;
 pub mod drawing;
-pub mod given;
 pub mod glb;
-pub mod hung;
+pub mod hanging;
 pub mod imported;
 pub mod khr;
 mod khr_joint;
@@ -43,23 +42,40 @@ mod nodes;
 pub mod notes;
 pub mod outline;
 pub mod piece;
+pub mod plate_mobile;
 pub mod solid;
 pub mod starter;
-pub mod stock;
+pub mod stock_parts;
 pub mod template;
+pub mod texts;
 pub mod tree;
-pub mod words;
 
-/// A file of an exhibit folder: its name there, and what it holds.
-pub type File = (String, Vec<u8>);
+/// A file of an exhibit folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FolderFile {
+    /// Path inside the folder.
+    pub name: String,
+    /// Contents.
+    pub bytes: Vec<u8>,
+}
 
-/// What is made for a new exhibit.
+/// The files of a new exhibit, not yet written to disk.
 #[derive(Clone, Debug, Default)]
-pub struct Made {
+pub struct ExhibitFolder {
     /// All files of the folder.
-    pub files: Vec<File>,
-    /// What the maker should know, a line each.
+    pub files: Vec<FolderFile>,
+    /// Messages for the curator, one line each.
     pub remarks: Vec<String>,
+}
+
+impl ExhibitFolder {
+    /// The two files of a plain exhibit: `exhibit.toml` and `<id>.glb`.
+    fn files_of(id: &str, sidecar: String, model: Vec<u8>) -> Vec<FolderFile> {
+        vec![
+            FolderFile { name: soffio_exhibit::SIDECAR.into(), bytes: sidecar.into_bytes() },
+            FolderFile { name: format!("{id}.glb"), bytes: model },
+        ]
+    }
 }
 
 /// Is this an id: lower-case letters, digits and hyphens, at most 64 of them?

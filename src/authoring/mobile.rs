@@ -12,7 +12,7 @@ use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use super::outline::ring;
-use super::piece::{Bend, Part, Piece, load, yaw};
+use super::piece::{BentWire, Part, Piece, load, yaw};
 
 /// Corners of an eye bent in wire.
 pub const EYE_STEPS: usize = 12;
@@ -54,7 +54,7 @@ impl Branch {
     /// A piece bent after this, with its loads.
     fn loaded(&self, piece: &Piece) -> MassProperties {
         let [.., right, left] = self.names;
-        let loads = [load(self.loads[0], piece.mark(right)), load(self.loads[1], piece.mark(left))];
+        let loads = [load(self.loads[0], piece.marker(right)), load(self.loads[1], piece.marker(left))];
         loads.iter().fold(piece.mass(), |whole, load| whole.combine(load))
     }
 
@@ -117,8 +117,8 @@ pub fn branch(branch: &Branch) -> Piece {
         Piece {
             name,
             parts: fixed.collect(),
-            bends: vec![Bend { name: wire, points, radius: branch.radius, density: STEEL }],
-            marks: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
+            wires: vec![BentWire { name: wire, points, radius: branch.radius, density: STEEL }],
+            markers: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
         }
     };
     // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
@@ -129,7 +129,7 @@ pub fn branch(branch: &Branch) -> Piece {
 }
 
 /// What the two branches of a [`cascade`] are bent from, the upper one first.
-pub struct Wires {
+pub struct CascadeBranches {
     /// m.
     pub radius: [f64; 2],
     /// Radius of the loop and the eyes, m.
@@ -144,9 +144,9 @@ pub struct Wires {
 
 /// Three pieces on two branches: the large one on the left of the upper branch, on its right a lower one with the
 /// middle and the small one.
-pub fn cascade(hook: DVec3, wires: &Wires, [large, middle, small]: [Piece; 3], stand: Piece) -> Mobile {
+pub fn cascade(hook: DVec3, wires: &CascadeBranches, [large, middle, small]: [Piece; 3], stand: Piece) -> Mobile {
     let bent = |i: usize, names, loads| {
-        let Wires { radius, eye, chord, droop, .. } = wires;
+        let CascadeBranches { radius, eye, chord, droop, .. } = wires;
         branch(&Branch {
             names,
             radius: radius[i],
@@ -164,11 +164,12 @@ pub fn cascade(hook: DVec3, wires: &Wires, [large, middle, small]: [Piece; 3], s
     let loads = [below, large.mass().mass];
     let upper = bent(0, ["Upper", "UpperLoop", "UpperWire", "UpperRight", "UpperLeft"], loads);
     let top = Pose { rotation: DQuat::IDENTITY, position: hook };
-    let hung = |pose: Pose, piece: &Piece, mark| Pose { rotation: yaw(0.0), position: pose.point(piece.mark(mark)) };
-    let large_pose = hung(top, &upper, "UpperLeft");
-    let lower_pose = Pose { rotation: yaw(wires.lower_yaw), ..hung(top, &upper, "UpperRight") };
-    let small_pose = hung(lower_pose, &lower, "LowerRight");
-    let middle_pose = hung(lower_pose, &lower, "LowerLeft");
+    let hanging =
+        |pose: Pose, piece: &Piece, marker| Pose { rotation: yaw(0.0), position: pose.point(piece.marker(marker)) };
+    let large_pose = hanging(top, &upper, "UpperLeft");
+    let lower_pose = Pose { rotation: yaw(wires.lower_yaw), ..hanging(top, &upper, "UpperRight") };
+    let small_pose = hanging(lower_pose, &lower, "LowerRight");
+    let middle_pose = hanging(lower_pose, &lower, "LowerLeft");
     let pieces =
         vec![(upper, top), (lower, lower_pose), (large, large_pose), (middle, middle_pose), (small, small_pose)];
     Mobile { pieces, stand }
@@ -197,10 +198,10 @@ impl Mobile {
         self.pieces
             .iter()
             .enumerate()
-            .filter(|(k, (_, hung))| {
-                *k != i && piece.marks.iter().skip(1).any(|(_, m)| pose.point(*m) == hung.position)
+            .filter(|(k, (_, hanging))| {
+                *k != i && piece.markers.iter().skip(1).any(|(_, m)| pose.point(*m) == hanging.position)
             })
-            .map(|(k, (_, hung))| load(self.loaded(k).mass, pose.inverse_point(hung.position)))
+            .map(|(k, (_, hanging))| load(self.loaded(k).mass, pose.inverse_point(hanging.position)))
             .fold(piece.mass(), |whole, load| whole.combine(&load))
     }
 

@@ -6,13 +6,13 @@ use soffio_geometry::TriangleMesh;
 use soffio_math::{DMat3, DVec3};
 
 /// A vector in TOML.
-pub(super) fn written(v: DVec3) -> String {
+pub(super) fn toml_vector(v: DVec3) -> String {
     // Debug writes what no integer holds with an exponent: 1e30 is TOML, its digits are not.
     format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
 }
 
 /// How the sidecar calls a node: by its name, or by its number where the name is not unique.
-pub(super) fn called(model: &Model, node: usize) -> String {
+pub(super) fn sidecar_name(model: &Model, node: usize) -> String {
     let name = &model.nodes[node].name;
     let alone = model.nodes.iter().filter(|other| other.name == *name).count() == 1;
     if alone && !name.is_empty() && !name.starts_with('#') { name.clone() } else { format!("#{node}") }
@@ -31,7 +31,7 @@ pub(super) fn meshes(model: &Model, root: usize) -> Vec<usize> {
 }
 
 /// The meshes at and below a node, in the world.
-pub(super) fn solid(model: &Model, root: usize) -> Vec<TriangleMesh> {
+pub(super) fn world_meshes(model: &Model, root: usize) -> Vec<TriangleMesh> {
     let mut solids = Vec::new();
     for node in meshes(model, root) {
         let world = model.nodes[node].world;
@@ -55,7 +55,7 @@ pub(super) fn solid(model: &Model, root: usize) -> Vec<TriangleMesh> {
 /// What can be fitted to the meshes at and below a node, as the sidecar calls it.
 pub(super) fn fit(model: &Model, node: usize) -> Option<&'static str> {
     let mut whole = TriangleMesh::default();
-    solid(model, node).iter().for_each(|mesh| whole.append(mesh));
+    world_meshes(model, node).iter().for_each(|mesh| whole.append(mesh));
     let extents = whole.extents()?;
     // Sheet: twenty times as wide as thick.
     let flat = extents.half.z < 0.05 * extents.half.y;

@@ -2,21 +2,21 @@
 
 use std::fmt::Write;
 
-use super::chimes::{self, Make};
-use super::stock::MM;
-use super::words::{attract, labels, three};
-use super::{Made, starter};
+use super::chimes::{self, ChimeDesign};
+use super::stock_parts::MM;
+use super::texts::{AttractBreath, attract, in_three_languages, labels};
+use super::{ExhibitFolder, starter};
+use soffio_exhibit::codes;
 use soffio_exhibit::diagnostic::Diagnostic;
-use soffio_exhibit::{SIDECAR, codes};
 use soffio_math::{PI, exp, ln};
 use soffio_sound::modes::{Section, beam_modes};
 
 /// Fewest and most tubes: fewer meet nothing, more do not fit about the striker.
 pub const COUNT: [usize; 2] = [3, 8];
 /// Lowest and highest note, Hz: C4 and C7.
-const RANGE: [f64; 2] = [261.0, 2100.0];
+const FREQUENCY_RANGE: [f64; 2] = [261.0, 2100.0];
 /// A4, Hz.
-const CONCERT: f64 = 440.0;
+const CONCERT_PITCH: f64 = 440.0;
 
 /// A note by its name: C5, F#4, Bb5.
 #[derive(Clone, Debug)]
@@ -53,8 +53,8 @@ pub fn note(text: &str) -> Result<Note, Diagnostic> {
     };
     let octave: i32 = octave.parse().ok().filter(|o| (0..=9).contains(o)).ok_or_else(|| wrong(""))?;
     let semitones = f64::from(step + shift + 12 * (octave - 4) - 9);
-    let frequency = CONCERT * exp(ln(2.0) * semitones / 12.0);
-    if !(RANGE[0]..=RANGE[1]).contains(&frequency) {
+    let frequency = CONCERT_PITCH * exp(ln(2.0) * semitones / 12.0);
+    if !(FREQUENCY_RANGE[0]..=FREQUENCY_RANGE[1]).contains(&frequency) {
         return Err(wrong(": it is too low or too high"));
     }
     Ok(Note { name: name.to_owned(), frequency })
@@ -90,7 +90,7 @@ pub fn length(frequency: f64) -> f64 {
 }
 
 /// Wind chimes of these notes.
-pub fn chime(id: &str, notes: &[Note]) -> Result<Made, Diagnostic> {
+pub fn chime(id: &str, notes: &[Note]) -> Result<ExhibitFolder, Diagnostic> {
     let [fewest, most] = COUNT;
     if !(fewest..=most).contains(&notes.len()) {
         let message = format!("{} tubes make no chime here", notes.len());
@@ -100,9 +100,9 @@ pub fn chime(id: &str, notes: &[Note]) -> Result<Made, Diagnostic> {
     sorted.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     // A saw cuts to a tenth of a millimetre.
     let lengths: Vec<f64> = sorted.iter().map(|note| (length(note.frequency) / MM * 10.0).round() / 10.0).collect();
-    let make = Make { title: id, lengths: &lengths, ..chimes::ALUMINIUM };
+    let design = ChimeDesign { title: id, lengths: &lengths, ..chimes::ALUMINIUM };
     let shipped = include_str!("../../exhibits/wind-chimes/exhibit.toml");
-    let mut out = starter::head(id, "Wind chimes: tubes of aluminium about a wooden disc that a sail drives.");
+    let mut out = starter::header(id, "Wind chimes: tubes of aluminium about a wooden disc that a sail drives.");
     // Materials as the shipped chimes have them.
     let between = |from: &str, to: &str| {
         let start = shipped.find(from).unwrap_or_default();
@@ -130,7 +130,7 @@ pub fn chime(id: &str, notes: &[Note]) -> Result<Made, Diagnostic> {
         );
     }
     out.push_str(between("[[constraint.point-to-point]]\nname = \"striker-on-crown\"", "[[collider]]"));
-    let radius = 0.5 * make.tube[0];
+    let radius = 0.5 * design.tube[0];
     for (k, length) in (1..).zip(&lengths) {
         // The caps of a capsule are round: its straight part ends a radius before the tube's.
         let height = ((length - 2.0 * radius) * 10.0).round() / 10.0;
@@ -148,14 +148,17 @@ pub fn chime(id: &str, notes: &[Note]) -> Result<Made, Diagnostic> {
         );
     }
     out.push_str(between("[[sound]]\nname = \"air\"", "# ---- when nobody"));
-    out.push_str(&attract(&[(5.0, 0.35, [0.5, 0.86]), (26.0, 0.5, [0.5, 0.86])]));
+    out.push_str(&attract(&[
+        AttractBreath { at: 5.0, strength: 0.35, aim: [0.5, 0.86] },
+        AttractBreath { at: 26.0, strength: 0.5, aim: [0.5, 0.86] },
+    ]));
     out.push('\n');
-    out.push_str(&labels(&chime_words(lengths.len())));
+    out.push_str(&labels(&chime_texts(lengths.len())));
     let remarks = (sorted.iter().zip(&lengths))
         .map(|(note, length)| format!("{}: {:.1} Hz, a tube of {length:.1} mm", note.name, note.frequency))
         .collect();
-    let files = vec![(SIDECAR.into(), out.into_bytes()), (format!("{id}.glb"), chimes::glb(&make))];
-    Ok(Made { files, remarks })
+    let files = ExhibitFolder::files_of(id, out, chimes::glb(&design));
+    Ok(ExhibitFolder { files, remarks })
 }
 
 fn bodies(out: &mut String, count: usize) {
@@ -169,8 +172,8 @@ fn bodies(out: &mut String, count: usize) {
     }
 }
 
-fn chime_words(count: usize) -> Vec<super::words::Words> {
-    three(
+fn chime_texts(count: usize) -> Vec<super::texts::LabelTexts> {
+    in_three_languages(
         ["Wind chimes (replace this title)", "풍경 (제목을 바꾸세요)", "Campane a vento (titolo da sostituire)"],
         [
             "Each tube hangs by a pin at 22.4 percent of its length, where its lowest mode of bending is at rest: so it rings long.",

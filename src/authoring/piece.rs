@@ -25,7 +25,7 @@ pub struct Part {
 
 /// A bent wire that a piece carries. The sidecar names its marks and says how it looks.
 #[derive(Clone, Debug)]
-pub struct Bend {
+pub struct BentWire {
     /// Its points are marked `<name>.00`, `<name>.01`, …
     pub name: &'static str,
     /// In the frame of the piece, m.
@@ -44,9 +44,9 @@ pub struct Piece {
     /// Meshes.
     pub parts: Vec<Part>,
     /// Wires.
-    pub bends: Vec<Bend>,
+    pub wires: Vec<BentWire>,
     /// Named points, m.
-    pub marks: Vec<(&'static str, DVec3)>,
+    pub markers: Vec<(&'static str, DVec3)>,
 }
 
 impl Piece {
@@ -61,16 +61,16 @@ impl Piece {
                 inertia: turn * own.inertia * turn.transpose(),
             }
         });
-        let bends = self.bends.iter().map(|bend| wire_mass(&bend.points, bend.radius, bend.density));
-        parts.chain(bends).reduce(|whole, part| whole.combine(&part)).unwrap_or(NOTHING)
+        let wires = self.wires.iter().map(|bend| wire_mass(&bend.points, bend.radius, bend.density));
+        parts.chain(wires).reduce(|whole, part| whole.combine(&part)).unwrap_or(NO_MASS)
     }
 
     /// The point marked `name`, in the frame of the piece.
     ///
     /// # Panics
     /// If the drawing has no such mark: a slip in the drawing, not in its input.
-    pub fn mark(&self, name: &str) -> DVec3 {
-        let found = self.marks.iter().find(|(mark, _)| *mark == name);
+    pub fn marker(&self, name: &str) -> DVec3 {
+        let found = self.markers.iter().find(|(marker, _)| *marker == name);
         found.unwrap_or_else(|| panic!("{} has no mark {name}", self.name)).1
     }
 
@@ -85,19 +85,19 @@ impl Piece {
             };
             scene.mesh(own, &part.solid, part.finish);
         }
-        for (name, point) in &self.marks {
-            scene.mark(name, Some(node), *point);
+        for (name, point) in &self.markers {
+            scene.marker(name, Some(node), *point);
         }
-        for bend in &self.bends {
+        for bend in &self.wires {
             for (i, point) in bend.points.iter().enumerate() {
-                scene.mark(&format!("{}.{i:02}", bend.name), Some(node), *point);
+                scene.marker(&format!("{}.{i:02}", bend.name), Some(node), *point);
             }
         }
     }
 }
 
 /// Nothing: the neutral element of [`MassProperties::combine`].
-pub const NOTHING: MassProperties = MassProperties { mass: 0.0, center: DVec3::ZERO, inertia: DMat3::ZERO };
+pub const NO_MASS: MassProperties = MassProperties { mass: 0.0, center: DVec3::ZERO, inertia: DMat3::ZERO };
 
 /// A load of `mass` kg at a joint: what a hanging piece is to the one that carries it, at rest and in slow motion.
 pub fn load(mass: f64, at: DVec3) -> MassProperties {

@@ -24,7 +24,7 @@ pub struct Solid {
 /// `thickness` m, its edges broken by a bevel of `bevel` m.
 ///
 /// The bevel's normals turn from the face to the edge, so that the edge catches the light like a filed one.
-pub fn sheet(outline: &Polygon, holes: &[Polygon], thickness: f64, bevel: f64) -> Solid {
+pub fn extrude(outline: &Polygon, holes: &[Polygon], thickness: f64, bevel: f64) -> Solid {
     let loops: Vec<Polygon> =
         std::iter::once(outline.clone()).chain(holes.iter().map(|hole| reversed(hole.clone()))).collect();
     let half = 0.5 * thickness;
@@ -34,12 +34,12 @@ pub fn sheet(outline: &Polygon, holes: &[Polygon], thickness: f64, bevel: f64) -
     let count: usize = loops.iter().map(Vec::len).sum();
     let layers: [(f64, f64, f64); 4] =
         [(bevel, half, 1.0), (0.0, half - bevel, 0.0), (0.0, bevel - half, 0.0), (bevel, -half, -1.0)];
-    for (inset, z, facing) in layers {
+    for (inset, z, y_to_z) in layers {
         for polygon in &loops {
             for i in 0..polygon.len() {
                 let (outwards, reach) = corner_normal(polygon, i);
                 solid.positions.push((polygon[i] - inset * reach * outwards).extend(z));
-                solid.normals.push((outwards * (1.0 - facing.abs())).extend(facing));
+                solid.normals.push((outwards * (1.0 - y_to_z.abs())).extend(y_to_z));
             }
         }
     }
@@ -91,19 +91,28 @@ fn corner_normal(polygon: &[DVec2], i: usize) -> (DVec2, f64) {
     (normal, (1.0 / normal.dot(right(before))).min(2.0))
 }
 
-/// A solid of revolution about the y axis. `profile` lists (radius, y) with the material on its left when walked:
-/// from the axis at the bottom, outside, to the axis at the top; or, `bored`, a closed loop that misses the axis.
-/// Edges sharper than about 37° stay sharp.
-pub fn turned(profile: &[DVec2], bored: bool, segments: usize) -> Solid {
-    const SHARP: f64 = 0.8; // cosine of the angle between neighbouring facets
-    let spans = if bored { profile.len() } else { profile.len() - 1 };
+/// A solid of revolution about the y axis. `profile` lists (radius, y) with the material on its left, from the axis at the
+/// bottom, along the outside, to the axis at the top. Edges sharper than about 37° stay sharp.
+pub fn revolve(profile: &[DVec2], segments: usize) -> Solid {
+    revolution(profile, false, segments)
+}
+
+/// A ring: the solid of revolution of a closed profile that does not touch the axis, else as [`revolve`].
+pub fn revolve_ring(profile: &[DVec2], segments: usize) -> Solid {
+    revolution(profile, true, segments)
+}
+
+fn revolution(profile: &[DVec2], ring: bool, segments: usize) -> Solid {
+    /// Facets that meet at a larger cosine are shaded smoothly.
+    const SHARP: f64 = 0.8;
+    let spans = if ring { profile.len() } else { profile.len() - 1 };
     let outwards = |span: usize| {
         let d = (profile[(span + 1) % profile.len()] - profile[span]).normalize();
         DVec2::new(d.y, -d.x)
     };
     let neighbour = |span: usize, step: isize| {
         let other = span as isize + step;
-        if bored { Some(other.rem_euclid(spans as isize) as usize) } else { usize::try_from(other).ok() }
+        if ring { Some(other.rem_euclid(spans as isize) as usize) } else { usize::try_from(other).ok() }
             .filter(|&o| o < spans)
     };
     let shaded = |span: usize, step: isize| match neighbour(span, step) {
@@ -141,7 +150,7 @@ pub fn turned(profile: &[DVec2], bored: bool, segments: usize) -> Solid {
 
 impl Solid {
     /// The solid with its y axis laid along x: parts threaded on a rod.
-    pub fn lying(mut self) -> Self {
+    pub fn y_to_x(mut self) -> Self {
         let lay = |v: DVec3| DVec3::new(v.y, -v.x, v.z);
         self.positions.iter_mut().for_each(|p| *p = lay(*p));
         self.normals.iter_mut().for_each(|n| *n = lay(*n));
@@ -149,7 +158,7 @@ impl Solid {
     }
 
     /// The solid moved by `by`, m.
-    pub fn moved(mut self, by: DVec3) -> Self {
+    pub fn translated(mut self, by: DVec3) -> Self {
         self.positions.iter_mut().for_each(|p| *p += by);
         self
     }

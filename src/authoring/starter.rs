@@ -2,20 +2,19 @@
 
 use std::fmt::Write;
 
-use super::Made;
-use super::given::{Given, Metal, Outline, mobile as given_mobile};
+use super::ExhibitFolder;
 use super::glb::{Finish, Scene};
-use super::hung::disc;
+use super::hanging::disc;
 use super::mobile::Mobile;
 use super::piece::Piece;
-use super::stock::{ALUMINIUM, MM, ceiling, write};
-use super::words::{Puff, Words, attract, labels, three};
-use soffio_exhibit::SIDECAR;
+use super::plate_mobile::{Metal, Outline, PlacedPlate, PlateMobile, mobile as plate_mobile};
+use super::stock_parts::{ALUMINIUM, MM, ceiling, write};
+use super::texts::{AttractBreath, LabelTexts, attract, in_three_languages, labels};
 use soffio_exhibit::diagnostic::Diagnostic;
 use soffio_math::DVec3;
 
 /// Head of a chapter of the sidecar.
-fn chapter(title: &str) -> String {
+fn section_heading(title: &str) -> String {
     format!("\n# ---- {title} {}\n", "-".repeat(106_usize.saturating_sub(title.chars().count())))
 }
 
@@ -32,7 +31,7 @@ fn kebab(name: &str) -> String {
 }
 
 /// What every sidecar begins with.
-pub(super) fn head(id: &str, about: &str) -> String {
+pub(super) fn header(id: &str, about: &str) -> String {
     format!(
         "# {about}\n\
          # `soffio check` with this folder says what is wrong in this file, where, and what to do; `soffio explain` prints each\n\
@@ -46,7 +45,7 @@ pub(super) fn head(id: &str, about: &str) -> String {
 
 /// The wires of a piece; `body` as none stands still.
 fn wires(out: &mut String, piece: &Piece, still: bool) {
-    for bend in &piece.bends {
+    for bend in &piece.wires {
         let _ = write!(out, "\n[[wire]]\nname = \"{}\"\n", kebab(bend.name));
         if !still {
             let _ = writeln!(out, "body = \"{}\"", piece.name);
@@ -60,13 +59,13 @@ fn wires(out: &mut String, piece: &Piece, still: bool) {
 }
 
 /// The joints of a work whose pieces hang by their first marks: the first on `point` of what stands still.
-fn joints(out: &mut String, work: &Mobile, point: &str) {
+fn joints(out: &mut String, mobile: &Mobile, point: &str) {
     let friction = "friction = { coefficient = 0.3, radius = \"0.3 mm\" }\n";
-    for (i, (piece, pose)) in work.pieces.iter().enumerate() {
-        let (name, hook) = (kebab(piece.name), piece.marks[0].0);
-        let carrier = work.pieces[..i].iter().find_map(|(above, place)| {
-            let (mark, _) = above.marks.iter().skip(1).find(|(_, p)| place.point(*p) == pose.position)?;
-            Some((above.name, *mark))
+    for (i, (piece, pose)) in mobile.pieces.iter().enumerate() {
+        let (name, hook) = (kebab(piece.name), piece.markers[0].0);
+        let carrier = mobile.pieces[..i].iter().find_map(|(above, place)| {
+            let (marker, _) = above.markers.iter().skip(1).find(|(_, p)| place.point(*p) == pose.position)?;
+            Some((above.name, *marker))
         });
         let _ = match carrier {
             None => write!(
@@ -74,10 +73,10 @@ fn joints(out: &mut String, work: &Mobile, point: &str) {
                 "\n[[constraint.nail]]\nname = \"{name}-hangs\"\nbody = \"{}\"\nat = \"{hook}\"\nto = {{ node = \"{point}\" }}\n{friction}",
                 piece.name
             ),
-            Some((above, mark)) => write!(
+            Some((above, marker)) => write!(
                 out,
                 "\n[[constraint.point-to-point]]\nname = \"{name}-on-{}\"\na = {{ node = \"{}\", at = \"{hook}\" }}\n\
-                 b = {{ node = \"{above}\", at = \"{mark}\" }}\n{friction}",
+                 b = {{ node = \"{above}\", at = \"{marker}\" }}\n{friction}",
                 kebab(above),
                 piece.name
             ),
@@ -100,7 +99,7 @@ fn plates(out: &mut String, names: &[&str]) {
             "\n[[wind_surface]]\nnode = \"{name}\"\nsampling = {{ per_area = \"9000 /m2\", min = 16, max = 32, seed = {seed} }}\n"
         );
     }
-    out.push_str(&chapter("sound"));
+    out.push_str(&section_heading("sound"));
     out.push_str("# A plate's size, shape and material make its notes; `soffio sound --list` names the timbres.\n");
     for name in names {
         let _ = write!(
@@ -123,41 +122,41 @@ const CAPTIONS: [(&str, [&str; 3]); 2] = [
 ];
 
 /// A balanced mobile of `outlines`, cut from sheet of `thickness` m.
-pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<Made, Vec<Diagnostic>> {
-    let given = given_mobile(id, outlines, thickness, metal)?;
-    let work = &given.mobile;
+pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<ExhibitFolder, Vec<Diagnostic>> {
+    let given = plate_mobile(id, outlines, thickness, metal)?;
+    let mobile = &given.mobile;
     let about = format!(
         "A mobile of {} plates that ring in pairs. `soffio new` has bent its wires so that it hangs level; change a plate,\n\
          # and the balance goes: make it anew rather than by hand.\n#",
         given.plates.len()
     );
-    let mut out = head(id, &about);
-    out.push_str(&chapter("what things are made of"));
+    let mut out = header(id, &about);
+    out.push_str(&section_heading("what things are made of"));
     let _ = write!(
         out,
         "# Density, friction and sound follow from a material's name; what stands here changes it. Sheet on a hook rings\n\
          # shorter than the bare metal: the loss factor says how fast a sound fades.\n\n[material.{}]\nloss_factor = 2e-3\n",
         metal.name()
     );
-    out.push_str(&chapter("bodies"));
+    out.push_str(&section_heading("bodies"));
     out.push_str(
         "# Each moves as one, with what hangs below its node in the model. Its mass is its volume times the density.\n",
     );
-    for (piece, _) in &work.pieces {
-        let plate = given.plates.iter().find(|(name, ..)| *name == piece.name);
+    for (piece, _) in &mobile.pieces {
+        let plate = given.plates.iter().find(|plate| plate.node == piece.name);
         let material = plate.map_or("steel", |_| metal.name());
-        let note = plate.map_or(String::new(), |(_, from, _)| format!("# {from}\n"));
+        let note = plate.map_or(String::new(), |plate| format!("# {}\n", plate.source));
         let _ = write!(out, "\n{note}[[body]]\nnode = \"{}\"\nmaterial = \"{material}\"\n", piece.name);
     }
-    out.push_str(&chapter("wires"));
+    out.push_str(&section_heading("wires"));
     out.push_str("# Drawn through the points of the model whose names begin so; they weigh, and feel the wind.\n");
-    wires(&mut out, &work.stand, true);
-    work.pieces.iter().for_each(|(piece, _)| wires(&mut out, piece, false));
-    out.push_str(&chapter("joints"));
+    wires(&mut out, &mobile.stand, true);
+    mobile.pieces.iter().for_each(|(piece, _)| wires(&mut out, piece, false));
+    out.push_str(&section_heading("joints"));
     out.push_str("# Loops in loops: two points that stay together. What rubs there brings a turning piece to rest.\n");
-    joints(&mut out, work, "CeilingPoint");
-    out.push_str(&chapter("what can hit, and what feels the wind"));
-    let names: Vec<&str> = given.plates.iter().map(|(name, ..)| *name).collect();
+    joints(&mut out, mobile, "CeilingPoint");
+    out.push_str(&section_heading("what can hit, and what feels the wind"));
+    let names: Vec<&str> = given.plates.iter().map(|plate| plate.node).collect();
     plates(&mut out, &names);
     let gain = metal.gain(thickness);
     if gain > 1.0 {
@@ -167,30 +166,31 @@ pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> R
         );
     }
     out.push_str(CALM);
-    out.push_str(&attract(&puffs(&given)));
+    out.push_str(&attract(&attract_breaths(&given)));
     out.push('\n');
     out.push_str(&labels(&mobile_words(given.plates.len())));
-    let s = work.statics();
+    let s = mobile.statics();
     let mut remarks: Vec<String> = (given.plates.iter())
-        .map(|(name, from, _)| {
-            let piece = work.pieces.iter().find(|(piece, _)| piece.name == *name);
+        .map(|PlacedPlate { node, source, .. }| {
+            let piece = mobile.pieces.iter().find(|(piece, _)| piece.name == *node);
             let grams = piece.map_or(0.0, |(piece, _)| 1e3 * piece.mass().mass);
-            format!("{name}: {from}, {grams:.1} g with its stem")
+            format!("{node}: {source}, {grams:.1} g with its stem")
         })
         .collect();
     let (grams, tilt) = (1e3 * s.total_mass, s.tilt_period);
     remarks.push(format!("in all {grams:.1} g; it tilts to and fro in {tilt:.1} s; level to {:.0e} m", s.worst_offset));
-    Ok(Made { files: vec![(SIDECAR.into(), out.into_bytes()), (format!("{id}.glb"), given.glb)], remarks })
+    Ok(ExhibitFolder { files: ExhibitFolder::files_of(id, out, given.glb), remarks })
 }
 
-/// Breaths at the plate in front of each pair, gently first, at most four.
-fn puffs(given: &Given) -> Vec<Puff> {
-    let front = given.pairs.iter().take(4).map(|[_, front]| given.plates[*front].2);
-    front.enumerate().map(|(i, aim)| (5.0 + 18.0 * i as f64, 0.35 + 0.1 * i as f64, aim)).collect()
+/// Breaths at the front plate of each pair, gentle ones first, at most four.
+fn attract_breaths(given: &PlateMobile) -> Vec<AttractBreath> {
+    let front = given.pairs.iter().take(4).map(|[_, front]| given.plates[*front].picture_position);
+    let breath = |(i, aim)| AttractBreath { at: 5.0 + 18.0 * i as f64, strength: 0.35 + 0.1 * i as f64, aim };
+    front.enumerate().map(breath).collect()
 }
 
-fn mobile_words(count: usize) -> Vec<Words> {
-    three(
+fn mobile_words(count: usize) -> Vec<LabelTexts> {
+    in_three_languages(
         ["Mobile (replace this title)", "모빌 (제목을 바꾸세요)", "Mobile (titolo da sostituire)"],
         [
             "Its plates hang from bent wires, each hooked where it balances. Two and two they hang close: a breath makes \
@@ -211,7 +211,7 @@ fn mobile_words(count: usize) -> Vec<Words> {
 }
 
 /// One disc on a stem: the least that swings in a breath.
-pub fn empty(id: &str) -> Made {
+pub fn empty(id: &str) -> ExhibitFolder {
     let mut scene = Scene::default();
     let red = scene.finish(&Finish { name: "Red paint", color: [0.55, 0.018, 0.012], metallic: 0.0, roughness: 0.40 });
     let iron = scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 });
@@ -219,30 +219,30 @@ pub fn empty(id: &str) -> Made {
     let disc = disc(["Disc", "DiscHook", "DiscStem"], (120.0 * MM, 1.0 * MM), 90.0 * MM, (ALUMINIUM, red));
     let target = hook - 0.08 * DVec3::Y;
     let stand = ceiling(iron);
-    let mut out = head(id, "One disc on a hook: the least that swings in a breath. Add yours.");
-    out.push_str(&chapter("bodies"));
+    let mut out = header(id, "One disc on a hook: the least that swings in a breath. Add yours.");
+    out.push_str(&section_heading("bodies"));
     out.push_str(
         "# A body is a node of the model (Blender: an object) that moves as one, with what hangs below it. A node that is\n\
          # no body stands still. `soffio import your-model.glb` writes such a file for a model of yours.\n\n\
          [[body]]\nnode = \"Disc\"\nmaterial = \"aluminium\"\n",
     );
-    out.push_str(&chapter("wires"));
+    out.push_str(&section_heading("wires"));
     out.push_str("# Drawn through the points of the model whose names begin so.\n");
     wires(&mut out, &stand, true);
     wires(&mut out, &disc, false);
-    out.push_str(&chapter("joints"));
+    out.push_str(&section_heading("joints"));
     out.push_str(
         "# A nail holds a point of a body to a node that stands still. Other kinds: hinge, point-to-point, spring, gear, …;\n\
          # `soffio schema exhibit` has them all.\n",
     );
-    let work =
+    let mobile =
         Mobile { pieces: vec![(disc.clone(), soffio_math::Pose { position: hook, ..Default::default() })], stand };
-    joints(&mut out, &work, "CeilingPoint");
-    out.push_str(&chapter("what can hit, and what feels the wind"));
+    joints(&mut out, &mobile, "CeilingPoint");
+    out.push_str(&section_heading("what can hit, and what feels the wind"));
     plates(&mut out, &["Disc"]);
-    out.push_str(&attract(&[(5.0, 0.35, [0.5, 0.6])]));
+    out.push_str(&attract(&[AttractBreath { at: 5.0, strength: 0.35, aim: [0.5, 0.6] }]));
     out.push('\n');
-    let words = three(
+    let words = in_three_languages(
         ["A disc (replace this title)", "원판 (제목을 바꾸세요)", "Un disco (titolo da sostituire)"],
         [
             "A disc of sheet metal hangs from a hook and swings in a breath.",
@@ -257,8 +257,8 @@ pub fn empty(id: &str) -> Made {
         &CAPTIONS,
     );
     out.push_str(&labels(&words));
-    let pieces = [(work.stand, hook), (disc, hook)];
+    let pieces = [(mobile.stand, hook), (disc, hook)];
     let away = DVec3::new(-0.12, 0.05, 1.0).normalize();
     let glb = write(scene, id, &pieces, target + 0.75 * away, target);
-    Made { files: vec![(SIDECAR.into(), out.into_bytes()), (format!("{id}.glb"), glb)], remarks: Vec::new() }
+    ExhibitFolder { files: ExhibitFolder::files_of(id, out, glb), remarks: Vec::new() }
 }

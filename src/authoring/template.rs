@@ -2,8 +2,7 @@
 
 use toml_edit::{DocumentMut, value};
 
-use super::Made;
-use soffio_exhibit::SIDECAR;
+use super::ExhibitFolder;
 
 /// A shipped exhibit that can be begun from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +31,7 @@ impl Template {
     ///
     /// # Errors
     /// Only where the shipped sidecar is not TOML.
-    pub fn copy(self, id: &str) -> Result<Made, toml_edit::TomlError> {
+    pub fn copy(self, id: &str) -> Result<ExhibitFolder, toml_edit::TomlError> {
         let (sidecar, model) = self.sources();
         let mut document: DocumentMut = sidecar.parse()?;
         // The first comment tells where the shipped model comes from.
@@ -44,7 +43,7 @@ impl Template {
         for (key, text) in [("model", format!("{id}.glb")), ("id", id.to_owned())] {
             document[key] = value(text);
         }
-        let files = vec![(SIDECAR.into(), document.to_string().into_bytes()), (format!("{id}.glb"), model.to_vec())];
-        Ok(Made { files, remarks: Vec::new() })
+        let files = ExhibitFolder::files_of(id, document.to_string(), model.to_vec());
+        Ok(ExhibitFolder { files, remarks: Vec::new() })
     }
 }

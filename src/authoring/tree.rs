@@ -1,6 +1,6 @@
 //! Mobiles of any shape: boughs that carry plates and boughs, bent from the lowest upwards.
 //!
-//! Whoever builds one hangs the lowest bough first, finds where it balances, and hangs it on the next: so does [`hang`].
+//! Whoever builds one hangs the lowest bough first, finds where it balances, and hangs it on the next: so does [`assemble_tree`].
 //! Each bough's right end droops as far as puts the centre of what it carries `depth` below its loop, and with that
 //! its tilt has the period 2π √(I/(M g depth)), I about the loop.
 
@@ -10,24 +10,24 @@ use super::mobile::{Branch, branch_of_depth};
 use super::piece::{Part, Piece, named, yaw};
 
 /// What hangs from a point.
-pub enum Hanging {
+pub enum TreeNode {
     /// A plate on its stem, by its first mark; turned about the vertical, rad, against the world.
     Plate(Piece, f64),
     /// A bough with what it carries.
-    Bough(Box<Bough>),
+    BranchNode(Box<BranchNode>),
     /// A part that is fixed to the wire's end, placed from there.
     Fixed(Part),
 }
 
-impl Hanging {
+impl TreeNode {
     /// A bough.
-    pub fn bough(bough: Bough) -> Self {
-        Self::Bough(Box::new(bough))
+    pub fn branch(branch: BranchNode) -> Self {
+        Self::BranchNode(Box::new(branch))
     }
 }
 
 /// A wire with a loop where it balances, and something at each end.
-pub struct Bough {
+pub struct BranchNode {
     /// Its node; the loop is `<name>Loop`, the wire `<name>Wire`, the ends `<name>Right` and `<name>Left`.
     pub name: String,
     /// Of the wire, m.
@@ -41,7 +41,7 @@ pub struct Bough {
     /// Where its right end points, rad about the vertical against the world.
     pub turn: f64,
     /// What hangs at the right and at the left end.
-    pub ends: [Hanging; 2],
+    pub ends: [TreeNode; 2],
 }
 
 /// Straight pieces of each arm: an arc to the eye.
@@ -53,19 +53,19 @@ struct Bent {
     piece: Piece,
     turn: f64,
     mass: f64,
-    hung: Vec<(&'static str, Bent)>,
+    hanging: Vec<(&'static str, Bent)>,
 }
 
 /// What hangs, bent and weighed, or what is fixed.
-fn bend(hanging: Hanging) -> Result<Bent, Part> {
+fn bend(hanging: TreeNode) -> Result<Bent, Part> {
     match hanging {
-        Hanging::Plate(piece, turn) => Ok(Bent { mass: piece.mass().mass, piece, turn, hung: Vec::new() }),
-        Hanging::Bough(bough) => Ok(bend_bough(*bough)),
-        Hanging::Fixed(part) => Err(part),
+        TreeNode::Plate(piece, turn) => Ok(Bent { mass: piece.mass().mass, piece, turn, hanging: Vec::new() }),
+        TreeNode::BranchNode(branch) => Ok(bend_bough(*branch)),
+        TreeNode::Fixed(part) => Err(part),
     }
 }
 
-fn bend_bough(Bough { name, radius, chord, rise, depth, turn, ends }: Bough) -> Bent {
+fn bend_bough(BranchNode { name, radius, chord, rise, depth, turn, ends }: BranchNode) -> Bent {
     let ends = ends.map(bend);
     let load = |end: &Result<Bent, Part>| end.as_ref().map_or(0.0, |bent| bent.mass);
     let loads = [load(&ends[0]), load(&ends[1])];
@@ -84,21 +84,21 @@ fn bend_bough(Bough { name, radius, chord, rise, depth, turn, ends }: Bough) -> 
     };
     let piece = branch_of_depth(drawn, depth);
     let mass = piece.mass().mass + loads[0] + loads[1];
-    let hung = [right, left].into_iter().zip(ends).filter_map(|(mark, end)| Some((mark, end.ok()?)));
-    Bent { piece, turn, mass, hung: hung.collect() }
+    let hanging = [right, left].into_iter().zip(ends).filter_map(|(marker, end)| Some((marker, end.ok()?)));
+    Bent { piece, turn, mass, hanging: hanging.collect() }
 }
 
 fn place(bent: Bent, position: DVec3, pieces: &mut Vec<(Piece, Pose)>) {
     let pose = Pose { rotation: yaw(bent.turn), position };
-    let hooks: Vec<DVec3> = bent.hung.iter().map(|(mark, _)| pose.point(bent.piece.mark(mark))).collect();
+    let hooks: Vec<DVec3> = bent.hanging.iter().map(|(marker, _)| pose.point(bent.piece.marker(marker))).collect();
     pieces.push((bent.piece, pose));
-    for ((_, below), hook) in bent.hung.into_iter().zip(hooks) {
+    for ((_, below), hook) in bent.hanging.into_iter().zip(hooks) {
         place(below, hook, pieces);
     }
 }
 
 /// All pieces of a mobile that hangs at `hook`, and where they are at rest; what carries comes before what hangs.
-pub fn hang(hook: DVec3, top: Hanging) -> Vec<(Piece, Pose)> {
+pub fn assemble_tree(hook: DVec3, top: TreeNode) -> Vec<(Piece, Pose)> {
     let mut pieces = Vec::new();
     if let Ok(bent) = bend(top) {
         place(bent, hook, &mut pieces);

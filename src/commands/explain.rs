@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::failure::{Failure, Outcome};
-use soffio_exhibit::diagnostic::{near, quoted};
+use soffio_exhibit::diagnostic::{quoted, similar_names};
 use soffio_exhibit::{self as exhibit, Exhibit, Origin};
 use soffio_multibody::collision::{Collider, Reason};
 
@@ -27,7 +27,7 @@ pub fn run(args: Args) -> Outcome {
         Some(name) => {
             let names = exhibit.bodies.iter().map(|body| body.name.as_str());
             let Some(body) = exhibit.bodies.iter().position(|body| body.name == *name) else {
-                let likely = near(name, names.clone());
+                let likely = similar_names(name, names.clone());
                 let known: Vec<&str> = if likely.is_empty() { names.collect() } else { likely };
                 return Err(Failure::input(format!(
                     "no body \"{name}\" in {}; there are {}",
@@ -80,7 +80,7 @@ fn explain_body(exhibit: &Exhibit, body: usize) -> String {
 /// Which colliders never meet one of the chosen ones, and why. Parts of one body and what stands still go without
 /// saying.
 fn pair_lines(out: &mut String, exhibit: &Exhibit, chosen: impl Fn(&Collider) -> bool) {
-    let pairs = exhibit.pairs();
+    let pairs = exhibit.collider_pairs();
     let colliders = |a: usize, b: usize| (&exhibit.colliders[a], &exhibit.colliders[b]);
     let of = |(a, b): (&Collider, &Collider)| chosen(a) || chosen(b);
     let meet = pairs.meet.iter().filter(|pair| of(colliders(pair.a, pair.b))).count();

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::arguments::{parse_seconds, parse_size};
 use super::failure::{Failure, Outcome};
 use super::setup;
-use soffio_offline::export::{key_frames::Bake, mjcf};
+use soffio_offline::export::{key_frames::AnimationBake, mjcf};
 use soffio_offline::feed::WavFeed;
 use soffio_offline::play::{self, OnFrame, Play, PlayError};
 use soffio_offline::wav;
@@ -85,7 +85,7 @@ pub fn run(args: Args) -> Outcome {
     };
     if let Some(path) = &args.gltf {
         let fps = args.fps.unwrap_or(STEPS_PER_SECOND as u32);
-        let mut bake = Bake::new(&exhibit, fps);
+        let mut bake = AnimationBake::new(&exhibit, fps);
         perform(&exhibit, Play { fps, ..play }, &mut |_, now: &Snapshot| {
             bake.push(&now.poses);
             Ok(())
@@ -100,7 +100,7 @@ pub fn run(args: Args) -> Outcome {
         }
         let writer = soffio_offline::export::rib::RibWriter::create(&exhibit, folder, args.size, fps);
         let mut writer = writer.map_err(Failure::input)?;
-        let play = Play { fps: writer.moments_per_second(), ..play };
+        let play = Play { fps: writer.samples_per_second(), ..play };
         perform(&exhibit, play, &mut |number, now: &Snapshot| {
             writer.push(number, &now.poses).map_err(|e| e.to_string())
         })?;

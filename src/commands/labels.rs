@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
 use soffio_exhibit::{self as exhibit, SIDECAR, labels};
-use soffio_offline::whole_file::WholeFile;
+use soffio_offline::atomic_file::AtomicFile;
 
 /// Largest table, bytes.
 const MAX_TABLE: u64 = 16 << 20;
@@ -65,7 +65,7 @@ fn read(path: &Path) -> Result<String, Failure> {
 }
 
 fn put(path: &Path, text: &str) -> Outcome {
-    let mut file = WholeFile::create(path).map_err(Failure::input)?;
+    let mut file = AtomicFile::create(path).map_err(Failure::input)?;
     file.write_all(text.as_bytes()).map_err(Failure::input)?;
     file.finish().map_err(Failure::input)
 }

@@ -8,12 +8,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::failure::{Failure, Outcome};
 use super::setup;
 use soffio_authoring::drawing::outlines;
-use soffio_authoring::given::{Metal, Outline, sized};
 use soffio_authoring::notes::{chime, note};
+use soffio_authoring::plate_mobile::{Metal, Outline, sized};
 use soffio_authoring::template::Template;
-use soffio_authoring::{Made, id_problem, starter};
+use soffio_authoring::{ExhibitFolder, FolderFile, id_problem, starter};
 use soffio_exhibit::{self as exhibit, Diagnostic, Exhibit, Report};
-use soffio_offline::whole_folder::WholeFolder;
+use soffio_offline::atomic_folder::AtomicFolder;
 
 /// Plates that are proposed at a terminal.
 const PLATES: &str = "120x80,100,90x60,70";
@@ -109,7 +109,7 @@ pub fn run(args: Args) -> Outcome {
         }
         Kind::Chimes => {
             let names = if args.notes.is_empty() { NOTES.split(',').map(str::to_owned).collect() } else { args.notes };
-            all(names.iter().map(|name| note(name))).and_then(|notes| chime(&id, &notes).map_err(Report::of))
+            all(names.iter().map(|name| note(name))).and_then(|notes| chime(&id, &notes).map_err(Report::single))
         }
         Kind::Clock => return copy(Template::Clock, &folder, &id),
         Kind::Pendulum => return copy(Template::Pendulum, &folder, &id),
@@ -139,7 +139,7 @@ pub(super) fn place(id: &str) -> Result<(PathBuf, String), Failure> {
     let given = Path::new(id);
     let name = given.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     if let Some(problem) = id_problem(&name) {
-        return Err(Failure::input(Report::of(problem)));
+        return Err(Failure::input(Report::single(problem)));
     }
     let shelf = Path::new("exhibits");
     let folder = if id == name && shelf.is_dir() { shelf.join(id) } else { given.to_path_buf() };
@@ -156,7 +156,7 @@ pub(super) fn place(id: &str) -> Result<(PathBuf, String), Failure> {
 }
 
 /// Writes what is made, loads it as the kiosk would, and only then gives it its name.
-fn settle(made: &Made, folder: &Path, id: &str) -> Outcome {
+fn settle(made: &ExhibitFolder, folder: &Path, id: &str) -> Outcome {
     let whole = write(made, folder)?;
     let exhibit = exhibit::load(whole.aside()).map_err(Failure::input)?;
     whole.finish().map_err(Failure::input)?;
@@ -165,11 +165,11 @@ fn settle(made: &Made, folder: &Path, id: &str) -> Outcome {
 }
 
 /// All files of a folder on its way; Ctrl-C leaves nothing of it.
-pub(super) fn write(made: &Made, folder: &Path) -> Result<WholeFolder, Failure> {
+pub(super) fn write(made: &ExhibitFolder, folder: &Path) -> Result<AtomicFolder, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     setup::stop_on_ctrl_c(&stop);
-    let whole = WholeFolder::create(folder).map_err(Failure::input)?;
-    for (name, bytes) in &made.files {
+    let whole = AtomicFolder::create(folder).map_err(Failure::input)?;
+    for FolderFile { name, bytes } in &made.files {
         whole.write(name, bytes).map_err(Failure::input)?;
         if stop.load(Ordering::Relaxed) {
             return Err(Failure { code: 130, message: "interrupted; nothing is left".into() });
@@ -179,7 +179,7 @@ pub(super) fn write(made: &Made, folder: &Path) -> Result<WholeFolder, Failure> 
 }
 
 /// Says what there is now, and what to do next.
-pub(super) fn tell(made: &Made, folder: &Path, id: &str, exhibit: &Exhibit) {
+pub(super) fn tell(made: &ExhibitFolder, folder: &Path, id: &str, exhibit: &Exhibit) {
     for remark in &made.remarks {
         eprintln!("{remark}");
     }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::failure::{Failure, Outcome};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_offline::pictures::{FINER, write_png};
+use soffio_offline::pictures::{SUPERSAMPLING, write_png};
 use soffio_render::scenario::Scenario;
-use soffio_render::{Frame, ImageRenderer, Options, Shaders};
+use soffio_render::{FrameInput, ImageRenderer, Options, Shaders};
 use soffio_simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// Picture size without `--size` or a scenario's.
@@ -61,17 +61,18 @@ pub fn run(args: Args) -> Outcome {
     let snapshot = at(&mut simulation, args.time * STEPS_PER_SECOND as f64);
     let size =
         args.size.unwrap_or((scenario.width.unwrap_or(DEFAULT_SIZE.0), scenario.height.unwrap_or(DEFAULT_SIZE.1)));
-    let look = scenario.look().map_err(Failure::input)?;
+    let look = scenario.lighting().map_err(Failure::input)?;
     let shaders = args.shaders.as_deref().map(Shaders::load).transpose().map_err(Failure::input)?;
     let adjust = |options: &mut Options| {
-        options.look = look;
+        options.lighting = look;
         options.shaders = shaders.map_or(options.shaders.clone(), Arc::new);
     };
-    let mut renderer = ImageRenderer::new(&exhibit, adjust).map_err(Failure::of_picture)?.finer(FINER);
+    let mut renderer =
+        ImageRenderer::new(&exhibit, adjust).map_err(Failure::of_picture)?.with_supersampling(SUPERSAMPLING);
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame =
-        Frame { poses: &snapshot.poses, motes: &snapshot.dust_particles, view, size, exposure, time: snapshot.time };
+        FrameInput { poses: &snapshot.poses, dust: &snapshot.dust_particles, view, size, exposure, time: snapshot.time };
     let picture = renderer.draw(&frame).map_err(Failure::of_picture)?;
     write_png(&picture, &args.output).map_err(Failure::input)
 }
@@ -104,7 +105,7 @@ fn subject(args: &Args, scenario: &Scenario) -> Result<Exhibit, Failure> {
     };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     if extension == "glb" || extension == "gltf" {
-        return exhibit::plain(&path).map_err(Failure::input);
+        return exhibit::load_model(&path).map_err(Failure::input);
     }
     let folder = exhibit::resolve(&name).map_err(Failure::input)?;
     exhibit::load(&folder).map_err(Failure::input)

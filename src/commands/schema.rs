@@ -31,7 +31,7 @@ pub enum Kind {
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let schema = match args.kind {
-        Kind::Exhibit => exhibit::shape::schema(),
+        Kind::Exhibit => exhibit::schema::schema(),
         Kind::Kiosk => config::schema(),
         Kind::Timbre => schemars::schema_for!(Preset).to_value(),
     };

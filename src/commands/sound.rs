@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
-use soffio_offline::audition::Audition;
+use soffio_offline::audition::TestSound;
 use soffio_offline::{sound_page, wav};
 use soffio_simulation::SAMPLE_RATE;
 use soffio_sound::timbre::{Specimen, SpecimenShape};
@@ -118,7 +118,7 @@ fn page(folder: &Path, args: &Args) -> Outcome {
 }
 
 /// The preset, the body and how it is played, with everything that the command line changes.
-fn settings(given: &str, args: &Args) -> Result<(Preset, Specimen, Audition), Failure> {
+fn settings(given: &str, args: &Args) -> Result<(Preset, Specimen, TestSound), Failure> {
     let (name, text) = source(given)?;
     // A file of one's own is not where the shipped ones are.
     let own = given != name;
@@ -126,7 +126,7 @@ fn settings(given: &str, args: &Args) -> Result<(Preset, Specimen, Audition), Fa
     let shipped = Preset::parse(&name, &text).map_err(wrong)?;
     let mut table: toml::Table = text.parse().map_err(Failure::input)?;
     let mut specimen = shipped.specimen;
-    let mut audition = Audition { direction: args.direction.to_radians(), seed: 1, ..Audition::default() };
+    let mut audition = TestSound { direction: args.direction.to_radians(), seed: 1, ..TestSound::default() };
     for pair in &args.set {
         let (key, text) = pair.split_once('=').ok_or_else(|| usage(format!("--set {pair}: must be key=value")))?;
         let value: f64 = text.parse().map_err(|_| usage(format!("--set {pair}: \"{text}\" is not a number")))?;

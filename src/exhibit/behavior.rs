@@ -1,40 +1,40 @@
-//! How an exhibit moves, answers a breath and a hand, and sounds.
+//! How an exhibit moves, responds to breath and touch, and sounds.
 
 use soffio_math::DVec3;
 use soffio_multibody::procedural::Method;
 use soffio_wind::breath::SpreadLaw;
 
-/// What moves an exhibit.
+/// How the motion of an exhibit is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// The laws, and places where a step would take longer than this, s.
+    /// Constrained dynamics; position-based motion where a step would take longer than the budget.
     Auto {
-        /// s of processor time.
+        /// Processor time a step may take, s.
         budget: f64,
     },
-    /// The laws always.
-    Laws,
-    /// Places always.
-    Places(Method),
+    /// Always constrained dynamics.
+    Dynamics,
+    /// Always position-based motion.
+    PositionBased(Method),
 }
 
-/// What hands may do to an exhibit.
+/// What visitors may do to an exhibit by touch or mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
-    /// May visitors take it by the hand?
+pub struct TouchPermission {
+    /// May visitors grab and drag bodies?
     pub permitted: bool,
-    /// How strong a hand is, N.
+    /// Largest force of a pointer grab, N.
     pub force: f64,
 }
 
-/// What a breath is to an exhibit, besides what the site's configuration says.
+/// How a breath acts on an exhibit, besides what the site's configuration sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BreathTuning {
-    /// How it spreads.
+    /// How the breath jet spreads.
     pub law: SpreadLaw,
-    /// Multiplies its force on top of the site's and the profile's gain.
+    /// Multiplies the force, on top of the gains of the site and of the breath profile; dimensionless.
     pub gain: f64,
-    /// Diameter of the lips, m, where it is not the site's.
+    /// Diameter of the blowing lips, m; `None` takes the site's.
     pub lip_diameter: Option<f64>,
 }
 
@@ -44,41 +44,42 @@ impl Default for BreathTuning {
     }
 }
 
-/// How the gallery calms an exhibit that nobody blows at.
+/// Idle damping: brings an exhibit to rest when nobody blows, so that the next breath is visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Calm {
-    /// So long after the last breath or hand it begins, s.
+pub struct IdleDamping {
+    /// Delay after the last breath or grab until the damping begins, s.
     pub after: f64,
-    /// Time constant with which free motion fades at first, s; a swing takes twice as long, and the calm grows firmer.
+    /// Time constant of free motion at first, s. Oscillations decay half as fast, and the damping grows stronger with
+    /// time.
     pub time: f64,
 }
 
 /// Which motion of which body plays which instrument.
 #[derive(Clone, Debug)]
 pub struct SoundBinding {
-    /// Unique in the exhibit.
+    /// Name, unique in the exhibit.
     pub name: String,
-    /// Index of the body.
+    /// Index of the sounding body.
     pub body: usize,
-    /// What sets it off.
+    /// The motion that triggers the sound.
     pub on: SoundTrigger,
     /// Index into [`Exhibit::instruments`](super::Exhibit::instruments).
     pub instrument: usize,
-    /// Node-frame axes of the two largest half extents and the centre, to place a hit on the body.
+    /// Node-frame axes of the two largest half extents, and the centre: they locate an impact on the body.
     pub frame: (DVec3, DVec3, DVec3),
-    /// Index of the wire that the wind plays, where it is one: it hears only what blows across it.
+    /// Index of the wire that the wind plays, if the sound is a wire's: only wind across the wire sounds.
     pub wire: Option<usize>,
     /// Key of the caption in the labels.
     pub caption: Option<String>,
 }
 
-/// What sets a sound off.
+/// The motion that triggers a sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SoundTrigger {
-    /// A hit on the body.
+    /// An impact on the body.
     Impact,
-    /// What slides or rolls over the body.
+    /// A contact that slides or rolls over the body.
     Slide,
-    /// The wind at the body.
+    /// Wind at the body.
     Wind,
 }

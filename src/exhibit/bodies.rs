@@ -1,4 +1,4 @@
-//! What an exhibit is made of: materials, moving bodies, wires.
+//! Materials, moving bodies and wires of an exhibit.
 
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DVec3, Pose};
@@ -9,11 +9,11 @@ use soffio_multibody::dynamics::RollingResistance;
 pub struct Material {
     /// Name in the sidecar.
     pub name: String,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: f64,
-    /// Coulomb coefficient while sticking.
+    /// Coulomb coefficient of static friction.
     pub static_friction: f64,
-    /// Coulomb coefficient while sliding.
+    /// Coulomb coefficient of sliding friction.
     pub dynamic_friction: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
@@ -21,9 +21,9 @@ pub struct Material {
     pub youngs_modulus: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Installed loss factor η.
+    /// Loss factor η of the mounted part, dimensionless.
     pub loss_factor: f64,
-    /// Its part in what resists rolling and spinning on it.
+    /// The surface's contribution to rolling and spinning resistance of a contact.
     pub resistance: RollingResistance,
 }
 
@@ -34,13 +34,13 @@ pub struct MaterialPair {
     pub pair: (usize, usize),
     /// Coefficient of restitution.
     pub restitution: Option<f64>,
-    /// Coulomb coefficient while sliding.
+    /// Coulomb coefficient of sliding friction.
     pub dynamic_friction: Option<f64>,
-    /// Coulomb coefficient while sticking.
+    /// Coulomb coefficient of static friction.
     pub static_friction: Option<f64>,
-    /// Couple against rolling over the normal force, m.
+    /// Rolling resistance: torque against rolling over the normal force, m.
     pub rolling_resistance: Option<f64>,
-    /// Couple against spin about the normal over the normal force, m.
+    /// Spinning resistance: torque about the normal over the normal force, m.
     pub spin_resistance: Option<f64>,
 }
 
@@ -59,7 +59,7 @@ pub struct Body {
     pub velocity: DVec3,
     /// Initial angular velocity, world axes, rad/s.
     pub angular_velocity: DVec3,
-    /// Linear damping rate, 1/s (air other than the wind surfaces' own).
+    /// Linear damping rate, 1/s, in addition to the air drag of the wind surfaces.
     pub linear_damping: f64,
     /// Angular damping rate, 1/s.
     pub angular_damping: f64,
@@ -67,23 +67,23 @@ pub struct Body {
     pub material: usize,
 }
 
-/// A wire or cord that belongs to a body (or stands still).
+/// A wire or cord: part of a body, or fixed in the world.
 #[derive(Clone, Debug)]
 pub struct Wire {
-    /// Unique in the exhibit.
+    /// Name, unique in the exhibit.
     pub name: String,
-    /// Index of the body that carries it; `None` stands still.
+    /// Index of the body that carries it; `None` for a wire fixed in the world.
     pub body: Option<usize>,
     /// Polyline in the node frame of the body (world frame for `None`), m.
     pub points: Vec<DVec3>,
-    /// m.
+    /// Radius, m.
     pub radius: f64,
     /// Index of the physical material.
     pub material: usize,
     /// Linear RGB base colour.
     pub color: [f32; 3],
-    /// 0 dielectric … 1 metal.
+    /// Metalness: 0 dielectric … 1 metal.
     pub metallic: f32,
-    /// Perceptual roughness 0…1.
+    /// Perceptual roughness, 0…1.
     pub roughness: f32,
 }

@@ -1,73 +1,73 @@
-//! Exhibits that tell the time: which body the hand is, and how the figure stands at another hour.
+//! Clocks: the body of the minute hand, and the wheels' rotations at another hour.
 //!
-//! A clock's model shows one time. Whoever hangs it up sets it: overnight it is brought to the last time before now at
-//! which its minute hand stands as in the model, by turning what depends on the hour alone (hour wheel, count wheel);
-//! then the minute hand is carried to now, by the hand, through the clock's own works (`simulation/carrying.rs`).
+//! A clock's model shows one time. To set the clock, wheels that depend on the hour alone (hour wheel, count wheel) are
+//! rotated at once to the last time before now at which the minute hand stands as in the model. Then the minute hand is
+//! turned to the present time through the clock's own wheels (`soffio_simulation`).
 //!
 //! ```text
-//! n = ⌊(now − shows)/1 h⌋ mod 12        hours that it is brought forward
-//! turn of a wheel = n · (turn an hour)  or  Σ of the hours struck on the way · (turn a blow)
+//! n = ⌊(now − initial time)/1 h⌋ mod 12     hours that the clock is set forward
+//! rotation of a wheel = n · (angle an hour)  or  Σ of the hours struck on the way · (angle a strike)
 //! ```
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, rotation};
 
-/// s.
+/// One hour, s.
 pub const HOUR: f64 = 3600.0;
-/// After which a dial shows the same, s.
-pub const ROUND: f64 = 12.0 * HOUR;
+/// Time after which a dial shows the same, s.
+pub const DIAL_PERIOD: f64 = 12.0 * HOUR;
 
-/// A clock's hands.
+/// The hands of a clock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clock {
-    /// The body of the minute hand, which is held by a clutch.
-    pub hand: usize,
-    /// Axis about which it turns with the sun, node frame.
+    /// Index of the body of the minute hand, which a clutch holds.
+    pub minute_hand: usize,
+    /// Axis of its clockwise rotation, unit, node frame.
     pub axis: DVec3,
-    /// Friction of its clutch, N m.
+    /// Friction torque of its clutch, N m.
     pub friction: f64,
-    /// What the hands show at the start, s after twelve.
-    pub shows: f64,
-    /// What turns by the hour.
-    pub by_hour: Vec<Turning>,
-    /// What turns by the blow.
-    pub by_blow: Vec<Turning>,
-    /// What runs while it strikes: whoever carries the hands waits for it.
-    pub strikes: Option<usize>,
+    /// Time that the hands show at the start, s after twelve.
+    pub initial_time: f64,
+    /// Wheels that rotate by the hour.
+    pub by_hour: Vec<CountedRotation>,
+    /// Wheels that rotate by the strike of the bell.
+    pub by_strike: Vec<CountedRotation>,
+    /// Index of the body that moves while the clock strikes: setting the hands waits for it.
+    pub striking_body: Option<usize>,
 }
 
-/// A body that stands otherwise at another hour.
+/// The rotation of a body for each hour or strike.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning {
-    /// Which.
+pub struct CountedRotation {
+    /// Index of the body.
     pub body: usize,
-    /// About this axis through its origin, node frame.
+    /// Axis through its origin, unit, node frame.
     pub axis: DVec3,
-    /// rad, for each.
+    /// Angle for each hour or strike, rad.
     pub angle: f64,
 }
 
 impl Clock {
-    /// Whole hours from what the model shows to `time` (s after any midnight or noon): 0 to 11.
+    /// Whole hours from the time shown at the start to `time` (s after any midnight or noon): 0 to 11.
     pub fn hours_before(&self, time: f64) -> u32 {
-        ((time - self.shows).rem_euclid(ROUND) / HOUR) as u32
+        ((time - self.initial_time).rem_euclid(DIAL_PERIOD) / HOUR) as u32
     }
 
-    /// What is left to be carried then, s: less than an hour.
-    pub fn left(&self, time: f64) -> f64 {
-        (time - self.shows).rem_euclid(HOUR)
+    /// Rest of the time beyond the whole hours, s: what the minute hand is to be turned by.
+    pub fn remaining_seconds(&self, time: f64) -> f64 {
+        (time - self.initial_time).rem_euclid(HOUR)
     }
 
-    /// Blows of the hours that are passed when it is brought forward by so many.
-    pub fn blows(&self, hours: u32) -> u32 {
-        let first = (self.shows / HOUR) as u32;
+    /// Strikes of the bell in the first `hours` hours after the start.
+    pub fn strike_count(&self, hours: u32) -> u32 {
+        let first = (self.initial_time / HOUR) as u32;
         (1..=hours).map(|k| (first + k - 1) % 12 + 1).sum()
     }
 
-    /// Brings bodies in their start state forward to where they stood last before `time`.
+    /// Rotates bodies in their start state to where they stood last before `time`.
     pub fn set(&self, time: f64, bodies: &mut [RigidBody]) {
         let hours = self.hours_before(time);
-        let counts = [(hours, &self.by_hour), (self.blows(hours), &self.by_blow)];
+        let counts = [(hours, &self.by_hour), (self.strike_count(hours), &self.by_strike)];
         for (count, turning) in counts.into_iter().flat_map(|(n, all)| all.iter().map(move |one| (n, one))) {
             let body = &mut bodies[turning.body];
             let pose = body.pose();
@@ -79,8 +79,11 @@ impl Clock {
 }
 
 /// Seconds after midnight of "14:35" or "14:35:10".
+///
+/// # Errors
+/// With a message for the curator where the text is no time of day.
 pub fn time_of_day(text: &str) -> Result<f64, String> {
-    let wrong = || format!("\"{text}\" is no time of day: write hours and minutes, as in \"14:35\"");
+    let wrong = || format!("\"{text}\" is not a time of day: write hours and minutes, as in \"14:35\"");
     let parts: Vec<u32> =
         text.trim().split(':').map(|part| part.parse().map_err(|_| wrong())).collect::<Result<_, _>>()?;
     match parts[..] {
@@ -96,8 +99,16 @@ mod tests {
 
     fn clock() -> Clock {
         let shows = time_of_day("10:50").expect("a time");
-        let (by_hour, by_blow) = (Vec::new(), Vec::new());
-        Clock { hand: 0, axis: DVec3::Z, friction: 0.01, shows, by_hour, by_blow, strikes: None }
+        let (by_hour, by_strike) = (Vec::new(), Vec::new());
+        Clock {
+            minute_hand: 0,
+            axis: DVec3::Z,
+            friction: 0.01,
+            initial_time: shows,
+            by_hour,
+            by_strike,
+            striking_body: None,
+        }
     }
 
     #[test]
@@ -113,9 +124,9 @@ mod tests {
             ("10:49", 11, 3540.0, 68),
         ] {
             let time = time_of_day(now).expect(now);
-            assert_eq!((clock.hours_before(time), clock.left(time)), (hours, left), "{now}");
-            // Eleven hours on it has struck all but the ten that comes next.
-            assert_eq!(clock.blows(hours), blows, "{now}");
+            assert_eq!((clock.hours_before(time), clock.remaining_seconds(time)), (hours, left), "{now}");
+            // Eleven hours later it has struck every hour except ten, which comes next.
+            assert_eq!(clock.strike_count(hours), blows, "{now}");
         }
     }
 

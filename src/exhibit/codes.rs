@@ -1,15 +1,16 @@
-//! Codes of all diagnostics. A code keeps its meaning for ever; a retired one is not given again.
+//! Codes of all diagnostics. A code never changes its meaning, and a retired code is not used again.
 //!
-//! E0232 (a closed loop) and E0233 (the same freedom held twice) are retired: loops are solved, and W0407 warns.
-//! E00xx files, E01xx the sidecar's shape, E02xx what it says, E03xx the model, E05xx the site's configuration, E06xx
-//! what the curator's tools are given, W0xxx warnings.
+//! Retired: E0232 (a closed loop) and E0233 (a freedom constrained twice). Loops are solved now, and W0407 warns of
+//! redundancy.
+//! E00xx files, E01xx structure of the sidecar, E02xx its content, E03xx the model, E05xx the site's configuration,
+//! E06xx input of the curator's tools, W0xxx warnings.
 
 /// A diagnostic's stable code and its meaning in one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Code {
     /// Such as `E0207`.
     pub name: &'static str,
-    /// What it means, for listings.
+    /// Meaning, for listings.
     pub meaning: &'static str,
 }
 
@@ -32,7 +33,7 @@ codes! {
     WRONG_TYPE = "E0104", "a value has the wrong type or unit";
     WRONG_SHAPE = "E0105", "a value is not among those allowed";
     VERSION = "E0106", "the sidecar's format version is not known";
-    DUPLICATE_NAME = "E0201", "two things of a kind have the same name";
+    DUPLICATE_NAME = "E0201", "two items of a kind have the same name";
     NOT_FOUND = "E0207", "no node of this name";
     AMBIGUOUS = "E0208", "several nodes have this name";
     UNKNOWN_MATERIAL = "E0209", "no material of this name";
@@ -45,23 +46,23 @@ codes! {
     SCALED_BODY = "E0224", "the node of a body is scaled unevenly or mirrored";
     NOT_DESCENDANT = "E0225", "a node does not belong to the body";
     RANGE = "E0226", "a number is out of its range";
-    BOTH_STATIC = "E0230", "a constraint joins two static things, or a body to itself";
-    APART = "E0231", "the two points of a constraint are apart at rest";
-    NOT_PERPENDICULAR = "E0234", "the two axes of an orientation are not at their angle at rest";
+    BOTH_STATIC = "E0230", "a constraint joins two fixed nodes, or a body to itself";
+    APART = "E0231", "the two points of a constraint are apart at the start";
+    NOT_PERPENDICULAR = "E0234", "the two axes of an orientation are not at their angle at the start";
     NO_AXIS = "E0235", "a direction has no length";
-    CONTRADICTORY = "E0236", "a constraint asks for what others forbid";
+    CONTRADICTORY = "E0236", "a constraint contradicts others";
     GEAR_RING = "E0237", "a ring of gears cannot turn";
-    WINDOW = "E0238", "a window of time does not hold";
+    WINDOW = "E0238", "a time window is invalid";
     UNKNOWN_CONSTRAINT = "E0239", "no constraint of this name";
-    NOT_HELD = "E0242", "an element frees what its constraint does not hold by a row of its own";
-    NO_BREAK = "E0243", "a constraint breaks at no load";
-    KEYS = "E0244", "the keys of a function or path are not in the order of time";
+    NOT_HELD = "E0242", "an element frees a freedom that its constraint does not constrain by a row of its own";
+    NO_BREAK = "E0243", "a breakable constraint has no breaking load";
+    KEYS = "E0244", "the keys of a function or path are not in increasing time";
     NO_MOTION = "E0245", "a kinematic body has no motion to follow";
     NO_MESH = "E0240", "a node has no mesh to take a shape from";
     NOT_FLAT = "E0241", "a mesh has no outline to fit a plate to";
-    NO_COLLIDER = "E0250", "a sound of hits or sliding needs a collider on its body";
-    ENDLESS = "E0252", "a plane without end belongs to what moves";
-    TRIGGER = "E0251", "a trigger waits for hits on a body without a collider";
+    NO_COLLIDER = "E0250", "a sound of impacts or sliding needs a collider on its body";
+    ENDLESS = "E0252", "an infinite plane belongs to a moving body";
+    TRIGGER = "E0251", "a trigger waits for impacts on a body without a collider";
     NO_TEXT = "E0260", "a label text is missing";
     BREATH = "E0261", "a recorded breath cannot be read";
     ATTRACT_ORDER = "E0262", "the attract script is out of order";
@@ -73,19 +74,19 @@ codes! {
     MODEL_LIMIT = "E0303", "the model exceeds a limit";
     IMAGE = "E0304", "an image of the model cannot be decoded";
     CYCLE = "E0305", "the node tree of the model is not a tree";
-    CONFIG = "E0501", "the site's configuration does not hold";
-    TEXTS = "E0503", "a file of the kiosk's own texts does not hold";
-    NEW = "E0601", "a new exhibit cannot be made of what is given";
-    TABLE = "E0602", "a table of label texts cannot be taken over";
+    CONFIG = "E0501", "the site's configuration is invalid";
+    TEXTS = "E0503", "a file of the kiosk's own texts is invalid";
+    NEW = "E0601", "a new exhibit cannot be made from this input";
+    TABLE = "E0602", "a table of label texts cannot be merged";
     NO_CAPTION = "W0401", "a sound has no caption";
     MISSING_WORDS = "W0402", "a label is missing in a language";
-    NO_ALT = "W0403", "a label has no description for those who cannot see";
+    NO_ALT = "W0403", "a label has no description for visitors who cannot see";
     SKIPPED = "W0404", "a part of the model is not drawn";
     DUPLICATE_NODE = "W0406", "two nodes of the model have the same name";
-    REDUNDANT = "W0407", "constraints hold the same freedom twice";
+    REDUNDANT = "W0407", "a freedom is constrained twice";
     GEAR_DISTANCE = "W0408", "the axles of two gears are not as far apart as their radii say";
     MASS_RATIO = "W0409", "two joined bodies differ in mass by more than a million";
-    UNUSED = "W0410", "a value is given that nothing uses";
-    LATE = "W0411", "a step takes longer than a kiosk has for it";
+    UNUSED = "W0410", "a value has no effect";
+    LATE = "W0411", "a step misses its deadline";
     MISSING_TEXTS = "W0413", "a file of the kiosk's own texts lacks some, or leaves out a variable";
 }

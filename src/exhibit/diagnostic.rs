@@ -1,7 +1,6 @@
-//! Diagnostics: each problem says where it is, what is wrong, why, and what to do; a report holds all of them.
+//! Diagnostics: each problem says where it is, what is wrong, why, and what to do. A report lists them all.
 //!
-//! Shown with the source line under the message on a terminal (miette), or as JSON for other programs. The codes are
-//! stable: [`super::codes`] lists them.
+//! Shown on a terminal with the source line (miette), or as JSON. The codes are stable and listed in [`super::codes`].
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,11 +12,11 @@ use serde::Serialize;
 
 use super::codes::Code;
 
-/// How bad it is.
+/// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// The exhibit runs, but something is probably not meant so.
+    /// The exhibit runs, but something is probably a mistake.
     Warning,
     /// The exhibit cannot run.
     Error,
@@ -26,13 +25,13 @@ pub enum Severity {
 /// A place in a text file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Location {
-    /// File, as the reader named it.
+    /// Name of the file as it was opened.
     pub file: String,
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// Bytes of the file, for the excerpt.
+    /// Range of bytes, for the excerpt.
     #[serde(skip)]
     pub span: Range<usize>,
 }
@@ -46,13 +45,13 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// What is wrong.
     pub message: String,
-    /// Why it matters here; stands under the excerpt.
+    /// Why it matters here; shown under the excerpt.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub label: String,
-    /// What to do.
+    /// What to do about it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
-    /// Where; `None` where it is about a whole file that has no lines (named in the message).
+    /// Place of the problem; `None` where it concerns a whole file without lines, which the message names.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub location: Option<Location>,
 }
@@ -70,13 +69,13 @@ impl Diagnostic {
         }
     }
 
-    /// With what to do.
+    /// Sets what to do.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// With words under the excerpt.
+    /// Sets the text under the excerpt.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
@@ -88,7 +87,7 @@ impl Diagnostic {
     }
 }
 
-/// All problems of one load, in the order of the file, with the texts they point into.
+/// All problems of one load, in the order of the file, with the texts that they refer to.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The problems.
@@ -98,7 +97,7 @@ pub struct Report {
 
 impl Report {
     /// A report of one problem.
-    pub fn of(diagnostic: Diagnostic) -> Self {
+    pub fn single(diagnostic: Diagnostic) -> Self {
         Self { diagnostics: vec![diagnostic], sources: BTreeMap::new() }
     }
 
@@ -113,7 +112,7 @@ impl Report {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// Does it hold a problem with this code?
+    /// Does it contain a problem with this code?
     pub fn has(&self, code: Code) -> bool {
         self.diagnostics.iter().any(|d| d.code == code.name)
     }
@@ -124,7 +123,8 @@ impl Report {
         self.sources.extend(other.sources);
     }
 
-    /// One JSON object a problem: `code`, `severity`, `message`, `label`, `help`, `file`, `line`, `column`.
+    /// A JSON array with an object for each problem: `code`, `severity`, `message`, `label`, `help`, `file`, `line`,
+    /// `column`.
     pub fn to_json(&self) -> serde_json::Value {
         // Plain strings and numbers cannot fail to serialise.
         serde_json::to_value(&self.diagnostics).unwrap_or_default()
@@ -136,7 +136,7 @@ impl Report {
         let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
         let mut text = String::new();
         for diagnostic in &self.diagnostics {
-            if handler.render_report(&mut text, self.dress(diagnostic).as_ref()).is_err() {
+            if handler.render_report(&mut text, self.to_miette(diagnostic).as_ref()).is_err() {
                 text.push_str(&diagnostic.message);
             }
             text.push('\n');
@@ -144,7 +144,7 @@ impl Report {
         text
     }
 
-    fn dress(&self, diagnostic: &Diagnostic) -> miette::Report {
+    fn to_miette(&self, diagnostic: &Diagnostic) -> miette::Report {
         let mut dressed = MietteDiagnostic::new(&diagnostic.message).with_code(diagnostic.code);
         dressed.severity = Some(match diagnostic.severity {
             Severity::Error => miette::Severity::Error,
@@ -178,21 +178,21 @@ impl fmt::Display for Report {
 
 impl std::error::Error for Report {}
 
-/// The names most like `wanted`, best first, at most three.
-pub fn near<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    /// Jaro–Winkler similarity below which two names have nothing to do with each other.
-    const LIKENESS: f64 = 0.75;
+/// The names most similar to `wanted` (Jaro–Winkler), best first, at most three.
+pub fn similar_names<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    /// Jaro–Winkler similarity below which two names count as unrelated.
+    const SIMILARITY: f64 = 0.75;
     let lower = wanted.to_lowercase();
     let mut scored: Vec<(f64, &str)> = names
         .map(|name| (strsim::jaro_winkler(&lower, &name.to_lowercase()), name))
-        .filter(|(score, _)| *score >= LIKENESS)
+        .filter(|(score, _)| *score >= SIMILARITY)
         .collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
     scored.dedup_by_key(|(_, name)| *name);
     scored.into_iter().take(3).map(|(_, name)| name).collect()
 }
 
-/// `"a", "b" or "c"` for messages.
+/// A list for messages: `"a", "b" or "c"`.
 pub fn quoted(names: &[&str]) -> String {
     names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
 }

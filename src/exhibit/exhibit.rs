@@ -1,15 +1,15 @@
-//! The exhibit itself: all that its model and its sidecar say, resolved.
+//! The resolved exhibit: model and sidecar with every name turned into an index.
 
 use std::path::PathBuf;
 
-use super::behavior::{BreathTuning, Calm, Motion, SoundBinding, Touch};
+use super::behavior::{BreathTuning, IdleDamping, Motion, SoundBinding, TouchPermission};
 use super::bodies::{Body, Material, MaterialPair, Wire};
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
 use super::model::Model;
 use super::paths::SIDECAR;
 use super::presentation::{Attract, Credit, Labels};
-use super::shapes;
+use super::shape_tracks;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
 use soffio_multibody::collision::{Collider, Exclusion, Pair};
@@ -20,51 +20,51 @@ use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 ///
-/// It has 37 fields, because it is the sidecar with every name resolved: about one field for each table of `exhibit.toml` and
-/// key of its `[scene]`. It has no state; whoever simulates, draws or shows an exhibit reads the few fields it needs.
+/// It has 37 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
+/// has no state.
 #[derive(Clone, Debug)]
 pub struct Exhibit {
-    /// Folder name and id.
+    /// Id: the folder's name unless the sidecar sets one.
     pub id: String,
-    /// Where it was loaded from.
+    /// Folder that it was loaded from.
     pub folder: PathBuf,
     /// The glTF model.
     pub model: Model,
-    /// World acceleration, m/s².
+    /// Acceleration of gravity, world, m/s².
     pub gravity: DVec3,
-    /// glTF camera node that the visitor looks through; `None` frames the bounds.
+    /// glTF node of the camera; `None` frames the bounds of the exhibit.
     pub camera_node: Option<usize>,
-    /// Materials by name, as the sidecar has them.
+    /// Materials, in the order of the sidecar.
     pub materials: Vec<Material>,
-    /// What a pair of materials does that the combine rule (geometric mean) does not say.
+    /// Material pairs that depart from the combine rule (geometric mean).
     pub material_pairs: Vec<MaterialPair>,
     /// Moving bodies. Static nodes are not bodies.
     pub bodies: Vec<Body>,
     /// Joints.
     pub constraints: Vec<Constraint>,
-    /// What stays within bounds: tilts, stops, slack cords, ratchets.
+    /// Limits: tilts, stops, slack cords, ratchets.
     pub limits: Vec<Limit>,
     /// Springs and dampers.
     pub springs: Vec<Spring>,
-    /// Bodies that follow key frames or a path.
+    /// Kinematic bodies: their key frames or paths.
     pub drives: Vec<KinematicBody>,
-    /// Key frames of shapes, which the picture alone shows.
-    pub shapes: Vec<shapes::ShapeTrack>,
-    /// Length of one run, s; may be infinite.
+    /// Animated scales and morph weights, which affect the picture alone.
+    pub shapes: Vec<shape_tracks::ShapeTrack>,
+    /// Duration of a run before the exhibit starts again, s; may be infinite.
     pub duration: f64,
-    /// Does it gather itself from scattered parts when it comes on?
-    pub gathers: bool,
-    /// What moves it.
+    /// Does it play its assembly when it is shown?
+    pub assembles: bool,
+    /// How its motion is computed.
     pub motion: Motion,
-    /// What hands may do to it.
-    pub touch: Touch,
-    /// Its hands, where it tells the time.
+    /// What visitors may do to it by touch.
+    pub touch: TouchPermission,
+    /// The hands, if it is a clock.
     pub clock: Option<clock::Clock>,
-    /// How time is advanced.
+    /// Time integrator.
     pub integrator: Integrator,
-    /// Which linear solver finds the multipliers.
+    /// Linear solver of the constraint forces.
     pub solver: Solver,
-    /// 1/ω₀ of the joints' stabiliser, s.
+    /// Time constant 1/ω₀ of the constraint stabilisation, s.
     pub stabilization_time: f64,
     /// Wires and cords: drawn as capsules, feel the wind, have mass.
     pub wires: Vec<Wire>,
@@ -72,45 +72,44 @@ pub struct Exhibit {
     pub colliders: Vec<Collider>,
     /// Pairs of bodies that never collide, sorted.
     pub excluded_pairs: Vec<Exclusion>,
-    /// What feels the wind.
+    /// Surfaces on which wind acts.
     pub wind_surfaces: Vec<Surface>,
-    /// What stands in the wind's way.
+    /// Bodies and meshes that block the wind.
     pub shelters: Vec<Shelter>,
-    /// Winds that blow by themselves.
+    /// Winds other than the breath.
     pub winds: Vec<Wind>,
-    /// What a breath is to this exhibit.
+    /// How a breath acts on it.
     pub breath: BreathTuning,
-    /// How it comes to rest when nobody blows; `None`: by itself.
-    pub calm: Option<Calm>,
-    /// Level of all sounds, dB; their own gains hold it already.
+    /// Idle damping; `None` leaves it to come to rest by itself.
+    pub idle_damping: Option<IdleDamping>,
+    /// Level of all sounds, dB; already contained in the gains of the instruments.
     pub level_db: f64,
     /// Sounding bodies.
     pub instruments: Vec<InstrumentSpec>,
-    /// Which motion plays which instrument.
+    /// Triggers of the sounds.
     pub sounds: Vec<SoundBinding>,
-    /// Attract mode.
+    /// Attract script.
     pub attract: Attract,
-    /// Words by language.
+    /// Label texts by language.
     pub labels: Labels,
-    /// Who made it, and whose rights it carries.
+    /// Author, licence and rights notice.
     pub credit: Credit,
-    /// What is probably not meant so.
+    /// Probable mistakes.
     pub warnings: Vec<Diagnostic>,
-    /// Where the values come from, in the order of the file.
+    /// Source of each value, in the order of the file.
     pub origins: Vec<Origin>,
 }
 
 impl Exhibit {
-    /// The warnings as a report with the sidecar's text, to be shown.
+    /// The warnings as a report with the sidecar's text, for display.
     pub fn warning_report(&self) -> Report {
         let file = self.folder.join(SIDECAR);
         let text = std::fs::read_to_string(&file).unwrap_or_default();
         Report::in_file(&file.display().to_string(), text.into(), self.warnings.clone())
     }
 
-    /// What the surfaces of two colliders do to each other. Restitution and sliding friction are those of the pair of
-    /// materials, or the geometric mean of both; resistances are those of the pair, or the sum of both, as each surface
-    /// loses its own.
+    /// Contact properties of two colliders. Restitution and sliding friction are those of the material pair, or the
+    /// geometric mean of both materials. Resistances are those of the pair, or the sum of both.
     pub fn surface_pair(&self, pair: Pair) -> SurfacePair {
         let [a, b] = [pair.a, pair.b].map(|collider| self.colliders[collider].material);
         let (x, y) = (&self.materials[a], &self.materials[b]);
@@ -126,15 +125,15 @@ impl Exhibit {
     }
 }
 
-/// A resolved value and where it comes from.
+/// A resolved value and its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// What it belongs to: `body Boom`, `constraint boom-cup`.
+    /// Owner of the value: `body Boom`, `constraint boom-cup`.
     pub of: String,
     /// Name of the value.
     pub key: String,
     /// The value with its unit.
     pub value: String,
-    /// `glTF`, `exhibit.toml:12`, or how it was derived.
+    /// Source: `glTF`, `exhibit.toml:12`, or how the value was derived.
     pub source: String,
 }

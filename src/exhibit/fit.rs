@@ -1,9 +1,10 @@
-//! Collision shapes fitted to meshes: ball, capsule, box, hull, and sheet metal as convex pieces of its outline.
+//! Collision shapes fitted to meshes: sphere, capsule, box, convex hull, and sheet metal as convex pieces of its
+//! outline.
 //!
-//! A shape is a convex core with a ball swept over it (`collision::Shape`). Sheet metal is the flat polygon of its
-//! mid-surface with half its thickness as the ball: its outline is found as the rim of one face, simplified, cut into
-//! triangles by ear clipping (Meisters 1975) and merged again where the union stays convex (Hertel and Mehlhorn 1983:
-//! at most four times the least number of pieces). Holes are filled.
+//! A shape is a convex core with a sphere swept over it (`collision::Shape`). Sheet metal is the flat polygon of its
+//! mid-surface, with half its thickness as the sphere's radius. Its outline is the rim of one face, simplified (Douglas
+//! and Peucker 1973), cut into triangles by ear clipping (Meisters 1975), and merged where the union stays convex
+//! (Hertel and Mehlhorn 1983: at most four times the least number of pieces). Holes are filled.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +13,13 @@ use soffio_geometry::{Extents, TriangleMesh};
 use soffio_math::{DMat3, DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 use soffio_multibody::collision::Shape;
 
-/// Part of the smallest half extent that rounds the edges of boxes, cylinders and hulls, as real ones are: a hit on an
-/// edge has a direction of its own while the cores inside do not touch.
+/// Edge radius of boxes, cylinders and hulls, as a fraction of the smallest half extent. Rounded edges give impacts a
+/// definite normal.
 const ROUNDING: f64 = 0.02;
-/// Directions in which a hull is supported.
+/// Number of support directions of a hull.
 const HULL_DIRECTIONS: usize = 96;
 
-/// A box with faces where they should be and rounded edges.
+/// A box with rounded edges whose faces lie where they should.
 pub fn rounded_box(center: DVec3, [x, y, z]: [DVec3; 3], half: DVec3) -> Shape {
     // A box is its own mirror image, a rotation is not.
     let z = if x.cross(y).dot(z) < 0.0 { -z } else { z };
@@ -26,27 +27,27 @@ pub fn rounded_box(center: DVec3, [x, y, z]: [DVec3; 3], half: DVec3) -> Shape {
     Shape::cuboid(Pose { rotation, position: center }, half, ROUNDING * half.min_element())
 }
 
-/// A cylinder about a centre along a unit axis.
+/// A cylinder with rounded edges about a centre along a unit axis; lengths in m.
 pub fn cylinder(center: DVec3, axis: DVec3, height: f64, radius: f64) -> Shape {
     let half = 0.5 * height * axis;
     Shape::cylinder(center - half, center + half, radius, ROUNDING * radius.min(0.5 * height))
 }
 
-/// The ball around the centre of the oriented box.
+/// The sphere around the mesh with its centre at the oriented box's.
 pub fn sphere(mesh: &TriangleMesh, extents: &Extents) -> Shape {
     let far = mesh.corners().flatten().map(|p| p.distance(extents.center)).fold(0.0, f64::max);
     Shape::sphere(extents.center, far)
 }
 
-/// The capsule along the longest axis.
+/// The capsule along the longest axis of the oriented box.
 pub fn capsule(extents: &Extents) -> Shape {
     let radius = extents.half.y;
     let along = extents.axes.x_axis * (extents.half.x - radius).max(0.0);
     Shape::capsule(extents.center - along, extents.center + along, radius)
 }
 
-/// The hull of the mesh, with faces where they should be and rounded edges; of a mesh of many corners that of its support
-/// points in directions spread evenly over the sphere (a Fibonacci lattice).
+/// The convex hull with rounded edges, faces where they should be; of a large mesh the hull of its support points in
+/// directions spread evenly over the sphere (Fibonacci lattice). `None` where the mesh has no volume.
 pub fn convex(mesh: &TriangleMesh) -> Option<Shape> {
     let mut points: Vec<DVec3> = Vec::new();
     for point in mesh.corners().flatten() {
@@ -83,7 +84,7 @@ pub fn convex(mesh: &TriangleMesh) -> Option<Shape> {
 pub fn plate(mesh: &TriangleMesh, extents: &Extents) -> Option<Vec<Shape>> {
     let normal = extents.axes.z_axis;
     let (u, v) = (extents.axes.x_axis, extents.axes.y_axis);
-    // An open sheet has no thickness of its own; it gets that of thin metal for its size.
+    // An open surface has no thickness of its own; it gets that of thin metal for its size.
     let radius = extents.half.z.max(1e-3 * extents.half.y);
     let flat = |p: DVec3| DVec2::new((p - extents.center).dot(u), (p - extents.center).dot(v));
     let outline: Vec<DVec2> = rim(mesh, normal)?.into_iter().map(flat).collect();
@@ -96,7 +97,7 @@ pub fn plate(mesh: &TriangleMesh, extents: &Extents) -> Option<Vec<Shape>> {
     Some(pieces.iter().map(|piece| Shape::plate(&piece.iter().map(lift).collect::<Vec<_>>(), radius)).collect())
 }
 
-/// The triangles of a sheet that face one way, for the wind: one side of a closed plate, all of an open one.
+/// The triangles of a sheet that face along `normal`, for the wind: one side of a closed plate, all of an open surface.
 pub fn one_side(mesh: &TriangleMesh, normal: DVec3) -> TriangleMesh {
     let faces = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|i| mesh.positions[i as usize]);
@@ -175,14 +176,14 @@ pub fn simplify(line: &[DVec3], tolerance: f64) -> Vec<DVec3> {
     }
 }
 
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+fn orientation(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - b)
 }
 
-/// A simple counter-clockwise polygon as convex polygons.
+/// Convex decomposition of a simple counter-clockwise polygon.
 fn convex_pieces(outline: &[DVec2]) -> Vec<Vec<DVec2>> {
-    let mut pieces: Vec<Vec<usize>> = ears(outline).into_iter().map(|t| t.to_vec()).collect();
-    // Take out each diagonal whose two neighbours are convex together, until none is left.
+    let mut pieces: Vec<Vec<usize>> = ear_clipping(outline).into_iter().map(|t| t.to_vec()).collect();
+    // Remove each diagonal whose two neighbours together are convex, until none is left.
     'again: loop {
         for i in 0..pieces.len() {
             for j in i + 1..pieces.len() {
@@ -198,8 +199,8 @@ fn convex_pieces(outline: &[DVec2]) -> Vec<Vec<DVec2>> {
     pieces.into_iter().map(|piece| piece.into_iter().map(|i| outline[i]).collect()).collect()
 }
 
-/// Triangles of a simple counter-clockwise polygon by clipping ears.
-fn ears(outline: &[DVec2]) -> Vec<[usize; 3]> {
+/// Triangles of a simple counter-clockwise polygon by ear clipping.
+fn ear_clipping(outline: &[DVec2]) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..outline.len()).collect();
     let mut triangles = Vec::new();
     while left.len() > 3 {
@@ -208,13 +209,14 @@ fn ears(outline: &[DVec2]) -> Vec<[usize; 3]> {
         let is_ear = |i: &usize| {
             let t = corner(*i);
             let [a, b, c] = t.map(|k| outline[k]);
-            let covers = |p: DVec2| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
-            turn(a, b, c) > 0.0 && !left.iter().any(|k| !t.contains(k) && covers(outline[*k]))
+            let covers =
+                |p: DVec2| orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
+            orientation(a, b, c) > 0.0 && !left.iter().any(|k| !t.contains(k) && covers(outline[*k]))
         };
         // A polygon that touches itself may have no strict ear; the most convex corner goes first then.
         let bend = |i: &usize| {
             let [a, b, c] = corner(*i).map(|k| outline[k]);
-            turn(a, b, c)
+            orientation(a, b, c)
         };
         let ear = (0..n).find(is_ear).or_else(|| (0..n).max_by(|a, b| bend(a).total_cmp(&bend(b)))).unwrap_or(0);
         triangles.push(corner(ear));
@@ -238,7 +240,7 @@ fn merged(outline: &[DVec2], p: &[usize], q: &[usize]) -> Option<Vec<usize>> {
         let corner = |k: usize| [k, (k + 1) % n, (k + 2) % n].map(|m| outline[joined[m]]);
         let convex = (0..n).all(|k| {
             let [a, b, c] = corner(k);
-            turn(a, b, c) >= 0.0
+            orientation(a, b, c) >= 0.0
         });
         return convex.then_some(joined);
     }
@@ -269,7 +271,7 @@ mod tests {
         assert!((covered - area(&star)).abs() < ROUNDING, "{covered} against {}", area(&star));
         for piece in &pieces {
             let n = piece.len();
-            assert!((0..n).all(|k| turn(piece[k], piece[(k + 1) % n], piece[(k + 2) % n]) >= 0.0), "{piece:?}");
+            assert!((0..n).all(|k| orientation(piece[k], piece[(k + 1) % n], piece[(k + 2) % n]) >= 0.0), "{piece:?}");
         }
         // Five reflex corners need at least three pieces; Hertel–Mehlhorn gives at most four times that, here 6.
         assert!((3..=6).contains(&pieces.len()), "{} pieces", pieces.len());

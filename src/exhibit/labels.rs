@@ -1,4 +1,4 @@
-//! Label texts as a table for translators, and back: one row a text, one column a language.
+//! Label texts as a CSV table for translators, and back: one row for each text, one column for each language.
 //!
 //! ```text
 //! key,en,ko,it
@@ -6,26 +6,26 @@
 //! caption.large,[large steel disc rings low],…
 //! ```
 //!
-//! Keys are `title`, `maker`, `body`, `alt`, and `text.` or `caption.` with the key of the sidecar. What is the same is not
-//! touched, so that a table read back unchanged leaves the sidecar as it was to the byte; what differs changes the value
-//! alone, comments stay. Tables begin with a byte order mark, by which spreadsheets know UTF-8; those that come back may
-//! have lost it, and be separated by semicolons or tabs.
+//! Keys are `title`, `maker`, `body`, `alt`, and `text.` or `caption.` with the key of the sidecar. Only values that
+//! differ are changed: comments stay, and a table read back unchanged leaves the sidecar byte for byte. Tables begin
+//! with a byte order mark, so that spreadsheets recognise UTF-8. Tables that come back may lack it, and may be
+//! separated by semicolons or tabs.
 
 use std::sync::Arc;
 
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 use super::codes;
-use super::diagnostic::{Diagnostic, Location, Report, near, quoted};
+use super::diagnostic::{Diagnostic, Location, Report, quoted, similar_names};
 
-/// Keys of a language that are texts themselves.
-const PLAIN: [&str; 4] = ["title", "maker", "body", "alt"];
-/// Keys that hold texts by keys of their own.
-const GROUPS: [&str; 2] = ["text", "caption"];
-/// Not a language.
-const DEFAULT: &str = "default_language";
-/// Tells spreadsheets that a table is UTF-8.
-const MARK: &str = "\u{feff}";
+/// Keys of a language with one text each.
+const SINGLE_TEXTS: [&str; 4] = ["title", "maker", "body", "alt"];
+/// Keys of a language that are tables of texts.
+const TEXT_TABLES: [&str; 2] = ["text", "caption"];
+/// Key of the label that is not a language.
+const DEFAULT_LANGUAGE: &str = "default_language";
+/// Marks a table as UTF-8 for spreadsheets.
+const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// The table of a sidecar's label texts.
 ///
@@ -36,7 +36,7 @@ pub fn to_csv(file: &str, sidecar: &str) -> Result<String, Report> {
     let languages = languages(&document);
     if languages.is_empty() {
         let problem = Diagnostic::new(codes::NO_TEXT, format!("{file} has no label"));
-        return Err(Report::of(problem.help("write [label.en] with a title, and translate that")));
+        return Err(Report::single(problem.help("write [label.en] with a title, and translate that")));
     }
     let mut writer = csv::WriterBuilder::new().from_writer(Vec::new());
     let head = ["key"].into_iter().chain(languages.iter().map(String::as_str));
@@ -50,46 +50,46 @@ pub fn to_csv(file: &str, sidecar: &str) -> Result<String, Report> {
         }
         Ok(())
     });
-    // Writing to memory cannot fail, and what was TOML is UTF-8.
+    // Writing to memory cannot fail, and TOML is UTF-8.
     let bytes = written.ok().and_then(|()| writer.into_inner().ok()).unwrap_or_default();
-    Ok(format!("{MARK}{}", String::from_utf8_lossy(&bytes)))
+    Ok(format!("{BYTE_ORDER_MARK}{}", String::from_utf8_lossy(&bytes)))
 }
 
-/// A sidecar with the texts of a table.
+/// A sidecar with the texts of a table merged in.
 #[derive(Clone, Debug)]
-pub struct Taken {
+pub struct MergedTexts {
     /// The new sidecar.
     pub sidecar: String,
-    /// Texts that changed, or are new.
+    /// Number of texts that changed or are new.
     pub changed: usize,
-    /// What the table does not say, a line each: its languages, rows and cells that are missing.
+    /// Languages, rows and cells that the table lacks, one line each.
     pub remarks: Vec<String>,
 }
 
-/// Takes the texts of a table over into a sidecar.
+/// Merges the texts of a table into a sidecar.
 ///
 /// # Errors
 /// All at once, each with its line: keys that the sidecar does not have, headings that are no language, rows of another
-/// length. Nothing is taken over then.
-pub fn from_csv(file: &str, sidecar: &str, table_file: &str, table: &str) -> Result<Taken, Report> {
+/// length. Nothing is merged then.
+pub fn from_csv(file: &str, sidecar: &str, table_file: &str, table: &str) -> Result<MergedTexts, Report> {
     let mut document = parsed(file, sidecar)?;
     let had = languages(&document);
     let known = keys(&document, &had);
     let rows = rows(table_file, table)?;
     let mut problems = Problems { file: table_file, text: table, list: Vec::new() };
-    let mut taken = Taken { sidecar: String::new(), changed: 0, remarks: Vec::new() };
+    let mut taken = MergedTexts { sidecar: String::new(), changed: 0, remarks: Vec::new() };
     let Some((_, head)) = rows.first().filter(|(_, head)| head.first().is_some_and(|key| key == "key")) else {
         problems.add(
             1,
-            "the table does not begin with \"key\" and languages".into(),
-            "write it anew: soffio labels EXHIBIT --csv FILE",
+            "the first row of the table must be \"key\" and the languages".into(),
+            "create it again: soffio labels EXHIBIT --csv FILE",
         );
         return Err(problems.report());
     };
     let columns: Vec<&str> = head[1..].iter().map(String::as_str).collect();
     for (i, code) in columns.iter().enumerate() {
         if !is_language(code) {
-            problems.add(1, format!("\"{code}\" is no language"), "write its code, such as ko, it or pt-BR");
+            problems.add(1, format!("\"{code}\" is not a language"), "write its code, such as ko, it or pt-BR");
         } else if columns[..i].contains(code) {
             problems.add(1, format!("\"{code}\" has two columns"), "keep one of them");
         }
@@ -98,7 +98,7 @@ pub fn from_csv(file: &str, sidecar: &str, table_file: &str, table: &str) -> Res
     for (line, row) in &rows[1..] {
         let key = row[0].as_str();
         if !known.iter().any(|k| k == key) {
-            let likely = near(key, known.iter().map(String::as_str));
+            let likely = similar_names(key, known.iter().map(String::as_str));
             let help = if likely.is_empty() {
                 format!("keys are: {}", known.join(", "))
             } else {
@@ -147,16 +147,16 @@ pub fn from_csv(file: &str, sidecar: &str, table_file: &str, table: &str) -> Res
 }
 
 fn parsed(file: &str, sidecar: &str) -> Result<DocumentMut, Report> {
-    sidecar.parse::<DocumentMut>().map_err(|_| match super::source::Source::parse(file, sidecar) {
+    sidecar.parse::<DocumentMut>().map_err(|_| match super::source::SidecarText::parse(file, sidecar) {
         Err(problem) => Report::in_file(file, Arc::from(sidecar), vec![problem]),
         // The two parsers are one: this is not reached.
-        Ok(_) => Report::of(Diagnostic::new(codes::SYNTAX, format!("{file} is not TOML"))),
+        Ok(_) => Report::single(Diagnostic::new(codes::SYNTAX, format!("{file} is not TOML"))),
     })
 }
 
-/// Records with the line that each begins in; whatever separates them.
+/// Records with the line at which each begins, whatever the separator.
 fn rows(file: &str, table: &str) -> Result<Vec<(usize, Vec<String>)>, Report> {
-    let text = table.strip_prefix(MARK).unwrap_or(table);
+    let text = table.strip_prefix(BYTE_ORDER_MARK).unwrap_or(table);
     let head = text.lines().next().unwrap_or_default();
     let delimiter = [',', ';', '\t'].into_iter().find(|d| head.starts_with(&format!("key{d}"))).unwrap_or(',');
     let mut reader = csv::ReaderBuilder::new()
@@ -167,7 +167,7 @@ fn rows(file: &str, table: &str) -> Result<Vec<(usize, Vec<String>)>, Report> {
     let mut rows = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| {
-            Report::of(
+            Report::single(
                 Diagnostic::new(codes::TABLE, format!("{file} cannot be read: {error}")).help("save it as CSV, UTF-8"),
             )
         })?;
@@ -180,7 +180,7 @@ fn rows(file: &str, table: &str) -> Result<Vec<(usize, Vec<String>)>, Report> {
     Ok(rows)
 }
 
-/// What is wrong with a table.
+/// Collects the problems of a table.
 struct Problems<'a> {
     file: &'a str,
     text: &'a str,
@@ -215,19 +215,19 @@ fn is_language(code: &str) -> bool {
 fn languages(document: &DocumentMut) -> Vec<String> {
     let label = document.get("label").and_then(Item::as_table_like);
     let keys = label.into_iter().flat_map(|label| label.iter());
-    keys.filter(|(key, item)| *key != DEFAULT && item.is_table_like()).map(|(key, _)| key.to_owned()).collect()
+    keys.filter(|(key, item)| *key != DEFAULT_LANGUAGE && item.is_table_like()).map(|(key, _)| key.to_owned()).collect()
 }
 
-/// Keys of all texts that any language has: those of the first in its order, then what others have besides.
+/// Keys of all texts that any language has: those of the first in its order, then further ones of the others.
 fn keys(document: &DocumentMut, languages: &[String]) -> Vec<String> {
     let mut keys: Vec<String> = Vec::new();
     for language in languages {
         let Some(words) = document["label"][language.as_str()].as_table_like() else { continue };
         for (key, item) in words.iter() {
-            let below = item.as_table_like().filter(|_| GROUPS.contains(&key));
+            let below = item.as_table_like().filter(|_| TEXT_TABLES.contains(&key));
             let found: Vec<String> = match below {
                 Some(group) => group.iter().map(|(k, _)| format!("{key}.{k}")).collect(),
-                None if PLAIN.contains(&key) => vec![key.to_owned()],
+                None if SINGLE_TEXTS.contains(&key) => vec![key.to_owned()],
                 None => Vec::new(),
             };
             for key in found {
@@ -250,7 +250,7 @@ fn text(document: &DocumentMut, language: &str, key: &str) -> Option<String> {
     item.as_str().map(str::to_owned)
 }
 
-/// Writes a text where it belongs; tables that are missing are made.
+/// Writes a text in its place; missing tables are created.
 fn set(document: &mut DocumentMut, language: &str, key: &str, text: &str) {
     let label = document.entry("label").or_insert_with(|| Item::Table(Table::new()));
     let Some(label) = label.as_table_like_mut() else { return };

@@ -1,17 +1,16 @@
-//! An exhibit: glTF model plus constraint sidecar, loaded, checked and resolved into one immutable value.
+//! Exhibits: a glTF model and a sidecar, loaded, validated and resolved into one immutable value.
 //!
-//! Invariant: a value of type [`Exhibit`] is valid. Every index in it is in range, every mass is positive, every
-//! joint connects what it names; the simulation checks nothing again.
+//! Invariant: a value of type [`Exhibit`] is valid. Every index is in range, every mass is positive, and every joint
+//! connects existing bodies. The simulation does not check again.
 //!
-//! It reads files (an exhibit folder is all it reads), and reports everything that is wrong with them at once, each with file,
-//! line and remedy. It never moves, draws or plays anything, and what it has built never changes: a changed folder becomes a
-//! new [`Exhibit`].
+//! The crate reads exhibit folders only. It reports all problems at once, each with file, line and remedy. An
+//! [`Exhibit`] never changes: a changed folder is loaded as a new one.
 //!
 //! | module or type | holds |
 //! |---|---|
 //! | [`Exhibit`] | bodies, constraints, colliders, wind surfaces, instruments, labels, camera |
-//! | [`load`], [`ids`], [`resolve()`] | reads a folder; lists the exhibits that can be found; finds one |
-//! | [`Report`], [`Diagnostic`], [`codes`] | what is wrong, where, and what to do |
+//! | [`load`], [`ids`], [`resolve()`] | read a folder; list the exhibits that can be found; find one |
+//! | [`Report`], [`Diagnostic`], [`codes`] | problems: what is wrong, where, and what to do |
 //! | [`sidecar`] | the tables of `exhibit.toml`, from which the JSON Schema is made |
 //! | [`model`] | the glTF model: meshes, materials, nodes, animations, cameras |
 //! | [`labels`] | label texts by language, and as a table for translators |
@@ -28,6 +27,7 @@
 //! assert!(!report.to_string().is_empty(), "it says what was looked for");
 //! ```
 
+pub mod animated_scale;
 mod behavior;
 mod bodies;
 pub mod clock;
@@ -35,7 +35,6 @@ pub mod codes;
 pub mod diagnostic;
 mod exhibit;
 pub mod fit;
-pub mod growth;
 pub mod labels;
 pub mod materials;
 pub mod model;
@@ -44,18 +43,18 @@ pub mod paths;
 mod presentation;
 pub mod quantity;
 mod resolve;
-pub mod shape;
-pub mod shapes;
+pub mod schema;
+pub mod shape_tracks;
 pub mod sidecar;
 mod source;
 pub mod view;
 
-pub use behavior::{BreathTuning, Calm, Motion, SoundBinding, SoundTrigger, Touch};
+pub use behavior::{BreathTuning, IdleDamping, Motion, SoundBinding, SoundTrigger, TouchPermission};
 pub use bodies::{Body, Material, MaterialPair, Wire};
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};
 pub use model::Model;
-pub use paths::{SIDECAR, ids, resolve, shelf};
+pub use paths::{SIDECAR, exhibits_folder, ids, resolve};
 pub use presentation::{Attract, AttractAction, AttractStep, Credit, Label, Labels};
-pub use resolve::{load, plain};
-pub use view::{Leeway, View};
+pub use resolve::{load, load_model};
+pub use view::{OrbitLimits, View};

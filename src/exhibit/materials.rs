@@ -1,18 +1,19 @@
 //! Built-in materials, used by name or overridden key by key in the sidecar.
 //!
 //! Density and Young's modulus are handbook values (Engineering ToolBox, "Young's Modulus of Elasticity"; The Wood
-//! Database for timber along the grain). The loss factor is that of a part as it hangs, wire and all, two to ten
-//! times the bare material's: T60 = 2.2/(η f) (Fletcher and Rossing, "The Physics of Musical Instruments"; Cremer,
-//! Heckl and Petersson, "Structure-Borne Sound"). Friction is the dry pair with itself, worn smooth; restitution is
-//! that of small hits (some 0.1 m/s). What rolls and spins does so freely. A curator who has measured better writes better.
+//! Database for timber along the grain). The loss factor is that of a mounted part, two to ten times the bare
+//! material's: T60 = 2.2/(η f) (Fletcher and Rossing, "The Physics of Musical Instruments"; Cremer, Heckl and
+//! Petersson, "Structure-Borne Sound"). Friction is that of the dry material on itself, worn smooth. Restitution is
+//! that of small impacts (about 0.1 m/s). Rolling and spinning are free of resistance. Curators can replace each value
+//! by a measured one.
 
 use super::Material;
 use soffio_multibody::dynamics::RollingResistance;
 
 /// One row: name, kg/m³, μ static, μ sliding, restitution, E in GPa, Poisson's ratio, installed loss factor.
-type Row = (&'static str, f64, f64, f64, f64, f64, f64, f64);
+type BuiltinMaterial = (&'static str, f64, f64, f64, f64, f64, f64, f64);
 
-const TABLE: &[Row] = &[
+const TABLE: &[BuiltinMaterial] = &[
     ("steel", 7850.0, 0.45, 0.35, 0.60, 205.0, 0.29, 6e-4),
     ("stainless-steel", 7900.0, 0.45, 0.35, 0.60, 195.0, 0.29, 6e-4),
     ("cast-iron", 7200.0, 0.40, 0.30, 0.45, 120.0, 0.26, 3e-3),

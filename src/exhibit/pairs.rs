@@ -1,4 +1,5 @@
-//! Which colliders of an exhibit can meet: its joints told to the bounds of `collision::reach`.
+//! Collider pairs that can touch, from the joints of an exhibit and the reachable volumes of
+//! `soffio_multibody::collision`.
 
 use super::exhibit::Exhibit;
 use soffio_math::Function;
@@ -7,21 +8,23 @@ use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
 use soffio_multibody::collision::reach::{FixedAxis, JointEnd, JointPoint};
 use soffio_multibody::collision::{Pairs, Reach, pairs};
 
-/// Directions that make a smaller sine are one.
+/// Directions whose angle has a smaller sine count as parallel.
 const SAME: f64 = 1e-9;
 
 impl Exhibit {
-    /// Pairs of colliders that can meet, and the others with their reasons.
-    pub fn pairs(&self) -> Pairs {
-        let driven = |body: Option<usize>| self.drives.iter().any(|drive| Some(drive.body) == body);
-        // What comes and goes, or breaks, holds nothing for good.
+    /// Pairs of colliders that can touch, and the other pairs with the reasons why they cannot.
+    pub fn collider_pairs(&self) -> Pairs {
+        let is_kinematic = |body: Option<usize>| self.drives.iter().any(|drive| Some(drive.body) == body);
+        // A constraint that is scheduled or can break limits nothing for good.
         let holds = |c: &&Constraint| c.schedule.is_always() && c.breaking.is_none();
         let joints: Vec<JointPoint> = self
             .constraints
             .iter()
             .filter(holds)
             .filter_map(|c| match c.kind {
-                ConstraintKind::PointToPoint { a, b } if !driven(a.body) && !driven(b.body) => Some([end(a), end(b)]),
+                ConstraintKind::PointToPoint { a, b } if !is_kinematic(a.body) && !is_kinematic(b.body) => {
+                    Some([end(a), end(b)])
+                }
                 _ => None,
             })
             .collect();
@@ -30,14 +33,14 @@ impl Exhibit {
         pairs(&self.colliders, &self.excluded_pairs, &Reach::new(&self.colliders, &poses, &joints, &axes))
     }
 
-    /// The line about which alone a body turns: through a nail, along the direction that two orientations hold.
+    /// The only axis about which a body can rotate: through a nail, along the direction that two orientations hold.
     fn fixed_axis(&self, body: usize, joints: &[JointPoint]) -> Option<FixedAxis> {
         let nail = joints.iter().find_map(|[a, b]| match (a.body, b.body) {
             (Some(i), None) if i == body => Some(b.point),
             (None, Some(i)) if i == body => Some(a.point),
             _ => None,
         })?;
-        // (own direction, world direction) of each right angle to the world.
+        // (body direction, world direction) of each right angle to the world.
         let held: Vec<(DVec3, DVec3)> = self
             .constraints
             .iter()
@@ -50,7 +53,7 @@ impl Exhibit {
         let pose = self.bodies[body].pose;
         for (i, (own, world)) in held.iter().enumerate() {
             for (other_own, other_world) in &held[i + 1..] {
-                // One own direction across two of the world, or two across one of the world.
+                // One body direction perpendicular to two world directions, or two to one.
                 let direction = if own.cross(*other_own).length() < SAME {
                     world.cross(*other_world).try_normalize()
                 } else if world.cross(*other_world).length() < SAME {
@@ -59,7 +62,7 @@ impl Exhibit {
                     None
                 };
                 let Some(direction) = direction else { continue };
-                // Held already at the start, not only drawn there.
+                // Only constraints that already hold at the start, not those still to be assembled.
                 let right = |(t, n): (&DVec3, &DVec3)| pose.vector(*t).dot(*n).abs() < 1e-6;
                 if right((own, world)) && right((other_own, other_world)) {
                     return Some(FixedAxis { body, point: nail, direction });

@@ -1,21 +1,24 @@
-//! Paths: an exhibit reads only what lies in its folder; ids are looked for where exhibits are kept.
+//! Paths: an exhibit reads only files in its own folder; ids are looked up in the folders of exhibits.
 
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use super::codes;
-use super::diagnostic::{Diagnostic, Report, near, quoted};
+use super::diagnostic::{Diagnostic, Report, quoted, similar_names};
 
 /// File name of the sidecar in an exhibit folder.
 pub const SIDECAR: &str = "exhibit.toml";
 
 /// Reads a file of at most `limit` bytes.
+///
+/// # Errors
+/// Where the file is missing, larger, or cannot be read.
 pub fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, Diagnostic> {
     let unreadable = |error: std::io::Error| {
         let help = match error.kind() {
             ErrorKind::NotFound => in_its_place(path),
             ErrorKind::PermissionDenied => "let the kiosk's user read it: chmod a+r".to_owned(),
-            _ => "see that it is a file, and that its disk is well".to_owned(),
+            _ => "check that it is a file and that the disk works".to_owned(),
         };
         Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display())).help(help)
     };
@@ -23,13 +26,13 @@ pub fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, Diagnostic> {
     if size > limit {
         let message = format!("{} has {size} bytes; the limit is {limit}", path.display());
         return Err(
-            Diagnostic::new(codes::TOO_LARGE, message).help("see that it is the right file, and make it smaller")
+            Diagnostic::new(codes::TOO_LARGE, message).help("check that it is the right file, or make it smaller")
         );
     }
     std::fs::read(path).map_err(unreadable)
 }
 
-/// The files of its kind that lie where `path` does not: one of them may be meant.
+/// A hint that names similar files in the folder of `path`.
 fn in_its_place(path: &Path) -> String {
     let entries = path.parent().map(folder_or_here).and_then(|folder| std::fs::read_dir(folder).ok());
     let mut names: Vec<String> = entries
@@ -42,22 +45,25 @@ fn in_its_place(path: &Path) -> String {
         .collect();
     names.sort();
     let wanted = path.file_name().unwrap_or_default().to_string_lossy();
-    meant(&wanted, &names).unwrap_or_else(|| "copy it there, or write the name of a file that is there".to_owned())
+    meant(&wanted, &names).unwrap_or_else(|| "copy it there, or name an existing file".to_owned())
 }
 
-/// Which of the names that there are may be meant by `wanted`; nothing where there are none.
+/// A hint that names the entries of `names` that `wanted` may mean; empty where there are none.
 fn meant(wanted: &str, names: &[String]) -> Option<String> {
-    /// No folder is read out whole.
+    /// Most names listed in a message.
     const SHOWN: usize = 40;
-    match near(wanted, names.iter().map(String::as_str)).as_slice() {
+    match similar_names(wanted, names.iter().map(String::as_str)).as_slice() {
         [] if names.is_empty() => None,
-        [] if names.len() > SHOWN => Some(format!("there are: {} and others", names[..SHOWN].join(", "))),
-        [] => Some(format!("there are: {}", names.join(", "))),
+        [] if names.len() > SHOWN => Some(format!("available: {} and others", names[..SHOWN].join(", "))),
+        [] => Some(format!("available: {}", names.join(", "))),
         likely => Some(format!("did you mean {}?", quoted(likely))),
     }
 }
 
-/// The file `relative` inside `folder`: no `..`, not absolute, no network address, no link that leads out.
+/// The file `relative` inside `folder`.
+///
+/// # Errors
+/// Where the path contains `..`, is absolute, is a network address, or is a link that leads out of the folder.
 pub fn inside(folder: &Path, relative: &str) -> Result<PathBuf, Diagnostic> {
     let outside = |why: &str| {
         Diagnostic::new(codes::OUTSIDE, format!("the path \"{relative}\" {why}"))
@@ -83,7 +89,7 @@ fn folder_or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-/// A URI path with its `%20`s as characters.
+/// A URI path with its percent-encoded characters decoded.
 pub fn percent_decoded(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let mut out = Vec::with_capacity(bytes.len());
@@ -104,25 +110,26 @@ pub fn percent_decoded(uri: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// The exhibits that are installed with the program: `../share/soffio/exhibits` beside its own folder.
+/// Folder of the exhibits installed with the program: `../share/soffio/exhibits` beside its own folder.
 fn installed() -> Option<PathBuf> {
     let program = std::env::current_exe().ok()?;
     Some(program.parent()?.parent()?.join("share/soffio/exhibits")).filter(|folder| folder.is_dir())
 }
 
-/// A folder of exhibits as a site names it; where there is none of that name, the one that is installed with the program.
-pub fn shelf(folder: &Path) -> PathBuf {
+/// The folder of exhibits that a site's configuration names; if it does not exist, the one installed with the program.
+pub fn exhibits_folder(folder: &Path) -> PathBuf {
     let missing = folder.is_relative() && !folder.is_dir();
     installed().filter(|_| missing).unwrap_or_else(|| folder.to_path_buf())
 }
 
-/// Folders that hold exhibits: `exhibits/` here or above, beside the program, installed with it, or in the source tree
-/// of a debug build.
-fn shelves() -> Vec<PathBuf> {
-    let mut shelves = Vec::new();
+/// Folders of exhibits: `exhibits/` here or above, beside the program, installed with it, or in the source tree of a
+/// debug build.
+fn catalog_folders() -> Vec<PathBuf> {
+    let mut catalog_folders = Vec::new();
     let mut from = |start: Option<PathBuf>| {
         if let Some(start) = start {
-            shelves.extend(start.ancestors().map(|folder| folder.join("exhibits")).filter(|folder| folder.is_dir()));
+            catalog_folders
+                .extend(start.ancestors().map(|folder| folder.join("exhibits")).filter(|folder| folder.is_dir()));
         }
     };
     from(std::env::current_dir().ok());
@@ -130,13 +137,13 @@ fn shelves() -> Vec<PathBuf> {
     if cfg!(debug_assertions) {
         from(Some(PathBuf::from(env!("CARGO_MANIFEST_DIR"))));
     }
-    shelves.extend(installed());
-    shelves
+    catalog_folders.extend(installed());
+    catalog_folders
 }
 
 /// Ids of the exhibits that can be found.
 pub fn ids() -> Vec<String> {
-    let mut ids: Vec<String> = shelves()
+    let mut ids: Vec<String> = catalog_folders()
         .iter()
         .filter_map(|shelf| std::fs::read_dir(shelf).ok())
         .flat_map(|entries| entries.flatten())
@@ -156,17 +163,17 @@ pub fn resolve(id_or_folder: &str) -> Result<PathBuf, Report> {
         return Ok(folder);
     }
     let is_id = !id_or_folder.is_empty() && !id_or_folder.contains(['/', '\\', '.']);
-    let found = shelves().into_iter().map(|shelf| shelf.join(id_or_folder)).find(|f| f.join(SIDECAR).is_file());
+    let found = catalog_folders().into_iter().map(|shelf| shelf.join(id_or_folder)).find(|f| f.join(SIDECAR).is_file());
     if let (true, Some(found)) = (is_id, found) {
         return Ok(found);
     }
     if folder.is_dir() {
         let message = format!("the folder {id_or_folder} has no {}", SIDECAR);
-        let help = "soffio new begins an exhibit, soffio import makes one of a model";
-        return Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)));
+        let help = "`soffio new` creates an exhibit, `soffio import` makes one from a model";
+        return Err(Report::single(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)));
     }
     let help = meant(id_or_folder, &ids())
         .unwrap_or_else(|| "there is no folder exhibits/ here, above, or beside the program".to_owned());
     let message = format!("no exhibit \"{id_or_folder}\": it is neither an id under exhibits/ nor a folder");
-    Err(Report::of(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)))
+    Err(Report::single(Diagnostic::new(codes::NO_EXHIBIT, message).help(help)))
 }

@@ -1,20 +1,20 @@
-//! What visitors read and what an exhibit does when nobody is there.
+//! Label texts, credit and attract script of an exhibit.
 
-/// What the exhibit does when nobody is there.
+/// The attract script: what the exhibit does when nobody is there.
 #[derive(Clone, Debug, Default)]
 pub struct Attract {
     /// Steps in time order; the script repeats after the last.
     pub steps: Vec<AttractStep>,
-    /// Length of one round, s.
+    /// Length of the script before it repeats, s.
     pub duration: f64,
 }
 
 /// One step of the attract script.
 #[derive(Clone, Debug)]
 pub struct AttractStep {
-    /// Seconds since the script began.
+    /// Time since the script began, s.
     pub at: f64,
-    /// What happens.
+    /// What the step does.
     pub action: AttractAction,
 }
 
@@ -32,13 +32,13 @@ pub enum AttractAction {
         /// Pointer in picture coordinates; `None` is the centre.
         aim: Option<[f64; 2]>,
     },
-    /// Leads the camera round the work, to the right and up from where it stands, rad.
+    /// Orbits the camera, rad: to the right and up from its own position.
     Look([f64; 2]),
-    /// Puts everything back to where it started.
+    /// Resets the exhibit to its start.
     Reset,
 }
 
-/// Words by language.
+/// Label texts by language.
 #[derive(Clone, Debug, Default)]
 pub struct Labels {
     /// Language code shown first.
@@ -55,16 +55,16 @@ impl Labels {
     }
 }
 
-/// Words of one language.
+/// The label texts of one language.
 #[derive(Clone, Debug, Default)]
 pub struct Label {
-    /// Title of the work.
+    /// Title of the exhibit.
     pub title: String,
     /// Maker.
     pub maker: String,
     /// Wall text.
     pub body: String,
-    /// What is to be seen, for those who cannot.
+    /// Description for visitors who cannot see it.
     pub alt: String,
     /// Texts by key (`invite`, …).
     pub text: Vec<(String, String)>,
@@ -72,12 +72,12 @@ pub struct Label {
     pub caption: Vec<(String, String)>,
 }
 
-/// Who made it, and whose rights it carries.
+/// Author, licence and rights notice.
 #[derive(Clone, Debug, Default)]
 pub struct Credit {
     /// SPDX id of the model's licence.
     pub model_license: String,
-    /// Who made the model.
+    /// Author of the model.
     pub model_author: String,
     /// Rights notice shown with the label.
     pub notice: String,

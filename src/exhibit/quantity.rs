@@ -1,7 +1,7 @@
-//! Numbers with units: a bare number is SI, a string carries its unit (`"35 deg"`, `"12 mm"`, `"2.7 g/cm3"`).
+//! Physical quantities with units: a bare number is SI, a text carries its unit (`"35 deg"`, `"12 mm"`, `"2.7 g/cm3"`).
 //!
-//! Each kind of quantity is a type of its own: a length where a mass belongs fails the shape check with the list of
-//! units that fit, not the simulation with a mobile as heavy as a ship.
+//! Each kind of quantity is a type of its own: a mass in place of a length is refused by the schema check, which lists
+//! the units that fit.
 
 use std::borrow::Cow;
 
@@ -25,7 +25,9 @@ fn convert(text: &str, units: &[(&str, f64)]) -> Result<f64, String> {
     let expected = || units.iter().map(|(unit, _)| *unit).collect::<Vec<_>>().join(", ");
     let (number, unit) = split(text).ok_or_else(|| format!("\"{text}\" does not begin with a number"))?;
     let factor = units.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor);
-    factor.map(|factor| number * factor).ok_or_else(|| format!("\"{unit}\" is no unit here; use one of {}", expected()))
+    factor
+        .map(|factor| number * factor)
+        .ok_or_else(|| format!("\"{unit}\" is not a valid unit here; use one of {}", expected()))
 }
 
 fn read<'de, D: Deserializer<'de>>(deserializer: D, units: &[(&str, f64)]) -> Result<f64, D::Error> {
@@ -55,7 +57,7 @@ fn schema(kind: &str, units: &[(&str, f64)]) -> Schema {
 
 /// A number in SI units.
 pub trait Quantity: Copy {
-    /// The number.
+    /// The value in SI units.
     fn si(self) -> f64;
 }
 
@@ -95,45 +97,45 @@ macro_rules! quantities {
 const DEGREE: f64 = soffio_math::PI / 180.0;
 
 quantities! {
-    /// m.
+    /// A length, m.
     Length, "length", [("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254)];
-    /// kg.
+    /// A mass, kg.
     Mass, "mass", [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("t", 1e3)];
-    /// kg/m³.
+    /// A density, kg/m³.
     Density, "density", [("kg/m3", 1.0), ("g/cm3", 1e3)];
-    /// Pa.
+    /// A pressure or modulus, Pa.
     Pressure, "pressure", [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
-    /// rad.
+    /// An angle, rad.
     Angle, "angle", [("rad", 1.0), ("deg", DEGREE)];
-    /// m/s.
+    /// A speed, m/s.
     Speed, "speed", [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)];
-    /// rad/s.
+    /// An angular velocity, rad/s.
     Rotation, "angular velocity", [("rad/s", 1.0), ("deg/s", DEGREE), ("rpm", soffio_math::PI / 30.0)];
-    /// m/s².
+    /// An acceleration, m/s².
     Acceleration, "acceleration", [("m/s2", 1.0)];
-    /// s.
+    /// A time, s.
     Time, "time", [("s", 1.0), ("ms", 1e-3), ("min", 60.0)];
-    /// 1/s.
+    /// A rate, 1/s.
     Rate, "rate", [("/s", 1.0), ("1/s", 1.0), ("/min", 1.0 / 60.0)];
-    /// dB of an amplitude ratio.
+    /// A level: dB of an amplitude ratio.
     Decibel, "level", [("dB", 1.0)];
-    /// 1/m².
+    /// Points per area, 1/m².
     PerArea, "density of points", [("/m2", 1.0), ("/cm2", 1e4), ("/dm2", 1e2)];
-    /// N/m.
+    /// A stiffness, N/m.
     Stiffness, "stiffness", [("N/m", 1.0), ("N/mm", 1e3), ("N/cm", 1e2)];
-    /// N s/m.
+    /// A damping coefficient, N s/m.
     Damping, "damping", [("Ns/m", 1.0), ("N s/m", 1.0), ("kg/s", 1.0)];
-    /// N m/rad.
+    /// An angular stiffness, N m/rad.
     AngularStiffness, "angular stiffness", [("N m/rad", 1.0), ("Nm/rad", 1.0), ("N mm/rad", 1e-3), ("N m/deg", 1.0 / DEGREE)];
-    /// N m s/rad.
+    /// An angular damping coefficient, N m s/rad.
     AngularDamping, "angular damping", [("N m s/rad", 1.0), ("Nms/rad", 1.0), ("N mm s/rad", 1e-3)];
-    /// N.
+    /// A force, N.
     Force, "force", [("N", 1.0), ("mN", 1e-3), ("kN", 1e3)];
-    /// N m.
+    /// A torque, N m.
     Torque, "torque", [("N m", 1.0), ("Nm", 1.0), ("N mm", 1e-3), ("mN m", 1e-3)];
-    /// N s.
+    /// An impulse, N s.
     Impulse, "impulse", [("N s", 1.0), ("Ns", 1.0), ("mN s", 1e-3)];
-    /// kg m².
+    /// A moment of inertia, kg m².
     Inertia, "moment of inertia", [("kg m2", 1.0), ("g cm2", 1e-7)];
 }
 
@@ -158,7 +160,7 @@ mod tests {
     #[test]
     fn a_unit_of_another_kind_is_refused_and_the_right_ones_named() {
         let message = length("\"3 kg\"").unwrap_err();
-        assert!(message.contains("\"kg\" is no unit here") && message.contains("mm"), "{message}");
+        assert!(message.contains("\"kg\" is not a valid unit here") && message.contains("mm"), "{message}");
         assert!(length("\"mm\"").is_err() && length("\"\"").is_err() && length("\"nan m\"").is_err());
     }
 }

@@ -1,7 +1,7 @@
-//! The sidecar's text, its values as JSON, and where each value stands: JSON pointer → bytes.
+//! The sidecar's text, its values as JSON, and the position of each value: JSON pointer → bytes.
 //!
-//! The shape check speaks in JSON pointers (`/body/2/node`) and the semantic check follows it, so that both find the
-//! line by one map. Keys that begin with `x_` belong to other programs and are left out.
+//! Both the schema check and the semantic checks name places by JSON pointers (`/body/2/node`). Keys that begin with
+//! `x_` belong to other programs and are left out.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -15,19 +15,22 @@ use super::diagnostic::{Diagnostic, Location};
 
 /// A parsed sidecar.
 #[derive(Clone, Debug)]
-pub struct Source {
-    /// Name shown in messages.
+pub struct SidecarText {
+    /// Name of the file for messages.
     pub file: String,
     /// The text.
     pub text: Arc<str>,
-    /// The values, `x_` keys left out.
+    /// The values without `x_` keys.
     pub value: Value,
     values: BTreeMap<String, Range<usize>>,
     keys: BTreeMap<String, Range<usize>>,
 }
 
-impl Source {
-    /// Parses TOML; a syntax error comes back located.
+impl SidecarText {
+    /// Parses TOML.
+    ///
+    /// # Errors
+    /// The syntax error, with its position.
     pub fn parse(file: &str, text: &str) -> Result<Self, Diagnostic> {
         let mut source = Self {
             file: file.to_owned(),
@@ -96,8 +99,8 @@ impl Source {
         match value {
             toml_edit::Value::String(text) => Value::String(text.value().clone()),
             toml_edit::Value::Integer(number) => Value::Number((*number.value()).into()),
-            // A number that JSON cannot hold (inf, nan) becomes a text: it fails the shape check where it stands, or is
-            // the word for a time that never comes.
+            // JSON cannot hold inf and nan: they become texts, which the schema check refuses in place, or accepts as a
+            // time that never comes.
             toml_edit::Value::Float(number) => {
                 let number = *number.value();
                 Number::from_f64(number).map_or_else(|| Value::String(number.to_string()), Value::Number)
@@ -112,7 +115,7 @@ impl Source {
         }
     }
 
-    /// Bytes of the value at a pointer, or of the nearest thing around it.
+    /// Bytes of the value at a pointer, or of the nearest value around it.
     pub fn span(&self, pointer: &str) -> Range<usize> {
         nearest(&self.values, pointer)
     }
@@ -141,7 +144,7 @@ impl Source {
         keys.into_iter().map(|(_, key)| key).collect()
     }
 
-    /// Line and column of bytes. A span over several lines (a table) is cut at its first.
+    /// Line and column of a range of bytes. A range over several lines (a table) is cut after its first.
     pub fn locate(&self, span: Range<usize>) -> Location {
         let start = span.start.min(self.text.len());
         let before = self.text.get(..start).unwrap_or_default();
@@ -175,7 +178,7 @@ pub fn join(path: &str, key: &str) -> String {
     format!("{path}/{}", key.replace('~', "~0").replace('/', "~1"))
 }
 
-/// Sorts names as people number things: `Rod.9` before `Rod.10`. Texts and the numbers after them, in turn.
+/// Sort key for natural order, `Rod.9` before `Rod.10`: texts and the numbers after them, in turn.
 pub fn natural_key(name: &str) -> Vec<(&str, u64)> {
     let mut key = Vec::new();
     let mut rest = name;

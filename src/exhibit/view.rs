@@ -1,14 +1,14 @@
-//! Where the visitor looks from, and what lies behind a point of the picture.
+//! Perspective camera: view rays, projection, framing and orbiting.
 //!
-//! Picture coordinates run from (0, 0) top left to (1, 1) bottom right, whatever the size in pixels. With the unit
-//! axes f (forward), r (right), u (up), half-height t = tan(fovy/2) and aspect a, the point (x, y) is seen along
+//! Picture coordinates run from (0, 0) top left to (1, 1) bottom right, whatever the size in pixels. With the unit axes
+//! f (forward), r (right), u (up), half-height t = tan(fovy/2) and aspect a, the point (x, y) lies on the ray
 //!
 //! ```text
 //! d = f + (2x − 1) a t r + (1 − 2y) t u
 //! ```
 //!
-//! [`View::project`] is the inverse. Invariant: whatever a camera shows in its own aspect is also in any narrower
-//! picture, since the vertical angle is widened until the horizontal one is the same.
+//! [`View::project`] is the inverse. Invariant: a narrower picture still shows everything that the camera shows in its
+//! own aspect, since the vertical angle is widened until the horizontal one is the same.
 
 use super::exhibit::Exhibit;
 use soffio_math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
@@ -16,22 +16,22 @@ use soffio_math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
 /// A perspective camera in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// m.
+    /// Position of the camera, m.
     pub eye: DVec3,
-    /// Point looked at, m; the breath is aimed at the plane through it that faces the eye.
+    /// Point looked at, m. The breath is aimed in the plane through it that faces the camera.
     pub target: DVec3,
-    /// Unit, roughly upwards.
+    /// Up vector, unit.
     pub up: DVec3,
     /// Vertical field of view, rad.
     pub fovy: f64,
 }
 
-/// Vertical field of view where the exhibit has no camera: a short telephoto lens, as catalogues use, rad.
+/// Vertical field of view where the exhibit has no camera, rad: a short telephoto lens, as in catalogues.
 const FRAMING_FOVY: f64 = 0.5;
-/// Room around the work where the exhibit has no camera, of its radius.
+/// Margin around the exhibit where it has no camera, as a multiple of its radius.
 const FRAMING_MARGIN: f64 = 1.12;
-/// Widest vertical field of view a narrow picture may lead to, rad.
-const WIDEST_FOVY: f64 = 2.6;
+/// Widest vertical field of view of a narrow picture, rad.
+const MAX_FOVY: f64 = 2.6;
 
 impl View {
     /// Unit right, up and forward axes of the camera.
@@ -41,7 +41,7 @@ impl View {
         (right, right.cross(forward), forward)
     }
 
-    /// Origin and unit direction of the sight line through `at` in picture coordinates; `aspect` is width / height.
+    /// Origin (m) and unit direction of the view ray through `at` in picture coordinates; `aspect` is width / height.
     pub fn ray(&self, at: [f64; 2], aspect: f64) -> (DVec3, DVec3) {
         let (right, up, forward) = self.axes();
         let t = half_height(self.fovy);
@@ -50,9 +50,9 @@ impl View {
         (self.eye, (forward + right * across + up * along).normalize())
     }
 
-    /// The view from elsewhere on the sphere about the target: `yaw` moves the eye to the right about the vertical, `pitch`
-    /// moves it up, rad. With neither it is the same view to the bit.
-    pub fn turned(self, [yaw, pitch]: [f64; 2]) -> Self {
+    /// The view after an orbit about the target: `yaw` moves the camera to the right about the vertical, `pitch` moves
+    /// it up, rad. With both zero it is bit-identical.
+    pub fn orbited(self, [yaw, pitch]: [f64; 2]) -> Self {
         if [yaw, pitch] == [0.0; 2] {
             return self;
         }
@@ -66,7 +66,7 @@ impl View {
         2.0 * depth * half_height(self.fovy)
     }
 
-    /// Picture coordinates of a world point; `None` where it is not in front of the eye.
+    /// Picture coordinates of a world point; `None` for points behind the camera.
     pub fn project(&self, point: DVec3, aspect: f64) -> Option<[f64; 2]> {
         let (right, up, forward) = self.axes();
         let offset = point - self.eye;
@@ -79,25 +79,25 @@ impl View {
     }
 }
 
-/// How far a visitor may look round a work from its own view, rad: to either side, down and up.
+/// How far visitors may orbit the camera from its own position, rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Leeway {
-    /// To the left and to the right.
-    pub aside: f64,
-    /// Down; not below the lowest point of the work.
+pub struct OrbitLimits {
+    /// Yaw to the left and to the right.
+    pub yaw: f64,
+    /// Pitch down: the camera stays above the lowest point of the exhibit.
     pub down: f64,
-    /// Up; not over the work's head.
+    /// Pitch up: the camera stays below the vertical.
     pub up: f64,
 }
 
-/// How far the camera goes round a work, rad: a third of a circle in all, a little down, well up. Aside.
-pub const ASIDE: f64 = PI / 3.0;
-/// Down, rad.
-pub const DOWN: f64 = PI / 18.0;
-/// Up, rad.
-pub const UP: f64 = 5.0 * PI / 18.0;
-/// Highest place of the eye over the target, rad: from straight above there is no upright.
-const STEEPEST: f64 = 4.0 * PI / 9.0;
+/// Largest yaw to either side, rad: a third of a circle in all.
+pub const MAX_YAW: f64 = PI / 3.0;
+/// Largest pitch down, rad.
+pub const MAX_PITCH_DOWN: f64 = PI / 18.0;
+/// Largest pitch up, rad.
+pub const MAX_PITCH_UP: f64 = 5.0 * PI / 18.0;
+/// Steepest elevation of the camera over the target, rad: straight above, the up vector is undefined.
+const MAX_PITCH: f64 = 4.0 * PI / 9.0;
 
 /// tan(fovy / 2).
 fn half_height(fovy: f64) -> f64 {
@@ -115,16 +115,16 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box that holds nothing.
+    /// The empty box.
     pub const EMPTY: Self = Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
 
-    /// Grows to hold a point.
+    /// Extends the box to contain a point.
     pub fn add(&mut self, point: DVec3) {
         self.min = self.min.min(point);
         self.max = self.max.max(point);
     }
 
-    /// Does it hold anything?
+    /// Does it contain no point?
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x
     }
@@ -141,8 +141,8 @@ impl Bounds {
 }
 
 impl Exhibit {
-    /// The camera for a picture of this aspect (width / height): the sidecar's camera node, widened where the
-    /// picture is narrower than the camera was made for, or a frame around the bounds.
+    /// The camera for a picture of this aspect (width / height): that of the camera node, widened where the picture is
+    /// narrower than the camera's own aspect, or one that frames the bounds.
     pub fn view(&self, aspect: f64) -> View {
         let aspect = if aspect > 0.0 { aspect } else { 16.0 / 9.0 };
         let camera = self.camera_node.and_then(|index| {
@@ -150,44 +150,44 @@ impl Exhibit {
             Some((node.world, *self.model.cameras.get(node.camera?)?))
         });
         match camera {
-            Some((world, camera)) => self.through(world, camera, aspect),
-            None => self.framed(aspect),
+            Some((world, camera)) => self.camera_view(world, camera, aspect),
+            None => self.framing_view(aspect),
         }
     }
 
-    /// How far a visitor may look round it from the view in a picture of this aspect.
-    pub fn leeway(&self, aspect: f64) -> Leeway {
+    /// How far visitors may orbit from the view in a picture of this aspect.
+    pub fn orbit_limits(&self, aspect: f64) -> OrbitLimits {
         let View { eye, target, .. } = self.view(aspect);
         let from = eye - target;
         let elevation = |height: f64| asin((height / from.length()).clamp(-1.0, 1.0));
         let bounds = self.bounds(false);
         let lowest = if bounds.is_empty() { target.y } else { bounds.min.y };
-        Leeway {
-            aside: ASIDE,
-            down: (elevation(from.y) - elevation(lowest - target.y)).clamp(0.0, DOWN),
-            up: (STEEPEST - elevation(from.y)).clamp(0.0, UP),
+        OrbitLimits {
+            yaw: MAX_YAW,
+            down: (elevation(from.y) - elevation(lowest - target.y)).clamp(0.0, MAX_PITCH_DOWN),
+            up: (MAX_PITCH - elevation(from.y)).clamp(0.0, MAX_PITCH_UP),
         }
     }
 
-    /// The view through a camera node.
-    fn through(&self, world: DMat4, camera: super::model::Camera, aspect: f64) -> View {
+    /// The view of a camera node.
+    fn camera_view(&self, world: DMat4, camera: super::model::Camera, aspect: f64) -> View {
         let eye = world.w_axis.truncate();
         let forward = -world.z_axis.truncate().try_normalize().unwrap_or(DVec3::Z);
         let up = world.y_axis.truncate().try_normalize().unwrap_or(DVec3::Y);
         let moving = self.bounds(true);
         let bounds = if moving.is_empty() { self.bounds(false) } else { moving };
         let depth = if bounds.is_empty() { 1.0 } else { (bounds.center() - eye).dot(forward) };
-        // A camera that looks away from the work still looks somewhere.
+        // A camera that looks away from the exhibit still needs a target.
         let depth = if depth > 1e-3 { depth } else { 1.0 };
         let fovy = match camera.aspect {
-            Some(own) if aspect < own => (2.0 * atan2(half_height(camera.fovy) * own, aspect)).min(WIDEST_FOVY),
+            Some(own) if aspect < own => (2.0 * atan2(half_height(camera.fovy) * own, aspect)).min(MAX_FOVY),
             _ => camera.fovy,
         };
         View { eye, target: eye + forward * depth, up, fovy }
     }
 
-    /// A view from the front that holds the bounds in any aspect.
-    fn framed(&self, aspect: f64) -> View {
+    /// A view from the front that shows the whole bounds in any aspect.
+    fn framing_view(&self, aspect: f64) -> View {
         let bounds = self.bounds(false);
         let (center, radius) =
             if bounds.is_empty() { (DVec3::ZERO, 0.5) } else { (bounds.center(), bounds.radius().max(1e-3)) };
@@ -197,11 +197,11 @@ impl Exhibit {
         View { eye: center + DVec3::Z * distance, target: center, up: DVec3::Y, fovy: FRAMING_FOVY }
     }
 
-    /// Box around the meshes and wires at rest; `moving` leaves out what stands still.
+    /// Box around the meshes and wires at rest; `moving` leaves out static ones.
     pub fn bounds(&self, moving: bool) -> Bounds {
         let mut bounds = Bounds::EMPTY;
-        let carriers = self.carriers();
-        for (node, carrier) in self.model.nodes.iter().zip(&carriers) {
+        let carrying_bodies = self.carrying_bodies();
+        for (node, carrier) in self.model.nodes.iter().zip(&carrying_bodies) {
             if moving && carrier.is_none() {
                 continue;
             }
@@ -222,10 +222,10 @@ impl Exhibit {
         bounds
     }
 
-    /// How far the meshes and wires of each body reach from its node, m.
-    pub fn reaches(&self) -> Vec<f64> {
+    /// Bounding radius of each body: the farthest distance of its meshes and wires from its node, m.
+    pub fn body_radii(&self) -> Vec<f64> {
         let mut reaches = vec![0.0_f64; self.bodies.len()];
-        for (node, carrier) in self.model.nodes.iter().zip(self.carriers()) {
+        for (node, carrier) in self.model.nodes.iter().zip(self.carrying_bodies()) {
             let (Some(body), Some(mesh)) = (carrier, node.mesh.and_then(|m| self.model.meshes.get(m))) else {
                 continue;
             };
@@ -235,12 +235,12 @@ impl Exhibit {
                 reaches[body] = reaches[body].max(point.distance(at));
             }
         }
-        // What follows joints reaches as far as all of it lies from each.
-        let carriers = self.carriers();
+        // A skinned mesh counts as far as all of it lies from each of its joints.
+        let carrying_bodies = self.carrying_bodies();
         for skin in &self.model.skins {
             let shown = &self.model.nodes[skin.node];
             let Some(mesh) = shown.mesh.and_then(|m| self.model.meshes.get(m)) else { continue };
-            for body in skin.joints.iter().filter_map(|&joint| carriers[joint]) {
+            for body in skin.joints.iter().filter_map(|&joint| carrying_bodies[joint]) {
                 let at = self.model.nodes[self.bodies[body].node].world.w_axis.truncate();
                 for position in mesh.primitives.iter().flat_map(|p| &p.positions) {
                     let point = shown.world.transform_point3(glam::Vec3::from_array(*position).as_dvec3());
@@ -256,22 +256,22 @@ impl Exhibit {
         reaches
     }
 
-    /// For each node of the model the body that carries it: its own, or its nearest ancestor's.
-    pub fn carriers(&self) -> Vec<Option<usize>> {
+    /// For each node of the model, the body that carries it: its own, or its nearest ancestor's.
+    pub fn carrying_bodies(&self) -> Vec<Option<usize>> {
         let mut own = vec![None; self.model.nodes.len()];
         for (index, body) in self.bodies.iter().enumerate() {
             if let Some(slot) = own.get_mut(body.node) {
                 *slot = Some(index);
             }
         }
-        let mut carriers = vec![None; own.len()];
+        let mut carrying_bodies = vec![None; own.len()];
         let mut open: Vec<(usize, Option<usize>)> = self.model.roots.iter().map(|&root| (root, None)).collect();
         while let Some((node, inherited)) = open.pop() {
             let carrier = own[node].or(inherited);
-            carriers[node] = carrier;
+            carrying_bodies[node] = carrier;
             open.extend(self.model.nodes[node].children.iter().map(|&child| (child, carrier)));
         }
-        carriers
+        carrying_bodies
     }
 }
 
@@ -304,12 +304,12 @@ mod tests {
     fn a_turned_view_keeps_its_distance_and_its_target_and_goes_the_way_it_is_told() {
         let own = View { eye: DVec3::new(0.0, 0.0, 2.0), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.5 };
         let (s, c) = sincos(0.7);
-        let right = own.turned([0.7, 0.0]);
+        let right = own.orbited([0.7, 0.0]);
         assert!((right.eye - 2.0 * DVec3::new(s, 0.0, c)).length() < ROUNDING, "{right:?}");
-        let above = own.turned([0.0, 0.7]);
+        let above = own.orbited([0.0, 0.7]);
         assert!((above.eye - 2.0 * DVec3::new(0.0, s, c)).length() < ROUNDING, "{above:?}");
         for turn in [[0.3, -0.1], [-1.0, 0.8]] {
-            let turned = view().turned(turn);
+            let turned = view().orbited(turn);
             let way = |view: &View| (view.eye - view.target).length();
             assert!((way(&turned) - way(&view())).abs() < ROUNDING && turned.target == view().target);
             assert_eq!(
@@ -317,7 +317,7 @@ mod tests {
                 Some([true; 2])
             );
         }
-        assert_eq!(view().turned([0.0; 2]), view());
+        assert_eq!(view().orbited([0.0; 2]), view());
     }
 
     #[test]

@@ -1,35 +1,35 @@
-//! One timbre by itself, on its specimen: for listening and measuring.
+//! Test rendering of one timbre on its specimen, for listening and measuring.
 
 use soffio_simulation::SAMPLE_RATE;
 use soffio_sound::timbre::Specimen;
 use soffio_sound::{Preset, Slide, SoundCommand, Strike, SurfaceLine, Synth, TimbreError, WindSound};
 
-/// What plays the timbre, beside the numbers of the specimen.
+/// Parameters of a test sound, in addition to those of the specimen.
 #[derive(Clone, Debug, Default)]
-pub struct Audition {
-    /// Greatest force of the hit, N, instead of its impulse: J = 2Fτ/π for a half sine of Hertz's duration τ.
+pub struct TestSound {
+    /// Peak force of the impact, N, instead of its impulse: J = 2Fτ/π for a half sine of Hertz's duration τ.
     pub peak_force: Option<f64>,
-    /// Where the wind goes, rad.
+    /// Direction of the wind, rad.
     pub direction: f64,
-    /// Line of the surface, for timbres that read a picture.
+    /// Surface profile, for timbres that read a picture.
     pub surface: Option<SurfaceLine>,
-    /// Seed of everything drawn by chance.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Why there is no sound.
+/// Reasons why a timbre cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum AuditionError {
     /// The timbre cannot be built on this body.
     #[error(transparent)]
     Timbre(#[from] TimbreError),
-    /// A number is not one.
+    /// A number is not finite or out of range.
     #[error("a number given cannot be played: all must be finite, an impulse, masses and forces at least 0")]
     Number,
 }
 
-impl Audition {
-    /// Renders so many seconds, mono, dry, at 1 m: full scale is ±1, more is possible.
+impl TestSound {
+    /// Renders so many seconds, mono, dry, at 1 m; full scale is ±1 and can be exceeded.
     pub fn render(&self, preset: &Preset, specimen: &Specimen, seconds: f64) -> Result<Vec<f32>, AuditionError> {
         let mut spec = specimen.spec(&preset.name);
         spec.surface = self.surface.clone();
@@ -41,7 +41,7 @@ impl Audition {
         if synth.faults() > 0 {
             return Err(AuditionError::Number);
         }
-        // A centred sound is 1/√2 on either side: their sum over √2 is the sound itself.
+        // A centred sound is 1/√2 on either side: the sum of both over √2 is the sound itself.
         let half = std::f32::consts::FRAC_1_SQRT_2;
         Ok(stereo.as_chunks::<2>().0.iter().map(|[left, right]| (left + right) * half).collect())
     }

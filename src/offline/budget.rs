@@ -1,67 +1,66 @@
-//! Does an exhibit keep up with time? A step of 1/240 s may take 4.17 ms, whatever visitors do ([`load`](super::load)).
+//! Step-time check: does an exhibit meet the deadline of 4.17 ms for a step of 1/240 s, whatever visitors do
+//! ([`load`](super::load))?
 //!
-//! What counts is measured processor time. A count of work would be the same on every machine, but steps cost different
-//! things (wind, contacts, loops, substeps), and a sum of them would need weights that are wrong after every change of
-//! the engine. Time depends on the machine, so a curator has the last word from the kiosk itself. A step that is too
-//! long is run again from the start of its load and counts by the lesser time, so that other work on the machine is not
-//! taken for the exhibit's. Each kind of load ends with its first step that is too long, and the whole check after
-//! [`MOST`] seconds.
+//! It measures processor time. A count of operations would be the same on every machine, but its weights would be wrong
+//! after every change of the engine. Time depends on the machine, so the kiosk itself decides in the end. A late step
+//! is run again from the start of its load, and the lesser time counts, so that other work on the machine does not
+//! matter. Each kind of load ends with its first late step, and the whole check after [`MAX_CHECK_SECONDS`] seconds.
 
 use std::sync::Arc;
 
-use super::load::{Load, LoadRun, loads};
+use super::load::{LoadRun, StressLoad, loads};
 use super::scene::times::timed;
 use soffio_exhibit::{Diagnostic, Exhibit, codes};
 use soffio_multibody::articulation::ConstraintKind;
 use soffio_simulation::STEPS_PER_SECOND;
 
-/// Time of a step, s.
+/// Deadline of a step, s.
 const BUDGET: f64 = 1.0 / STEPS_PER_SECOND as f64;
-/// Assemblies that are tried, and seconds of breath.
+/// Number of random assemblies, and duration of breath, s.
 pub const SEEDS: u64 = 20;
 const BREATH_SECONDS: f64 = 10.0;
-/// Processor time of the check of an exhibit, about, s.
-pub const MOST: f64 = 10.0;
-/// Points that touch in a step and make it long.
-const MANY_TOUCHES: usize = 8;
-/// Substeps that do.
+/// Approximate processor time of the whole check, s.
+pub const MAX_CHECK_SECONDS: f64 = 10.0;
+/// Number of contact points that explains a late step.
+const MANY_CONTACTS: usize = 8;
+/// Number of substeps that explains a late step.
 const MANY_SUBSTEPS: u32 = 4;
 
-/// A step that takes too long.
+/// A step that misses the deadline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LateStep {
-    /// Under which load.
-    pub load: Load,
-    /// Its index.
+    /// The load.
+    pub load: StressLoad,
+    /// Index of the step.
     pub step: usize,
-    /// What it took, s.
+    /// Its processor time, s.
     pub seconds: f64,
-    /// What there was to do in it, in a curator's words.
+    /// Explanation for curators.
     pub cause: String,
 }
 
-/// What was found.
+/// Result of the check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// The first step of each kind of load that is too long.
+    /// The first late step of each kind of load.
     pub late: Vec<LateStep>,
-    /// Loads that were run, and how many there are without a late one.
+    /// Number of loads that were run without a late step.
     pub tried: usize,
-    /// All loads.
+    /// Number of all loads.
     pub of: usize,
 }
 
 /// Runs an exhibit under all loads.
 pub fn check(exhibit: &Arc<Exhibit>) -> Findings {
-    check_within(exhibit, BUDGET, MOST)
+    check_within(exhibit, BUDGET, MAX_CHECK_SECONDS)
 }
 
-/// The same with another bound of a step's time and of the whole check's, s.
+/// As [`check`], with another deadline (s) and another limit of the whole check (s).
 pub fn check_within(exhibit: &Arc<Exhibit>, bound: f64, most: f64) -> Findings {
     let loads = loads(exhibit, SEEDS, BREATH_SECONDS);
     let mut findings = Findings { of: loads.len(), ..Findings::default() };
     let mut left = most;
-    let kind = |load: &Load| std::mem::discriminant(load);
+    let kind = |load: &StressLoad| std::mem::discriminant(load);
     for load in loads {
         if findings.late.iter().any(|late| kind(&late.load) == kind(&load)) {
             findings.of -= 1;
@@ -78,9 +77,9 @@ pub fn check_within(exhibit: &Arc<Exhibit>, bound: f64, most: f64) -> Findings {
     findings
 }
 
-/// The first step of a load that takes longer than `bound` both times, and the time that finding it took, which ends it
-/// at `most`, s.
-fn first_late(exhibit: &Arc<Exhibit>, load: Load, bound: f64, most: f64) -> (Option<LateStep>, f64) {
+/// The first step of a load that takes longer than `bound` in both runs, and the time used, which is limited to `most`,
+/// s.
+fn first_late(exhibit: &Arc<Exhibit>, load: StressLoad, bound: f64, most: f64) -> (Option<LateStep>, f64) {
     let mut run = LoadRun::new(exhibit, load);
     let mut took = 0.0;
     for step in 0..run.steps() {
@@ -103,7 +102,7 @@ fn first_late(exhibit: &Arc<Exhibit>, load: Load, bound: f64, most: f64) -> (Opt
     (None, took)
 }
 
-/// What there was to do in the last step.
+/// Explanation of the last step's cost.
 fn cause(run: &LoadRun) -> String {
     let exhibit = run.simulation.exhibit();
     let mut causes = Vec::new();
@@ -115,7 +114,7 @@ fn cause(run: &LoadRun) -> String {
         touching.bodies.iter().flatten().for_each(|&body| touches[body] += 1);
     }
     let most = (0..touches.len()).max_by_key(|&body| (touches[body], std::cmp::Reverse(body)));
-    if let Some(most) = most.filter(|_| points >= MANY_TOUCHES) {
+    if let Some(most) = most.filter(|_| points >= MANY_CONTACTS) {
         causes.push(format!("parts touch at {points} points, {} of them on \"{}\"", touches[most], name(most)));
     }
     let loops = closing_joints(exhibit);
@@ -132,9 +131,9 @@ fn cause(run: &LoadRun) -> String {
     causes.join("; ")
 }
 
-/// Joints beyond those that hang each body: two bodies that others connect already.
+/// Number of loop-closing joints: joints between bodies that other joints already connect.
 fn closing_joints(exhibit: &Exhibit) -> usize {
-    // The world is one more body; a body's group is that of the least body that joints connect it to.
+    // The world is one more body; a body's group is the least body that joints connect it to.
     let world = exhibit.bodies.len();
     let mut group: Vec<usize> = (0..=world).collect();
     let mut joined: Vec<[usize; 2]> = Vec::new();
@@ -160,7 +159,7 @@ fn closing_joints(exhibit: &Exhibit) -> usize {
 }
 
 impl LateStep {
-    /// As a warning about the exhibit of this name.
+    /// The result as a warning about the exhibit of this name.
     pub fn warning(&self, exhibit: &str) -> Diagnostic {
         let Self { load, step, seconds, cause } = self;
         let at = *step as f64 / STEPS_PER_SECOND as f64;
@@ -171,8 +170,8 @@ impl LateStep {
             1e3 * BUDGET
         );
         let fewer = match load {
-            Load::Assembly(_) => "fewer joints that close loops, or `gathers = false` under [scene]",
-            Load::Breath(_) | Load::Drag => {
+            StressLoad::Assembly(_) => "fewer joints that close loops, or `gathers = false` under [scene]",
+            StressLoad::Breath(_) | StressLoad::Drag => {
                 "fewer parts that touch at once, simpler shapes, fewer joints that close loops"
             }
         };

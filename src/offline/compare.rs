@@ -1,13 +1,14 @@
-//! The laws and motion by places side by side: both moved by the same input, step by step, and how far they come apart.
+//! Comparison of constrained dynamics with another motion mode: both run on the same input, and their differences are
+//! measured.
 //!
-//! Over the bodies that nothing drives, n of them, with d the distance of two places of a node and θ the shorter turn
-//! between two rotations of it,
+//! Over the n bodies that are not kinematic, with d the distance of the two positions of a node and θ the angle between
+//! its two rotations,
 //!
 //! ```text
-//! rms = √(Σ d²/n)      and the same of θ
+//! rms = √(Σ d²/n)      and likewise for θ
 //! ```
 //!
-//! Events are told in order by kind and bodies; where the two runs first differ in that is told.
+//! Events are compared in order by kind and bodies; the first difference is reported.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -16,119 +17,122 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
+use super::atomic_file::AtomicFile;
 use super::feed::WavFeed;
 use super::play::{Play, PlayError};
 use super::sound_page::canvas::{Align, Canvas, FIRST, INK, PALE, SECOND};
 use super::sound_page::chart::{Axis, Chart};
-use super::whole_file::WholeFile;
 use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::atan2;
 use soffio_simulation::{Event, MotionMode, STEPS_PER_SECOND, Script, Simulation, StepInput};
 
-/// Farther than this the runs count as apart, m.
-const APART: f64 = 1e-3;
-/// Pixels of the picture.
+/// Distance from which on the runs count as different, m.
+const SEPARATION: f64 = 1e-3;
+/// Size of the picture, pixels.
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 1180;
-/// Energies and ways that fill a chart at least, J, mm and degrees.
-const LEAST: f64 = 1e-9;
+/// Smallest range of a chart, J, mm or degrees.
+const MIN_CHART_RANGE: f64 = 1e-9;
 
-/// How far the runs are apart at one moment.
+/// Difference of the runs at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Row {
-    /// s.
+pub struct DifferenceSample {
+    /// Time, s.
     pub t: f64,
-    /// Places: rms and farthest body, m.
-    pub place: [f64; 2],
-    /// Turns, degrees.
-    pub turn: [f64; 2],
-    /// Energy under the laws, and by places, J.
+    /// Position difference: rms and largest, m.
+    pub position: [f64; 2],
+    /// Rotation difference: rms and largest, degrees.
+    pub rotation: [f64; 2],
+    /// Energy of constrained dynamics and of the other mode, J.
     pub energy: [f64; 2],
-    /// Events so far.
+    /// Number of events so far.
     pub events: [u64; 2],
 }
 
 /// An event of one of the runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Told {
-    /// s.
+pub struct EventSummary {
+    /// Time, s.
     pub t: f64,
-    /// What happened.
+    /// Kind of the event.
     pub kind: &'static str,
-    /// To whom.
+    /// Names of the bodies.
     pub bodies: [Option<String>; 2],
 }
 
-/// Where the events of the runs first differ: the `index`th of each; none where that run has no more.
+/// The first difference of the events: the `index`th of each run; `None` where a run has no more.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FirstDifference {
-    /// From 0.
+    /// Index, from 0.
     pub index: usize,
-    /// Under the laws.
-    pub dynamics: Option<Told>,
-    /// By places.
-    pub other: Option<Told>,
+    /// Event of constrained dynamics.
+    pub dynamics: Option<EventSummary>,
+    /// Event of the other mode.
+    pub other: Option<EventSummary>,
 }
 
-/// A comparison as numbers. It has 21 fields, because it is the command's output, field by field.
+/// Result of a comparison, in the fields of the command's output.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// What stands beside the laws.
+    /// Name of the other motion mode.
     pub solver: &'static str,
-    /// Steps done.
+    /// Number of steps.
     pub steps: u64,
-    /// Bodies that nothing drives.
+    /// Number of bodies compared.
     pub bodies: usize,
-    /// Places apart, over all bodies and steps, m.
+    /// Rms position difference over all bodies and steps, m.
     pub rms_m: f64,
-    /// Farthest body of any step, m.
+    /// Largest position difference, m.
     pub max_m: f64,
-    /// Its name.
+    /// Body of the largest position difference.
     pub max_m_body: String,
-    /// When, s.
+    /// Time of the largest position difference, s.
     pub max_m_at_s: f64,
-    /// Turns apart, over all bodies and steps, degrees.
+    /// Rms rotation difference over all bodies and steps, degrees.
     pub rms_deg: f64,
-    /// Largest turn apart, degrees.
+    /// Largest rotation difference, degrees.
     pub max_deg: f64,
-    /// At the end, m.
+    /// Rms position difference at the end, m.
     pub end_rms_m: f64,
-    /// When a body was first farther apart than 1 mm, s; null where none was.
+    /// Time at which a body first differs by more than 1 mm, s; `None` where none does.
     pub apart_1mm_s: Option<f64>,
-    /// Energy under the laws at the end, J.
+    /// Energy of constrained dynamics at the end, J.
     pub energy_dynamics_j: f64,
-    /// Energy by places at the end, J.
+    /// Energy of the other mode at the end, J.
     pub energy_other_j: f64,
-    /// Their difference over all steps, J.
+    /// Rms energy difference over all steps, J.
     pub energy_rms_j: f64,
-    /// Its largest size, J.
+    /// Largest energy difference, J.
     pub energy_max_j: f64,
-    /// Worst joint of any step: under the laws, by places, m.
+    /// Largest joint error of either run, m.
     pub max_joint_error_m: [f64; 2],
-    /// Events under the laws.
+    /// Number of events of constrained dynamics.
     pub events_dynamics: u64,
-    /// Events by places.
+    /// Number of events of the other mode.
     pub events_other: u64,
-    /// Where the events first differ.
+    /// First difference of the events.
     pub first_difference: Option<FirstDifference>,
-    /// Faults found and mended: under the laws, by places.
+    /// Number of invalid states found and recovered in either run.
     pub faults: [u64; 2],
-    /// Seed of both.
+    /// Seed of both runs.
     pub seed: u64,
 }
 
-/// Two runs of an exhibit, and how far they were apart in each frame.
+/// Two runs of an exhibit, and their differences in each frame.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// As numbers.
+    /// Summary.
     pub summary: Summary,
-    /// A row a frame.
-    pub rows: Vec<Row>,
+    /// A sample for each frame.
+    pub samples: Vec<DifferenceSample>,
 }
 
-/// Runs an exhibit by the laws and by `play.mode`. What the input's script says of solvers does not count. Files that
-/// `play` names are not written.
+/// Runs an exhibit by constrained dynamics and by `play.mode`. Motion modes in the script are ignored, and no files are
+/// written.
+///
+/// # Errors
+/// Where the run is interrupted.
 pub fn run(
     exhibit: &Arc<Exhibit>,
     play: Play,
@@ -136,20 +140,20 @@ pub fn run(
     mut on_step: impl FnMut(u64),
 ) -> Result<Comparison, PlayError> {
     let Play { settings, mut breath, aim, mut script, mode, seconds, aspect, fps, .. } = play;
-    let mut laws = Simulation::new(exhibit.clone(), settings);
+    let mut dynamics = Simulation::new(exhibit.clone(), settings);
     let mut other = Simulation::new(exhibit.clone(), settings);
     let steps = (seconds * STEPS_PER_SECOND as f64).round() as u64;
-    let mut apart = Apart::new(exhibit, steps);
-    let (mut rows, mut commands, mut hands) = (Vec::new(), Vec::new(), Vec::new());
-    let mut told = [Vec::new(), Vec::new()];
+    let mut difference = DifferenceMeter::new(exhibit, steps);
+    let (mut samples, mut commands, mut hands) = (Vec::new(), Vec::new(), Vec::new());
+    let mut events = [Vec::new(), Vec::new()];
     let mut joints = [0.0_f64; 2];
     let mut frame = 0;
-    let mut now = Row::default();
+    let mut now = DifferenceSample::default();
     for step in 0..=steps {
         let t = step as f64 / STEPS_PER_SECOND as f64;
-        now = apart.measure(t, [&laws, &other], [told[0].len() as u64, told[1].len() as u64]);
+        now = difference.measure(t, [&dynamics, &other], [events[0].len() as u64, events[1].len() as u64]);
         while frame * STEPS_PER_SECOND <= step * u64::from(fps.max(1)) {
-            rows.push(now);
+            samples.push(now);
             frame += 1;
         }
         if step == steps {
@@ -162,14 +166,14 @@ pub fn run(
         let microphone = breath.as_mut().map(WavFeed::microphone);
         let pointer = script.as_ref().and_then(Script::aim).or(aim);
         let input = StepInput { microphone, pointer, aspect, commands: &commands, ..StepInput::default() };
-        for (run, mode) in [(&mut laws, Some(MotionMode::Dynamic)), (&mut other, mode)] {
+        for (run, mode) in [(&mut dynamics, Some(MotionMode::Dynamic)), (&mut other, mode)] {
             if let Some(script) = &mut script {
                 script.pointer_grabs(run, aspect, &mut hands);
             }
             run.step(&StepInput { mode, pointer_grabs: &hands, ..input });
         }
-        for ((told, run), joint) in told.iter_mut().zip([&laws, &other]).zip(&mut joints) {
-            told.extend(run.events().iter().map(|event| tell(event, exhibit)));
+        for ((events, run), joint) in events.iter_mut().zip([&dynamics, &other]).zip(&mut joints) {
+            events.extend(run.events().iter().map(|event| summarize_event(event, exhibit)));
             *joint = joint.max(run.joint_error());
         }
         on_step(step + 1);
@@ -177,151 +181,159 @@ pub fn run(
             return Err(PlayError::Interrupted);
         }
     }
-    let faults = [&laws, &other].map(|run| run.snapshot().diagnostics.faults);
-    let [rms_m, rms_deg, energy_rms_j] = apart.sums.map(f64::sqrt);
+    let faults = [&dynamics, &other].map(|run| run.snapshot().diagnostics.faults);
+    let [rms_m, rms_deg, energy_rms_j] = difference.sums.map(f64::sqrt);
     let summary = Summary {
         solver: mode.unwrap_or_default().name(),
         steps,
-        bodies: apart.moving.len(),
+        bodies: difference.moving.len(),
         rms_m,
-        max_m: apart.farthest.0,
-        max_m_body: exhibit.bodies.get(apart.farthest.1).map(|body| body.name.clone()).unwrap_or_default(),
-        max_m_at_s: apart.farthest.2,
+        max_m: difference.farthest.0,
+        max_m_body: exhibit.bodies.get(difference.farthest.1).map(|body| body.name.clone()).unwrap_or_default(),
+        max_m_at_s: difference.farthest.2,
         rms_deg,
-        max_deg: apart.turned,
-        end_rms_m: now.place[0],
-        apart_1mm_s: apart.since,
+        max_deg: difference.max_rotation,
+        end_rms_m: now.position[0],
+        apart_1mm_s: difference.first_apart,
         energy_dynamics_j: now.energy[0],
         energy_other_j: now.energy[1],
         energy_rms_j,
-        energy_max_j: apart.energy_max,
+        energy_max_j: difference.energy_max,
         max_joint_error_m: joints,
-        events_dynamics: told[0].len() as u64,
-        events_other: told[1].len() as u64,
-        first_difference: first_difference(&told),
+        events_dynamics: events[0].len() as u64,
+        events_other: events[1].len() as u64,
+        first_difference: first_difference(&events),
         faults,
         seed: settings.seed,
     };
-    Ok(Comparison { summary, rows })
+    Ok(Comparison { summary, samples: samples })
 }
 
-/// How far two runs have been apart so far.
-struct Apart {
-    /// Bodies that nothing drives.
+/// Accumulates the differences of two runs.
+struct DifferenceMeter {
+    /// Indices of the bodies compared.
     moving: Vec<usize>,
     steps: u64,
-    /// Mean squares over all steps: places, turns, energies.
+    /// Mean squares over all steps: positions, rotations, energies.
     sums: [f64; 3],
-    /// Of the farthest body: distance, m, its index, and when, s.
+    /// Largest position difference: distance, m, body, and time, s.
     farthest: (f64, usize, f64),
-    /// Largest turn, degrees.
-    turned: f64,
-    /// Largest difference of energies, J.
+    /// Largest rotation difference, degrees.
+    max_rotation: f64,
+    /// Largest energy difference, J.
     energy_max: f64,
-    /// When a body was first farther apart than [`APART`], s.
-    since: Option<f64>,
+    /// Time at which a body first differed by more than [`SEPARATION`], s.
+    first_apart: Option<f64>,
 }
 
-impl Apart {
+impl DifferenceMeter {
     fn new(exhibit: &Exhibit, steps: u64) -> Self {
         let moving =
             (0..exhibit.bodies.len()).filter(|body| exhibit.drives.iter().all(|drive| drive.body != *body)).collect();
-        Self { moving, steps, sums: [0.0; 3], farthest: (0.0, 0, 0.0), turned: 0.0, energy_max: 0.0, since: None }
+        Self {
+            moving,
+            steps,
+            sums: [0.0; 3],
+            farthest: (0.0, 0, 0.0),
+            max_rotation: 0.0,
+            energy_max: 0.0,
+            first_apart: None,
+        }
     }
 
-    /// Takes in the runs at `t` seconds, which have had so many events; how far they are apart now.
-    fn measure(&mut self, t: f64, [laws, other]: [&Simulation; 2], events: [u64; 2]) -> Row {
-        let energy = [laws.energy(), other.energy()];
-        let mut now = Row { t, energy, events, ..Row::default() };
+    /// Takes the runs at `t` seconds, with their numbers of events; returns the present difference.
+    fn measure(&mut self, t: f64, [dynamics, other]: [&Simulation; 2], events: [u64; 2]) -> DifferenceSample {
+        let energy = [dynamics.energy(), other.energy()];
+        let mut now = DifferenceSample { t, energy, events, ..DifferenceSample::default() };
         for &body in &self.moving {
-            let (d, turn) = difference(&laws.bodies()[body], &other.bodies()[body]);
+            let (d, turn) = difference(&dynamics.bodies()[body], &other.bodies()[body]);
             let n = self.moving.len() as f64;
-            now.place = [now.place[0] + d * d / n, now.place[1].max(d)];
-            now.turn = [now.turn[0] + turn * turn / n, now.turn[1].max(turn)];
+            now.position = [now.position[0] + d * d / n, now.position[1].max(d)];
+            now.rotation = [now.rotation[0] + turn * turn / n, now.rotation[1].max(turn)];
             if d > self.farthest.0 {
                 self.farthest = (d, body, t);
             }
         }
         let gap = energy[0] - energy[1];
-        for (sum, square) in self.sums.iter_mut().zip([now.place[0], now.turn[0], gap * gap]) {
+        for (sum, square) in self.sums.iter_mut().zip([now.position[0], now.rotation[0], gap * gap]) {
             *sum += square / (self.steps + 1) as f64;
         }
-        (now.place[0], now.turn[0]) = (now.place[0].sqrt(), now.turn[0].sqrt());
-        (self.turned, self.energy_max) = (self.turned.max(now.turn[1]), self.energy_max.max(gap.abs()));
-        self.since = self.since.or((now.place[1] > APART).then_some(t));
+        (now.position[0], now.rotation[0]) = (now.position[0].sqrt(), now.rotation[0].sqrt());
+        (self.max_rotation, self.energy_max) = (self.max_rotation.max(now.rotation[1]), self.energy_max.max(gap.abs()));
+        self.first_apart = self.first_apart.or((now.position[1] > SEPARATION).then_some(t));
         now
     }
 }
 
-/// Distance of two states of a body (its node's), m, and the turn between them, degrees.
+/// Distance of a body's node in two states, m, and the angle between its rotations, degrees.
 fn difference(one: &RigidBody, other: &RigidBody) -> (f64, f64) {
     let turn = one.rotation.conjugate() * other.rotation;
     let angle = 2.0 * atan2(turn.xyz().length(), turn.w.abs());
     (one.pose().position.distance(other.pose().position), angle.to_degrees())
 }
 
-fn tell(event: &Event, exhibit: &Exhibit) -> Told {
+fn summarize_event(event: &Event, exhibit: &Exhibit) -> EventSummary {
     let name = |body: usize| exhibit.bodies[body].name.clone();
-    Told { t: event.t, kind: event.kind.name(), bodies: event.bodies.map(|body| body.map(name)) }
+    EventSummary { t: event.t, kind: event.kind.name(), bodies: event.bodies.map(|body| body.map(name)) }
 }
 
-fn first_difference([laws, other]: &[Vec<Told>; 2]) -> Option<FirstDifference> {
-    let same = |index: usize| match (laws.get(index), other.get(index)) {
+fn first_difference([dynamics, other]: &[Vec<EventSummary>; 2]) -> Option<FirstDifference> {
+    let same = |index: usize| match (dynamics.get(index), other.get(index)) {
         (Some(a), Some(b)) => a.kind == b.kind && a.bodies == b.bodies,
         _ => false,
     };
-    let index = (0..laws.len().max(other.len())).find(|&index| !same(index))?;
-    Some(FirstDifference { index, dynamics: laws.get(index).cloned(), other: other.get(index).cloned() })
+    let index = (0..dynamics.len().max(other.len())).find(|&index| !same(index))?;
+    Some(FirstDifference { index, dynamics: dynamics.get(index).cloned(), other: other.get(index).cloned() })
 }
 
 impl Comparison {
-    /// Writes the rows as CSV.
-    pub fn write_rows(&self, path: &Path) -> std::io::Result<()> {
-        let mut file = WholeFile::create(path)?;
+    /// Writes the samples as CSV.
+    pub fn write_csv(&self, path: &Path) -> std::io::Result<()> {
+        let mut file = AtomicFile::create(path)?;
         writeln!(file, "t,rms_m,max_m,rms_deg,max_deg,energy_dynamics_j,energy_other_j,events_dynamics,events_other")?;
-        for Row { t, place, turn, energy, events } in &self.rows {
+        for DifferenceSample { t, position: place, rotation: turn, energy, events } in &self.samples {
             let ([a, b], [c, d], [e, f], [g, h]) = (place, turn, energy, events);
             writeln!(file, "{t},{a},{b},{c},{d},{e},{f},{g},{h}")?;
         }
         file.finish()
     }
 
-    /// Draws the differences over time as PNG.
+    /// Draws the differences over time as a PNG.
     pub fn write_picture(&self, path: &Path, exhibit: &Exhibit) -> Result<(), PlayError> {
         let mut canvas = Canvas::new(WIDTH, HEIGHT);
         let Summary { solver, rms_m, rms_deg, .. } = &self.summary;
         canvas.words(80.0, 52.0, 32.0, Align::Left, INK, &format!("{}: the laws and {solver}", exhibit.id));
         let about = format!("apart by {:.3} mm and {rms_deg:.3}° rms over {} bodies", 1e3 * rms_m, self.summary.bodies);
         canvas.words(80.0, 82.0, 18.0, Align::Left, PALE, &about);
-        let millimetres = |row: &Row| row.place.map(|d| 1e3 * d);
-        self.chart(&mut canvas, 0, ("Places apart", "mm", LEAST), ["rms", "farthest"], millimetres);
-        self.chart(&mut canvas, 1, ("Turns apart", "degrees", LEAST), ["rms", "largest"], |row| row.turn);
-        self.chart(&mut canvas, 2, ("Energy", "J", LEAST), ["laws", solver], |row| row.energy);
+        let millimetres = |row: &DifferenceSample| row.position.map(|d| 1e3 * d);
+        self.chart(&mut canvas, 0, ("Places apart", "mm", MIN_CHART_RANGE), ["rms", "farthest"], millimetres);
+        self.chart(&mut canvas, 1, ("Turns apart", "degrees", MIN_CHART_RANGE), ["rms", "largest"], |row| row.rotation);
+        self.chart(&mut canvas, 2, ("Energy", "J", MIN_CHART_RANGE), ["laws", solver], |row| row.energy);
         self.chart(&mut canvas, 3, ("Events so far", "", 1.0), ["laws", solver], |row| row.events.map(|n| n as f64));
         let mut bytes = Vec::new();
         let packed = canvas.finish().write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png);
         packed.map_err(|error| PlayError::Output(error.to_string()))?;
-        let mut file = WholeFile::create(path)?;
+        let mut file = AtomicFile::create(path)?;
         file.write_all(&bytes)?;
         Ok(file.finish()?)
     }
 
-    /// Two curves over time in the `index`th chart from the top, which is at least so high.
+    /// Two curves over time in the `index`th chart from the top, with a least range.
     fn chart(
         &self,
         canvas: &mut Canvas,
         index: usize,
         (title, unit, least): (&str, &str, f64),
         names: [&str; 2],
-        of: impl Fn(&Row) -> [f64; 2],
+        of: impl Fn(&DifferenceSample) -> [f64; 2],
     ) {
-        let values = || self.rows.iter().flat_map(&of);
+        let values = || self.samples.iter().flat_map(&of);
         let high = values().fold(f64::MIN, f64::max);
         let low = values().fold(high, f64::min);
-        // What is a size begins at nothing; an energy where it is.
+        // Magnitudes begin at zero, energies at their least value.
         let low = if low >= 0.0 && low < 0.5 * high { 0.0 } else { low };
-        let room = 0.05 * (high - low).max(LEAST);
-        let last = self.rows.last().map_or(1.0, |row| row.t).max(LEAST);
+        let room = 0.05 * (high - low).max(MIN_CHART_RANGE);
+        let last = self.samples.last().map_or(1.0, |row| row.t).max(MIN_CHART_RANGE);
         let top = 130.0 + 262.0 * index as f64;
         let chart = Chart {
             place: [80.0, top, 1080.0, 185.0],
@@ -331,7 +343,7 @@ impl Comparison {
         chart.frame(canvas, title, "s", unit);
         let mut x = 260.0;
         for (k, (name, colour)) in names.into_iter().zip([FIRST, SECOND]).enumerate() {
-            let points: Vec<[f64; 2]> = self.rows.iter().map(|row| chart.point(row.t, of(row)[k])).collect();
+            let points: Vec<[f64; 2]> = self.samples.iter().map(|row| chart.point(row.t, of(row)[k])).collect();
             canvas.path(&points, 1.5, colour);
             x += canvas.words(x, top - 12.0, 15.0, Align::Left, colour, name) + 20.0;
         }

@@ -1,5 +1,5 @@
-//! The kiosk without a display: the exhibit answers its own recorded breath, and leaves a picture, a sound file and a
-//! trace.
+//! Headless demonstration: the exhibit reacts to its own recorded breath, and the run writes a picture, a sound file
+//! and a trace.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,25 +12,28 @@ use soffio_exhibit::{AttractAction, Exhibit};
 use soffio_simulation::{Settings, Snapshot};
 use soffio_sound::ReverbSpec;
 
-/// The run goes on after the breath, s.
+/// Time that the run continues after the breath, s.
 const TAIL: f64 = 5.0;
-/// The picture is taken this long after the run began, s: when the sculpture has visibly turned.
+/// Time of the picture after the start, s, when the sculpture has visibly turned.
 const PICTURE_AT: f64 = 4.0;
 /// Pixels of the picture.
 #[cfg(feature = "pictures")]
 const PICTURE_SIZE: (u32, u32) = (1280, 720);
 
-/// What a headless run left.
+/// Result of a headless run.
 pub struct Demo {
     /// The run as numbers.
     pub summary: Summary,
-    /// Files it left.
+    /// Files written.
     pub files: Vec<PathBuf>,
-    /// Why there is no picture, if there is none.
+    /// Reason why there is no picture; `None` if there is one.
     pub no_picture: Option<String>,
 }
 
-/// Plays the exhibit's first recorded breath into `folder` (made if missing).
+/// Plays the exhibit's first recorded breath into `folder`, which is created if missing.
+///
+/// # Errors
+/// Where a file cannot be written, or the run is interrupted.
 pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &AtomicBool) -> Result<Demo, String> {
     std::fs::create_dir_all(folder).map_err(|e| format!("cannot make the folder {}: {e}", folder.display()))?;
     let file = |extension: &str| folder.join(format!("{}.{extension}", exhibit.id));

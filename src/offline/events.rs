@@ -1,4 +1,4 @@
-//! Event logs: one JSON object a line.
+//! Event logs: one JSON object for each line.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::whole_file::WholeFile;
+use super::atomic_file::AtomicFile;
 use soffio_exhibit::Exhibit;
 use soffio_simulation::Event;
 
 #[derive(Serialize)]
-struct Line<'a> {
+struct EventLine<'a> {
     t: f64,
     sample: u64,
     kind: &'static str,
@@ -25,22 +25,22 @@ struct Line<'a> {
     part: Option<&'a str>,
 }
 
-/// Writes an event log while a run goes on.
+/// Writes an event log during a run.
 pub struct EventWriter {
-    file: WholeFile,
+    file: AtomicFile,
     exhibit: Arc<Exhibit>,
 }
 
 impl EventWriter {
-    /// Begins a log of the exhibit's events.
+    /// Creates a log of the exhibit's events.
     pub fn create(path: &Path, exhibit: &Arc<Exhibit>) -> io::Result<Self> {
-        Ok(Self { file: WholeFile::create(path)?, exhibit: exhibit.clone() })
+        Ok(Self { file: AtomicFile::create(path)?, exhibit: exhibit.clone() })
     }
 
     /// Adds the events of a step.
     pub fn push(&mut self, events: &[Event]) -> io::Result<()> {
         for event in events {
-            let line = Line {
+            let line = EventLine {
                 t: event.t,
                 sample: event.sample,
                 kind: event.kind.name(),
@@ -57,7 +57,7 @@ impl EventWriter {
         Ok(())
     }
 
-    /// Puts the file in its place.
+    /// Completes the file.
     pub fn finish(self) -> io::Result<()> {
         self.file.finish()
     }

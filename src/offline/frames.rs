@@ -1,13 +1,13 @@
-//! Where frames lie among steps: frame k is seen at t = k / fps, which is step 240 k / fps.
+//! Frame sampling: frame k is at t = k / fps, which is step 240 k / fps.
 //!
-//! Between two steps a frame is their interpolation; nothing is ever extrapolated.
+//! Frames between two steps are interpolated, never extrapolated.
 
 use soffio_math::Pose;
 use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 
-/// What can be seen between two steps.
+/// States that can be interpolated.
 pub trait Blend {
-    /// The moment between `self` (0) and `next` (1).
+    /// The state between `self` (0) and `next` (1).
     fn blend(&self, next: &Self, alpha: f64) -> Self;
 }
 
@@ -23,7 +23,7 @@ impl Blend for Vec<Pose> {
     }
 }
 
-/// Frames of a run while it goes on.
+/// Samples the frames of a run as it proceeds.
 pub struct Frames<T> {
     fps: u64,
     next: u64,
@@ -31,13 +31,13 @@ pub struct Frames<T> {
 }
 
 impl<T: Blend> Frames<T> {
-    /// Frames from t = 0 on, `fps` of them a second (one at least).
+    /// Frames from t = 0 on, `fps` a second (at least one).
     pub fn new(fps: u32) -> Self {
         Self { fps: u64::from(fps.max(1)), next: 0, before: None }
     }
 
-    /// Takes notice of a step and what there is after it; `each` is given the number of every frame that is due by then,
-    /// and what is seen in it. Steps come in order, each once, from the start.
+    /// Takes a step and the state after it. `each` receives the number and the interpolated state of every frame that
+    /// is due. Steps come in order, each once, from the start.
     pub fn push<E>(
         &mut self,
         step: u64,

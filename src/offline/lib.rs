@@ -1,20 +1,21 @@
-//! The same pipeline without a window: WAV in; WAV, pictures, traces and events out.
+//! Offline runs: the live pipeline without a window. WAV in; WAV, pictures, traces and events out.
 //!
-//! It runs the simulation as fast as the machine allows, with a recorded breath or a script in place of a visitor, and writes
-//! what comes of it. It also judges: loudness, comparison of solvers, and physics scenes against their formulas ([`scene`]).
+//! The simulation runs as fast as the machine allows, with a recorded breath or a script in place of a visitor. The
+//! crate also evaluates: loudness, comparison of motion modes, and physics scenes against their formulas ([`scene`]).
 //!
-//! It never opens a device or a window. A file that it writes appears whole or not at all. With the feature `pictures` it
-//! draws, which needs a GPU or software Vulkan.
+//! It never opens a device or a window, and it writes files atomically. With the feature `pictures` it renders, which
+//! needs a GPU or software Vulkan.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`play`] | a run: inputs, outputs, and its summary |
-//! | [`wav`], [`feed`] | recordings, and how they become a microphone |
+//! | [`wav`], [`feed`] | recordings, and their use as microphone input |
 //! | [`trace`], [`events`], [`soundtrack`] | poses as CSV, events as JSON lines, sound as WAV |
-//! | [`export`] | baked glTF animation, MuJoCo models, RenderMan scenes |
-//! | [`load`], [`budget`] | what must not slow an exhibit down: assembly, a hard breath, a fast hand; and whether it does |
+//! | [`export`] | glTF animation, MuJoCo models, RenderMan scenes |
+//! | [`load`], [`budget`] | stress loads (assembly, hard breath, fast drag), and the check that steps meet the deadline
+//! |
 //! | [`loudness`] | loudness and true peak of an exhibit |
-//! | [`scene`] | physics scenes, their measures and their limits |
+//! | [`scene`] | physics scenes and their measures |
 //!
 //! ```
 //! use std::path::Path;
@@ -35,6 +36,8 @@
 //! assert!(summary.max_joint_error_m < 1e-6);
 //! ```
 
+pub mod atomic_file;
+pub mod atomic_folder;
 pub mod audition;
 pub mod budget;
 pub mod compare;
@@ -55,5 +58,3 @@ pub mod trace;
 #[cfg(feature = "pictures")]
 pub mod video;
 pub mod wav;
-pub mod whole_file;
-pub mod whole_folder;

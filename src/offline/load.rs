@@ -1,12 +1,12 @@
-//! The loads under which an exhibit must keep up with time, as inputs of a simulation, and the time that each step takes.
+//! Stress loads: simulation inputs under which an exhibit must meet its deadline, and the time of each step.
 //!
 //! | load | what happens |
 //! |---|---|
-//! | assembly | the exhibit comes on: its parts gather from where a seed scatters them, and it begins |
-//! | breath | a breath of 17 m/s at the lips that does not end |
-//! | drag | a hand takes one body after another by its centre, drags it back and forth, and lets it go |
+//! | assembly | the exhibit is shown and assembles from parts that a seed has scattered |
+//! | breath | a breath of 17 m/s at the lips without end |
+//! | drag | a pointer grabs one body after another at its centre, drags it back and forth, and releases it |
 //!
-//! Motion is the exhibit's own: nothing chooses another kind of motion when a step is slow.
+//! The exhibit keeps its own motion mode: a late step does not switch it.
 
 use std::fmt;
 use std::sync::Arc;
@@ -18,32 +18,32 @@ use soffio_exhibit::Exhibit;
 use soffio_math::{PI, sin};
 use soffio_simulation::{ASSEMBLY_DURATION, Command, PointerGrab, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
-/// A hard breath, m/s at the lips.
-pub const HARD: f64 = 17.0;
-/// What is watched after the parts have gathered, s.
-const BEGINS: f64 = 0.5;
-/// Bodies that are dragged, at most.
-const DRAGGED: usize = 8;
-/// For how long each is held, and how long it then flies before the next one is taken, s.
-const HELD: f64 = 1.0;
-const THROWN: f64 = 0.25;
-/// Swings of the hand to the side and up and down, Hz, and how wide, picture widths and heights: faster than anything can
-/// follow.
-const SWINGS: [f64; 2] = [2.0, 3.0];
-const WIDE: [f64; 2] = [0.4, 0.3];
+/// Speed of the hardest breath at the lips, m/s.
+pub const HARDEST_BREATH: f64 = 17.0;
+/// Time that is simulated after the assembly, s.
+const BREATH_START: f64 = 0.5;
+/// Most bodies that are dragged.
+const MAX_GRABBED: usize = 8;
+/// Time that each body is dragged, and time that it flies before the next one is grabbed, s.
+const GRAB_SECONDS: f64 = 1.0;
+const THROW_SECONDS: f64 = 0.25;
+/// Frequencies (Hz) of the drag, horizontal and vertical, and its amplitudes in picture widths and heights: faster than
+/// any body can follow.
+const DRAG_FREQUENCIES: [f64; 2] = [2.0, 3.0];
+const DRAG_AMPLITUDES: [f64; 2] = [0.4, 0.3];
 
-/// A load.
+/// A stress load.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Load {
-    /// The parts gather from where this seed scatters them.
+pub enum StressLoad {
+    /// Assembly from parts scattered by this seed.
     Assembly(u64),
-    /// A hard breath of so many seconds.
+    /// The hardest breath for this time, s.
     Breath(f64),
-    /// A fast hand.
+    /// Fast drags.
     Drag,
 }
 
-impl fmt::Display for Load {
+impl fmt::Display for StressLoad {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Assembly(seed) => write!(f, "assembly of seed {seed}"),
@@ -53,44 +53,44 @@ impl fmt::Display for Load {
     }
 }
 
-/// All loads that an exhibit can be under: breath, drag, and assembly of so many seeds.
-pub fn loads(exhibit: &Exhibit, seeds: u64, breath_seconds: f64) -> Vec<Load> {
-    let drag = (exhibit.touch.permitted && !movable(exhibit).is_empty()).then_some(Load::Drag);
-    let assembly = (0..if exhibit.gathers { seeds } else { 0 }).map(Load::Assembly);
-    [Load::Breath(breath_seconds)].into_iter().chain(drag).chain(assembly).collect()
+/// All loads of an exhibit: breath, drag, and assemblies of so many seeds.
+pub fn loads(exhibit: &Exhibit, seeds: u64, breath_seconds: f64) -> Vec<StressLoad> {
+    let drag = (exhibit.touch.permitted && !movable(exhibit).is_empty()).then_some(StressLoad::Drag);
+    let assembly = (0..if exhibit.assembles { seeds } else { 0 }).map(StressLoad::Assembly);
+    [StressLoad::Breath(breath_seconds)].into_iter().chain(drag).chain(assembly).collect()
 }
 
-/// Bodies that a hand can take.
+/// Indices of the bodies that can be grabbed.
 fn movable(exhibit: &Exhibit) -> Vec<usize> {
     let driven = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
     (0..exhibit.bodies.len()).filter(|&body| !driven(body)).collect()
 }
 
-/// An exhibit under a load, from its start.
+/// An exhibit under a load.
 pub struct LoadRun {
-    /// The exhibit in motion.
+    /// The simulation.
     pub simulation: Simulation,
-    load: Load,
+    load: StressLoad,
     /// Bodies that are dragged, in turn.
     bodies: Vec<usize>,
     step: usize,
 }
 
 impl LoadRun {
-    /// At the start, with the settings of a kiosk.
-    pub fn new(exhibit: &Arc<Exhibit>, load: Load) -> Self {
+    /// The start of a run, with the settings of a kiosk.
+    pub fn new(exhibit: &Arc<Exhibit>, load: StressLoad) -> Self {
         let movable = movable(exhibit);
-        let dragged = DRAGGED.min(movable.len());
+        let dragged = MAX_GRABBED.min(movable.len());
         let bodies = (0..dragged).map(|i| movable[i * movable.len() / dragged]).collect();
         Self { simulation: Simulation::new(exhibit.clone(), Settings::default()), load, bodies, step: 0 }
     }
 
-    /// Steps of the whole run.
+    /// Number of steps of the whole run.
     pub fn steps(&self) -> usize {
         let seconds = match self.load {
-            Load::Assembly(_) => ASSEMBLY_DURATION + BEGINS,
-            Load::Breath(seconds) => seconds,
-            Load::Drag => self.bodies.len() as f64 * (HELD + THROWN),
+            StressLoad::Assembly(_) => ASSEMBLY_DURATION + BREATH_START,
+            StressLoad::Breath(seconds) => seconds,
+            StressLoad::Drag => self.bodies.len() as f64 * (GRAB_SECONDS + THROW_SECONDS),
         };
         (seconds * STEPS_PER_SECOND as f64).ceil() as usize
     }
@@ -98,12 +98,12 @@ impl LoadRun {
     /// Advances by a step.
     pub fn step(&mut self) {
         let command = match self.load {
-            Load::Assembly(seed) => Some(Command::Assemble(seed)),
-            Load::Breath(_) => Some(Command::Blow(Some(HARD))),
-            Load::Drag => None,
+            StressLoad::Assembly(seed) => Some(Command::Assemble(seed)),
+            StressLoad::Breath(_) => Some(Command::Blow(Some(HARDEST_BREATH))),
+            StressLoad::Drag => None,
         };
         let command = command.filter(|_| self.step == 0);
-        let hand = (self.load == Load::Drag).then(|| self.hand()).flatten();
+        let hand = (self.load == StressLoad::Drag).then(|| self.hand()).flatten();
         self.simulation.step(&StepInput {
             commands: command.as_slice(),
             pointer_grabs: hand.as_slice(),
@@ -112,53 +112,53 @@ impl LoadRun {
         self.step += 1;
     }
 
-    /// The hand in the coming step; `None` while what was thrown flies.
+    /// The pointer grab in the coming step; `None` while the released body flies.
     fn hand(&self) -> Option<PointerGrab> {
         let t = self.step as f64 / STEPS_PER_SECOND as f64;
-        let turn = (t / (HELD + THROWN)) as usize;
-        let held = t - turn as f64 * (HELD + THROWN);
+        let turn = (t / (GRAB_SECONDS + THROW_SECONDS)) as usize;
+        let held = t - turn as f64 * (GRAB_SECONDS + THROW_SECONDS);
         let body = *self.bodies.get(turn)?;
-        let swing = |k: usize| 0.5 + WIDE[k] * sin(2.0 * PI * SWINGS[k] * held);
-        (held < HELD).then(|| PointerGrab { id: turn as u64, at: [swing(0), swing(1)], body: Some(body) })
+        let swing = |k: usize| 0.5 + DRAG_AMPLITUDES[k] * sin(2.0 * PI * DRAG_FREQUENCIES[k] * held);
+        (held < GRAB_SECONDS).then(|| PointerGrab { id: turn as u64, at: [swing(0), swing(1)], body: Some(body) })
     }
 }
 
 /// Step times under one load.
 pub struct LoadTimes {
-    /// Which.
-    pub load: Load,
-    /// Of each step the least time of all rounds.
+    /// The load.
+    pub load: StressLoad,
+    /// The least time of each step over all rounds.
     pub times: StepTimes,
 }
 
 impl LoadTimes {
-    /// Runs a load so many times, once at least.
-    pub fn measure(exhibit: &Arc<Exhibit>, load: Load, rounds: usize) -> Self {
+    /// Runs a load `rounds` times, at least once.
+    pub fn measure(exhibit: &Arc<Exhibit>, load: StressLoad, rounds: usize) -> Self {
         let mut times = StepTimes::default();
         let mut run = LoadRun::new(exhibit, load);
         (0..run.steps()).for_each(|_| times.time(|| run.step()));
         for _ in 1..rounds {
             let mut run = LoadRun::new(exhibit, load);
-            times.again_by(|_| run.step());
+            times.repeat_with(|_| run.step());
         }
         Self { load, times }
     }
 }
 
-/// Step times under several loads, in short.
+/// Summary of the step times under several loads.
 #[derive(Clone, Debug, Serialize)]
 pub struct LoadReport {
-    /// Of all steps together; the worst is counted from the beginning of its load.
+    /// Times of all steps; the slowest step counts from the start of its load.
     #[serde(flatten)]
     pub times: TimesReport,
-    /// The load of the longest step.
+    /// Load of the slowest step.
     pub worst_load: String,
-    /// When it began within the load, s.
+    /// Start of the slowest step within its load, s.
     pub worst_at_s: f64,
 }
 
 impl LoadReport {
-    /// Of some loads; `None` where there are none.
+    /// The summary of some loads; `None` where there are none.
     pub fn of<'a>(loads: impl IntoIterator<Item = &'a LoadTimes>) -> Option<Self> {
         let loads: Vec<&LoadTimes> = loads.into_iter().collect();
         let all: StepTimes = loads.iter().flat_map(|load| load.times.us().iter().copied()).collect();

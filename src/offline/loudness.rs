@@ -1,52 +1,55 @@
-//! How loud an exhibit or a recording is, by EBU R 128, and by how much it should be louder or softer.
+//! Loudness of exhibits and recordings (EBU R 128), and the level correction that makes exhibits equally loud.
 //!
-//! All exhibits are levelled to one loudness, so that none startles after another and a site's calibration holds for all.
-//! An exhibit is measured in a standard scene, a minute with three visitors, through the kiosk's own synth, room and
-//! limiter. Its level is then found by measuring again until it fits: the limiter is not linear.
+//! All exhibits are levelled to one loudness, so that none is startling and a site's calibration holds for all. An
+//! exhibit is measured in a standard scene, a minute with three visitors, through the kiosk's own synthesiser, reverb
+//! and limiter. Its level is found iteratively, because the limiter is not linear.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use ebur128::{EbuR128, Mode};
 
-use super::whole_file::WholeFile;
+use super::atomic_file::AtomicFile;
 use soffio_exhibit::{Exhibit, SIDECAR};
 use soffio_math::{decibels, from_decibels};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
 use soffio_sound::{PROGRAMME, ReverbSpec, SoundCommand, Synth};
 
-/// What visitors do in the standard scene: gently, as usual, hard, and gently again elsewhere.
+/// Actions of visitors in the standard scene: a gentle, a normal and a hard breath, and a gentle one elsewhere.
 const VISITORS: &str = r#"{"t": 1, "aim": [0.5, 0.5], "blow": {"strength": 0.4, "hold": 1.5, "release": 0.3}}
 {"t": 12, "aim": [0.4, 0.45], "blow": {"strength": 0.7, "hold": 2.0, "release": 0.3}}
 {"t": 26, "aim": [0.6, 0.5], "blow": {"strength": 1.0, "hold": 2.5, "release": 0.3}}
 {"t": 42, "aim": [0.5, 0.6], "blow": {"strength": 0.5, "hold": 1.5, "release": 0.3}}"#;
-/// Length of the scene, s.
+/// Duration of the scene, s.
 const SCENE_S: f64 = 60.0;
-/// Three seconds of it may be this loud, LUFS.
-const MOST_SHORT_TERM: f64 = -18.0;
-/// Most that an exhibit is raised, dB: what is nearly silent by intent stays soft.
-const MOST_RAISED: f64 = 18.0;
-/// Measurements until the level fits, and how well it must, LU.
-const ROUNDS: usize = 4;
-const FITS: f64 = 0.1;
+/// Largest short-term loudness (3 s), LUFS.
+const MAX_SHORT_TERM: f64 = -18.0;
+/// Largest gain of an exhibit, dB: intentionally quiet exhibits stay quiet.
+const MAX_GAIN: f64 = 18.0;
+/// Most iterations, and the tolerance of the result, LU.
+const MAX_ITERATIONS: usize = 4;
+const TOLERANCE: f64 = 0.1;
 
-/// What a meter of EBU R 128 shows.
+/// Loudness measures of EBU R 128.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Measured {
-    /// Integrated loudness, LUFS; null for silence.
+    /// Integrated loudness, LUFS; `None` for silence.
     pub lufs: Option<f64>,
-    /// Loudest 3 s, LUFS.
+    /// Largest short-term loudness (3 s), LUFS.
     pub short_term_lufs: Option<f64>,
     /// True peak, dBTP.
     pub true_peak_dbtp: Option<f64>,
 }
 
 /// Measures interleaved samples.
+///
+/// # Errors
+/// Where the meter refuses the channels or the sample rate.
 pub fn measure(samples: &[f32], channels: u32, sample_rate: u32) -> Result<Measured, String> {
     let says = |e: ebur128::Error| e.to_string();
     let mut meter = EbuR128::new(channels, sample_rate, Mode::I | Mode::S | Mode::TRUE_PEAK).map_err(says)?;
     let mut short_term = f64::NEG_INFINITY;
-    // EBU Tech 3341: ten looks a second.
+    // EBU Tech 3341: ten measurements a second.
     for block in samples.chunks((channels * sample_rate / 10).max(1) as usize) {
         meter.add_frames_f32(block).map_err(says)?;
         short_term = short_term.max(meter.loudness_shortterm().map_err(says)?);
@@ -63,28 +66,31 @@ pub fn measure(samples: &[f32], channels: u32, sample_rate: u32) -> Result<Measu
     })
 }
 
-/// By how many dB a sound so loud should be louder.
+/// Level correction, dB, of a sound with these measures.
 pub fn correction(measured: &Measured) -> f64 {
     let to = |target: f64, now: Option<f64>| now.map_or(0.0, |now| target - now);
-    to(PROGRAMME, measured.lufs).min(to(MOST_SHORT_TERM, measured.short_term_lufs))
+    to(PROGRAMME, measured.lufs).min(to(MAX_SHORT_TERM, measured.short_term_lufs))
 }
 
-/// An exhibit's loudness and the level that suits it.
+/// Loudness of an exhibit, and its corrected level.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Levelled {
-    /// Id.
+    /// Id of the exhibit.
     pub exhibit: String,
-    /// As it is.
+    /// Its present loudness.
     pub now: Measured,
-    /// The exhibit's `scene.level` as it is, dB.
+    /// Its present `scene.level`, dB.
     pub level_db: f64,
-    /// The one that makes it as loud as the others, dB.
+    /// The level that makes it as loud as the others, dB.
     pub fitting_db: f64,
-    /// With it.
+    /// Its loudness at that level.
     pub then: Measured,
 }
 
-/// Measures an exhibit in the standard scene.
+/// Measures an exhibit in the standard scene and finds its level.
+///
+/// # Errors
+/// Where a timbre is invalid.
 pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, room: Option<&ReverbSpec>) -> Result<Levelled, String> {
     let sounds = scene(exhibit, settings)?;
     let hear = |raised: f64| {
@@ -101,22 +107,22 @@ pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, room: Option<&ReverbSpe
     };
     let now = hear(0.0)?;
     let (mut raised, mut then) = (0.0, now);
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ITERATIONS {
         let missing = correction(&then);
-        let next = (raised + missing).min(MOST_RAISED);
-        if (next - raised).abs() < FITS {
+        let next = (raised + missing).min(MAX_GAIN);
+        if (next - raised).abs() < TOLERANCE {
             break;
         }
         raised = next;
         then = hear(raised)?;
     }
     let level_db = exhibit.level_db;
-    // A tenth of a decibel is more than enough.
+    // A tenth of a decibel is precise enough.
     let fitting_db = ((level_db + raised) * 10.0).round() / 10.0;
     Ok(Levelled { exhibit: exhibit.id.clone(), now, level_db, fitting_db, then })
 }
 
-/// The sounds of each step of the standard scene.
+/// Sound commands of each step of the standard scene.
 fn scene(exhibit: &Arc<Exhibit>, settings: Settings) -> Result<Vec<Vec<SoundCommand>>, String> {
     let mut script = Script::parse(VISITORS).map_err(|e| e.to_string())?;
     let mut simulation = Simulation::new(exhibit.clone(), settings);
@@ -132,7 +138,7 @@ fn scene(exhibit: &Arc<Exhibit>, settings: Settings) -> Result<Vec<Vec<SoundComm
     Ok(sounds)
 }
 
-/// Writes the level into the exhibit's sidecar; everything else in it stays as it stands.
+/// Writes the level into the exhibit's sidecar and leaves the rest of the file unchanged.
 pub fn write(folder: &Path, level_db: f64) -> Result<(), String> {
     let path = folder.join(SIDECAR);
     let says = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
@@ -143,7 +149,7 @@ pub fn write(folder: &Path, level_db: f64) -> Result<(), String> {
     let value = toml_edit::value(format!("{level_db} dB"));
     match scene.get_mut("level").and_then(|item| item.as_value_mut().zip(value.as_value())) {
         Some((old, new)) => {
-            // The comment behind it stays.
+            // Keep the comment behind it.
             let decor = old.decor().clone();
             *old = new.clone();
             *old.decor_mut() = decor;
@@ -152,7 +158,7 @@ pub fn write(folder: &Path, level_db: f64) -> Result<(), String> {
             scene.insert("level", value);
         }
     }
-    let mut file = WholeFile::create(&path).map_err(|e| says(&e))?;
+    let mut file = AtomicFile::create(&path).map_err(|e| says(&e))?;
     std::io::Write::write_all(&mut file, document.to_string().as_bytes()).map_err(|e| says(&e))?;
     file.finish().map_err(|e| says(&e))
 }

@@ -1,4 +1,4 @@
-//! Pictures of a run: the kiosk's own renderer, headless.
+//! Headless pictures of a run.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -6,15 +6,15 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use super::whole_file::WholeFile;
+use super::atomic_file::AtomicFile;
 use soffio_exhibit::Exhibit;
-use soffio_render::{Frame, ImageRenderer, RenderError};
+use soffio_render::{FrameInput, ImageRenderer, RenderError};
 use soffio_simulation::Snapshot;
 
-/// Pixels drawn for each of a picture in a file, along each side.
-pub const FINER: u32 = 2;
+/// Supersampling of pictures in files: pixels drawn for each pixel, along each side.
+pub const SUPERSAMPLING: u32 = 2;
 
-/// Draws moments of one exhibit.
+/// Draws snapshots of one exhibit.
 pub struct Pictures {
     renderer: ImageRenderer,
     exhibit: Arc<Exhibit>,
@@ -22,17 +22,24 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// Prepares pictures of `size` pixels. Needs a Vulkan driver; software is enough.
+    /// Prepares pictures of `size` pixels.
+    ///
+    /// # Errors
+    /// Where there is no Vulkan driver; software is enough.
     pub fn new(exhibit: &Arc<Exhibit>, size: (u32, u32)) -> Result<Self, RenderError> {
-        Ok(Self { renderer: ImageRenderer::new(exhibit, |_| ())?.finer(FINER), exhibit: exhibit.clone(), size })
+        Ok(Self {
+            renderer: ImageRenderer::new(exhibit, |_| ())?.with_supersampling(SUPERSAMPLING),
+            exhibit: exhibit.clone(),
+            size,
+        })
     }
 
-    /// Draws a moment as its camera sees it.
+    /// Draws a snapshot through its camera.
     pub fn draw(&mut self, snapshot: &Snapshot) -> Result<RgbaImage, RenderError> {
-        let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1)).turned(snapshot.turn);
-        let frame = Frame {
+        let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1)).orbited(snapshot.turn);
+        let frame = FrameInput {
             poses: &snapshot.poses,
-            motes: &snapshot.dust_particles,
+            dust: &snapshot.dust_particles,
             view,
             size: self.size,
             exposure: 1.0,
@@ -42,11 +49,11 @@ impl Pictures {
     }
 }
 
-/// Writes a PNG that is there whole or not at all.
+/// Writes a PNG atomically.
 pub fn write_png(picture: &RgbaImage, path: &Path) -> std::io::Result<()> {
     let mut bytes = Vec::new();
     picture.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(std::io::Error::other)?;
-    let mut file = WholeFile::create(path)?;
+    let mut file = AtomicFile::create(path)?;
     file.write_all(&bytes)?;
     file.finish()
 }

@@ -1,4 +1,4 @@
-//! A run without a window: the live pipeline, driven by a loop as fast as the machine allows.
+//! Offline run: the live pipeline in a loop, as fast as the machine allows.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,60 +20,60 @@ use soffio_simulation::{
 };
 use soffio_sound::ReverbSpec;
 
-/// Steps between two looks at the joints' error, which costs a thirtieth of a clock's step.
-const LOOK: u64 = STEPS_PER_SECOND / 30;
+/// Steps between two measurements of the joint error, which costs a thirtieth of a clock's step.
+const ABORT_CHECK_STEPS: u64 = STEPS_PER_SECOND / 30;
 
-/// What to run and what to keep of it.
+/// What to run, and which outputs to write.
 #[derive(Default)]
 pub struct Play {
     /// Constants of the run.
     pub settings: Settings,
     /// A recorded breath as the microphone.
     pub breath: Option<WavFeed>,
-    /// Pointer in picture coordinates.
+    /// Pointer position in picture coordinates.
     pub aim: Option<[f64; 2]>,
-    /// What a visitor does over time.
+    /// Script of a visitor's actions.
     pub script: Option<Script>,
-    /// What a recorded run was told, in place of breath, aim, script and picture shape.
+    /// Input of a recorded run, in place of breath, aim, script and picture shape.
     pub told: Option<RecordSection>,
-    /// What moves the figure where the script says nothing.
+    /// Motion mode where the script sets none.
     pub mode: Option<MotionMode>,
-    /// Length, s.
+    /// Duration, s.
     pub seconds: f64,
-    /// Width over height of the picture that the pointer lies in.
+    /// Aspect (width / height) of the picture that the pointer lies in.
     pub aspect: f64,
-    /// Sound, stereo 48 kHz float.
+    /// Path of the sound file, stereo 48 kHz float.
     pub audio: Option<PathBuf>,
-    /// What the sounds are heard in; `None` is the open air.
+    /// Reverb; `None` is the open air.
     pub room: Option<ReverbSpec>,
-    /// Without room and limiter.
+    /// Without reverb and limiter?
     pub dry: bool,
-    /// Poses, CSV.
+    /// Path of the trace, CSV.
     pub trace: Option<PathBuf>,
-    /// Events, JSON lines.
+    /// Path of the event log, JSON lines.
     pub events: Option<PathBuf>,
     /// Frames per second of trace and pictures.
     pub fps: u32,
 }
 
-/// A run as numbers (the last line of `soffio play`).
+/// Result of a run (the last line of `soffio play`).
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Steps done.
+    /// Number of steps.
     pub steps: u64,
-    /// Time the run took, s.
+    /// Wall time of the run, s.
     pub wall_s: f64,
     /// Processor time of all threads, s.
     pub cpu_s: f64,
-    /// Simulated over wall time.
+    /// Simulated time over wall time.
     pub real_time_factor: f64,
-    /// Largest joint error, looked for 60 times a second, m.
+    /// Largest joint error, sampled 30 times a second, m.
     pub max_joint_error_m: f64,
     /// Energy at the end, J.
     pub energy_j: f64,
-    /// Hits.
+    /// Number of impacts.
     pub impacts: u64,
-    /// Changes between solvers.
+    /// Number of changes between motion modes.
     pub solver_switches: u64,
     /// Sample peak, dB of full scale; null for silence.
     pub peak_dbfs: Option<f64>,
@@ -83,19 +83,19 @@ pub struct Summary {
     pub profile: &'static str,
     /// Seed.
     pub seed: u64,
-    /// Faults found and mended.
+    /// Number of invalid states found and recovered.
     pub faults: u64,
-    /// One word that says whether two runs are the same run, hexadecimal.
+    /// Hash of the final state, hexadecimal: equal runs have equal hashes.
     pub state_hash: String,
 }
 
-/// Why a run did not end well.
+/// Reasons why a run failed.
 #[derive(Debug, thiserror::Error)]
 pub enum PlayError {
-    /// A file could not be written, or a timbre is bad.
+    /// A file could not be written, or a timbre is invalid.
     #[error("{0}")]
     Output(String),
-    /// Interrupted; nothing half-written is left.
+    /// Interrupted; no partial file is left.
     #[error("interrupted")]
     Interrupted,
 }
@@ -106,10 +106,13 @@ impl From<std::io::Error> for PlayError {
     }
 }
 
-/// Called with every frame that is due: its number and the moment that is seen in it.
+/// Called for every frame that is due, with its number and its snapshot.
 pub type OnFrame<'a> = dyn FnMut(u64, &Snapshot) -> Result<(), String> + 'a;
 
-/// Runs an exhibit. `on_step` hears the number of each step done (progress); `on_frame` sees each frame.
+/// Runs an exhibit. `on_step` receives the number of each completed step (progress); `on_frame` receives each frame.
+///
+/// # Errors
+/// As [`PlayError`] lists.
 pub fn run(
     exhibit: &Arc<Exhibit>,
     mut play: Play,
@@ -149,7 +152,7 @@ pub fn run(
         if let Some(events) = &mut events {
             events.push(simulation.events())?;
         }
-        if (step + 1).is_multiple_of(LOOK) || step + 1 == steps {
+        if (step + 1).is_multiple_of(ABORT_CHECK_STEPS) || step + 1 == steps {
             worst = worst.max(simulation.joint_error());
         }
         on_step(step + 1);
@@ -181,7 +184,7 @@ pub fn run(
     })
 }
 
-/// What the simulation is told from step to step.
+/// The simulation's input from step to step.
 struct Inputs {
     breath: Option<WavFeed>,
     aim: Option<[f64; 2]>,
@@ -191,13 +194,13 @@ struct Inputs {
     aspect: f64,
     commands: Vec<Command>,
     hands: Vec<PointerGrab>,
-    /// What moved the figure in the last step, and how often that has changed.
+    /// Motion mode of the last step, and the number of changes.
     before: Option<MotionMode>,
     switches: u64,
 }
 
 impl Inputs {
-    /// Takes breath, script and record out of what is to be run.
+    /// Takes breath, script and record from `play`.
     fn new(play: &mut Play) -> Self {
         Self {
             breath: play.breath.take(),

@@ -1,4 +1,4 @@
-//! The sound of a run: the kiosk's own synth, called by a loop instead of a callback; levels and loudness on the way.
+//! Sound of a run: the kiosk's synthesiser in a loop instead of a callback, with level and loudness meters.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -6,32 +6,33 @@ use std::path::Path;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 
-use super::whole_file::WholeFile;
+use super::atomic_file::AtomicFile;
 use soffio_exhibit::Exhibit;
 use soffio_math::decibels;
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 use soffio_sound::{LoudnessMeter, MAX_COMMANDS, ReverbSpec, SoundCommand, Synth, peak};
 
 const _: () = assert!(SAMPLE_RATE == LoudnessMeter::SAMPLE_RATE);
-/// Stereo.
+/// Number of channels.
 const CHANNELS: u16 = 2;
-/// Steps whose sound is made at once: how it is cut does not matter to it, and there is less to begin and to end.
-const TOGETHER: usize = 24;
-/// Samples of a step, of both channels.
+/// Steps rendered as one block; the block size does not change the sound.
+const STEPS_PER_BLOCK: usize = 24;
+/// Samples of a step, both channels.
 const STEP: usize = SAMPLES_PER_STEP as usize * CHANNELS as usize;
 
-/// The sound of a run, measured, and written where asked.
+/// The sound of a run: measured, and optionally written to a file.
 pub struct Soundtrack {
     synth: Synth,
-    /// Room for the sound of some steps; how many wait for theirs, and how many sounds do.
+    /// Buffer of some steps, with the numbers of pending steps and sound commands.
     block: Vec<f32>,
     steps: usize,
     sounds: usize,
-    /// Samples of the limiter's look-ahead still to be left out at the beginning, so that a hit sounds on its sample.
+    /// Samples of the limiter's look-ahead still to be dropped at the start, so that an impact sounds on its own
+    /// sample.
     early: usize,
     peak: f32,
     loudness: LoudnessMeter,
-    file: Option<WholeWav>,
+    file: Option<AtomicWav>,
 }
 
 /// Levels of a whole run.
@@ -44,8 +45,10 @@ pub struct Levels {
 }
 
 impl Soundtrack {
-    /// The exhibit's instruments in a room (`None` is the open air); `dry` bypasses room and limiter. Errors name the timbre
-    /// or the file.
+    /// The exhibit's instruments with a reverb (`None` is the open air); `dry` bypasses reverb and limiter.
+    ///
+    /// # Errors
+    /// Names the timbre or the file.
     pub fn new(
         exhibit: &Exhibit,
         seed: u64,
@@ -56,11 +59,11 @@ impl Soundtrack {
         let mut synth = Synth::new(SAMPLE_RATE, &exhibit.instruments, seed).map_err(|e| e.to_string())?;
         synth.set_dry(dry);
         synth.set_reverb(room);
-        let file = path.map(WholeWav::create).transpose()?;
+        let file = path.map(AtomicWav::create).transpose()?;
         Ok(Self {
             early: synth.latency() * usize::from(CHANNELS),
             synth,
-            block: vec![0.0; TOGETHER * STEP],
+            block: vec![0.0; STEPS_PER_BLOCK * STEP],
             steps: 0,
             sounds: 0,
             peak: 0.0,
@@ -69,7 +72,7 @@ impl Soundtrack {
         })
     }
 
-    /// Goes on by one step's 200 samples with the sounds that fall into it.
+    /// Advances by one step of 200 samples with its sound commands.
     pub fn step(&mut self, sounds: &[SoundCommand]) -> Result<(), String> {
         if self.sounds + sounds.len() > MAX_COMMANDS {
             self.render()?;
@@ -79,17 +82,17 @@ impl Soundtrack {
         }
         self.steps += 1;
         self.sounds += sounds.len();
-        if self.steps == TOGETHER { self.render() } else { Ok(()) }
+        if self.steps == STEPS_PER_BLOCK { self.render() } else { Ok(()) }
     }
 
-    /// Renders the steps that wait.
+    /// Renders the pending steps.
     fn render(&mut self) -> Result<(), String> {
         self.sounds = 0;
         let samples = std::mem::take(&mut self.steps) * STEP;
         self.keep(samples)
     }
 
-    /// Renders so many samples, measures and writes them.
+    /// Renders, measures and writes so many samples.
     fn keep(&mut self, samples: usize) -> Result<(), String> {
         let block = &mut self.block[..samples];
         self.synth.render(block);
@@ -101,26 +104,26 @@ impl Soundtrack {
         self.file.as_mut().map_or(Ok(()), |file| file.write(block))
     }
 
-    /// Puts the file in its place and says how loud it was.
+    /// Completes the file and returns the levels.
     pub fn finish(mut self) -> Result<Levels, String> {
         self.render()?;
-        // What the limiter still holds: as much as was left out at the beginning.
+        // The limiter's look-ahead is as long as the part dropped at the start.
         let held = self.synth.latency() * usize::from(CHANNELS) - self.early;
         self.keep(held)?;
-        self.file.map_or(Ok(()), WholeWav::finish)?;
+        self.file.map_or(Ok(()), AtomicWav::finish)?;
         Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs: self.loudness.loudness() })
     }
 }
 
-/// A WAV on its way: written through a second handle of its file.
-struct WholeWav {
+/// A WAV written atomically, through a second handle of its file.
+struct AtomicWav {
     writer: WavWriter<BufWriter<File>>,
-    file: WholeFile,
+    file: AtomicFile,
 }
 
-impl WholeWav {
+impl AtomicWav {
     fn create(path: &Path) -> Result<Self, String> {
-        let file = WholeFile::create(path).map_err(|e| e.to_string())?;
+        let file = AtomicFile::create(path).map_err(|e| e.to_string())?;
         let spec = WavSpec {
             channels: CHANNELS,
             sample_rate: SAMPLE_RATE,

@@ -1,44 +1,44 @@
-//! Traces: where every moving body was, as CSV.
+//! Traces: poses of all moving bodies as CSV.
 //!
-//! One row per body and frame, `t,body,x,y,z,qw,qx,qy,qz`: the world pose of its glTF node (m, unit quaternion) at
-//! t = k / fps. Numbers are written as the shortest text that reads back to the same bits, so two equal runs give
-//! equal files. The file appears whole when the run ends.
+//! One row for each body and frame, `t,body,x,y,z,qw,qx,qy,qz`: the world pose of its glTF node (m, unit quaternion) at
+//! t = k / fps. Numbers are the shortest text that reads back to the same bits, so equal runs give equal files. The
+//! file is written atomically.
 
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::atomic_file::AtomicFile;
 use super::frames::Frames;
-use super::whole_file::WholeFile;
 use soffio_exhibit::Exhibit;
 use soffio_math::Pose;
 use soffio_simulation::{Simulation, Snapshot};
 
-/// Frames per second of a trace nobody asked otherwise of.
+/// Default frames per second.
 pub const DEFAULT_FPS: u32 = 60;
 
-/// Writes a trace while a run goes on.
+/// Writes a trace during a run.
 pub struct TraceWriter {
-    file: WholeFile,
+    file: AtomicFile,
     names: Vec<String>,
     fps: u32,
     frames: Frames<Vec<Pose>>,
 }
 
 impl TraceWriter {
-    /// Begins a trace of the exhibit at `fps` frames per second.
+    /// Creates a trace of the exhibit at `fps` frames per second.
     pub fn create(path: &Path, exhibit: &Exhibit, fps: u32) -> io::Result<Self> {
-        let mut file = WholeFile::create(path)?;
+        let mut file = AtomicFile::create(path)?;
         writeln!(file, "t,body,x,y,z,qw,qx,qy,qz")?;
         let names = exhibit.bodies.iter().map(|body| body.name.clone()).collect();
         Ok(Self { file, names, fps: fps.max(1), frames: Frames::new(fps) })
     }
 
-    /// Takes notice of a moment; moments come in order, each step once, from the start.
+    /// Adds the frames that are due. Snapshots come in order, each step once, from the start.
     pub fn push(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.push_poses(snapshot.step, || snapshot.poses.clone())
     }
 
-    /// The same straight from the simulation.
+    /// As [`Self::push`], directly from the simulation.
     pub fn push_simulation(&mut self, simulation: &Simulation) -> io::Result<()> {
         self.push_poses(simulation.steps(), || simulation.bodies().iter().map(|body| body.pose()).collect())
     }
@@ -55,7 +55,7 @@ impl TraceWriter {
         })
     }
 
-    /// Puts the file in its place.
+    /// Completes the file.
     pub fn finish(self) -> io::Result<()> {
         self.file.finish()
     }

@@ -4,21 +4,21 @@
 
 use std::path::{Path, PathBuf};
 
-use super::whole_file::WholeFile;
+use super::atomic_file::AtomicFile;
 
-/// Sample rates the kiosk understands, Hz.
+/// Accepted sample rates, Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 8_000..=192_000;
-/// Bits of a sample that are read.
+/// Accepted bits per sample.
 const BITS: std::ops::RangeInclusive<u16> = 8..=32;
 
-/// A recording as one channel.
+/// A recording, mixed down to mono.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// Full scale ±1; the mean of the channels.
+    /// Samples, full scale ±1; the mean of the channels.
     pub samples: Vec<f32>,
-    /// Both channels where there are two: they may be two capsules.
+    /// Both channels of a stereo file, which may be two microphones.
     pub capsules: Option<[Vec<f32>; 2]>,
-    /// Hz.
+    /// Sample rate, Hz.
     pub sample_rate: u32,
 }
 
@@ -29,40 +29,40 @@ impl Recording {
     }
 }
 
-/// Why a WAV could not be read or written: which file, what is wrong, what to do.
+/// Errors of WAV files: which file, what is wrong, what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum WavError {
-    /// The file is not there, or may not be read.
+    /// The file does not exist or is not readable.
     #[error("{path}: cannot be opened ({source}). Check the path and its permissions.")]
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
-    /// Not a WAV, or a kind of WAV that is not PCM or float.
+    /// Not a WAV, or a WAV that is neither PCM nor float.
     #[error(
         "{path}: not a WAV that Soffio reads ({reason}). Convert it to PCM or float, for example: sox INPUT -b 16 OUT.wav"
     )]
     Format {
         /// The file.
         path: PathBuf,
-        /// What the reader met.
+        /// The reader's error.
         reason: String,
     },
-    /// The samples end before the header says.
+    /// The file ends before the number of samples in its header.
     #[error(
         "{path}: truncated: the header promises {promised} samples, the file ends after {found}. Copy or record it again."
     )]
     Truncated {
         /// The file.
         path: PathBuf,
-        /// Samples of all channels by the header.
+        /// Samples of all channels according to the header.
         promised: usize,
-        /// Samples that are there.
+        /// Samples found.
         found: usize,
     },
-    /// No sample at all.
+    /// The file has no samples.
     #[error("{path}: holds no samples. Record it again.")]
     Empty {
         /// The file.
@@ -82,6 +82,9 @@ pub enum WavError {
 }
 
 /// Reads a WAV as mono.
+///
+/// # Errors
+/// As [`WavError`] lists.
 pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
     let path = path.as_ref();
     let open = |source| WavError::Open { path: path.into(), source };
@@ -95,12 +98,12 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
     if !RATES_HZ.contains(&spec.sample_rate) {
         return Err(WavError::Rate { path: path.into(), rate: spec.sample_rate });
     }
-    // An extended header has a number of its own, which may be anything.
+    // The bit depth of an extended header can be any number.
     if !BITS.contains(&spec.bits_per_sample) {
         return Err(format(format!("says {} bits a sample, where 8 to 32 are read", spec.bits_per_sample)));
     }
     let promised = reader.len() as usize;
-    // Samples are taken until the first that cannot be read; the count says what that means.
+    // Samples are read until the first error; their number decides which error it is.
     let interleaved: Vec<f32> = match spec.sample_format {
         hound::SampleFormat::Float => reader.samples::<f32>().map_while(Result::ok).collect(),
         hound::SampleFormat::Int => {
@@ -123,12 +126,12 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
     Ok(Recording { samples, capsules, sample_rate: spec.sample_rate })
 }
 
-/// Writes interleaved samples (full scale ±1) as 32-bit float.
+/// Writes interleaved samples (full scale ±1) as 32-bit float, atomically.
 pub fn write_float(path: impl AsRef<Path>, channels: u16, sample_rate: u32, samples: &[f32]) -> Result<(), WavError> {
     let path = path.as_ref();
     let fail = |error: std::io::Error| WavError::Write(error.to_string());
     let spec = hound::WavSpec { channels, sample_rate, bits_per_sample: 32, sample_format: hound::SampleFormat::Float };
-    let file = WholeFile::create(path).map_err(fail)?;
+    let file = AtomicFile::create(path).map_err(fail)?;
     let write = || -> hound::Result<()> {
         let mut writer = hound::WavWriter::new(std::io::BufWriter::new(file.reopen()?), spec)?;
         samples.iter().try_for_each(|&sample| writer.write_sample(sample))?;

@@ -14,7 +14,7 @@ use std::thread::JoinHandle;
 use super::judge::{Answer, BEFORE, FPS, Picture, answer};
 use soffio_exhibit::Exhibit;
 use soffio_math::Pose;
-use soffio_render::{Frame, ImageRenderer, Look, RenderError};
+use soffio_render::{FrameInput, ImageRenderer, Lighting, RenderError};
 use soffio_simulation::{STEPS_PER_SECOND, Snapshot};
 
 /// Pixels: 4 mm each on a 55-inch screen, whose edges four samples a pixel make a millimetre fine.
@@ -61,8 +61,8 @@ impl<Q: Send + 'static> Eyes<Q> {
     /// Before these works. Needs a Vulkan driver; software is enough.
     pub fn new(works: &[Arc<Exhibit>]) -> Result<Self, RenderError> {
         let before_a_ground = |work: &Arc<Exhibit>| {
-            let ground = |look: &mut Look| look.background = Some(glam::Vec3::splat(GROUND));
-            Ok((work.clone(), ImageRenderer::new(work, |options| ground(&mut options.look))?))
+            let ground = |look: &mut Lighting| look.background = Some(glam::Vec3::splat(GROUND));
+            Ok((work.clone(), ImageRenderer::new(work, |options| ground(&mut options.lighting))?))
         };
         let works = works.iter().map(before_a_ground).collect::<Result<_, RenderError>>()?;
         let (asked, questions) = sync_channel(WAITING);
@@ -153,7 +153,7 @@ impl Onlooker {
             if self.leave.load(Ordering::Relaxed) {
                 return Ok(None);
             }
-            let picture = renderer.draw(&Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0, time })?;
+            let picture = renderer.draw(&FrameInput { poses, dust: &[], view, size: SIZE, exposure: 1.0, time })?;
             Ok(Some(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect())))
         };
         let pictures = kept.iter().map(|(.., time, poses)| draw(poses, *time).transpose());

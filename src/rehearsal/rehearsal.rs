@@ -59,7 +59,7 @@ pub fn featured_exhibits(config: &Config) -> Result<Vec<Arc<Exhibit>>, Report> {
     let ids: Vec<String> = named.chain(exhibit::ids()).take(FEATURED).collect();
     if ids.is_empty() {
         let none = Diagnostic::new(exhibit::codes::NO_EXHIBIT, "there is no exhibit here");
-        return Err(Report::of(none.help("run this where the folder `exhibits` is")));
+        return Err(Report::single(none.help("run this where the folder `exhibits` is")));
     }
     let folder = |id: &String| {
         let folder = config.exhibits.folder.join(id);

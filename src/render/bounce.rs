@@ -1,7 +1,7 @@
-//! The light that surfaces of a still scene send one another, baked into their corners.
+//! Baked indirect light of static scenes: radiosity by ray casting from vertices.
 //!
-//! Where nothing moves, a ray from a corner ends at the same triangle for ever. With N cosine-weighted rays of a corner,
-//! ρ the reflectance of the triangle that a ray meets, E the irradiance there, and D that of the lights themselves:
+//! In a static scene a ray from a vertex always ends at the same triangle. With N cosine-weighted rays of a vertex, ρ
+//! the reflectance of the triangle that a ray hits, E the irradiance there, and D that of the lights themselves:
 //!
 //! ```text
 //! v = Σ_open L / Σ_all L          what part of the light from all around arrives, L the radiance of the environment
@@ -9,8 +9,8 @@
 //! E = D + v E_env(n) + B          solved by Jacobi iteration, once for each reflection (Goral et al. 1984)
 //! ```
 //!
-//! The rays are the same at every corner, turned into its frame, so there is no noise. Triangles are made finer first: what
-//! is baked into corners is linear between them.
+//! The rays are the same at every vertex, in its tangent frame, so there is no noise. Triangles are refined first,
+//! since baked light is interpolated linearly between vertices.
 
 use std::f32::consts::PI;
 
@@ -18,57 +18,57 @@ use glam::{Quat, Vec3};
 
 use super::AreaLight;
 use super::environment::Environment;
-use super::occlusion::{Solid, at_rest, cosine_directions, groups, in_parallel};
+use super::occlusion::{RayCaster, cosine_directions, groups, in_parallel, start_geometry};
 use super::radiosity::polygon_factor;
 use super::scene::Scene;
 use super::textures::to_linear;
 use soffio_exhibit::Exhibit;
 use soffio_exhibit::model::{Appearance, Model};
 
-/// Longest edge, in radii of the scene, and corners from which on no edge is halved.
-const LONGEST: f32 = 1.0 / 28.0;
-const MOST_CORNERS: usize = 30_000;
-/// Rays of each corner, as many as all corners can have together; with fewer than the first they say nothing.
+/// Longest edge, in radii of the scene, and number of vertices beyond which no edge is halved.
+const MAX_EDGE: f32 = 1.0 / 28.0;
+const MAX_VERTICES: usize = 30_000;
+/// Fewest and most rays of each vertex; with fewer than the first nothing is baked.
 const RAYS: (usize, usize) = (12, 320);
 const ALL_RAYS: usize = 6_000_000;
-/// Reflections that are followed.
+/// Number of reflections.
 const REFLECTIONS: u32 = 5;
-/// Points of a rectangle of light, along each side, that a corner looks at.
+/// Points along each side of an area light that a vertex is tested against.
 const LIGHT_GRID: u32 = 4;
-/// Level of the environment's cube that rays see: as rough as the rays are sparse.
+/// Mip level of the environment cube that rays read: as coarse as the rays are sparse.
 const ROUGH: usize = 2;
-/// Rays start this share of the way to the middle of the corner's triangles: in the very edge between a wall and a floor
-/// they would slip through.
+/// Offset of ray origins towards the centre of the vertex's triangles, as a fraction. In the exact edge between a wall
+/// and a floor rays would slip through.
 const ASIDE: f32 = 0.02;
-/// Turn of the rays, rad: none runs along the edges that halving leaves, where rounding lets it through.
+/// Rotation of the rays, rad: none runs along the edges of refined triangles, where rounding would let it through.
 const ASKEW: f32 = 0.37;
 
-/// Light that falls on a still scene.
-pub(super) struct Light<'a> {
+/// Light that falls on a static scene.
+pub(super) struct BakedLight<'a> {
     pub environment: &'a Environment,
     pub env_intensity: f32,
     pub area: Option<AreaLight>,
 }
 
-/// Gives each corner of a still scene its visibility and what surfaces send to it.
-pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: &Light) {
-    scene.refine(LONGEST * radius, MOST_CORNERS);
-    let (places, normals) = at_rest(scene, exhibit);
-    let order = groups(&places, &normals, radius);
+/// Bakes the visibility and the reflected light of each vertex of a static scene.
+pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: &BakedLight) {
+    scene.refine(MAX_EDGE * radius, MAX_VERTICES);
+    let (positions, normals) = start_geometry(scene, exhibit);
+    let order = groups(&positions, &normals, radius);
     let rays = (ALL_RAYS / order.len().max(1)).min(RAYS.1);
-    let Some(solid) = (rays >= RAYS.0).then(|| Solid::new(scene, &places, false)).flatten() else { return };
-    let mut group_of = vec![0; places.len()];
+    let Some(caster) = (rays >= RAYS.0).then(|| RayCaster::new(scene, &positions, false)).flatten() else { return };
+    let mut group_of = vec![0; positions.len()];
     for (index, group) in order.iter().enumerate() {
         group.iter().for_each(|&i| group_of[i as usize] = index);
     }
     let directions = cosine_directions(rays as u32).into_iter().map(|d| Quat::from_rotation_z(ASKEW) * d);
     let directions: Vec<Vec3> = directions.collect();
-    let inward = inward(scene, &places);
+    let inward = inward(scene, &positions);
     let clear = 2e-4 * radius;
     let gathered = in_parallel(&order, |group| {
         let i = group[0] as usize;
         let mean = group.iter().map(|&i| inward[i as usize]).sum::<Vec3>() / group.len() as f32;
-        let (place, normal) = (places[i] + clear * normals[i] + ASIDE * mean, normals[i]);
+        let (place, normal) = (positions[i] + clear * normals[i] + ASIDE * mean, normals[i]);
         let (t, b) = normal.any_orthonormal_pair();
         let (mut open, mut all) = (0.0, 0.0);
         let mut met = Vec::new();
@@ -76,21 +76,21 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
             let way = t * d.x + b * d.y + normal * d.z;
             let brightness = light.environment.radiance(way, ROUGH).element_sum();
             all += brightness;
-            match solid.nearest(place, way) {
+            match caster.nearest_hit(place, way) {
                 Some(triangle) => met.push(triangle),
                 None => open += brightness,
             }
         }
         let visibility = if all > 0.0 { open / all } else { 1.0 };
         let around = light.env_intensity * visibility * light.environment.irradiance_at(normal);
-        let direct = light.area.as_ref().map_or(Vec3::ZERO, |area| from_area(&solid, place, normal, area));
+        let direct = light.area.as_ref().map_or(Vec3::ZERO, |area| from_area(&caster, place, normal, area));
         (visibility, direct + around, met)
     });
     let reflectance = reflectances(scene, &exhibit.model);
     let mut sent = vec![Vec3::ZERO; order.len()];
     for _ in 0..REFLECTIONS {
-        // What each triangle sends out, π times its radiance: the mean over its corners.
-        let of_triangle: Vec<Vec3> = scene.indices[..scene.opaque as usize]
+        // Radiosity of each triangle, π times its radiance: the mean over its vertices.
+        let of_triangle: Vec<Vec3> = scene.indices[..scene.opaque_end as usize]
             .chunks_exact(3)
             .zip(&reflectance)
             .map(|(t, (rho, glow))| {
@@ -108,21 +108,21 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
     }
 }
 
-/// From each corner to the middle of its triangles: towards the surface where the corner is at its rim.
-fn inward(scene: &Scene, places: &[Vec3]) -> Vec<Vec3> {
-    let mut sums = vec![(Vec3::ZERO, 0.0); places.len()];
+/// From each vertex to the centre of its triangles.
+fn inward(scene: &Scene, positions: &[Vec3]) -> Vec<Vec3> {
+    let mut sums = vec![(Vec3::ZERO, 0.0); positions.len()];
     for t in scene.indices.chunks_exact(3) {
         let corners = [t[0], t[1], t[2]].map(|i| i as usize);
-        let middle = corners.iter().map(|&i| places[i]).sum::<Vec3>() / 3.0;
+        let middle = corners.iter().map(|&i| positions[i]).sum::<Vec3>() / 3.0;
         for i in corners {
-            sums[i] = (sums[i].0 + middle - places[i], sums[i].1 + 1.0);
+            sums[i] = (sums[i].0 + middle - positions[i], sums[i].1 + 1.0);
         }
     }
     sums.into_iter().map(|(sum, count)| sum / f32::max(count, 1.0)).collect()
 }
 
-/// Irradiance from a rectangle of light, as much of it as is seen.
-fn from_area(solid: &Solid, place: Vec3, normal: Vec3, area: &AreaLight) -> Vec3 {
+/// Irradiance from an area light, as far as it is visible.
+fn from_area(caster: &RayCaster, place: Vec3, normal: Vec3, area: &AreaLight) -> Vec3 {
     let (center, (x, y)) = (area.center, area.half);
     if (place - center).dot(x.cross(y)) <= 0.0 {
         return Vec3::ZERO;
@@ -133,19 +133,23 @@ fn from_area(solid: &Solid, place: Vec3, normal: Vec3, area: &AreaLight) -> Vec3
     }
     let at = |k: u32| (k as f32 + 0.5) * 2.0 / LIGHT_GRID as f32 - 1.0;
     let points = (0..LIGHT_GRID * LIGHT_GRID).map(|k| center + x * at(k % LIGHT_GRID) + y * at(k / LIGHT_GRID));
-    let seen = points.filter(|&point| !solid.hides(place, point)).count();
+    let seen = points.filter(|&point| !caster.is_occluded(place, point)).count();
     area.radiance * (PI * factor * seen as f32 / (LIGHT_GRID * LIGHT_GRID) as f32)
 }
 
-/// Reflectance and glow of each opaque triangle.
+/// Reflectance and emission of each opaque triangle.
 fn reflectances(scene: &Scene, model: &Model) -> Vec<(Vec3, Vec3)> {
     let plain = Appearance { metallic: 0.0, ..Appearance::default() };
-    let of_material: Vec<(Vec3, Vec3)> =
-        model.materials.iter().chain([&plain]).map(|look| (mean_color(look, model), look.emissive.into())).collect();
-    let mut list = Vec::with_capacity(scene.opaque as usize / 3);
-    for part in scene.parts.iter().filter(|part| part.indices.end <= scene.opaque) {
-        let (rho, glow) = of_material[part.material.min(of_material.len() - 1)];
-        for t in scene.indices[part.indices.start as usize..part.indices.end as usize].chunks_exact(3) {
+    let of_material: Vec<(Vec3, Vec3)> = model
+        .materials
+        .iter()
+        .chain([&plain])
+        .map(|appearance| (mean_color(appearance, model), appearance.emissive.into()))
+        .collect();
+    let mut list = Vec::with_capacity(scene.opaque_end as usize / 3);
+    for batch in scene.batches.iter().filter(|batch| batch.indices.end <= scene.opaque_end) {
+        let (rho, glow) = of_material[batch.material.min(of_material.len() - 1)];
+        for t in scene.indices[batch.indices.start as usize..batch.indices.end as usize].chunks_exact(3) {
             let tint = |i: u32| Vec3::from_slice(&scene.vertices[i as usize].color);
             list.push((rho * (tint(t[0]) + tint(t[1]) + tint(t[2])) / 3.0, glow));
         }
@@ -154,10 +158,12 @@ fn reflectances(scene: &Scene, model: &Model) -> Vec<(Vec3, Vec3)> {
 }
 
 /// Mean base colour of a material, linear.
-fn mean_color(look: &Appearance, model: &Model) -> Vec3 {
-    let base = Vec3::from_slice(&look.base_color);
-    let Some(image) = look.base_color_texture.as_ref().and_then(|t| model.images.get(t.image)) else { return base };
-    // A few thousand pixels say what an image's mean is.
+fn mean_color(appearance: &Appearance, model: &Model) -> Vec3 {
+    let base = Vec3::from_slice(&appearance.base_color);
+    let Some(image) = appearance.base_color_texture.as_ref().and_then(|t| model.images.get(t.image)) else {
+        return base;
+    };
+    // A few thousand pixels are enough for an image's mean.
     let pixels = image.rgba.chunks_exact(4).step_by((image.rgba.len() / 4 / 4096).max(1));
     let (sum, count) = pixels.fold((Vec3::ZERO, 0.0), |(sum, count), p| {
         (sum + Vec3::new(p[0].into(), p[1].into(), p[2].into()).map(|c| to_linear(c / 255.0)), count + 1.0)
@@ -198,7 +204,7 @@ pub(super) mod tests {
             Appearance { base_color: [0.3, 0.3, 0.3, 1.0], emissive: [0.5; 3], metallic: 0.0, ..Default::default() };
         let (exhibit, mut scene) = of_primitive(hollow_cube(), vec![glowing]);
         let environment = Environment::new(|_| Vec3::ONE);
-        corners(&mut scene, &exhibit, 1.0, &Light { environment: &environment, env_intensity: 1.0, area: None });
+        corners(&mut scene, &exhibit, 1.0, &BakedLight { environment: &environment, env_intensity: 1.0, area: None });
         let exact = PI * 0.5 / 0.7;
         let inner =
             scene.vertices.iter().filter(|v| v.position.abs().to_array().iter().filter(|c| **c > 0.95).count() == 1);
@@ -224,13 +230,13 @@ pub(super) mod tests {
             ..Default::default()
         };
         let (exhibit, scene) = of_primitive(floor, Vec::new());
-        let solid = Solid::new(&scene, &at_rest(&scene, &exhibit).0, false).expect("a triangle");
+        let caster = RayCaster::new(&scene, &start_geometry(&scene, &exhibit).0, false).expect("a triangle");
         let area = |up: f32| AreaLight { center: Vec3::Y, half: (Vec3::X, up * Vec3::Z), radiance: Vec3::ONE };
-        let lit = from_area(&solid, 1e-4 * Vec3::Y, Vec3::Y, &area(1.0));
+        let lit = from_area(&caster, 1e-4 * Vec3::Y, Vec3::Y, &area(1.0));
         assert!((lit.x / PI - 4.0 * 0.138_532).abs() < TOLERANCE, "{lit}");
-        assert_eq!(from_area(&solid, 1e-4 * Vec3::Y, Vec3::Y, &area(-1.0)), Vec3::ZERO, "it shines to one side");
+        assert_eq!(from_area(&caster, 1e-4 * Vec3::Y, Vec3::Y, &area(-1.0)), Vec3::ZERO, "it shines to one side");
         assert_eq!(
-            from_area(&solid, Vec3::new(0.013, -1e-3, 0.027), Vec3::Y, &area(1.0)),
+            from_area(&caster, Vec3::new(0.013, -1e-3, 0.027), Vec3::Y, &area(1.0)),
             Vec3::ZERO,
             "the floor hides it"
         );

@@ -1,38 +1,39 @@
-//! What throws shadows in a still scene: the shadow map is drawn around that and no more, so that its texels are spent on
-//! the work and not on the wall behind it.
+//! Shadow casters of a static scene. The shadow map is fitted to them alone, so that no texels are spent on the wall
+//! behind the exhibit.
 //!
-//! Triangles that touch belong together. Small pieces may shade something and always count; a large one, such as a wall or
-//! a floor, only where rays from the scene's corners to the light meet it often.
+//! Triangles that touch form a piece. Small pieces always count as casters; a large one, such as a wall or a floor,
+//! only where rays from the scene's vertices to the light hit it often.
 
 use std::collections::HashMap;
 
 use glam::Vec3;
 
-use super::occlusion::Solid;
+use super::occlusion::RayCaster;
 use super::scene::Scene;
 
-/// A piece is small below this share of the scene's radius.
+/// Size below which a piece is small, as a fraction of the scene's radius.
 const SMALL: f32 = 0.35;
-/// Share of all corners that a large piece must shade to count: floors reach a little under walls, which nobody sees.
+/// Fraction of all vertices that a large piece must shade to count: floors extend a little under walls, which is
+/// invisible.
 const OFTEN: f32 = 0.1;
 
-/// Corners of what throws shadows from a light at `eye`, of a scene at rest with its corners at `places`.
-pub(super) fn casters(scene: &Scene, places: &[Vec3], radius: f32, eye: Vec3) -> Vec<Vec3> {
-    let pieces = pieces(scene, places, radius);
+/// Vertices of the shadow casters of a light at `eye`, for a static scene with its vertices at `positions`.
+pub(super) fn casters(scene: &Scene, positions: &[Vec3], radius: f32, eye: Vec3) -> Vec<Vec3> {
+    let pieces = pieces(scene, positions, radius);
     let count = pieces.iter().max().map_or(0, |last| last + 1);
     let mut bounds = vec![(Vec3::INFINITY, Vec3::NEG_INFINITY); count];
-    for (&piece, &place) in pieces.iter().zip(places) {
+    for (&piece, &place) in pieces.iter().zip(positions) {
         bounds[piece] = (bounds[piece].0.min(place), bounds[piece].1.max(place));
     }
     let mut counts: Vec<bool> =
         bounds.iter().map(|(low, high)| 0.5 * (*high - *low).length() < SMALL * radius).collect();
     if counts.iter().any(|counts| !counts)
-        && let Some(solid) = Solid::new(scene, places, false)
+        && let Some(solid) = RayCaster::new(scene, positions, false)
     {
         let mut shaded = vec![0; count];
-        for (&place, &own) in places.iter().zip(&pieces) {
+        for (&place, &own) in positions.iter().zip(&pieces) {
             let mut met = vec![];
-            solid.between(place, eye, |corner| {
+            solid.for_each_hit(place, eye, |corner| {
                 let piece = pieces[corner as usize];
                 if piece != own && !counts[piece] && !met.contains(&piece) {
                     met.push(piece);
@@ -41,16 +42,16 @@ pub(super) fn casters(scene: &Scene, places: &[Vec3], radius: f32, eye: Vec3) ->
             met.iter().for_each(|&piece| shaded[piece] += 1);
         }
         for (counts, shaded) in counts.iter_mut().zip(shaded) {
-            *counts |= shaded as f32 > OFTEN * places.len() as f32;
+            *counts |= shaded as f32 > OFTEN * positions.len() as f32;
         }
     }
-    let drawn = scene.indices[..scene.opaque as usize].iter().map(|&i| i as usize);
-    drawn.filter(|&i| counts[pieces[i]]).map(|i| places[i]).collect()
+    let drawn = scene.indices[..scene.opaque_end as usize].iter().map(|&i| i as usize);
+    drawn.filter(|&i| counts[pieces[i]]).map(|i| positions[i]).collect()
 }
 
-/// The piece of each corner: corners of a triangle are of one, and so are corners at one place.
-fn pieces(scene: &Scene, places: &[Vec3], radius: f32) -> Vec<usize> {
-    let mut parent: Vec<usize> = (0..places.len()).collect();
+/// The piece of each vertex: vertices of one triangle, or at one position, belong together.
+fn pieces(scene: &Scene, positions: &[Vec3], radius: f32) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..positions.len()).collect();
     fn root(parent: &mut [usize], mut i: usize) -> usize {
         while parent[i] != i {
             parent[i] = parent[parent[i]];
@@ -59,7 +60,7 @@ fn pieces(scene: &Scene, places: &[Vec3], radius: f32) -> Vec<usize> {
         i
     }
     let mut first = HashMap::new();
-    for (i, place) in places.iter().enumerate() {
+    for (i, place) in positions.iter().enumerate() {
         let key = place.to_array().map(|c| (c / (1e-5 * radius)).round() as i64);
         let (a, b) = (root(&mut parent, *first.entry(key).or_insert(i)), root(&mut parent, i));
         parent[b] = a;
@@ -71,7 +72,7 @@ fn pieces(scene: &Scene, places: &[Vec3], radius: f32) -> Vec<usize> {
         parent[c] = a;
     }
     let mut numbers = HashMap::new();
-    (0..places.len())
+    (0..positions.len())
         .map(|i| {
             let root = root(&mut parent, i);
             let next = numbers.len();

@@ -1,24 +1,24 @@
-//! Textures of what glTF's extensions add to a surface, packed: a fragment may read 16 textures, and nine of these would be too
-//! many beside the five of the core and the eight of the light.
+//! Packed textures of glTF material extensions. A fragment shader can read 16 textures, and nine for extensions would
+//! be too many beside the five of the core and the eight of the light.
 //!
-//! Each takes the channels that its extension reads, so they share the layers of two texture arrays:
+//! Each extension reads certain channels, so its textures share the layers of two texture arrays:
 //!
 //! ```text
-//! colours (sRGB)   0: colour of the mirror, its strength in alpha      1: colour of the sheen, its roughness in alpha
-//! data (as is)     0: transmission, thickness, coat, roughness of the coat      1: normal of the coat
+//! colours (sRGB)   0: specular colour, specular strength in alpha      1: sheen colour, sheen roughness in alpha
+//! data (linear)    0: transmission, thickness, coat, coat roughness      1: coat normal
 //! ```
 //!
-//! Each keeps its own place on the surface (set and transform), since every one is read by itself; smaller images are
-//! made as large as the largest of their array, which changes nothing but which four pixels are blended.
+//! Each texture keeps its own coordinates (set and transform), since it is sampled by itself. Smaller images are
+//! enlarged to the largest of their array, which changes only which four pixels are blended.
 
 use super::Gpu;
 use super::textures::texture;
 use soffio_exhibit::model::{Details, Image, TextureUse};
 
-/// What fills a channel: a texture, the first channel that is taken from it, and the channel that it fills.
+/// Source of a channel: a texture, its first channel, and the first channel it fills.
 type Fill = (Option<TextureUse>, usize, usize, usize);
 
-/// Arrays of an appearance: colours, and data; white where nothing is filled.
+/// The texture arrays of an appearance: colours and data; unused channels are white.
 pub(super) fn views(
     gpu: &Gpu,
     images: &[Image],
@@ -41,7 +41,7 @@ pub(super) fn views(
     })
 }
 
-/// Arrays that change nothing.
+/// Arrays without effect.
 pub(super) fn none(gpu: &Gpu) -> [wgpu::TextureView; 2] {
     let white = Image { width: 1, height: 1, rgba: vec![255; 4] };
     [true, false].map(|srgb| array(gpu, &[white.clone(), white.clone()], srgb))
@@ -54,7 +54,7 @@ fn array(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::TextureView {
     })
 }
 
-/// The layers filled, as large as the largest image that fills them; `None` where none does.
+/// The packed layers, as large as the largest image in them; `None` where no texture is used.
 fn pack(images: &[Image], layers: &[&[Fill]], limit: u32) -> Option<Vec<Image>> {
     let image = |of: &Fill| {
         let image = images.get(of.0?.image)?;
@@ -79,7 +79,7 @@ fn pack(images: &[Image], layers: &[&[Fill]], limit: u32) -> Option<Vec<Image>> 
     Some(layers.iter().map(fill).collect())
 }
 
-/// A channel of an image where a pixel of a larger one lies: its four neighbours blended, as a sampler would.
+/// A channel of an image resampled bilinearly to a larger size.
 fn stretched(image: &Image, (x, y): (u32, u32), (width, height): (u32, u32), channel: usize) -> u8 {
     let along = |at: u32, size: u32, own: u32| {
         let place = ((at as f32 + 0.5) * own as f32 / size as f32 - 0.5).clamp(0.0, (own - 1) as f32);

@@ -1,14 +1,13 @@
-//! Image-based light: a radiance for every direction, prepared for diffuse and glossy surfaces.
+//! Image-based lighting: a radiance for every direction, prefiltered for diffuse and glossy surfaces.
 //!
 //! - Irradiance: nine spherical-harmonic coefficients (Ramamoorthi and Hanrahan 2001), folded with the cosine lobe.
 //! - Reflections: a cube whose mip `m` holds the radiance filtered by the GGX lobe of perceptual roughness
 //!   `m / (mips − 1)`, view along the normal (Karis 2013). Each texel is a sum over the same Hammersley points; a
 //!   sample reads the mip whose texel is as large as its share of the sphere, so few are enough (Křivánek and
 //!   Colbert 2008).
-//! - The table of the split sum: specular albedo A · F0 + B by cosine and roughness, and beside it the albedo of a
-//!   cloth's sheen.
+//! Split-sum table: specular albedo A · F0 + B by cosine and roughness, and the albedo of a cloth's sheen.
 //!
-//! All on the CPU, once: the same numbers on any driver, and a gallery is ready in a fraction of a second.
+//! All on the CPU, once, so that every driver gets the same numbers; it takes a fraction of a second.
 
 use std::f32::consts::PI;
 
@@ -25,7 +24,7 @@ const FILTER_SAMPLES: u32 = 48;
 /// Samples of each entry of the table.
 const TABLE_SAMPLES: u32 = 96;
 
-/// Light from all around, ready for the GPU.
+/// Environment light, prefiltered for the GPU.
 #[derive(Clone, Debug)]
 pub struct Environment {
     /// Spherical-harmonic irradiance in the order 1, y, z, x, xy, yz, 3z²−1, xz, x²−y², constants included.
@@ -40,7 +39,7 @@ struct Cube {
 }
 
 impl Environment {
-    /// Prepares the light that `radiance` gives for each unit direction.
+    /// Prefilters the light with radiance `radiance` in each unit direction.
     pub fn new(radiance: impl Fn(Vec3) -> Vec3 + Sync) -> Self {
         let source = Cube::new(CUBE_SIZE, &radiance);
         let irradiance = source.irradiance();
@@ -48,7 +47,7 @@ impl Environment {
         Self { irradiance, levels }
     }
 
-    /// Radiance from a unit direction, as rough as this level of the cube.
+    /// Radiance from a unit direction, at this roughness level of the cube.
     pub fn radiance(&self, direction: Vec3, level: usize) -> Vec3 {
         let texels = &self.levels[level];
         let size = ((texels.len() / 6) as f32).sqrt();
@@ -57,13 +56,13 @@ impl Environment {
         texels[(face * size as usize + at(t)) * size as usize + at(s)]
     }
 
-    /// Irradiance of a surface with this normal under the whole of it, as `sh_irradiance` in `lighting.wgsl`.
+    /// Irradiance of a surface with normal `n`, as `sh_irradiance` in `lighting.wgsl`.
     pub fn irradiance_at(&self, n: Vec3) -> Vec3 {
         let basis = [1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y];
         self.irradiance.iter().zip(basis).map(|(c, b)| *c * b).sum::<Vec3>().max(Vec3::ZERO)
     }
 
-    /// Prepares an equirectangular image: u = atan2(z, x)/2π + ½, v = 0 at +Y.
+    /// Prefilters an equirectangular image: u = atan2(z, x)/2π + ½, v = 0 at +Y.
     pub fn from_equirectangular(image: &image::Rgb32FImage) -> Self {
         let (width, height) = (image.width() as i64, image.height() as i64);
         let texel = |x: i64, y: i64| {
@@ -120,7 +119,7 @@ fn face_of(d: Vec3) -> (usize, f32, f32) {
     (face, 0.5 * s / m + 0.5, 0.5 * t / m + 0.5)
 }
 
-/// Runs `texel` for each texel of a cube level on two threads' worth of rows; the result does not depend on them.
+/// Evaluates `texel` for each texel of a cube level on two threads; the result does not depend on them.
 fn cube_level(size: u32, texel: impl Fn(Vec3) -> Vec3 + Sync) -> Vec<Vec3> {
     let n = size as usize;
     let mut level = vec![Vec3::ZERO; 6 * n * n];
@@ -312,7 +311,7 @@ fn split_sum(nv: f32, roughness: f32) -> [f32; 2] {
     [a / TABLE_SAMPLES as f32, b / TABLE_SAMPLES as f32]
 }
 
-/// Part of the light that Charlie's distribution with Neubelt's visibility returns (Estevez and Kulla 2017), by
+/// Albedo of Charlie's sheen distribution with Neubelt's visibility (Estevez and Kulla 2017), integrated over
 /// directions spread evenly over the hemisphere.
 fn sheen_albedo(nv: f32, roughness: f32) -> f32 {
     let inverse = 1.0 / (roughness * roughness).max(0.005);

@@ -1,15 +1,14 @@
-//! The built-in gallery: a white room with ceiling softboxes, a window, and two lamps on the work.
+//! The built-in gallery: a white room with ceiling softboxes, a window, and two lamps on the exhibit.
 //!
-//! The room is a box in a frame of its own: `x` to the visitor's right along the wall, `y` up, `z` from the wall to
+//! The gallery is a box in a frame of its own: `x` to the visitor's right along the wall, `y` up, `z` from the wall to
 //! the visitor. Its light has three parts:
 //!
 //! - fields (softboxes, window): diffuse emitters;
 //! - lamps: small bright discs with a cone, which cast the shadows;
-//! - what the walls send back. `radiosity` holds the sums.
+//! reflections between the walls, which `radiosity` computes.
 //!
-//! The same functions bake the room's light map and are the radiance that the work reflects, so a mirror shows the
-//! room it hangs in. Radiances are relative: at exposure 1 the wall behind
-//! the work shows at about three quarters of white.
+//! The same functions bake the gallery's light map and give the radiance that the exhibit reflects, so a mirror shows
+//! the gallery. Radiances are relative: at exposure 1 the wall behind the exhibit has about three quarters of white.
 
 use std::f32::consts::PI;
 
@@ -17,7 +16,7 @@ use glam::{Vec2, Vec3};
 
 use soffio_exhibit::Exhibit;
 
-/// Faces of the room, in the order of the light map's layers and of `room.wgsl`.
+/// Inner faces of the gallery, in the order of the light map's layers and of `gallery.wgsl`.
 pub const FACES: [Face; 6] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right, Face::Back];
 /// Reflectance of the walls.
 pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.828, 0.82);
@@ -25,17 +24,17 @@ pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.828, 0.82);
 pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.60, 0.545, 0.47);
 /// Radiance of the ceiling softboxes.
 const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
-/// Radiance of the window: cooler.
+/// Radiance of the window, which is cooler.
 const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
-/// Radiance of the wall behind the work by the fields and what the room sends back, relative to exposure 1.
+/// Radiance of the wall behind the exhibit by the fields and reflections, relative to exposure 1.
 pub const WALL_AMBIENT: f32 = 0.30;
-/// Radiance that the lamps add there; the key's is the greater.
+/// Radiance that the lamps add there, the key lamp's first.
 const WALL_LAMPS: [f32; 2] = [0.37, 0.12];
 
-/// One inner face of the room.
+/// An inner face of the gallery.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
-    /// Behind the work.
+    /// Behind the exhibit.
     Wall,
     /// Below it.
     Floor,
@@ -53,52 +52,52 @@ pub enum Face {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Field {
     pub(super) face: Face,
-    /// Centre and half size in the face's own coordinates, −1 … 1.
+    /// Centre and half size in the face's coordinates, −1 … 1.
     pub(super) center: Vec2,
     pub(super) half: Vec2,
     pub(super) radiance: Vec3,
 }
 
-/// A disc lamp on the work.
+/// A disc lamp that lights the exhibit.
 #[derive(Clone, Copy, Debug)]
 pub struct Lamp {
-    /// World, m.
+    /// Position, world, m.
     pub position: Vec3,
-    /// Unit, where it shines.
+    /// Direction of its light, unit.
     pub axis: Vec3,
     /// Radius of the luminous disc, m.
     pub radius: f32,
     /// Intensity on the axis: irradiance × distance².
     pub intensity: Vec3,
-    /// Cosines of the half-angles where it begins to fade and where it ends.
+    /// Cosines of the half-angles at which the cone begins to fade and at which it ends.
     pub cone: (f32, f32),
 }
 
-/// The room around a work.
+/// The gallery around an exhibit.
 #[derive(Clone, Debug)]
-pub struct Room {
+pub struct Gallery {
     /// Centre of the box, world, m.
     pub center: Vec3,
-    /// Half sizes along the room's axes, m.
+    /// Half sizes along the gallery's axes, m.
     pub half: Vec3,
-    /// Unit axes of the room in the world; `y` is the world's.
+    /// Unit axis along the wall, world; `y` is the world's.
     pub x: Vec3,
-    /// From the wall to the visitor.
+    /// Unit axis from the wall to the visitor, world.
     pub z: Vec3,
-    /// Centre of the work, world, m.
-    pub work: Vec3,
-    /// Radius of the work, m.
+    /// Centre of the exhibit, world, m.
+    pub exhibit_center: Vec3,
+    /// Radius of the exhibit, m.
     pub radius: f32,
     /// The two lamps; the first is the key.
     pub lamps: [Lamp; 2],
     pub(super) fields: Vec<Field>,
-    /// Radiosity of each face by all light but its own fields, as of the eye of a diffuse surface.
+    /// Radiosity of each face by all light except its own fields.
     pub(super) radiosity: [Vec3; 6],
 }
 
-impl Room {
-    /// A room to the measure of the exhibit: the wall a little behind the work as the visitor sees it, the floor
-    /// under what stands on it.
+impl Gallery {
+    /// A gallery scaled to the exhibit: the wall a little behind it as the visitor sees it, the floor under standing
+    /// exhibits.
     pub fn around(exhibit: &Exhibit) -> Self {
         let bounds = exhibit.bounds(false);
         let (min, max) = if bounds.is_empty() {
@@ -107,13 +106,13 @@ impl Room {
             (bounds.min.as_vec3(), bounds.max.as_vec3())
         };
         let (work, radius) = (0.5 * (min + max), (0.5 * (max - min).length()).max(0.02));
-        // The wall stands square to the visitor, so that the picture has a level horizon.
+        // The wall is perpendicular to the view, so that the picture has a level horizon.
         let view = exhibit.view(16.0 / 9.0);
         let z = (view.eye - view.target).as_vec3().with_y(0.0).normalize_or(Vec3::Z);
         let x = Vec3::Y.cross(z);
         let scale = radius / 0.5;
         let extent = (max - min) * 0.5;
-        // Mobiles turn: the wall must clear all that their bounds sweep about the vertical.
+        // Mobiles rotate: the wall must clear the volume that their bounds sweep about the vertical.
         let behind = extent.with_y(0.0).length() + 0.12 * scale;
         let below = work.y - min.y + if stands(exhibit, min.y) { 0.0 } else { 0.25 * scale };
         let distance = (view.eye.as_vec3() - work).length();
@@ -121,30 +120,30 @@ impl Room {
         let half =
             half.max(Vec3::new(0.9, 0.6, 0.0) * distance).max(Vec3::Z * (0.5 * (behind + distance) + 0.5 * scale));
         let center = work + Vec3::Y * (half.y - below) + z * (half.z - behind);
-        let mut room = Self {
+        let mut gallery = Self {
             center,
             half,
             x,
             z,
-            work,
+            exhibit_center: work,
             radius,
             lamps: [Lamp { position: work, axis: -z, radius: 0.1, intensity: Vec3::ZERO, cone: (1.0, 0.0) }; 2],
             fields: fields(),
             radiosity: [Vec3::ZERO; 6],
         };
-        room.lamps = room.place_lamps(behind);
-        room.balance();
-        room
+        gallery.lamps = gallery.place_lamps(behind);
+        gallery.solve_radiosity();
+        gallery
     }
 
-    /// Key from the upper left, fill from the upper right, both on the work and wide enough for the wall around it.
+    /// Key lamp from the upper left, fill lamp from the upper right; both light the exhibit and the wall around it.
     fn place_lamps(&self, behind: f32) -> [Lamp; 2] {
         let r = self.radius;
         let place = |offset: Vec3, disc: f32, color: Vec3, radiance: f32| {
-            let position = self.work + (self.x * offset.x + Vec3::Y * offset.y + self.z * offset.z) * r;
-            let aim = self.work - self.z * behind * 0.5;
+            let position = self.exhibit_center + (self.x * offset.x + Vec3::Y * offset.y + self.z * offset.z) * r;
+            let aim = self.exhibit_center - self.z * behind * 0.5;
             let axis = (aim - position).normalize();
-            let foot = self.work - self.z * behind;
+            let foot = self.exhibit_center - self.z * behind;
             let to_foot = position - foot;
             let cosine = to_foot.normalize().dot(self.z);
             let irradiance = PI * radiance / WALL_ALBEDO.y;
@@ -162,7 +161,7 @@ impl Room {
         ]
     }
 
-    /// Half-size vectors (m, room frame) along a face's two coordinates and its centre.
+    /// Half-size vectors along a face's two coordinates, and its centre; gallery frame, m.
     pub fn face_axes(&self, face: Face) -> [Vec3; 3] {
         let h = self.half;
         let (x, y, z) = (Vec3::X * h.x, Vec3::Y * h.y, Vec3::Z * h.z);
@@ -176,14 +175,14 @@ impl Room {
         }
     }
 
-    /// World position of a vector of the room frame.
+    /// World position of a vector of the gallery frame.
     pub fn to_world(&self, local: Vec3) -> Vec3 {
         self.center + self.x * local.x + Vec3::Y * local.y + self.z * local.z
     }
 }
 
 /// Two long softboxes in the ceiling, one wide over the visitor, a window on the left, and a tall one behind the
-/// visitor: it is what dark paint shows as a sheen.
+/// visitor, which gives dark paint its sheen.
 fn fields() -> Vec<Field> {
     let ceiling = |x: f32, z: f32, hx: f32, hz: f32| Field {
         face: Face::Ceiling,
@@ -200,9 +199,9 @@ fn fields() -> Vec<Field> {
     ]
 }
 
-/// Does something static reach down to the lowest point, so that it stands there?
+/// Does a static mesh reach the lowest point, so that the exhibit stands on it?
 fn stands(exhibit: &Exhibit, lowest: f32) -> bool {
-    let carriers = exhibit.carriers();
+    let carriers = exhibit.carrying_bodies();
     exhibit.model.nodes.iter().zip(&carriers).filter(|(_, carrier)| carrier.is_none()).any(|(node, _)| {
         let Some(mesh) = node.mesh.and_then(|m| exhibit.model.meshes.get(m)) else { return false };
         let world = node.world.as_mat4();

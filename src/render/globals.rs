@@ -1,15 +1,15 @@
-//! The frame's uniforms, laid out as `common.wgsl` reads them.
+//! Uniforms of a frame, in the layout of `common.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 
-use super::gallery::{FLOOR_ALBEDO, Room, WALL_ALBEDO};
+use super::gallery::{FLOOR_ALBEDO, Gallery, WALL_ALBEDO};
 use super::punctual::{MAX_PUNCTUAL, Punctual, PunctualUniform};
-use super::shadows::{MapCamera, ReceivingPlane};
-use super::{Frame, Look, Quality, Tonemap};
+use super::shadows::{ReceivingPlane, ShadowMapCamera};
+use super::{FrameInput, Lighting, ShadowQuality, Tonemap};
 use soffio_exhibit::View;
 
-/// Taps of the blocker search of the shadow map, by quality; its filter has three times as many.
+/// Taps of the blocker search of the shadow map, by shadow quality; its filter has three times as many.
 const SHADOW_TAPS: [f32; 2] = [24.0, 32.0];
 
 /// A disc lamp.
@@ -50,13 +50,13 @@ pub(super) struct Globals {
     pub pixel_angle: f32,
     up: Vec3,
     shadow_taps: f32,
-    room_center: Vec3,
+    gallery_center: Vec3,
     dither: f32,
-    room_half: Vec3,
-    mote_radius: f32,
-    room_x: Vec3,
+    gallery_half: Vec3,
+    dust_radius: f32,
+    gallery_x: Vec3,
     env_intensity: f32,
-    room_z: Vec3,
+    gallery_z: Vec3,
     env_lods: f32,
     wall_albedo: Vec3,
     lamp_count: u32,
@@ -72,7 +72,7 @@ pub(super) struct Globals {
     shadow_near: f32,
     background: Vec3,
     shadow_far: f32,
-    room_work: Vec3,
+    environment_origin: Vec3,
     spare: f32,
     irradiance: [Vec4; 9],
     lamps: [LampUniform; 2],
@@ -81,39 +81,40 @@ pub(super) struct Globals {
 }
 
 impl Globals {
-    /// What does not change from frame to frame.
+    /// The uniforms that do not change from frame to frame.
     pub fn new(
-        look: &Look,
-        room: &Room,
+        lighting: &Lighting,
+        gallery: &Gallery,
         irradiance: &[Vec3; 9],
-        map: &MapCamera,
+        map: &ShadowMapCamera,
         planes: &[ReceivingPlane; 2],
-        (quality, shadow_samples): (Quality, u32),
+        (quality, shadow_samples): (ShadowQuality, u32),
     ) -> Self {
         let mut g = Self::zeroed();
-        // Without a curve the picture is a measurement: no dither either.
-        g.dither = if look.tonemap == Tonemap::Clamp { 0.0 } else { 1.0 };
-        (g.room_center, g.room_half, g.room_x, g.room_z) = (room.center, room.half, room.x, room.z);
-        g.mote_radius = 0.004 * room.radius.clamp(0.2, 1.0);
-        g.env_intensity = look.env_intensity;
+        // Without a tone curve the picture is a measurement, so it is not dithered.
+        g.dither = if lighting.tonemap == Tonemap::Clamp { 0.0 } else { 1.0 };
+        (g.gallery_center, g.gallery_half, g.gallery_x, g.gallery_z) =
+            (gallery.center, gallery.half, gallery.x, gallery.z);
+        g.dust_radius = 0.004 * gallery.radius.clamp(0.2, 1.0);
+        g.env_intensity = lighting.env_intensity;
         g.env_lods = (super::environment::CUBE_MIPS - 1) as f32;
         (g.wall_albedo, g.floor_albedo) = (WALL_ALBEDO, FLOOR_ALBEDO);
-        g.lamp_count = if look.background.is_some() { 0 } else { room.lamps.len() as u32 };
-        g.background = look.background.unwrap_or_default();
-        if let Some(area) = look.area_light {
+        g.lamp_count = if lighting.background.is_some() { 0 } else { gallery.lamps.len() as u32 };
+        g.background = lighting.background.unwrap_or_default();
+        if let Some(area) = lighting.area_light {
             (g.area_center, g.area_radiance) = (area.center, area.radiance);
             (g.area_x, g.area_y) = area.half;
         }
         g.shadow_from_world = map.clip_from_world;
         (g.shadow_radius, g.shadow_texel) = (map.light_radius, map.texel);
         (g.shadow_near, g.shadow_far) = (map.near, map.far);
-        let taps = SHADOW_TAPS[(quality == Quality::Full) as usize];
+        let taps = SHADOW_TAPS[(quality == ShadowQuality::Full) as usize];
         (g.shadow_samples, g.shadow_taps) = (shadow_samples as f32, taps);
-        g.room_work = room.work;
+        g.environment_origin = gallery.exhibit_center;
         for (to, from) in g.irradiance.iter_mut().zip(irradiance) {
             *to = from.extend(0.0);
         }
-        for (to, lamp) in g.lamps.iter_mut().zip(&room.lamps) {
+        for (to, lamp) in g.lamps.iter_mut().zip(&gallery.lamps) {
             let (cos_inner, cos_outer) = lamp.cone;
             *to = LampUniform {
                 position: lamp.position,
@@ -139,18 +140,19 @@ impl Globals {
         g
     }
 
-    /// Sets what a frame brings.
-    pub fn set_frame(&mut self, frame: &Frame, radius: f32) {
+    /// Sets the uniforms of a frame.
+    pub fn set_frame(&mut self, frame: &FrameInput, radius: f32) {
         let (width, height) = (frame.size.0.max(1) as f64, frame.size.1.max(1) as f64);
         let (right, up, _) = frame.view.axes();
-        // The work is metres away from the eye; a near plane at a thousandth of its size loses nothing (reversed depth).
+        // The exhibit is metres away from the camera; a near plane at a fiftieth of its size loses nothing (reversed
+        // depth).
         self.clip_from_world = clip_from_world(&frame.view, width / height, 0.02 * f64::from(radius)).as_mat4();
         (self.eye, self.right, self.up) = (frame.view.eye.as_vec3(), right.as_vec3(), up.as_vec3());
         self.pixel_angle = (2.0 * (0.5 * frame.view.fovy).tan() / height) as f32;
         self.exposure = frame.exposure;
     }
 
-    /// Sets the punctual lights at their present places.
+    /// Sets the punctual lights at their present positions.
     pub fn set_lights(&mut self, lights: &[Punctual], place: impl Fn(usize) -> Mat4) {
         self.punctual_count = lights.len() as u32;
         for (to, light) in self.punctual.iter_mut().zip(lights) {
@@ -159,8 +161,7 @@ impl Globals {
     }
 }
 
-/// Reversed, infinite perspective: depth 1 at `near`, 0 at infinity, so that a 32-bit float has digits where they are
-/// needed.
+/// Reversed infinite perspective: depth 1 at `near`, 0 at infinity, which uses the precision of a 32-bit float best.
 pub(super) fn clip_from_world(view: &View, aspect: f64, near: f64) -> glam::DMat4 {
     let (right, up, forward) = view.axes();
     let f = 1.0 / (0.5 * view.fovy).tan();

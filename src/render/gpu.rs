@@ -4,30 +4,39 @@ use super::RenderError;
 
 /// Adapter, device and queue.
 pub struct Gpu {
-    /// Entry to the driver; makes surfaces.
+    /// Entry to the driver; creates surfaces.
     pub instance: wgpu::Instance,
     /// The chosen adapter.
     pub adapter: wgpu::Adapter,
-    /// Makes resources.
+    /// Creates resources.
     pub device: wgpu::Device,
-    /// Takes work.
+    /// Submits commands.
     pub queue: wgpu::Queue,
 }
 
 impl Gpu {
     /// A device without a window.
+    ///
+    /// # Errors
+    /// Where there is no adapter or it gives no device.
     pub fn headless() -> Result<Self, RenderError> {
         Self::headless_on(wgpu::Backends::VULKAN)
     }
 
-    /// A device without a window on these drivers.
+    /// A device without a window on the given backends.
+    ///
+    /// # Errors
+    /// As [`Self::headless`].
     pub fn headless_on(backends: wgpu::Backends) -> Result<Self, RenderError> {
         let descriptor =
             wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle_from_env() };
         Self::open(wgpu::Instance::new(descriptor), None)
     }
 
-    /// A device that can draw into `surface`, which `instance` made.
+    /// A device that can draw into `surface`, which `instance` created.
+    ///
+    /// # Errors
+    /// As [`Self::headless`].
     pub fn for_surface(instance: wgpu::Instance, surface: &wgpu::Surface) -> Result<Self, RenderError> {
         Self::open(instance, Some(surface))
     }
@@ -48,17 +57,17 @@ impl Gpu {
         Ok(Self { instance, adapter, device, queue })
     }
 
-    /// Does the processor draw? Then a few things are done the way that is fast there.
+    /// Is it a software renderer? Then a few passes take the way that is faster on a CPU.
     pub fn is_software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
-    /// May a shader read single samples of a picture? GL drivers differ there.
+    /// Can a shader read single samples of a multisampled texture? GL drivers differ.
     pub fn reads_samples(&self) -> bool {
         self.adapter.get_info().backend != wgpu::Backend::Gl
     }
 
-    /// Name of the adapter and its driver, for people.
+    /// Name of the adapter and its driver, for display.
     pub fn name(&self) -> String {
         let info = self.adapter.get_info();
         format!("{} ({})", info.name, info.driver_info)

@@ -1,27 +1,27 @@
-//! Textures and samplers of the light that falls on one exhibit.
+//! Bind group of the light on one exhibit: textures and samplers.
 
 use super::Gpu;
 use super::environment::{CUBE_MIPS, CUBE_SIZE, Environment};
-use super::fixtures::Fixtures;
-use super::gallery::Room;
+use super::gallery::Gallery;
 use super::occlusion::PLANE_MAP;
 use super::radiosity::LIGHTMAP_SIZE;
 use super::resources::{filled, half4, light_texture};
+use super::shared::SharedResources;
 
-/// What lights one work.
-pub(super) struct Light<'a> {
+/// Sources of the light on one exhibit.
+pub(super) struct LightResources<'a> {
     pub environment: &'a Environment,
-    pub room: &'a Room,
+    pub gallery: &'a Gallery,
     /// Shadows on wall and floor.
     pub planes: &'a [wgpu::TextureView; 2],
-    /// What static parts leave of the sky over both.
+    /// Ambient visibility that static parts leave on both, one byte a texel.
     pub ambient: &'a [u8],
-    /// Silhouettes.
+    /// Silhouettes of plates.
     pub contours: &'a wgpu::TextureView,
 }
 
-/// Textures and samplers of the light.
-pub(super) fn light_group(gpu: &Gpu, fixtures: &Fixtures, light: Light) -> wgpu::BindGroup {
+/// The bind group of the light.
+pub(super) fn light_group(gpu: &Gpu, shared: &SharedResources, light: LightResources) -> wgpu::BindGroup {
     // Face after face, each with all its levels: the order `create_texture_with_data` calls layer-major.
     let mut cube = Vec::new();
     for face in 0..6 {
@@ -30,8 +30,8 @@ pub(super) fn light_group(gpu: &Gpu, fixtures: &Fixtures, light: Light) -> wgpu:
             cube.extend(level[face * texels..(face + 1) * texels].iter().map(|c| half4([c.x, c.y, c.z, 1.0])));
         }
     }
-    // One layer more than faces: of six square ones GL would make a cube.
-    let mut lightmap: Vec<_> = light.room.lightmap().into_iter().map(half4).collect();
+    // One layer more than faces: GL would make a cube of six square ones.
+    let mut lightmap: Vec<_> = light.gallery.lightmap().into_iter().map(half4).collect();
     lightmap.resize(lightmap.len() / 6 * 7, [0; 4]);
     use wgpu::TextureViewDimension::{Cube, D2Array};
     let environment = light_texture(gpu, "environment", (CUBE_SIZE, 6, CUBE_MIPS), &cube, Cube);
@@ -41,9 +41,9 @@ pub(super) fn light_group(gpu: &Gpu, fixtures: &Fixtures, light: Light) -> wgpu:
     use wgpu::BindingResource::{Sampler, TextureView};
     let resources = [
         TextureView(&environment),
-        TextureView(&fixtures.table),
-        Sampler(&fixtures.smooth),
-        TextureView(&fixtures.map_views[1]),
+        TextureView(&shared.table),
+        Sampler(&shared.smooth),
+        TextureView(&shared.map_views[1]),
         TextureView(&light.planes[0]),
         TextureView(&light.planes[1]),
         TextureView(&lightmap),
@@ -52,6 +52,6 @@ pub(super) fn light_group(gpu: &Gpu, fixtures: &Fixtures, light: Light) -> wgpu:
     ];
     let entries: Vec<_> =
         (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-    let layout = &fixtures.layouts.light;
+    let layout = &shared.layouts.light;
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
 }

@@ -1,11 +1,11 @@
-//! Materials: uniforms, and the textures and samplers that they are bound with.
+//! Material uniforms, textures and samplers.
 
 use std::collections::BTreeMap;
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
 
-use super::fixtures::Fixtures;
+use super::shared::SharedResources;
 use super::textures::upload;
 use super::{Gpu, details};
 use soffio_exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
@@ -37,32 +37,32 @@ struct MaterialUniform {
     uv: [[f32; 4]; 2 * PLACES],
 }
 
-/// Textures that have a place of their own on a surface.
+/// Textures with a transform of their own.
 const PLACES: usize = 5 + 9;
 
-/// Bind groups of all appearances of a model, and last of the default one.
-pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Vec<wgpu::BindGroup> {
-    let Fixtures { layouts, white, no_details, samplers, .. } = fixtures;
+/// Bind groups of all materials of a model, and last of the default one.
+pub(super) fn materials(gpu: &Gpu, model: &Model, shared: &mut SharedResources) -> Vec<wgpu::BindGroup> {
+    let SharedResources { layouts, white, no_details, samplers, .. } = shared;
     let mut textures = Textures { gpu, images: &model.images, made: BTreeMap::new(), samplers };
     let default = Appearance { metallic: 0.0, roughness: 0.6, ..Appearance::default() };
     model
         .materials
         .iter()
         .chain([&default])
-        .map(|look| {
-            let uses = uses(look);
+        .map(|appearance| {
+            let uses = uses(appearance);
             let color = [true, false, false, false, true];
             let views: Vec<_> =
                 uses.iter().zip(color).map(|(t, srgb)| textures.view(t.map(|t| t.image), srgb, white)).collect();
             let samplers: Vec<_> =
                 uses.iter().map(|t| textures.sampler(t.map_or(Sampler::default(), |t| t.sampler))).collect();
             let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(&look.name),
-                contents: bytemuck::bytes_of(&uniform(look)),
+                label: Some(&appearance.name),
+                contents: bytemuck::bytes_of(&uniform(appearance)),
                 usage: wgpu::BufferUsages::UNIFORM,
             });
-            let detail_views = details::views(gpu, &model.images, &look.details, no_details);
-            let first = look.details.all().into_iter().flatten().next();
+            let detail_views = details::views(gpu, &model.images, &appearance.details, no_details);
+            let first = appearance.details.all().into_iter().flatten().next();
             let detail_sampler = textures.sampler(first.map_or(Sampler::default(), |texture| texture.sampler));
             let entries: Vec<_> = std::iter::once(uniform.as_entire_binding())
                 .chain(views.iter().map(wgpu::BindingResource::TextureView))
@@ -73,7 +73,7 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Ve
                 .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
                 .collect();
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(&look.name),
+                label: Some(&appearance.name),
                 layout: &layouts.material,
                 entries: &entries,
             })
@@ -81,53 +81,53 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, fixtures: &mut Fixtures) -> Ve
         .collect()
 }
 
-/// The images of an appearance in the order of the bindings.
-fn uses(look: &Appearance) -> [Option<TextureUse>; 5] {
+/// The textures of an appearance in the order of the bindings.
+fn uses(appearance: &Appearance) -> [Option<TextureUse>; 5] {
     [
-        look.base_color_texture,
-        look.metallic_roughness_texture,
-        look.normal_texture.map(|t| t.0),
-        look.occlusion_texture.map(|t| t.0),
-        look.emissive_texture,
+        appearance.base_color_texture,
+        appearance.metallic_roughness_texture,
+        appearance.normal_texture.map(|t| t.0),
+        appearance.occlusion_texture.map(|t| t.0),
+        appearance.emissive_texture,
     ]
 }
 
-fn uniform(look: &Appearance) -> MaterialUniform {
-    let mut base_color = look.base_color;
-    if look.alpha == AlphaMode::Opaque {
-        // Coverage is the affair of the other modes.
+fn uniform(appearance: &Appearance) -> MaterialUniform {
+    let mut base_color = appearance.base_color;
+    if appearance.alpha == AlphaMode::Opaque {
+        // Only the other alpha modes use alpha.
         base_color[3] = 1.0;
     }
     // Schlick's F0 of a boundary to air, and KHR_materials_specular's tint of it.
-    let mirror = (look.ior - 1.0) / (look.ior + 1.0);
-    let f0 = look.specular_color.map(|c| (mirror * mirror * c).min(1.0) * look.specular);
-    let absorption = look.attenuation_color.map(|c| -c.clamp(1e-4, 1.0).ln() / look.attenuation_distance);
+    let mirror = (appearance.ior - 1.0) / (appearance.ior + 1.0);
+    let f0 = appearance.specular_color.map(|c| (mirror * mirror * c).min(1.0) * appearance.specular);
+    let absorption = appearance.attenuation_color.map(|c| -c.clamp(1e-4, 1.0).ln() / appearance.attenuation_distance);
     let mut uv = [[0.0; 4]; 2 * PLACES];
-    for (i, texture) in uses(look).iter().chain(&look.details.all()).enumerate() {
+    for (i, texture) in uses(appearance).iter().chain(&appearance.details.all()).enumerate() {
         let TextureUse { transform: [u, v], set, .. } = texture.unwrap_or(TextureUse::of(0));
         uv[2 * i] = [u[0], u[1], u[2], set as f32];
         uv[2 * i + 1] = [v[0], v[1], v[2], 0.0];
     }
     MaterialUniform {
         base_color,
-        emissive: look.emissive,
-        metallic: look.metallic,
-        roughness: look.roughness,
-        normal_scale: look.normal_texture.map_or(0.0, |t| t.1),
-        occlusion: look.occlusion_texture.map_or(0.0, |t| t.1),
-        cutoff: if let AlphaMode::Mask(cutoff) = look.alpha { cutoff.max(1e-6) } else { 0.0 },
+        emissive: appearance.emissive,
+        metallic: appearance.metallic,
+        roughness: appearance.roughness,
+        normal_scale: appearance.normal_texture.map_or(0.0, |t| t.1),
+        occlusion: appearance.occlusion_texture.map_or(0.0, |t| t.1),
+        cutoff: if let AlphaMode::Mask(cutoff) = appearance.alpha { cutoff.max(1e-6) } else { 0.0 },
         f0,
-        f90: look.specular,
+        f90: appearance.specular,
         absorption,
-        thickness: look.thickness,
-        sheen: look.sheen,
-        sheen_roughness: look.sheen_roughness,
-        transmission: look.transmission,
-        ior: look.ior,
-        coat: look.coat,
-        coat_roughness: look.coat_roughness,
-        unlit: if look.unlit { 1.0 } else { 0.0 },
-        coat_normal_scale: look.details.coat_normal.map_or(0.0, |(_, scale)| scale),
+        thickness: appearance.thickness,
+        sheen: appearance.sheen,
+        sheen_roughness: appearance.sheen_roughness,
+        transmission: appearance.transmission,
+        ior: appearance.ior,
+        coat: appearance.coat,
+        coat_roughness: appearance.coat_roughness,
+        unlit: if appearance.unlit { 1.0 } else { 0.0 },
+        coat_normal_scale: appearance.details.coat_normal.map_or(0.0, |(_, scale)| scale),
         spare: [0.0; 2],
         uv,
     }
@@ -162,7 +162,7 @@ impl Textures<'_> {
                     Levels::Nearest | Levels::None => wgpu::MipmapFilterMode::Nearest,
                 },
                 lod_max_clamp: if sampler.levels == Levels::None { 0.0 } else { 32.0 },
-                // Painted sheets are often seen edge on.
+                // Painted sheet metal is often seen edge on.
                 anisotropy_clamp: if smooth && !self.gpu.is_software() { 8 } else { 1 },
                 ..Default::default()
             })
@@ -172,7 +172,7 @@ impl Textures<'_> {
 
     fn view(&mut self, image: Option<usize>, srgb: bool, white: &wgpu::TextureView) -> wgpu::TextureView {
         let Some((index, image)) = image.and_then(|i| Some((i, self.images.get(i)?))) else { return white.clone() };
-        // An image that no adapter could hold is shown as white rather than not at all.
+        // An image that exceeds the adapter's limit is shown as white rather than not at all.
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         if image.width == 0 || image.height == 0 || image.width.max(image.height) > limit {
             tracing::warn!("image {index} is {}x{}, beyond 1 to {limit}: left white", image.width, image.height);

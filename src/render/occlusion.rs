@@ -1,10 +1,10 @@
-//! Ambient occlusion, baked once: what part of the sky near parts leave to each corner of the meshes, and static parts
-//! to the wall and the floor.
+//! Ambient occlusion by ray casting, baked at load: for mesh vertices from nearby parts, for the wall and the floor
+//! from static parts.
 //!
-//! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points, turned into each
-//! surface's frame), so it has no noise to crawl: v = 1 − (1/N) Σ max(0, 1 − d/reach), d the way to what a ray meets.
-//! Corners see the exhibit as it rests. Only what is near counts, so parts that swing far apart do not darken
-//! each other for ever; wheels on a common plate, which turn in place, do.
+//! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points in each surface's
+//! tangent frame), so its noise does not flicker: v = 1 − (1/N) Σ max(0, 1 − d/r), with d the distance to the hit and r
+//! the occlusion radius. Vertices see the exhibit in its start pose. Only near hits count, so parts that swing far
+//! apart do not darken each other permanently.
 
 use std::time::Duration;
 
@@ -19,36 +19,36 @@ use super::scene::Scene;
 use super::shadows::ReceivingPlane;
 use soffio_exhibit::Exhibit;
 
-/// Rays of each corner.
+/// Rays of each vertex.
 const CORNER_RAYS: u32 = 20;
-/// Most rays of all corners together; beyond it each has fewer.
+/// Most rays of all vertices together; beyond it each has fewer.
 const MAX_RAYS: usize = 1_500_000;
-/// Fewest rays that say anything; with less the corners stay open.
+/// Fewest rays of a vertex; with fewer the vertices stay unoccluded.
 const MIN_RAYS: u32 = 6;
 /// Rays of each texel of a plane.
 const TEXEL_RAYS: u32 = 32;
 /// Texels along each side of a plane's map.
 pub(super) const PLANE_MAP: u32 = 80;
-/// How far corners look, in radii of the work.
-const REACH: f32 = 0.22;
+/// Occlusion radius of vertices, in radii of the exhibit.
+const OCCLUSION_RADIUS: f32 = 0.22;
 
-/// Triangles to look at.
-pub(super) struct Solid {
+/// Ray queries on the scene's opaque triangles, by a bounding volume hierarchy.
+pub(super) struct RayCaster {
     triangles: Vec<Triangle>,
-    /// First corner of each in the scene's vertices.
+    /// First vertex of each triangle, as an index into the scene's vertices.
     corners: Vec<u32>,
     bvh: Bvh2,
 }
 
-impl Solid {
-    /// Opaque triangles of the scene at rest, or the static ones alone.
-    pub fn new(scene: &Scene, places: &[Vec3], only_static: bool) -> Option<Self> {
-        let solid = scene.indices[..scene.opaque as usize].chunks_exact(3);
-        let solid = solid.filter(|t| !only_static || scene.vertices[t[0] as usize].frame() == 0);
-        let corners = solid.clone().map(|t| t[0]).collect();
-        let triangles: Vec<Triangle> = solid
+impl RayCaster {
+    /// The opaque triangles of the scene, or the static ones alone; `None` where there are none.
+    pub fn new(scene: &Scene, positions: &[Vec3], only_static: bool) -> Option<Self> {
+        let opaque = scene.indices[..scene.opaque_end as usize].chunks_exact(3);
+        let opaque = opaque.filter(|t| !only_static || scene.vertices[t[0] as usize].frame() == 0);
+        let corners = opaque.clone().map(|t| t[0]).collect();
+        let triangles: Vec<Triangle> = opaque
             .map(|t| {
-                let [v0, v1, v2] = [t[0], t[1], t[2]].map(|i| Vec3A::from(places[i as usize]));
+                let [v0, v1, v2] = [t[0], t[1], t[2]].map(|i| Vec3A::from(positions[i as usize]));
                 Triangle { v0, v1, v2 }
             })
             .collect();
@@ -59,50 +59,50 @@ impl Solid {
         Some(Self { triangles, corners, bvh })
     }
 
-    /// The nearest triangle that a ray meets, of the scene's opaque ones.
-    pub fn nearest(&self, from: Vec3, way: Vec3) -> Option<u32> {
-        let (mut nearest, mut met) = (f32::INFINITY, None);
-        let ray = Ray::new(from.into(), way.into(), 0.0, f32::INFINITY);
+    /// Index of the nearest triangle that a ray hits.
+    pub fn nearest_hit(&self, from: Vec3, direction: Vec3) -> Option<u32> {
+        let (mut nearest, mut hit) = (f32::INFINITY, None);
+        let ray = Ray::new(from.into(), direction.into(), 0.0, f32::INFINITY);
         self.bvh.ray_traverse(ray, &mut RayHit::none(), |ray, id| {
             let index = self.bvh.primitive_indices[id];
             let t = self.triangles[index as usize].intersect(ray);
             if t < nearest {
-                (nearest, met) = (t, Some(index));
+                (nearest, hit) = (t, Some(index));
             }
             t
         });
-        met
+        hit
     }
 
-    /// Is there anything between two points?
-    pub fn hides(&self, from: Vec3, to: Vec3) -> bool {
+    /// Is a triangle between two points?
+    pub fn is_occluded(&self, from: Vec3, to: Vec3) -> bool {
         let mut hidden = false;
-        self.between(from, to, |_| hidden = true);
+        self.for_each_hit(from, to, |_| hidden = true);
         hidden
     }
 
-    /// Tells a corner of each triangle between two points.
-    pub fn between(&self, from: Vec3, to: Vec3, mut met: impl FnMut(u32)) {
-        let way = to - from;
-        let ray = Ray::new(from.into(), way.into(), 1e-4, 1.0);
+    /// Calls `hit` with the first vertex of each triangle between two points.
+    pub fn for_each_hit(&self, from: Vec3, to: Vec3, mut hit: impl FnMut(u32)) {
+        let direction = to - from;
+        let ray = Ray::new(from.into(), direction.into(), 1e-4, 1.0);
         self.bvh.ray_traverse(ray, &mut RayHit::none(), |ray, id| {
             let index = self.bvh.primitive_indices[id] as usize;
             if self.triangles[index].intersect(ray) < 1.0 {
-                met(self.corners[index]);
+                hit(self.corners[index]);
             }
             f32::INFINITY
         });
     }
 
-    /// Part of the sky over `point` that is open.
+    /// Visible fraction of the hemisphere over `point`, 0…1.
     fn visibility(&self, point: Vec3, normal: Vec3, reach: f32, directions: &[Vec3]) -> f32 {
         let (t, b) = normal.any_orthonormal_pair();
         let origin = Vec3A::from(point + normal * (1e-3 * reach));
         let mut hidden = 0.0;
         for d in directions {
-            let way = Vec3A::from(t * d.x + b * d.y + normal * d.z);
+            let direction = Vec3A::from(t * d.x + b * d.y + normal * d.z);
             let mut nearest = reach;
-            self.bvh.ray_traverse(Ray::new(origin, way, 0.0, reach), &mut RayHit::none(), |ray, id| {
+            self.bvh.ray_traverse(Ray::new(origin, direction, 0.0, reach), &mut RayHit::none(), |ray, id| {
                 let t = self.triangles[self.bvh.primitive_indices[id] as usize].intersect(ray);
                 nearest = nearest.min(t);
                 t
@@ -113,16 +113,16 @@ impl Solid {
     }
 }
 
-/// Gives each corner of the scene its visibility.
+/// Bakes the visibility of each vertex of the scene.
 pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
-    let (places, normals) = at_rest(scene, exhibit);
-    let groups = groups(&places, &normals, radius);
+    let (positions, normals) = start_geometry(scene, exhibit);
+    let groups = groups(&positions, &normals, radius);
     let rays = CORNER_RAYS.min((MAX_RAYS / groups.len().max(1)) as u32);
-    let Some(solid) = (rays >= MIN_RAYS).then(|| Solid::new(scene, &places, false)).flatten() else { return };
+    let Some(caster) = (rays >= MIN_RAYS).then(|| RayCaster::new(scene, &positions, false)).flatten() else { return };
     let directions = cosine_directions(rays);
     let seen = in_parallel(&groups, |group| {
         let i = group[0] as usize;
-        solid.visibility(places[i], normals[i], REACH * radius, &directions)
+        caster.visibility(positions[i], normals[i], OCCLUSION_RADIUS * radius, &directions)
     });
     for (group, visibility) in groups.iter().zip(seen) {
         for &i in group {
@@ -131,22 +131,22 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
     }
 }
 
-/// Corners by place and normal: those of one share their rays.
-pub(super) fn groups(places: &[Vec3], normals: &[Vec3], radius: f32) -> Vec<Vec<u32>> {
+/// Groups of vertices with the same position and normal, which share their rays.
+pub(super) fn groups(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Vec<Vec<u32>> {
     let key = |i: u32| {
         let whole = |v: Vec3, step: f32| [v.x, v.y, v.z].map(|c| (c / step).round() as i32);
-        (whole(places[i as usize], 1e-4 * radius), whole(normals[i as usize], 0.05))
+        (whole(positions[i as usize], 1e-4 * radius), whole(normals[i as usize], 0.05))
     };
-    let mut order: Vec<u32> = (0..places.len() as u32).collect();
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     order.sort_by_cached_key(|&i| key(i));
     order.chunk_by(|&a, &b| key(a) == key(b)).map(<[u32]>::to_vec).collect()
 }
 
-/// Maps of both planes, texel by texel, row by row, a byte each: what static parts leave of the sky.
+/// Visibility maps of both planes under static parts: row by row, one byte a texel.
 pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane; 2], radius: f32) -> Vec<u8> {
     let count = (PLANE_MAP * PLANE_MAP) as usize;
-    let (places, _) = at_rest(scene, exhibit);
-    let Some(solid) = Solid::new(scene, &places, true) else { return vec![255; 2 * count] };
+    let (positions, _) = start_geometry(scene, exhibit);
+    let Some(caster) = RayCaster::new(scene, &positions, true) else { return vec![255; 2 * count] };
     let directions = cosine_directions(TEXEL_RAYS);
     let texels: Vec<(usize, Vec2)> = (0..2 * count)
         .map(|i| {
@@ -157,14 +157,14 @@ pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane;
     in_parallel(&texels, |&(plane, at)| {
         let plane = &planes[plane];
         let point = plane.origin + plane.u * (at.x * plane.size.x) + plane.v * (at.y * plane.size.y);
-        // Under a foot that stands on the floor there is no sky; the origin is moved out of its underside.
-        let visibility = solid.visibility(point, plane.normal, radius, &directions);
+        // Under a foot that stands on the floor the visibility is 0; the origin is moved out of its underside.
+        let visibility = caster.visibility(point, plane.normal, radius, &directions);
         (visibility * 255.0 + 0.5) as u8
     })
 }
 
-/// World places and normals of all corners, with the bodies where they begin.
-pub(super) fn at_rest(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
+/// World positions and normals of all vertices, with the bodies in their start poses.
+pub(super) fn start_geometry(scene: &Scene, exhibit: &Exhibit) -> (Vec<Vec3>, Vec<Vec3>) {
     let frames: Vec<_> = exhibit.bodies.iter().map(|body| body.pose.matrix().as_mat4()).collect();
     let place = |v: &super::vertex::Vertex| match v.frame() {
         0 => (v.position, v.normal),
@@ -185,7 +185,7 @@ pub(super) fn cosine_directions(count: u32) -> Vec<Vec3> {
         .collect()
 }
 
-/// Maps a list on all processors; the result does not depend on how many there are.
+/// Maps a list on all processors; the result does not depend on their number.
 pub(super) fn in_parallel<T: Sync, R: Send>(list: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(8);
     let chunk = list.len().div_ceil(threads).max(1);
@@ -203,8 +203,8 @@ mod tests {
 
     #[test]
     fn a_wall_hides_half_the_sky_of_the_corner_at_its_foot() {
-        // A wall much higher than the reach: of a point at its foot it hides half the directions, and by the rule each
-        // counts 1 − d/reach with d = 0.
+        // A wall much higher than the radius hides half the directions of a point at its foot, each with weight 1 − d/r
+        // for d = 0.
         const SAMPLING: f32 = 0.06;
         let corner = |x: f32, y: f32, z: f32| Vec3A::new(x, y, z);
         let wall = |a, b, c| Triangle { v0: a, v1: b, v2: c };
@@ -212,9 +212,9 @@ mod tests {
             (corner(0.0, -9.0, -9.0), corner(0.0, 9.0, -9.0), corner(0.0, 9.0, 9.0), corner(0.0, -9.0, 9.0));
         let triangles = vec![wall(a, b, c), wall(a, c, d)];
         let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
-        let solid = Solid { triangles, corners: vec![0, 0], bvh };
+        let caster = RayCaster { triangles, corners: vec![0, 0], bvh };
         let directions = cosine_directions(256);
-        let at = |x: f32| solid.visibility(Vec3::new(x, 0.0, 0.0), Vec3::Z, 1.0, &directions);
+        let at = |x: f32| caster.visibility(Vec3::new(x, 0.0, 0.0), Vec3::Z, 1.0, &directions);
         assert!((at(1e-4) - 0.5).abs() < SAMPLING, "{}", at(1e-4));
         assert!(at(0.5) > at(0.2) && at(2.0) == 1.0, "{} {} {}", at(0.2), at(0.5), at(2.0));
     }

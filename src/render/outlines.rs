@@ -1,14 +1,14 @@
-//! Silhouettes of plates, so that the pixels they cover only in part are measured and not sampled.
+//! Analytic antialiasing of plates: silhouettes whose partly covered pixels are measured instead of sampled.
 //!
-//! Four samples a pixel know five degrees of coverage: the edge of a sheet that turns slowly goes through them in jerks, and a
-//! sheet seen edge-on, thinner than a pixel, comes and goes. So each frame finds the silhouette of every plate: the edges
-//! between a triangle that faces the eye and one that does not, in pixels. In the shaders (`outline.wgsl`) the area of
-//! a pixel inside it has a closed form, a sum over its edges; what is inside only in part is left out of the mesh and drawn
-//! by *ribbons* along the edges, blended by that area over whatever lies behind. A plate of any thickness, at any slant, so has the
-//! ink that it should, and no jerk.
+//! Four samples a pixel know five degrees of coverage: the edge of a slowly rotating sheet would move in jerks, and a
+//! sheet seen edge-on, thinner than a pixel, would flicker. So each frame finds the silhouette of every plate in
+//! pixels: the edges between a triangle that faces the camera and one that does not. The covered area of a pixel is a
+//! sum over these edges in closed form (`outline.wgsl`). Partly covered pixels are left out of the mesh and drawn by
+//! *ribbons* along the edges, blended by that area over the background. Plates of any thickness and slant so have exact
+//! coverage.
 //!
-//! Plates are what is closed, thin (its caps hold most of its surface), opaque, and moves. What stands still may have been built
-//! of boards that touch, and two half-covered pixels on a joint let light through.
+//! A plate is a closed, thin, opaque mesh that moves; its caps make up most of its surface. Static meshes may consist
+//! of boards that touch, where two partly covered pixels would let light through.
 
 use std::collections::BTreeMap;
 
@@ -18,35 +18,35 @@ use glam::{Mat4, Vec2, Vec3, Vec4};
 use super::globals::Globals;
 use super::vertex::Vertex;
 
-/// Texels along a row of the texture that holds the silhouettes.
+/// Texels along a row of the texture with the silhouettes.
 pub(super) const CONTOUR_ROW: u32 = 256;
-/// Most edges of an outlined plate's mesh; each of its pixels looks at all that are on its silhouette.
+/// Most edges of an outlined plate's mesh; each of its pixels tests all edges of its silhouette.
 const MAX_EDGES: usize = 900;
-/// Cosine between a plate's normal and those of its caps, at least.
+/// Smallest cosine between a plate's normal and those of its caps.
 const CAP_COSINE: f32 = 0.99;
-/// Share of a plate's surface that lies in its caps, at least.
+/// Smallest fraction of a plate's surface that its caps make up.
 const CAP_SHARE: f32 = 0.75;
 
-/// A plate's mesh, corners of one place made one, in the frame of its body.
+/// A plate's mesh with merged vertices, in the frame of its body.
 pub(super) struct Plate {
-    /// Index of the part that draws it.
-    pub part: usize,
+    /// Index of the batch that draws it.
+    pub batch: usize,
     pub frame: usize,
     pub corners: Vec<Vec3>,
-    /// Index of a vertex at each corner.
+    /// Index of a scene vertex at each corner.
     vertices: Vec<u32>,
     faces: Vec<[u16; 3]>,
     pub normals: Vec<Vec3>,
     pub edges: Vec<Edge>,
-    /// Unit, of its caps.
+    /// Normal of its caps, unit.
     pub normal: Vec3,
-    /// m.
+    /// Thickness, m.
     thickness: f32,
-    /// Mean width of its caps, m: twice their area over their circumference.
+    /// Mean width of its caps, m: twice their area over their perimeter.
     width: f32,
 }
 
-/// An edge from corner `a` to `b` as the first of its faces runs.
+/// An edge from corner `a` to `b` in the direction of the first of its faces.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Edge {
     pub a: u16,
@@ -54,33 +54,33 @@ pub(super) struct Edge {
     pub faces: [u16; 2],
 }
 
-/// One edge of a silhouette with what the plate looks like there, as `forward.wgsl` reads it.
+/// One edge of a silhouette with the plate's appearance there, in the layout of `forward.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Ribbon {
     /// Ends, world, m.
     a: Vec3,
     b: Vec3,
-    /// World, unit: the mean of what a pixel shows of cap and rim.
+    /// Normal, world, unit: the mean over the cap and the rim that a pixel shows.
     normal: Vec3,
     uv_a: [f32; 4],
     uv_b: [f32; 4],
     color: [f32; 4],
-    /// As of the scene's vertices.
+    /// Tag of the scene's vertices.
     tag: u32,
-    /// Index of the plate in the low half, of the edge in its silhouette in the high one.
+    /// Index of the plate in the low half, of the edge in its silhouette in the high half.
     outline: u32,
 }
 
-/// The silhouettes of one frame.
+/// The silhouettes of a frame.
 pub(super) struct Outlines {
     plates: Vec<Plate>,
-    /// What each plate looks like at its corners.
-    looks: Vec<Vec<Vertex>>,
+    /// Appearance of each plate at its corners.
+    appearances: Vec<Vec<Vertex>>,
     /// Per plate a texel (first edge, number of edges, 0, 0), then the edges: both ends, pixels from the upper left.
     pub contours: Vec<Vec4>,
     pub ribbons: Vec<Ribbon>,
-    /// Part and ribbons of each draw.
+    /// Batch and ribbons of each draw.
     pub draws: Vec<(usize, std::ops::Range<u32>)>,
     // Scratch.
     places: Vec<(Vec3, Vec2)>,
@@ -89,7 +89,7 @@ pub(super) struct Outlines {
 }
 
 impl Plate {
-    /// The plate that these triangles are, where they are one. The vertices are those of one primitive, in the frame of its
+    /// The plate that these triangles form, or `None`. The vertices are those of one primitive, in the frame of its
     /// body.
     pub fn of(vertices: &[Vertex], indices: &[u32]) -> Option<Self> {
         let frame = vertices.first()?.frame();
@@ -138,22 +138,22 @@ impl Plate {
         let width = 2.0 * caps / around.max(f32::MIN_POSITIVE);
         let vertices = sources;
         let thickness = high - low;
-        Some(Self { part: 0, frame, corners, vertices, faces, normals, edges, normal, thickness, width })
+        Some(Self { batch: 0, frame, corners, vertices, faces, normals, edges, normal, thickness, width })
     }
 
-    /// Are its edges few enough that each of its pixels can look at them?
+    /// Are its edges few enough for each of its pixels to test them?
     pub fn is_simple(&self) -> bool {
         self.edges.len() <= MAX_EDGES
     }
 
-    /// Takes its place in a scene: the part that draws it, and where its vertices begin.
-    pub fn place(&mut self, part: usize, base: u32) {
-        self.part = part;
+    /// Sets its place in a scene: the batch that draws it, and its first vertex.
+    pub fn place(&mut self, batch: usize, base: u32) {
+        self.batch = batch;
         self.vertices.iter_mut().for_each(|index| *index += base);
     }
 }
 
-/// The edges of a closed mesh, each once; none where it is not closed or not everywhere two-sided.
+/// The edges of a closed mesh, each once; `None` where it is not closed or not a manifold.
 fn edges(faces: &[[u16; 3]]) -> Option<Vec<Edge>> {
     let mut open: BTreeMap<(u16, u16), u16> = BTreeMap::new();
     let mut edges = Vec::new();
@@ -174,69 +174,69 @@ fn edges(faces: &[[u16; 3]]) -> Option<Vec<Edge>> {
 }
 
 impl Outlines {
-    /// Silhouettes of these plates of a scene, none found yet.
+    /// Silhouettes for these plates of a scene, still empty.
     pub fn new(plates: Vec<Plate>, vertices: &[Vertex]) -> Self {
-        let look = |plate: &Plate| plate.vertices.iter().map(|&index| vertices[index as usize]).collect();
+        let appearance = |plate: &Plate| plate.vertices.iter().map(|&index| vertices[index as usize]).collect();
         let edges: usize = plates.iter().map(|plate| plate.edges.len()).sum();
-        let most = |count: fn(&Plate) -> usize| plates.iter().map(count).max().unwrap_or(0);
+        let max_ribbons = |count: fn(&Plate) -> usize| plates.iter().map(count).max().unwrap_or(0);
         let texels = (plates.len() + edges).max(1).next_multiple_of(CONTOUR_ROW as usize);
         Self {
             contours: vec![Vec4::ZERO; texels],
             ribbons: Vec::with_capacity(edges),
             draws: Vec::with_capacity(plates.len()),
-            places: Vec::with_capacity(most(|plate| plate.corners.len())),
-            facing: Vec::with_capacity(most(|plate| plate.faces.len())),
+            places: Vec::with_capacity(max_ribbons(|plate| plate.corners.len())),
+            facing: Vec::with_capacity(max_ribbons(|plate| plate.faces.len())),
             order: Vec::with_capacity(plates.len()),
-            looks: plates.iter().map(look).collect(),
+            appearances: plates.iter().map(appearance).collect(),
             plates,
         }
     }
 
-    /// Rows of the texture that holds the contours.
+    /// Rows of the texture with the contours.
     pub fn rows(&self) -> u32 {
         self.contours.len() as u32 / CONTOUR_ROW
     }
 
-    /// Most ribbons that there can be.
-    pub fn most(&self) -> usize {
+    /// Largest number of ribbons.
+    pub fn max_ribbons(&self) -> usize {
         self.ribbons.capacity()
     }
 
-    /// Draw calls, at most.
-    pub fn most_draws(&self) -> u32 {
-        let mut parts: Vec<usize> = self.plates.iter().map(|plate| plate.part).collect();
-        parts.dedup();
-        parts.len() as u32
+    /// Largest number of draw calls.
+    pub fn max_draws(&self) -> u32 {
+        let mut batches: Vec<usize> = self.plates.iter().map(|plate| plate.batch).collect();
+        batches.dedup();
+        batches.len() as u32
     }
 
-    /// Finds the silhouettes as a frame's camera sees the plates, in a picture of `size` pixels.
-    pub fn find(&mut self, frames: &[[Vec4; 3]], globals: &Globals, size: (u32, u32)) {
+    /// Finds the silhouettes that a frame's camera sees, in a picture of `size` pixels.
+    pub fn update(&mut self, frames: &[[Vec4; 3]], globals: &Globals, size: (u32, u32)) {
         self.ribbons.clear();
         self.draws.clear();
         self.order.clear();
         for (index, plate) in self.plates.iter().enumerate() {
             let middle = plate.corners.first().map_or(Vec3::ZERO, |&corner| to_world(&frames[plate.frame], corner));
-            self.order.push((plate.part, -middle.distance_squared(globals.eye), index));
+            self.order.push((plate.batch, -middle.distance_squared(globals.eye), index));
         }
-        // Part by part, the farthest plate first.
+        // By batch, the farthest plate first.
         self.order.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         let mut next = self.plates.len();
         for k in 0..self.order.len() {
-            let (part, _, index) = self.order[k];
+            let (batch, _, index) = self.order[k];
             let first = self.ribbons.len() as u32;
             let count = self.outline(index, next, frames, globals, size);
             self.contours[index] = Vec4::new(next as f32, count as f32, 0.0, 0.0);
             next += count;
             let last = self.ribbons.len() as u32;
             match self.draws.last_mut() {
-                Some((before, range)) if *before == part => range.end = last,
-                _ => self.draws.push((part, first..last)),
+                Some((before, range)) if *before == batch => range.end = last,
+                _ => self.draws.push((batch, first..last)),
             }
         }
     }
 
-    /// Finds one silhouette, whose texels begin at `first`, and says how many edges it has: none where the plate reaches behind
-    /// the eye, and its mesh is drawn as any other.
+    /// Finds one silhouette, whose texels begin at `first`, and returns its number of edges. It is 0 where the plate
+    /// reaches behind the camera: its mesh is drawn like any other then.
     fn outline(
         &mut self,
         index: usize,
@@ -272,15 +272,15 @@ impl Outlines {
             let (a, b) = (usize::from(a), usize::from(b));
             let ((from, p), (to, q)) = (self.places[a], self.places[b]);
             self.contours[first + count] = Vec4::new(p.x, p.y, q.x, q.y);
-            let [look, other] = [a, b].map(|corner| &self.looks[index][corner]);
+            let [appearance, other] = [a, b].map(|corner| &self.appearances[index][corner]);
             self.ribbons.push(Ribbon {
                 a: from,
                 b: to,
                 normal: plate.mean_normal(globals, 0.5 * (from + to), cap, turned(frame, plate.normals[seen])),
-                uv_a: look.uv,
+                uv_a: appearance.uv,
                 uv_b: other.uv,
-                color: look.color,
-                tag: look.tag,
+                color: appearance.color,
+                tag: appearance.tag,
                 outline: index as u32 | (count as u32) << 16,
             });
             count += 1;
@@ -290,8 +290,8 @@ impl Outlines {
 }
 
 impl Plate {
-    /// What a pixel at `place` on the silhouette shows of the plate's cap and of its rim, as one normal. `seen` is the
-    /// normal of the face that ends there: its surface has first claim on the pixel, the other on what it leaves.
+    /// Mean normal of the plate's cap and rim that a pixel at `place` on the silhouette shows. `seen` is the normal of
+    /// the face that ends there; the other one fills the rest of the pixel.
     fn mean_normal(&self, globals: &Globals, place: Vec3, cap: Vec3, seen: Vec3) -> Vec3 {
         let view = globals.eye - place;
         let distance = view.length().max(f32::MIN_POSITIVE);

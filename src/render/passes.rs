@@ -1,8 +1,8 @@
-//! The list of passes of a frame: what each draws into, reads and how often, so that bandwidth and draws can be counted
-//! without a device. The renderer makes its attachments from the same list.
+//! Plan of the render passes of a frame: attachments, reads and draw calls of each. The renderer creates its
+//! attachments from it, and bandwidth can be counted without a device.
 //!
-//! Counted raw, as if nothing were compressed or kept on the chip: an attachment is written whole with all its samples,
-//! read whole where it is loaded or resolved, and a texture that a pass reads is fetched whole once.
+//! Counted without compression or on-chip caches: an attachment is written whole with all its samples, and read whole
+//! where it is loaded or resolved. A texture that a pass reads is fetched whole once.
 
 use super::pipelines::{DEPTH_FORMAT, ORDER_FORMAT};
 use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
@@ -10,41 +10,41 @@ use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
 /// A texture that a pass draws into or reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attachment {
-    /// For people and debuggers.
+    /// Label for debuggers.
     pub label: &'static str,
-    /// Pixels.
+    /// Size, pixels.
     pub size: (u32, u32),
-    /// Of a pixel.
+    /// Samples per pixel.
     pub samples: u32,
     /// Texel format.
     pub format: wgpu::TextureFormat,
 }
 
-/// One pass.
+/// A render pass.
 #[derive(Clone, Debug)]
 pub struct Pass {
-    /// For people and debuggers.
+    /// Label for debuggers.
     pub label: &'static str,
-    /// Drawn into.
+    /// Attachments that it writes.
     pub writes: Vec<Attachment>,
-    /// Read by its shaders, or by the fixed function that resolves it.
+    /// Textures that its shaders or the resolve read.
     pub reads: Vec<Attachment>,
     /// Draw calls.
     pub draws: u32,
 }
 
-/// What decides the list.
+/// Parameters of the plan.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    /// Pixels of the picture.
+pub struct PassPlan {
+    /// Size of the picture, pixels.
     pub size: (u32, u32),
-    /// Pixels of the target, which it is stretched over where they are more.
+    /// Size of the target, pixels, to which a smaller picture is upscaled.
     pub target: (u32, u32),
     /// Samples per pixel.
     pub samples: u32,
-    /// Of the picture.
+    /// Format of the picture.
     pub format: wgpu::TextureFormat,
-    /// Texels of the shadows on the wall and on the floor; none without a room.
+    /// Texels of the shadows on the wall and on the floor; `None` without a gallery.
     pub planes: Option<[(u32, u32); 2]>,
     /// Draw calls on each of them.
     pub plane_draws: [u32; 2],
@@ -63,20 +63,20 @@ impl Attachment {
 }
 
 impl Pass {
-    /// Bytes moved.
+    /// Bytes read and written.
     pub fn bytes(&self) -> u64 {
         self.writes.iter().chain(&self.reads).map(Attachment::bytes).sum()
     }
 }
 
-impl Plan {
-    /// Shadow on a plane.
+impl PassPlan {
+    /// Attachments of the shadow on a plane: fractions and order.
     pub fn plane(texels: (u32, u32)) -> [Attachment; 2] {
         let of = |label, format| Attachment { label, size: texels, samples: 1, format };
         [of("plane shadow", PLANE_FORMAT), of("plane order", ORDER_FORMAT)]
     }
 
-    /// Shadow map of so many texels along a side: the order of what is drawn, and the same depths to be read.
+    /// Attachments of a shadow map with so many texels along a side: depth target, and the same depths for reading.
     pub fn shadow_map(side: u32) -> [Attachment; 2] {
         let of = |label, format| Attachment { label, size: (side, side), samples: 1, format };
         [of("shadow map", MAP_FORMAT), of("blocker map", BLOCKER_FORMAT)]
@@ -88,9 +88,9 @@ impl Plan {
         [of("samples", self.format), of("depth", DEPTH_FORMAT)]
     }
 
-    /// The picture before it is stretched.
-    pub fn smaller(&self) -> Attachment {
-        Attachment { label: "smaller", size: self.size, samples: 1, format: self.format }
+    /// The picture before upscaling.
+    pub fn scaled_target(&self) -> Attachment {
+        Attachment { label: "scaled", size: self.size, samples: 1, format: self.format }
     }
 
     /// The passes of a frame in which something moved.
@@ -105,7 +105,7 @@ impl Plan {
         let map = Self::shadow_map(self.map);
         shadows.push(map[1]);
         passes.push(Pass { label: "shadow map", writes: map.into(), reads: Vec::new(), draws: 1 });
-        // The room or the backdrop, the wires, the motes.
+        // The gallery or the backdrop, the wires, the dust.
         let draws = self.mesh_draws + 3;
         let writes = self.picture();
         passes.push(Pass { label: "picture", writes: writes.into(), reads: shadows, draws });
@@ -114,9 +114,9 @@ impl Plan {
             passes.push(Pass { label: "resolve", writes: vec![target], reads: vec![writes[0]], draws: 1 });
         }
         if self.size != self.target {
-            let smaller = self.smaller();
-            let target = Attachment { label: "target", size: self.target, ..smaller };
-            passes.push(Pass { label: "stretch", writes: vec![target], reads: vec![smaller], draws: 1 });
+            let scaled = self.scaled_target();
+            let target = Attachment { label: "target", size: self.target, ..scaled };
+            passes.push(Pass { label: "upscale", writes: vec![target], reads: vec![scaled], draws: 1 });
         }
         passes
     }

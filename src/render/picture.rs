@@ -1,22 +1,22 @@
-//! Pictures without a window: draw into an own texture, read it back.
+//! Headless rendering: draw into a texture, read it back.
 //!
-//! A file has time: a fine picture is drawn larger and made smaller in linear light, so that a thin tube of some model is
-//! a line and not a row of dashes.
+//! Files are supersampled: the picture is drawn larger and reduced in linear light, so that a thin tube of a mesh is a
+//! line and not a row of dashes.
 
 use super::textures::{to_linear, to_srgb};
-use super::{Frame, Gpu, Options, RenderError, Renderer};
+use super::{FrameInput, Gpu, Options, RenderError, Renderer};
 use soffio_exhibit::Exhibit;
 
 /// Format of a headless picture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
-/// Draws pictures of one exhibit. Built once, draws many.
+/// Draws pictures of one exhibit without a window.
 pub struct ImageRenderer {
     gpu: Gpu,
     renderer: Renderer,
     target: Option<Target>,
-    /// Pixels drawn for one of the picture, along each side.
-    finer: u32,
+    /// Pixels drawn for each pixel of the picture, along each side.
+    supersampling: u32,
 }
 
 /// Texture and read-back buffer of one size.
@@ -25,27 +25,30 @@ struct Target {
     texture: wgpu::Texture,
     view: wgpu::TextureView,
     buffer: wgpu::Buffer,
-    /// Bytes of a row in the buffer, padded as copies demand.
+    /// Bytes of a row in the buffer, with the padding that copies require.
     row: u32,
 }
 
 impl ImageRenderer {
-    /// Prepares an exhibit on a headless device; `adjust` may change the options that suit the device.
+    /// Prepares an exhibit on a headless device; `adjust` can change the default options.
+    ///
+    /// # Errors
+    /// Where there is no device, or the exhibit has too many bodies.
     pub fn new(exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Result<Self, RenderError> {
         Self::on(Gpu::headless()?, exhibit, adjust)
     }
 
-    /// Prepares an exhibit on this device.
+    /// Prepares an exhibit on this device, as [`Self::new`].
     pub fn on(gpu: Gpu, exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Result<Self, RenderError> {
         let mut options = Options::for_gpu(&gpu, FORMAT);
         adjust(&mut options);
         let renderer = Renderer::new(&gpu, exhibit, options)?;
-        Ok(Self { gpu, renderer, target: None, finer: 1 })
+        Ok(Self { gpu, renderer, target: None, supersampling: 1 })
     }
 
-    /// Draws so many pixels for each of the picture, along each side, wherever the device has textures that large.
-    pub fn finer(self, finer: u32) -> Self {
-        Self { finer: finer.max(1), ..self }
+    /// Draws `supersampling` pixels for each pixel of the picture, along each side, where the device has textures that large.
+    pub fn with_supersampling(self, supersampling: u32) -> Self {
+        Self { supersampling: supersampling.max(1), ..self }
     }
 
     /// The device.
@@ -53,27 +56,30 @@ impl ImageRenderer {
         &self.gpu
     }
 
-    /// What draws.
+    /// The renderer.
     pub fn renderer(&self) -> &Renderer {
         &self.renderer
     }
 
     /// Draws one frame.
-    pub fn draw(&mut self, frame: &Frame) -> Result<image::RgbaImage, RenderError> {
+    ///
+    /// # Errors
+    /// Where the size exceeds the device's limit, or the picture cannot be read back.
+    pub fn draw(&mut self, frame: &FrameInput) -> Result<image::RgbaImage, RenderError> {
         let (width, height) = frame.size;
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         if width == 0 || height == 0 || width.max(height) > limit {
             return Err(RenderError::Size { width, height, limit });
         }
-        let finer = self.finer.min(limit / width.max(height));
-        let frame = Frame { size: (finer * width, finer * height), ..*frame };
+        let supersampling = self.supersampling.min(limit / width.max(height));
+        let frame = FrameInput { size: (supersampling * width, supersampling * height), ..*frame };
         if self.target.as_ref().is_none_or(|target| target.size != frame.size) {
             self.target = Some(Target::new(&self.gpu, frame.size));
         }
         let Some(target) = &self.target else { unreachable!("made above") };
         self.renderer.draw(&self.gpu, &target.view, &frame);
         let drawn = target.read(&self.gpu)?;
-        Ok(if finer == 1 { drawn } else { means(&drawn, finer) })
+        Ok(if supersampling == 1 { drawn } else { means(&drawn, supersampling) })
     }
 }
 
@@ -114,7 +120,7 @@ impl Target {
         gpu.queue.submit([encoder.finish()]);
         let (sender, receiver) = std::sync::mpsc::channel();
         self.buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver lives until the poll below has run this.
+            // The receiver lives until the poll below has run this callback.
             let _ = sender.send(result);
         });
         gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| failed(&e))?;
@@ -131,8 +137,8 @@ impl Target {
     }
 }
 
-/// The picture whose pixels are means, in linear light, of what is drawn: weighed by a tent of two pixels' width, which
-/// lets a slanting line neither bead nor blur.
+/// Reduces a picture in linear light by a tent filter two pixels wide, under which a slanting line neither beads nor
+/// blurs.
 fn means(drawn: &image::RgbaImage, side: u32) -> image::RgbaImage {
     let linear: [f32; 256] = std::array::from_fn(|byte| to_linear(byte as f32 / 255.0));
     let (width, height, side) = (drawn.width() / side, drawn.height() / side, side as i32);
@@ -168,7 +174,7 @@ mod tests {
         let checks =
             image::RgbaImage::from_fn(8, 8, |x, y| image::Rgba([[0, 0, 0, 255], [255; 4]][(x + y) as usize % 2]));
         let grey = means(&checks, 2);
-        // sRGB of linear 0.5; at the rim the outermost pixels count for what would lie beyond.
+        // sRGB of linear 0.5; at the border the outermost pixels are repeated.
         assert_eq!(grey.dimensions(), (4, 4));
         assert_eq!(grey.get_pixel(1, 2).0, [188, 188, 188, 255]);
         for byte in 0..=255 {

@@ -1,55 +1,55 @@
-//! Shaders, bind group layouts and pipelines: the fixed state of every pass.
+//! Shader modules, bind group layouts and render pipelines of all passes.
 
 use std::collections::BTreeMap;
 
 use super::outlines::Ribbon;
-use super::scene::{State, Surface};
+use super::plate_shadows::ShadowInstance;
+use super::scene::{PipelineKey, SurfaceKind};
 use super::shadows::{BLOCKER_FORMAT, MAP_FORMAT, PLANE_FORMAT};
-use super::sheets::Shade;
 use super::vertex::Vertex;
 use super::wires::Segment;
 use super::{Gpu, Options, Tonemap};
 
-/// Depth of the picture: reversed, so floating.
+/// Depth of the picture, floating point because it is reversed.
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Order of the lamp samples in the plane shadows; 16 bits tell 65 thousand apart.
+/// Order of the lamp samples in the plane shadows; 16 bits distinguish 65 thousand.
 pub(super) const ORDER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
-/// Where the shader of the edges of plates begins.
+/// Entry point of the fragment shader of plate edges.
 const RIBBON_ENTRY: &str = "ribbon_fragment";
-/// Depth is reversed.
-const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::Greater;
+/// Depth is reversed: nearer is greater.
+const DEPTH_COMPARE: wgpu::CompareFunction = wgpu::CompareFunction::Greater;
 
-/// Layouts of the bind groups.
+/// Bind group layouts.
 pub(super) struct Layouts {
     pub frame: wgpu::BindGroupLayout,
     pub light: wgpu::BindGroupLayout,
     pub material: wgpu::BindGroupLayout,
     pub rims: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
-    pub stretch: wgpu::BindGroupLayout,
+    pub upscale: wgpu::BindGroupLayout,
 }
 
-/// Pipelines of all passes. Those of the meshes are made when a work first asks for their state, and kept for the next.
+/// Pipelines of all passes. Those of the meshes are created when an exhibit first needs them, and kept.
 pub(super) struct Pipelines {
-    /// For each state of a scene's parts what is drawn, one after the other: one pipeline, three of glass.
-    forward: BTreeMap<State, Vec<wgpu::RenderPipeline>>,
-    /// Edges of the outlined ones.
-    ribbons: BTreeMap<State, wgpu::RenderPipeline>,
-    /// What those are made of.
+    /// Pipelines of each key, drawn one after the other: one, or three for glass.
+    forward: BTreeMap<PipelineKey, Vec<wgpu::RenderPipeline>>,
+    /// Pipelines of the plate edges of outlined keys.
+    ribbons: BTreeMap<PipelineKey, wgpu::RenderPipeline>,
+    /// Shader module and layout of the mesh pipelines.
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
-    /// All six faces.
-    pub room: wgpu::RenderPipeline,
+    /// The six faces of the gallery.
+    pub gallery: wgpu::RenderPipeline,
     pub backdrop: wgpu::RenderPipeline,
     pub wires: wgpu::RenderPipeline,
-    pub motes: wgpu::RenderPipeline,
-    /// For the wall and the floor.
+    pub dust: wgpu::RenderPipeline,
+    /// One for the wall and one for the floor.
     pub plane_meshes: [wgpu::RenderPipeline; 2],
     pub plane_wires: [wgpu::RenderPipeline; 2],
-    pub plane_sheets: [wgpu::RenderPipeline; 2],
+    pub plane_plates: [wgpu::RenderPipeline; 2],
     pub shadow_map: wgpu::RenderPipeline,
     pub resolve: wgpu::RenderPipeline,
-    pub stretch: wgpu::RenderPipeline,
+    pub upscale: wgpu::RenderPipeline,
 }
 
 const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
@@ -75,12 +75,12 @@ const RIBBON: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
         6 => Uint32, 7 => Uint32
     ],
 };
-const SHADE: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
-    array_stride: size_of::<Shade>() as u64,
+const SHADOW_INSTANCE_VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+    array_stride: size_of::<ShadowInstance>() as u64,
     step_mode: wgpu::VertexStepMode::Instance,
     attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Uint32x4],
 };
-const MOTE: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+const DUST_VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: 16,
     step_mode: wgpu::VertexStepMode::Instance,
     attributes: &wgpu::vertex_attr_array![0 => Float32x4],
@@ -141,21 +141,21 @@ impl Layouts {
                     sampler,
                     sampler,
                     sampler,
-                    // With these two a fragment reads 15 textures; 16 is what every device has.
+                    // With these two a fragment shader reads 15 textures; 16 is what every device has.
                     images,
                     images,
                     sampler,
                 ],
             ),
-            stretch: group("stretch", &[image, sampler]),
+            upscale: group("upscale", &[image, sampler]),
             rims: group("rims", &[(fragment, texture(numbers, TextureViewDimension::D2, false))]),
             resolve: group("resolve", &[(fragment, texture(numbers, TextureViewDimension::D2, true))]),
         }
     }
 }
 
-/// What differs between the pipelines.
-struct Fixed<'a> {
+/// The state in which pipelines differ.
+struct PipelineState<'a> {
     label: &'a str,
     module: &'a wgpu::ShaderModule,
     layout: &'a wgpu::PipelineLayout,
@@ -168,34 +168,34 @@ struct Fixed<'a> {
     samples: u32,
 }
 
-fn pipeline(device: &wgpu::Device, state: Fixed) -> wgpu::RenderPipeline {
-    let compilation = wgpu::PipelineCompilationOptions { constants: state.constants, ..Default::default() };
-    let target = state.color.map(|(format, blend)| wgpu::ColorTargetState {
+fn pipeline(device: &wgpu::Device, key: PipelineState) -> wgpu::RenderPipeline {
+    let compilation = wgpu::PipelineCompilationOptions { constants: key.constants, ..Default::default() };
+    let target = key.color.map(|(format, blend)| wgpu::ColorTargetState {
         format,
         blend,
-        // Alpha stays as cleared: the picture is opaque whatever was blended into it.
+        // Alpha stays as cleared: the picture is opaque.
         write_mask: wgpu::ColorWrites::COLOR,
     });
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(state.label),
-        layout: Some(state.layout),
+        label: Some(key.label),
+        layout: Some(key.layout),
         vertex: wgpu::VertexState {
-            module: state.module,
-            entry_point: Some(state.entries.0),
+            module: key.module,
+            entry_point: Some(key.entries.0),
             compilation_options: compilation.clone(),
-            buffers: &[state.buffer],
+            buffers: &[key.buffer],
         },
-        primitive: wgpu::PrimitiveState { cull_mode: state.cull, ..Default::default() },
-        depth_stencil: state.depth.map(|(format, write, compare)| wgpu::DepthStencilState {
+        primitive: wgpu::PrimitiveState { cull_mode: key.cull, ..Default::default() },
+        depth_stencil: key.depth.map(|(format, write, compare)| wgpu::DepthStencilState {
             format,
             depth_write_enabled: Some(write),
             depth_compare: Some(compare),
             stencil: Default::default(),
             bias: Default::default(),
         }),
-        multisample: wgpu::MultisampleState { count: state.samples, ..Default::default() },
-        fragment: state.entries.1.map(|entry| wgpu::FragmentState {
-            module: state.module,
+        multisample: wgpu::MultisampleState { count: key.samples, ..Default::default() },
+        fragment: key.entries.1.map(|entry| wgpu::FragmentState {
+            module: key.module,
             entry_point: Some(entry),
             compilation_options: compilation,
             targets: std::slice::from_ref(&target),
@@ -205,26 +205,26 @@ fn pipeline(device: &wgpu::Device, state: Fixed) -> wgpu::RenderPipeline {
     })
 }
 
-/// Blending by one factor each.
+/// Blending with one factor for source and destination each.
 fn blend(src_factor: wgpu::BlendFactor, dst_factor: wgpu::BlendFactor) -> Option<wgpu::BlendState> {
     let component = wgpu::BlendComponent { src_factor, dst_factor, operation: wgpu::BlendOperation::Add };
     Some(wgpu::BlendState { color: component, alpha: component })
 }
 
-/// What the options decide in the shaders of the picture.
+/// Shader constants that follow from the options.
 fn constants(options: &Options) -> [(&'static str, f64); 3] {
-    let tonemap = match options.look.tonemap {
+    let tonemap = match options.lighting.tonemap {
         Tonemap::Neutral => 0.0,
         Tonemap::Aces => 1.0,
         Tonemap::Agx => 2.0,
         Tonemap::Clamp => 3.0,
     };
-    let area_light = if options.look.area_light.is_some() { 1.0 } else { 0.0 };
-    let gallery = options.look.environment.is_none() && options.look.background.is_none();
+    let area_light = if options.lighting.area_light.is_some() { 1.0 } else { 0.0 };
+    let gallery = options.lighting.environment.is_none() && options.lighting.background.is_none();
     [("TONEMAP", tonemap), ("AREA_LIGHT", area_light), ("GALLERY", if gallery { 1.0 } else { 0.0 })]
 }
 
-/// The layout of a pipeline that binds these groups.
+/// A pipeline layout with these bind groups.
 fn pipeline_layout(device: &wgpu::Device, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
     let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -234,19 +234,19 @@ fn pipeline_layout(device: &wgpu::Device, label: &str, groups: &[&wgpu::BindGrou
     })
 }
 
-/// Shadows of meshes, wires and sheets, each on the wall and on the floor.
+/// Pipelines of the shadows of meshes, wires and plates, each on the wall and on the floor.
 fn plane_pipelines(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
     layouts: &Layouts,
 ) -> [[wgpu::RenderPipeline; 2]; 3] {
-    let sheet_layout = pipeline_layout(device, "sheets", &[&layouts.frame, &layouts.rims]);
-    let plane = |label, entries, buffer: wgpu::VertexBufferLayout<'static>, layout, how: (_, bool), blend| {
+    let plate_shadow_layout = pipeline_layout(device, "plate shadows", &[&layouts.frame, &layouts.rims]);
+    let plane = |label, entries, buffer: wgpu::VertexBufferLayout<'static>, layout, pass: (_, bool), blend| {
         [0.0, 1.0].map(|plane| {
             pipeline(
                 device,
-                Fixed {
+                PipelineState {
                     label,
                     module,
                     layout,
@@ -254,7 +254,7 @@ fn plane_pipelines(
                     buffer: Some(buffer.clone()),
                     constants: &[("PLANE", plane)],
                     cull: None,
-                    depth: Some((ORDER_FORMAT, how.1, how.0)),
+                    depth: Some((ORDER_FORMAT, pass.1, pass.0)),
                     color: Some((PLANE_FORMAT, blend)),
                     samples: 1,
                 },
@@ -266,16 +266,16 @@ fn plane_pipelines(
     let covering = blend(wgpu::BlendFactor::OneMinusDst, wgpu::BlendFactor::One);
     let mesh = ("mesh_vertex", Some("mesh_fragment"));
     let wire = ("wire_vertex", Some("wire_fragment"));
-    let sheet = ("sheet_vertex", Some("sheet_fragment"));
+    let shadow_plate = ("plate_shadow_vertex", Some("plate_shadow_fragment"));
     [
         plane("plane meshes", mesh, VERTEX, layout, once, adding),
         plane("plane wires", wire, SEGMENT, layout, always, adding),
-        plane("plane sheets", sheet, SHADE, &sheet_layout, always, covering),
+        plane("plane plates", shadow_plate, SHADOW_INSTANCE_VERTEX, &plate_shadow_layout, always, covering),
     ]
 }
 
 impl Pipelines {
-    /// All but those of the meshes.
+    /// All pipelines except those of the meshes.
     pub fn new(gpu: &Gpu, layouts: &Layouts, options: &Options) -> Self {
         let device = &gpu.device;
         let module = |label: &str| {
@@ -286,43 +286,43 @@ impl Pipelines {
         let shadow_layout = layout("shadow", &[&layouts.frame]);
         let light_layout = layout("light", &[&layouts.frame, &layouts.light]);
         let resolve_layout = layout("resolve", &[&layouts.resolve]);
-        let stretch_layout = layout("stretch", &[&layouts.stretch]);
-        let (room, shadows, wires) = (module("room"), module("shadows"), module("wires"));
-        let (motes, resolve, stretch) = (module("motes"), module("resolve"), module("stretch"));
+        let upscale_layout = layout("upscale", &[&layouts.upscale]);
+        let (gallery, shadows, wires) = (module("gallery"), module("shadows"), module("wires"));
+        let (dust, resolve, upscale) = (module("dust"), module("resolve"), module("upscale"));
         let adding = blend(wgpu::BlendFactor::One, wgpu::BlendFactor::One);
         let constants = constants(options);
-        // A pass into the picture itself.
-        let base = || Fixed {
-            label: "room",
-            module: &room,
+        // A pass into the picture.
+        let base = || PipelineState {
+            label: "gallery",
+            module: &gallery,
             layout: &light_layout,
             entries: ("vertex", Some("fragment")),
             buffer: None,
             constants: &constants,
             cull: None,
-            depth: Some((DEPTH_FORMAT, true, NEARER)),
+            depth: Some((DEPTH_FORMAT, true, DEPTH_COMPARE)),
             color: Some((options.format, None)),
             samples: options.msaa,
         };
         let overlay = |label, module, buffer, constants, blend| {
-            let depth = Some((DEPTH_FORMAT, false, NEARER));
+            let depth = Some((DEPTH_FORMAT, false, DEPTH_COMPARE));
             let color = Some((options.format, blend));
-            pipeline(device, Fixed { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
+            pipeline(device, PipelineState { label, module, buffer: Some(buffer), constants, depth, color, ..base() })
         };
-        let [plane_meshes, plane_wires, plane_sheets] = plane_pipelines(device, &shadows, &shadow_layout, layouts);
+        let [plane_meshes, plane_wires, plane_plates] = plane_pipelines(device, &shadows, &shadow_layout, layouts);
         // A pass over the whole target.
         let whole = |label, module, layout| {
-            pipeline(device, Fixed { label, module, layout, constants: &[], depth: None, samples: 1, ..base() })
+            pipeline(device, PipelineState { label, module, layout, constants: &[], depth: None, samples: 1, ..base() })
         };
         Self {
             forward: BTreeMap::new(),
             ribbons: BTreeMap::new(),
             module: module("forward"),
             layout: layout("material", &[&layouts.frame, &layouts.light, &layouts.material]),
-            room: pipeline(device, base()),
+            gallery: pipeline(device, base()),
             backdrop: pipeline(
                 device,
-                Fixed {
+                PipelineState {
                     label: "backdrop",
                     entries: ("backdrop_vertex", Some("backdrop_fragment")),
                     depth: Some((DEPTH_FORMAT, false, wgpu::CompareFunction::GreaterEqual)),
@@ -330,76 +330,76 @@ impl Pipelines {
                 },
             ),
             wires: overlay("wires", &wires, SEGMENT, &constants, Some(wgpu::BlendState::ALPHA_BLENDING)),
-            motes: overlay("motes", &motes, MOTE, &[], adding),
+            dust: overlay("dust", &dust, DUST_VERTEX, &[], adding),
             plane_meshes,
             plane_wires,
-            plane_sheets,
+            plane_plates: plane_plates,
             shadow_map: pipeline(
                 device,
-                Fixed {
+                PipelineState {
                     label: "shadow map",
                     module: &shadows,
                     layout: &shadow_layout,
                     entries: ("map_vertex", Some("map_fragment")),
                     buffer: Some(VERTEX),
                     constants: &[],
-                    depth: Some((MAP_FORMAT, true, NEARER)),
+                    depth: Some((MAP_FORMAT, true, DEPTH_COMPARE)),
                     color: Some((BLOCKER_FORMAT, None)),
                     samples: 1,
                     ..base()
                 },
             ),
             resolve: whole("resolve", &resolve, &resolve_layout),
-            stretch: whole("stretch", &stretch, &stretch_layout),
+            upscale: whole("upscale", &upscale, &upscale_layout),
         }
     }
 
-    /// Makes what `states` need and no work needed before.
-    pub fn cover(&mut self, gpu: &Gpu, options: &Options, states: impl Iterator<Item = State>) {
-        for state in states {
-            if !self.forward.contains_key(&state) {
-                let made = self.meshes(&gpu.device, options, state);
-                self.forward.insert(state, made);
-                if state.outlined {
+    /// Creates the missing pipelines for these keys.
+    pub fn ensure(&mut self, gpu: &Gpu, options: &Options, states: impl Iterator<Item = PipelineKey>) {
+        for key in states {
+            if !self.forward.contains_key(&key) {
+                let made = self.meshes(&gpu.device, options, key);
+                self.forward.insert(key, made);
+                if key.outlined {
                     let blend = Some(wgpu::BlendState::ALPHA_BLENDING);
-                    let how = How { entry: RIBBON_ENTRY, cull: None, write: false, blend };
-                    let made = self.mesh(&gpu.device, options, state, how);
-                    self.ribbons.insert(state, made);
+                    let pass = MeshPass { entry: RIBBON_ENTRY, cull: None, write: false, blend };
+                    let made = self.mesh(&gpu.device, options, key, pass);
+                    self.ribbons.insert(key, made);
                 }
             }
         }
     }
 
-    /// What draws the parts of a state that a work asked for.
-    pub fn forward(&self, state: &State) -> &[wgpu::RenderPipeline] {
-        self.forward.get(state).map_or(&[], Vec::as_slice)
+    /// The mesh pipelines of a key that [`Self::ensure`] has seen.
+    pub fn forward(&self, key: &PipelineKey) -> &[wgpu::RenderPipeline] {
+        self.forward.get(key).map_or(&[], Vec::as_slice)
     }
 
-    /// What draws the edges of the parts of an outlined state.
-    pub fn ribbons(&self, state: &State) -> Option<&wgpu::RenderPipeline> {
-        self.ribbons.get(state)
+    /// The pipeline of the plate edges of an outlined key.
+    pub fn ribbons(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
+        self.ribbons.get(key)
     }
 
-    /// The states that are covered.
-    pub fn states(&self) -> Vec<State> {
+    /// The keys that have pipelines.
+    pub fn states(&self) -> Vec<PipelineKey> {
         self.forward.keys().copied().collect()
     }
 
-    /// How many there are.
+    /// Number of pipelines.
     pub fn count(&self) -> usize {
-        let fixed = self.plane_meshes.len() + self.plane_wires.len() + self.plane_sheets.len() + 7;
+        let fixed = self.plane_meshes.len() + self.plane_wires.len() + self.plane_plates.len() + 7;
         fixed + self.ribbons.len() + self.forward.values().map(Vec::len).sum::<usize>()
     }
 
-    fn meshes(&self, device: &wgpu::Device, options: &Options, state: State) -> Vec<wgpu::RenderPipeline> {
+    fn meshes(&self, device: &wgpu::Device, options: &Options, key: PipelineKey) -> Vec<wgpu::RenderPipeline> {
         use wgpu::BlendFactor::{Dst, One, Zero};
-        let mesh = |entry, cull, write, blend| self.mesh(device, options, state, How { entry, cull, write, blend });
-        let cull = (!state.double_sided).then_some(wgpu::Face::Back);
-        match state.surface {
-            Surface::Opaque => vec![mesh("fragment", cull, true, None)],
-            Surface::Blend => vec![mesh("fragment", cull, false, Some(wgpu::BlendState::ALPHA_BLENDING))],
-            // The far wall's gloss, what both walls let through, the near wall's gloss.
-            Surface::Glass => vec![
+        let mesh = |entry, cull, write, blend| self.mesh(device, options, key, MeshPass { entry, cull, write, blend });
+        let cull = (!key.double_sided).then_some(wgpu::Face::Back);
+        match key.kind {
+            SurfaceKind::Opaque => vec![mesh("fragment", cull, true, None)],
+            SurfaceKind::Blend => vec![mesh("fragment", cull, false, Some(wgpu::BlendState::ALPHA_BLENDING))],
+            // Gloss of the far wall, transmission of both walls, gloss of the near wall.
+            SurfaceKind::Glass => vec![
                 mesh("gloss_fragment", Some(wgpu::Face::Front), false, blend(One, One)),
                 mesh("tint_fragment", None, false, blend(Dst, Zero)),
                 mesh("gloss_fragment", Some(wgpu::Face::Back), false, blend(One, One)),
@@ -407,33 +407,33 @@ impl Pipelines {
         }
     }
 
-    /// One pipeline of meshes of a state.
-    fn mesh(&self, device: &wgpu::Device, options: &Options, state: State, how: How) -> wgpu::RenderPipeline {
+    /// The mesh pipeline of a key in one pass.
+    fn mesh(&self, device: &wgpu::Device, options: &Options, key: PipelineKey, pass: MeshPass) -> wgpu::RenderPipeline {
         let [a, b, c] = constants(options);
         let flag = |set| if set { 1.0 } else { 0.0 };
-        let ribbon = how.entry == RIBBON_ENTRY;
-        let (layers, details) = (("LAYERS", flag(state.layers)), ("DETAILS", flag(state.details)));
-        let constants = [a, b, c, layers, details, ("OUTLINED", flag(state.outlined)), ("RIBBON", flag(ribbon))];
+        let ribbon = pass.entry == RIBBON_ENTRY;
+        let (layers, details) = (("LAYERS", flag(key.layers)), ("DETAILS", flag(key.details)));
+        let constants = [a, b, c, layers, details, ("OUTLINED", flag(key.outlined)), ("RIBBON", flag(ribbon))];
         pipeline(
             device,
-            Fixed {
+            PipelineState {
                 label: "forward",
                 module: &self.module,
                 layout: &self.layout,
-                entries: (if ribbon { "ribbon_vertex" } else { "vertex" }, Some(how.entry)),
+                entries: (if ribbon { "ribbon_vertex" } else { "vertex" }, Some(pass.entry)),
                 buffer: Some(if ribbon { RIBBON } else { VERTEX }),
                 constants: &constants,
-                cull: how.cull,
-                depth: Some((DEPTH_FORMAT, how.write, NEARER)),
-                color: Some((options.format, how.blend)),
+                cull: pass.cull,
+                depth: Some((DEPTH_FORMAT, pass.write, DEPTH_COMPARE)),
+                color: Some((options.format, pass.blend)),
                 samples: options.msaa,
             },
         )
     }
 }
 
-/// How triangles of a mesh are drawn: the entry of the shader, the side left out, whether depth is written, the blending.
-struct How {
+/// A pass over meshes: entry point, culled side, depth write, and blending.
+struct MeshPass {
     entry: &'static str,
     cull: Option<wgpu::Face>,
     write: bool,

@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use soffio_exhibit::model::{Light, LightKind};
 
-/// Punctual lights of a model that are lit; the rest stay dark.
+/// Most punctual lights of a model; further ones stay dark.
 pub(super) const MAX_PUNCTUAL: usize = 8;
 
 /// A punctual light in the frame of its body.
@@ -19,7 +19,7 @@ pub(super) struct Punctual {
     kind: LightKind,
 }
 
-/// A punctual light.
+/// A punctual light in the layout of the shaders.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct PunctualUniform {
@@ -33,7 +33,7 @@ pub(super) struct PunctualUniform {
 }
 
 impl Punctual {
-    /// A light of a node in a body's frame.
+    /// A light of a node, in a body's frame.
     pub fn new(light: &Light, frame: usize, frame_from_node: Mat4) -> Self {
         let m = frame_from_node;
         Self {
@@ -46,7 +46,7 @@ impl Punctual {
         }
     }
 
-    /// The light where its frame is now.
+    /// The light at the present pose of its frame.
     pub fn uniform(&self, world_from_frame: Mat4) -> PunctualUniform {
         let (kind, cone) = match self.kind {
             LightKind::Directional => (0.0, Vec4::ZERO),

@@ -1,35 +1,35 @@
-//! The light in the gallery: what the fields and lamps send to a point, and what the walls send back.
+//! Radiosity of the gallery: direct light of fields and lamps, and reflections between the walls.
 //!
-//! A face gets from a polygon of radiance L the irradiance `E = L/2 Σ γᵢ (eᵢ · n)`, γᵢ the angle an edge subtends and eᵢ
-//! the normal of its plane through the receiver (Lambert 1760; Arvo 1995). The walls' answer is the radiosity system
-//! `B = ρ (E + Σ F B)` of the six faces, each of one mean radiosity (Goral et al. 1984); a point sees the faces by their
-//! exact form factors, so the wall darkens towards the floor.
+//! A polygon of radiance L gives a face the irradiance `E = L/2 Σ γᵢ (eᵢ · n)`, γᵢ the angle an edge subtends and eᵢ
+//! the normal of its plane through the receiver (Lambert 1760; Arvo 1995). Reflections are the radiosity system `B = ρ
+//! (E + Σ F B)` of the six faces, each of one mean radiosity (Goral et al. 1984). A point receives light from the faces
+//! by their exact form factors, so the wall darkens towards the floor.
 
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::gallery::{FACES, FLOOR_ALBEDO, Face, Room, WALL_ALBEDO, WALL_AMBIENT};
+use super::gallery::{FACES, FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO, WALL_AMBIENT};
 
-/// Texels along each side of a light map layer; its light has no edge finer than that.
+/// Texels along each side of a light map layer; its light has no sharper edges.
 pub const LIGHTMAP_SIZE: u32 = 32;
 
-impl Room {
-    /// Scales the fields until the wall behind the work has its ambient level, whatever the room's size, and solves
-    /// what the faces send one another. Light is additive, so fields and lamps are solved apart.
-    pub(super) fn balance(&mut self) {
-        let w = self.work - self.center;
+impl Gallery {
+    /// Scales the fields until the wall behind the exhibit has its ambient level, whatever the gallery's size, and
+    /// solves the reflections. Light is additive, so fields and lamps are solved separately.
+    pub(super) fn solve_radiosity(&mut self) {
+        let w = self.exhibit_center - self.center;
         let foot = Vec3::new(w.dot(self.x), w.y, -self.half.z);
         let level = |e: Vec3| (WALL_ALBEDO / PI * e).element_sum() / 3.0;
-        let of_lamps = self.solve(|room, point, normal| {
-            let world_normal = room.to_world(normal) - room.center;
-            room.lamp_irradiance(room.to_world(point), world_normal)
+        let of_lamps = self.solve(|gallery, point, normal| {
+            let world_normal = gallery.to_world(normal) - gallery.center;
+            gallery.lamp_irradiance(gallery.to_world(point), world_normal)
         });
         let of_fields = self.solve(Self::direct_irradiance);
         let by_lamps = level(self.reflected_irradiance(&of_lamps, foot, Vec3::Z));
         let by_fields =
             level(self.reflected_irradiance(&of_fields, foot, Vec3::Z) + self.direct_irradiance(foot, Vec3::Z));
-        // In a very small room the lamps' own bounce may already be enough; a little window light always stays.
+        // In a very small gallery the lamps' reflections may already suffice; a little window light always stays.
         let gain = ((WALL_AMBIENT - by_lamps) / by_fields).max(0.1 * WALL_AMBIENT / by_fields);
         for field in &mut self.fields {
             field.radiance *= gain;
@@ -48,7 +48,7 @@ impl Room {
             points.map(|point| direct(self, point, normal)).sum::<Vec3>() / 16.0
         });
         let mut radiosity = [Vec3::ZERO; 6];
-        // Each round adds one reflection; 0.8⁶⁰ is below a millionth.
+        // Each iteration adds one reflection; 0.8⁶⁰ is below a millionth.
         for _ in 0..60 {
             radiosity = std::array::from_fn(|i| {
                 let [_, _, c] = self.face_axes(FACES[i]);
@@ -69,7 +69,7 @@ impl Room {
         })
     }
 
-    /// Irradiance at a point of a face with its normal (room frame) from the fields alone.
+    /// Irradiance at a point of a face with its normal (gallery frame) from the fields alone.
     fn direct_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
         self.fields.iter().fold(Vec3::ZERO, |sum, field| {
             let [u, v, c] = self.face_axes(field.face);
@@ -83,7 +83,7 @@ impl Room {
         })
     }
 
-    /// Irradiance at a point of a face without the lamps' first light.
+    /// Irradiance at a point of a face without the direct light of the lamps.
     fn field_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
         self.direct_irradiance(point, normal) + self.reflected_irradiance(&self.radiosity, point, normal)
     }
@@ -101,7 +101,7 @@ impl Room {
         sum
     }
 
-    /// Light map of all faces, RGB irradiance without lamps and in A the radiance of a field, face by face.
+    /// Light map of all faces, face by face: RGB irradiance without lamps, A the radiance of a field.
     pub fn lightmap(&self) -> Vec<[f32; 4]> {
         let n = LIGHTMAP_SIZE;
         let mut texels = Vec::with_capacity((6 * n * n) as usize);
@@ -119,7 +119,7 @@ impl Room {
         texels
     }
 
-    /// Radiance of the fields at a point of a face, with edges a little soft.
+    /// Radiance of the fields at a point of a face, with slightly soft edges.
     fn glow(&self, face: Face, at: Vec2) -> Vec3 {
         self.fields.iter().filter(|f| f.face == face).fold(Vec3::ZERO, |sum, field| {
             let inside = (field.half - (at - field.center).abs()) / 0.03;
@@ -127,12 +127,12 @@ impl Room {
         })
     }
 
-    /// Radiance that reaches the centre of the work from a world direction (unit).
+    /// Radiance that reaches the centre of the exhibit from a world direction (unit).
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
         let d = Vec3::new(direction.dot(self.x), direction.y, direction.dot(self.z));
-        let w = self.work - self.center;
+        let w = self.exhibit_center - self.center;
         let origin = Vec3::new(w.dot(self.x), w.y, w.dot(self.z));
-        // The face the ray leaves the box through: the nearest of the three planes it runs towards.
+        // The face through which the ray leaves the box: the nearest of the three planes ahead.
         let to = (self.half * Vec3::new(sign(d.x), sign(d.y), sign(d.z)) - origin)
             / d.map(|c| if c.abs() < 1e-9 { 1e-9 } else { c });
         let t = to.min_element();
@@ -165,10 +165,10 @@ fn sign(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// Form factor of a planar polygon seen from `point` with `normal`: (1/2π) Σ γᵢ (eᵢ · n), cut at the horizon. The
-/// direction of its outline does not matter.
+/// Form factor of a planar polygon seen from `point` with `normal`: (1/2π) Σ γᵢ (eᵢ · n), clipped at the horizon. The
+/// winding of its outline does not matter.
 pub fn polygon_factor(corners: &[Vec3], point: Vec3, normal: Vec3) -> f32 {
-    // Sutherland–Hodgman against the receiver's horizon; a quad grows to at most five corners.
+    // Sutherland–Hodgman clipping at the receiver's horizon; a quadrilateral gets at most five corners.
     let mut clipped = [Vec3::ZERO; 8];
     let mut count = 0;
     for (i, &corner) in corners.iter().enumerate() {
@@ -221,17 +221,18 @@ mod tests {
     fn the_wall_behind_the_work_has_its_level_and_darkens_towards_the_floor() {
         // Single precision over a few hundred terms.
         const TOLERANCE: f32 = 1e-3;
-        let room = Room::around(&soffio_exhibit::Exhibit::of_model(Default::default()));
-        let w = room.work - room.center;
+        let gallery = Gallery::around(&soffio_exhibit::Exhibit::from_model(Default::default()));
+        let w = gallery.exhibit_center - gallery.center;
         let level = |y: f32| {
-            let e = room.field_irradiance(Vec3::new(w.dot(room.x), y, -room.half.z), Vec3::Z);
+            let e = gallery.field_irradiance(Vec3::new(w.dot(gallery.x), y, -gallery.half.z), Vec3::Z);
             (WALL_ALBEDO / PI * e).element_sum() / 3.0
         };
         assert!((level(w.y) / WALL_AMBIENT - 1.0).abs() < TOLERANCE, "{}", level(w.y));
-        assert!(level(-room.half.y * 0.99) < level(w.y), "the floor is darker than the walls");
-        // Looking straight at that point from the work shows the same radiance.
-        let seen = room.radiance(-room.z);
-        let lamps = room.lamp_irradiance(room.to_world(Vec3::new(w.dot(room.x), w.y, -room.half.z)), room.z);
+        assert!(level(-gallery.half.y * 0.99) < level(w.y), "the floor is darker than the walls");
+        // The view from the exhibit straight at that point shows the same radiance.
+        let seen = gallery.radiance(-gallery.z);
+        let lamps =
+            gallery.lamp_irradiance(gallery.to_world(Vec3::new(w.dot(gallery.x), w.y, -gallery.half.z)), gallery.z);
         let expected = level(w.y) + (WALL_ALBEDO / PI * lamps).element_sum() / 3.0;
         assert!((seen.element_sum() / 3.0 - expected).abs() < TOLERANCE, "{seen} {expected}");
     }
@@ -240,10 +241,10 @@ mod tests {
     fn an_enclosure_of_one_grey_is_an_integrating_sphere() {
         // E = 1 on all faces, one albedo: B = ρ / (1 − ρ) exactly where form factors sum to one.
         const TOLERANCE: f32 = 1e-3;
-        let room = Room::around(&soffio_exhibit::Exhibit::of_model(Default::default()));
+        let gallery = Gallery::around(&soffio_exhibit::Exhibit::from_model(Default::default()));
         for face in FACES {
-            let [_, _, c] = room.face_axes(face);
-            let sum = room.reflected_irradiance(&[Vec3::ONE; 6], c, -c.normalize());
+            let [_, _, c] = gallery.face_axes(face);
+            let sum = gallery.reflected_irradiance(&[Vec3::ONE; 6], c, -c.normalize());
             assert!((sum.x - 1.0).abs() < TOLERANCE, "{face:?} {sum}");
         }
     }

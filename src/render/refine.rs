@@ -1,6 +1,6 @@
-//! Finer triangles where light is baked into corners: no edge longer than a limit.
+//! Mesh refinement for baked light: halves edges until none is longer than a limit.
 //!
-//! Whether an edge is halved depends on its own two ends alone, so triangles on both sides of it, of one mesh or of two,
+//! Whether an edge is halved depends only on its own two ends. So triangles on both sides of it, of one mesh or of two,
 //! agree, and no gap opens.
 
 use std::collections::HashMap;
@@ -10,20 +10,20 @@ use glam::Vec4;
 use super::scene::Scene;
 use super::vertex::Vertex;
 
-/// Halvings at most: an edge then is a 64th of what it was.
-const MOST_ROUNDS: u32 = 6;
+/// Most passes: an edge is then a 64th of its length.
+const MAX_PASSES: u32 = 6;
 
 impl Scene {
-    /// Halves edges longer than `longest`, m, again and again, as long as there are no more than `most` corners.
+    /// Halves edges longer than `longest`, m, repeatedly, as long as there are at most `most` vertices.
     pub fn refine(&mut self, longest: f32, most: usize) {
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_PASSES {
             if self.vertices.len() > most || !self.halve(longest) {
                 return;
             }
         }
     }
 
-    /// Halves each edge that is too long, once; was there any?
+    /// Halves each edge that is too long, once; returns whether there was any.
     fn halve(&mut self, longest: f32) -> bool {
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
         let vertices = &mut self.vertices;
@@ -38,9 +38,9 @@ impl Scene {
         };
         let mut indices = Vec::with_capacity(2 * self.indices.len());
         let (mut opaque, mut casters) = (0, 0);
-        for part in &mut self.parts {
+        for batch in &mut self.batches {
             let start = indices.len() as u32;
-            for t in self.indices[part.indices.start as usize..part.indices.end as usize].chunks_exact(3) {
+            for t in self.indices[batch.indices.start as usize..batch.indices.end as usize].chunks_exact(3) {
                 let [a, b, c] = [t[0], t[1], t[2]];
                 match (middle(a, b), middle(b, c), middle(c, a)) {
                     (None, None, None) => indices.extend([a, b, c]),
@@ -56,20 +56,20 @@ impl Scene {
                 }
             }
             let end = indices.len() as u32;
-            if part.indices.end <= self.opaque {
+            if batch.indices.end <= self.opaque_end {
                 opaque = end;
             }
-            if part.indices.end <= self.casters {
+            if batch.indices.end <= self.casters_end {
                 casters = end;
             }
-            part.indices = start..end;
+            batch.indices = start..end;
         }
-        (self.indices, self.opaque, self.casters) = (indices, opaque, casters);
+        (self.indices, self.opaque_end, self.casters_end) = (indices, opaque, casters);
         !middles.is_empty()
     }
 }
 
-/// The corner half way between two.
+/// The vertex half way between two.
 fn between(p: &Vertex, q: &Vertex) -> Vertex {
     let mean = |a: [f32; 4], b: [f32; 4]| (0.5 * (Vec4::from(a) + Vec4::from(b))).to_array();
     let along = mean(p.tangent, q.tangent);
@@ -96,8 +96,8 @@ mod tests {
         let (_, mut scene) = of_primitive(hollow_cube(), Vec::new());
         let before = scene.vertices.len();
         scene.refine(LONGEST, 100_000);
-        assert!(scene.vertices.len() > 10 * before && scene.opaque as usize == scene.indices.len());
-        // By place: where faces meet, each has corners of its own.
+        assert!(scene.vertices.len() > 10 * before && scene.opaque_end as usize == scene.indices.len());
+        // By position: where faces meet, each has vertices of its own.
         let key = |i: u32| scene.vertices[i as usize].position.to_array().map(f32::to_bits);
         let mut sides: HashMap<_, i32> = HashMap::new();
         for t in scene.indices.chunks_exact(3) {

@@ -1,11 +1,11 @@
-//! Textures to draw into, and textures of numbers.
+//! Creation of render targets and data textures.
 
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
 use super::passes::Attachment;
 
-/// A texture to draw into.
+/// A render target.
 pub(super) fn attachment(device: &wgpu::Device, of: Attachment, usage: wgpu::TextureUsages) -> wgpu::TextureView {
     let descriptor = wgpu::TextureDescriptor {
         label: Some(of.label),
@@ -25,7 +25,7 @@ pub(super) fn half4(v: [f32; 4]) -> [u16; 4] {
     v.map(|x| half::f16::from_f32(x).to_bits())
 }
 
-/// A sampler between texels and levels.
+/// A linear sampler, also between mip levels.
 pub(super) fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
     device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
@@ -35,7 +35,7 @@ pub(super) fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
     })
 }
 
-/// A square texture (texels along a side, layers, levels) of 16-bit floats, layer after layer, each with all its levels.
+/// A square texture (texels along a side, layers, levels) of 16-bit floats, layer by layer, each with all its levels.
 pub(super) fn light_texture(
     gpu: &Gpu,
     label: &str,
@@ -69,7 +69,7 @@ pub(super) fn filled(
     gpu.device.create_texture_with_data(&gpu.queue, &descriptor, wgpu::util::TextureDataOrder::LayerMajor, bytes)
 }
 
-/// A texture of four numbers a texel, to be filled in each frame.
+/// A texture of four floats a texel, filled in each frame.
 pub(super) fn numbers(device: &wgpu::Device, label: &str, (width, height): (u32, u32)) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
@@ -83,7 +83,7 @@ pub(super) fn numbers(device: &wgpu::Device, label: &str, (width, height): (u32,
     })
 }
 
-/// A texture alone.
+/// A bind group of one texture.
 pub(super) fn single(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,

@@ -1,4 +1,4 @@
-//! Scenario files of `soffio render`: camera, light and tone curve of one picture, as JSON.
+//! Scenario files of `soffio render`: camera, lighting and tone curve of one picture, as JSON.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,56 +7,56 @@ use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
 use super::environment::Environment;
-use super::{AreaLight, Look, Tonemap};
+use super::{AreaLight, Lighting, Tonemap};
 use soffio_exhibit::View;
 
-/// A scenario file. What is left out has the default of a picture without a scenario.
+/// A scenario file. Missing keys take the defaults of a picture without a scenario.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// glTF or GLB, relative to the file; used when the command names none.
     pub model: Option<PathBuf>,
-    /// World, m.
+    /// Position of the camera, world, m.
     pub eye: Option<[f64; 3]>,
     /// Point looked at, m.
     pub target: Option<[f64; 3]>,
     /// Vertical field of view, degrees.
     pub fovy_deg: Option<f64>,
-    /// Pixels.
+    /// Width of the picture, pixels.
     pub width: Option<u32>,
-    /// Pixels.
+    /// Height of the picture, pixels.
     pub height: Option<u32>,
     /// Equirectangular Radiance image, relative to the file.
     pub env: Option<PathBuf>,
-    /// Multiplies its radiance.
+    /// Multiplies the image's radiance.
     pub env_intensity: Option<f32>,
-    /// Linear RGB behind the model.
+    /// Background colour, linear RGB.
     pub background_linear: Option<[f32; 3]>,
-    /// A luminous rectangle.
+    /// A rectangular area light.
     pub area_light: Option<Rectangle>,
-    /// Curve to the display.
+    /// Tone curve.
     pub tonemap: Option<Tonemap>,
-    /// Linear multiplier.
+    /// Linear exposure multiplier.
     pub exposure: Option<f32>,
 }
 
-/// A one-sided luminous rectangle.
+/// A one-sided rectangular area light.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rectangle {
-    /// World, m.
+    /// Centre, world, m.
     pub center: [f32; 3],
     /// Point it faces, m.
     pub target: [f32; 3],
-    /// m.
+    /// Width, m.
     pub width: f32,
-    /// m.
+    /// Height, m.
     pub height: f32,
-    /// W per channel.
+    /// Emitted power, W for each colour channel.
     pub power_w: f32,
 }
 
-/// What is wrong with a scenario.
+/// Errors of scenario files.
 #[derive(Debug, thiserror::Error)]
 pub enum ScenarioError {
     /// A file could not be read.
@@ -64,20 +64,20 @@ pub enum ScenarioError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
-    /// Not the JSON of a scenario.
+    /// The file is not the JSON of a scenario.
     #[error(
         "{path}: {source}\n  The keys are model, eye, target, fovy_deg, width, height, env, env_intensity, background_linear, area_light, tonemap, exposure"
     )]
     Shape {
         /// The file.
         path: PathBuf,
-        /// Where and why.
+        /// Position and cause.
         source: serde_json::Error,
     },
-    /// A number that makes no picture.
+    /// A number out of range.
     #[error("{path}: `{key}` {problem}")]
     Value {
         /// The file.
@@ -87,18 +87,21 @@ pub enum ScenarioError {
         /// What is wrong and what is allowed.
         problem: &'static str,
     },
-    /// The lighting image could not be decoded.
+    /// The environment image could not be decoded.
     #[error("{path}: {source}\n  `env` must be an equirectangular Radiance .hdr image")]
     Environment {
         /// The image.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: image::ImageError,
     },
 }
 
 impl Scenario {
-    /// Reads and checks a scenario; its paths come back relative to where the program runs.
+    /// Reads and checks a scenario; its paths are returned relative to the working directory.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, is not a scenario, or has a number out of range.
     pub fn load(path: &Path) -> Result<Self, ScenarioError> {
         let text = std::fs::read_to_string(path).map_err(|source| ScenarioError::Read { path: path.into(), source })?;
         let mut scenario: Self =
@@ -113,7 +116,7 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// The first number that makes no picture.
+    /// The first number out of range, and what is allowed.
     fn problem(&self) -> Option<(&'static str, &'static str)> {
         let positive = |x: f32| x.is_finite() && x > 0.0;
         if self.fovy_deg.is_some_and(|f| !(f > 0.0 && f < 180.0)) {
@@ -140,11 +143,14 @@ impl Scenario {
         None
     }
 
-    /// Light and backdrop. Whoever brings light or a backdrop of his own gets no gallery around it.
-    pub fn look(&self) -> Result<Look, ScenarioError> {
+    /// The lighting of the scenario. A scenario with lighting or a background of its own has no gallery.
+    ///
+    /// # Errors
+    /// Where the environment image cannot be read.
+    pub fn lighting(&self) -> Result<Lighting, ScenarioError> {
         let environment = self.env.as_deref().map(environment).transpose()?;
         let own = self.env.is_some() || self.background_linear.is_some() || self.area_light.is_some();
-        Ok(Look {
+        Ok(Lighting {
             tonemap: self.tonemap.unwrap_or_default(),
             environment: environment.map(Arc::new),
             env_intensity: self.env_intensity.unwrap_or(1.0),
@@ -153,7 +159,7 @@ impl Scenario {
         })
     }
 
-    /// The scenario's camera in place of `view`, as far as it says.
+    /// `view` with the values that the scenario sets.
     pub fn view(&self, view: View) -> View {
         View {
             eye: self.eye.map_or(view.eye, DVec3::from_array),
@@ -165,7 +171,7 @@ impl Scenario {
 }
 
 impl Rectangle {
-    /// Upright as far as its direction allows, radiance L = P / (π w h).
+    /// As upright as its direction allows; radiance L = P / (π w h).
     fn light(&self) -> AreaLight {
         let center = Vec3::from_array(self.center);
         let forward = (Vec3::from_array(self.target) - center).normalize();

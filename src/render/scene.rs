@@ -1,54 +1,54 @@
-//! The exhibit as one vertex buffer.
+//! The exhibit's meshes as one vertex buffer in body frames.
 //!
-//! Whatever moves is rigid, so each vertex is stored in the frame of the body that carries it, scales of the scene
-//! graph applied, with the index of that frame (0 is the world). A pose is then one 3×4 matrix a body, and a whole
-//! exhibit one draw for each material and state.
+//! Moving parts are rigid, so each vertex is stored in the frame of the body that carries it, with scales of the scene
+//! graph applied and with the index of that frame (0 is the world). A pose is then one 3×4 matrix for each body, and an
+//! exhibit needs one draw for each material and pipeline.
 
 use glam::{Mat4, Vec3};
 
 use super::RenderError;
 use super::frames::{MAX_FRAMES, rigid_of};
 use super::outlines::Plate;
+use super::plate_shadows::ShadowPlate;
 use super::punctual::{MAX_PUNCTUAL, Punctual};
-use super::sheets::Sheet;
-use super::skins::{Bound, Skinned};
+use super::skins::{BoundMesh, Skinned};
 use super::vertex::Vertex;
 use soffio_exhibit::Exhibit;
 use soffio_exhibit::model::{AlphaMode, Appearance, Model, Primitive};
 
-/// How triangles are drawn.
+/// Blending of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Surface {
-    /// Hides what is behind.
+pub(super) enum SurfaceKind {
+    /// Opaque.
     Opaque,
-    /// Multiplies what is behind and adds its own gloss; order does not matter.
+    /// Glass: multiplies the background and adds gloss; order does not matter.
     Glass,
-    /// Covers a part of what is behind; the farthest first.
+    /// Alpha-blended, the farthest first.
     Blend,
 }
 
-/// What decides the pipeline of a part.
+/// The properties that determine the pipeline of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct State {
-    pub surface: Surface,
+pub(super) struct PipelineKey {
+    pub kind: SurfaceKind,
     pub double_sided: bool,
-    /// A clear coat or a sheen.
+    /// Has it a clear coat or a sheen?
     pub layers: bool,
-    /// Textures of what extensions add.
+    /// Has it textures of material extensions?
     pub details: bool,
-    /// Plates with a silhouette of their own.
+    /// Is it a plate with an analytic silhouette?
     pub outlined: bool,
 }
 
-/// Triangles drawn alike.
+/// Triangles that are drawn by one call.
 #[derive(Clone, Debug)]
-pub(super) struct Part {
+pub(super) struct Batch {
     /// Range in the index buffer.
     pub indices: std::ops::Range<u32>,
-    /// Index of the appearance; one past the last is the default.
+    /// Index of the material; one past the last is the default.
     pub material: usize,
-    pub state: State,
-    /// Middle of the triangles in their frame, to sort what is blended.
+    pub pipeline: PipelineKey,
+    /// Centre of the triangles in their frame, to sort blended batches.
     pub center: Vec3,
     pub frame: usize,
 }
@@ -58,20 +58,20 @@ pub(super) struct Part {
 pub(super) struct Scene {
     pub vertices: Vec<Vertex>,
     pub indices: Vec<u32>,
-    /// Opaque parts first, of these the plates whose shadows have a closed form, then glass, then blended ones.
-    pub parts: Vec<Part>,
-    /// So many indices, from the first, throw shadows on the planes in closed form.
-    pub flat: u32,
-    /// So many indices, from the first, are opaque.
-    pub opaque: u32,
-    /// So many throw shadows on the planes, those from `flat` on as triangles.
-    pub casters: u32,
+    /// Opaque batches first, of these the plates with analytic shadows, then glass, then blended ones.
+    pub batches: Vec<Batch>,
+    /// End of the indices whose plane shadows are analytic.
+    pub plate_casters_end: u32,
+    /// End of the opaque indices.
+    pub opaque_end: u32,
+    /// End of the indices that cast plane shadows; those from `plate_casters_end` on do so as triangles.
+    pub casters_end: u32,
     pub lights: Vec<Punctual>,
-    /// Of the outlined parts.
+    /// Plates with analytic silhouettes.
     pub plates: Vec<Plate>,
-    /// What the first indices are.
-    pub sheets: Vec<Sheet>,
-    /// Parts that follow joints, or key frames of their shape.
+    /// Plates with analytic shadows.
+    pub shadow_plates: Vec<ShadowPlate>,
+    /// Skinned meshes and animated shapes.
     pub skins: Vec<Skinned>,
 }
 
@@ -84,13 +84,13 @@ impl Scene {
         let mut pieces = Vec::new();
         let mut lights = Vec::new();
         let shown = shown(model);
-        let carriers = exhibit.carriers();
+        let carriers = exhibit.carrying_bodies();
         for (index, (node, carrier)) in model.nodes.iter().zip(carriers.iter().copied()).enumerate() {
             if !shown[index] {
                 continue;
             }
-            // A skin is where its joints are, whatever carries the node that shows it.
-            let bound = Bound::of(exhibit, index, &carriers).map(std::rc::Rc::new);
+            // A skin follows its joints, whichever body carries the node that shows it.
+            let bound = BoundMesh::of(exhibit, index, &carriers).map(std::rc::Rc::new);
             let carrier = bound.as_ref().map_or(carrier, |bound| bound.leader(&carriers));
             let frame_from_node = match carrier {
                 Some(body) => rigid_of(exhibit, body).inverse() * node.world,
@@ -101,7 +101,7 @@ impl Scene {
                 let matrix = frame_from_node.as_mat4();
                 for (index, p) in mesh.primitives.iter().enumerate() {
                     let bound = bound.clone().filter(|b| index < b.primitives.len()).map(|b| (b, index));
-                    // What bends is no plate.
+                    // A deforming mesh is no plate.
                     let flat = if bound.is_none() { plate(model, p, frame, matrix) } else { (None, None) };
                     pieces.push((p, frame, matrix, flat, bound));
                 }
@@ -114,39 +114,41 @@ impl Scene {
         }
         let state = |p: &Primitive, plate: &Option<Plate>| {
             let outlined = plate.is_some();
-            (State { outlined, ..state_of(model, p) }, p.material.unwrap_or(model.materials.len()))
+            (PipelineKey { outlined, ..state_of(model, p) }, p.material.unwrap_or(model.materials.len()))
         };
-        // By state, so that neighbours merge into one draw.
-        pieces.sort_by_key(|(p, _, _, (plate, sheet), _)| (sheet.is_none(), state(p, plate)));
+        // Sorted by key, so that neighbours merge into one draw.
+        pieces.sort_by_key(|(p, _, _, (plate, shadow_plate), _)| (shadow_plate.is_none(), state(p, plate)));
         let mut scene = Self { lights, ..Self::default() };
-        for (primitive, frame, matrix, (plate, sheet), bound) in pieces {
+        for (primitive, frame, matrix, (plate, shadow_plate), bound) in pieces {
             let (state, material) = state(primitive, &plate);
-            let opacity = opacity(model, primitive, state.surface);
+            let opacity = opacity(model, primitive, state.kind);
             let start = scene.indices.len() as u32;
             let base = scene.vertices.len() as u32;
             let center = scene.append(primitive, tag(frame, opacity), matrix);
             let end = scene.indices.len() as u32;
-            if let Some(sheet) = sheet {
-                scene.sheets.push(sheet);
-                scene.flat = end;
+            if let Some(shadow_plate) = shadow_plate {
+                scene.shadow_plates.push(shadow_plate);
+                scene.plate_casters_end = end;
             }
             if let Some((bound, number)) = bound {
                 let place = (base, frame, matrix.determinant() < 0.0);
                 scene.skins.push(Skinned::new(exhibit, &bound, number, place, &carriers));
             }
-            match state.surface {
-                Surface::Opaque => (scene.opaque, scene.casters) = (end, end),
-                Surface::Glass => scene.casters = end,
-                Surface::Blend => {}
+            match state.kind {
+                SurfaceKind::Opaque => (scene.opaque_end, scene.casters_end) = (end, end),
+                SurfaceKind::Glass => scene.casters_end = end,
+                SurfaceKind::Blend => {}
             }
-            match scene.parts.last_mut() {
-                Some(last) if state.surface != Surface::Blend && (last.material, last.state) == (material, state) => {
+            match scene.batches.last_mut() {
+                Some(last)
+                    if state.kind != SurfaceKind::Blend && (last.material, last.pipeline) == (material, state) =>
+                {
                     last.indices.end = end;
                 }
-                _ => scene.parts.push(Part { indices: start..end, material, state, center, frame }),
+                _ => scene.batches.push(Batch { indices: start..end, material, pipeline: state, center, frame }),
             }
             if let Some(mut plate) = plate {
-                plate.place(scene.parts.len() - 1, base);
+                plate.place(scene.batches.len() - 1, base);
                 scene.vertices[base as usize..].iter_mut().for_each(|v| v.outline = scene.plates.len() as u32);
                 scene.plates.push(plate);
             }
@@ -154,7 +156,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Adds a primitive's triangles and returns their middle.
+    /// Adds a primitive's triangles and returns their centre.
     fn append(&mut self, primitive: &Primitive, tag: u32, matrix: Mat4) -> Vec3 {
         let base = self.vertices.len() as u32;
         let linear = glam::Mat3::from_mat4(matrix);
@@ -197,71 +199,70 @@ impl Scene {
     }
 }
 
-impl State {
+impl PipelineKey {
     const PLAIN: Self =
-        Self { surface: Surface::Opaque, double_sided: false, layers: false, details: false, outlined: false };
+        Self { kind: SurfaceKind::Opaque, double_sided: false, layers: false, details: false, outlined: false };
 
-    fn of(look: &Appearance) -> Self {
-        let surface = match look.alpha {
-            AlphaMode::Blend => Surface::Blend,
-            _ if look.transmission > 0.0 && look.metallic < 1.0 && !look.unlit => Surface::Glass,
-            _ => Surface::Opaque,
+    fn of(appearance: &Appearance) -> Self {
+        let kind = match appearance.alpha {
+            AlphaMode::Blend => SurfaceKind::Blend,
+            _ if appearance.transmission > 0.0 && appearance.metallic < 1.0 && !appearance.unlit => SurfaceKind::Glass,
+            _ => SurfaceKind::Opaque,
         };
-        let layers = look.coat > 0.0 || look.sheen.iter().any(|c| *c > 0.0);
-        let details = !look.details.is_empty();
-        Self { surface, double_sided: look.double_sided, layers, details, outlined: false }
+        let layers = appearance.coat > 0.0 || appearance.sheen.iter().any(|c| *c > 0.0);
+        let details = !appearance.details.is_empty();
+        Self { kind, double_sided: appearance.double_sided, layers, details, outlined: false }
     }
 }
 
-/// How a primitive's triangles are drawn, unless they are a plate.
-fn state_of(model: &Model, primitive: &Primitive) -> State {
-    primitive.material.and_then(|m| model.materials.get(m)).map_or(State::PLAIN, State::of)
+/// The pipeline key of a primitive's triangles, unless they form a plate.
+fn state_of(model: &Model, primitive: &Primitive) -> PipelineKey {
+    primitive.material.and_then(|m| model.materials.get(m)).map_or(PipelineKey::PLAIN, PipelineKey::of)
 }
 
-/// The tag of a frame's vertices, of this opacity to lamps; no corner is in shade yet.
+/// The tag of a frame's vertices with this opacity to lamps and full ambient visibility.
 fn tag(frame: usize, opacity: f32) -> u32 {
     frame as u32 | (255 << 16) | (((opacity * 255.0 + 0.5) as u32) << 24)
 }
 
-/// The plate that a primitive is, where it is one, hides what is behind all over and is drawn with a silhouette; and the sheet,
-/// where it is flat.
-fn plate(model: &Model, primitive: &Primitive, frame: usize, matrix: Mat4) -> (Option<Plate>, Option<Sheet>) {
+/// The plate that an opaque primitive forms, if its silhouette can be analytic, and its shadow plate, if it is flat.
+fn plate(model: &Model, primitive: &Primitive, frame: usize, matrix: Mat4) -> (Option<Plate>, Option<ShadowPlate>) {
     let holes = primitive.material.and_then(|m| model.materials.get(m)).is_some_and(|m| m.alpha != AlphaMode::Opaque);
-    if holes || state_of(model, primitive).surface != Surface::Opaque {
+    if holes || state_of(model, primitive).kind != SurfaceKind::Opaque {
         return (None, None);
     }
     let mut alone = Scene::default();
     alone.append(primitive, tag(frame, 1.0), matrix);
     let plate = Plate::of(&alone.vertices, &alone.indices);
-    let sheet = plate.as_ref().and_then(Sheet::of);
-    (plate.filter(Plate::is_simple), sheet)
+    let shadow_plate = plate.as_ref().and_then(ShadowPlate::of);
+    (plate.filter(Plate::is_simple), shadow_plate)
 }
 
-/// Both sets of texture coordinates of a corner; a missing one repeats the other.
+/// Both sets of texture coordinates of a vertex; a missing set repeats the other.
 fn uv(primitive: &Primitive, i: usize) -> [f32; 4] {
     let first = primitive.uvs.get(i).or(primitive.second_uvs.get(i)).copied().unwrap_or_default();
     let second = primitive.second_uvs.get(i).copied().unwrap_or(first);
     [first[0], first[1], second[0], second[1]]
 }
 
-/// How dark the shadow of a primitive is, 0 … 1.
-fn opacity(model: &Model, primitive: &Primitive, surface: Surface) -> f32 {
-    match surface {
-        Surface::Opaque => 1.0,
-        Surface::Glass => primitive.material.map_or(1.0, |m| shade_of(&model.materials[m])),
-        Surface::Blend => 0.0,
+/// Opacity of a primitive's shadow, 0 … 1.
+fn opacity(model: &Model, primitive: &Primitive, kind: SurfaceKind) -> f32 {
+    match kind {
+        SurfaceKind::Opaque => 1.0,
+        SurfaceKind::Glass => primitive.material.map_or(1.0, |m| shade_of(&model.materials[m])),
+        SurfaceKind::Blend => 0.0,
     }
 }
 
-/// How dark the shadow of a pane of glass is: what two crossings at normal incidence take of white light.
-fn shade_of(look: &Appearance) -> f32 {
-    let reflected = (look.ior - 1.0) / (look.ior + 1.0);
-    let color = (look.base_color[0] + look.base_color[1] + look.base_color[2]) / 3.0;
-    let through = look.transmission * color * (1.0 - 2.0 * reflected * reflected);
+/// Opacity of the shadow of a glass pane: the loss of white light in two crossings at normal incidence.
+fn shade_of(appearance: &Appearance) -> f32 {
+    let reflected = (appearance.ior - 1.0) / (appearance.ior + 1.0);
+    let color = (appearance.base_color[0] + appearance.base_color[1] + appearance.base_color[2]) / 3.0;
+    let through = appearance.transmission * color * (1.0 - 2.0 * reflected * reflected);
     (1.0 - through).clamp(0.0, 1.0)
 }
 
-/// Which nodes the scene shows: those below its roots that nothing hides.
+/// The visible nodes: those below the scene's roots that are not hidden.
 fn shown(model: &Model) -> Vec<bool> {
     let mut shown = vec![false; model.nodes.len()];
     let mut open = model.roots.clone();
@@ -301,7 +302,7 @@ pub(super) mod tests {
             materials,
             ..Default::default()
         };
-        let exhibit = Exhibit::of_model(model);
+        let exhibit = Exhibit::from_model(model);
         let scene = Scene::new(&exhibit).expect("few bodies");
         (exhibit, scene)
     }

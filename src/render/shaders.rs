@@ -1,46 +1,45 @@
-//! Shader sources: built in, or read from a folder while somebody works on them.
+//! Shader sources: built in, or read from a folder during development.
 //!
-//! Invariant: a [`Shaders`] value is valid; a folder with a mistake gives an error and whoever draws keeps the last good
-//! one.
+//! Invariant: a [`Shaders`] value is valid; loading a folder with a mistake fails, and the last valid one stays in use.
 
 use std::borrow::Cow;
 use std::path::Path;
 
 use wgpu::naga;
 
-/// A shader and the files it is put together from.
-const PARTS: [(&str, &[&str]); 7] = [
+/// The files that each shader is concatenated from.
+const SOURCES: [(&str, &[&str]); 7] = [
     ("forward", &["common", "lighting", "outline", "forward"]),
-    ("room", &["common", "lighting", "room"]),
-    ("shadows", &["common", "shadows", "sheets"]),
+    ("gallery", &["common", "lighting", "gallery"]),
+    ("shadows", &["common", "shadows", "plate_shadows"]),
     ("wires", &["common", "lighting", "wires"]),
-    ("motes", &["common", "motes"]),
+    ("dust", &["common", "dust"]),
     ("resolve", &["resolve"]),
-    ("stretch", &["stretch"]),
+    ("upscale", &["upscale"]),
 ];
 
-/// The files as they were when the program was built.
+/// The files at the time of the build.
 const BUILT_IN: [(&str, &str); 11] = [
     ("common", include_str!("wgsl/common.wgsl")),
     ("lighting", include_str!("wgsl/lighting.wgsl")),
     ("outline", include_str!("wgsl/outline.wgsl")),
     ("forward", include_str!("wgsl/forward.wgsl")),
-    ("room", include_str!("wgsl/room.wgsl")),
+    ("gallery", include_str!("wgsl/gallery.wgsl")),
     ("shadows", include_str!("wgsl/shadows.wgsl")),
-    ("sheets", include_str!("wgsl/sheets.wgsl")),
+    ("plate_shadows", include_str!("wgsl/plate_shadows.wgsl")),
     ("wires", include_str!("wgsl/wires.wgsl")),
-    ("motes", include_str!("wgsl/motes.wgsl")),
+    ("dust", include_str!("wgsl/dust.wgsl")),
     ("resolve", include_str!("wgsl/resolve.wgsl")),
-    ("stretch", include_str!("wgsl/stretch.wgsl")),
+    ("upscale", include_str!("wgsl/upscale.wgsl")),
 ];
 
-/// What a folder's shaders can be wrong with.
+/// Errors of shader folders.
 #[derive(Debug, thiserror::Error)]
 pub enum ShaderError {
     /// A file could not be read.
     #[error("{0}: {1}")]
     Read(String, std::io::Error),
-    /// Not valid WGSL; the place is in the text of all files of this shader, one after the other.
+    /// Not valid WGSL; lines count in the concatenated files of this shader.
     #[error("shader {0} is not valid: {1}")]
     Invalid(&'static str, String),
 }
@@ -54,16 +53,19 @@ pub struct Shaders {
 impl Default for Shaders {
     fn default() -> Self {
         let file = |name: &str| BUILT_IN.iter().find(|(n, _)| *n == name).map_or("", |(_, text)| text);
-        let sources = PARTS.map(|(name, parts)| (name, parts.iter().map(|part| file(part)).collect()));
+        let sources = SOURCES.map(|(name, parts)| (name, parts.iter().map(|part| file(part)).collect()));
         Self { sources: sources.into() }
     }
 }
 
 impl Shaders {
-    /// Reads and checks the shaders in a folder.
+    /// Reads and validates the shaders in a folder.
+    ///
+    /// # Errors
+    /// The first file that cannot be read, or shader that is not valid.
     pub fn load(folder: &Path) -> Result<Self, ShaderError> {
         let mut sources = Vec::new();
-        for (name, parts) in PARTS {
+        for (name, parts) in SOURCES {
             let mut text = String::new();
             for part in parts {
                 let path = folder.join(part).with_extension("wgsl");
@@ -81,13 +83,16 @@ impl Shaders {
         self.sources.iter().map(|(name, text)| (*name, text.as_str()))
     }
 
-    /// Source of one.
+    /// Source of one shader.
     pub(super) fn source(&self, name: &str) -> Cow<'static, str> {
         Cow::Owned(self.iter().find(|(n, _)| *n == name).map_or(String::new(), |(_, text)| text.to_owned()))
     }
 }
 
-/// Does a shader parse and ask for nothing beyond core WebGPU? The answer does not need a driver.
+/// Parses and validates a shader for core WebGPU, without a driver.
+///
+/// # Errors
+/// The message of the parser or validator.
 pub fn validate(source: &str) -> Result<naga::Module, String> {
     let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
     naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())

@@ -1,19 +1,19 @@
-//! Where shadows fall: the two receiving planes of the room and the camera of the shadow map.
+//! Shadow receivers of the gallery, and the camera of the shadow map.
 //!
-//! A plane's texture covers the part of the wall or floor that the work's shadow can reach from either lamp, whatever
-//! its parts do: the work is taken as the box that its bounds sweep when it turns about the vertical.
+//! A plane's texture covers the part of the wall or floor that the exhibit's shadow can reach from either lamp. For
+//! this the exhibit is taken as the box that its bounds sweep when it rotates about the vertical.
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
-use super::gallery::Room;
-use super::{Look, Quality};
+use super::gallery::Gallery;
+use super::{Lighting, ShadowQuality};
 use soffio_exhibit::Exhibit;
 
-/// Format of the plane shadows: blocked fraction of either lamp.
+/// Format of the plane shadows: covered fraction of each lamp.
 pub(super) const PLANE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
-/// Depths of the shadow map, while it is drawn.
+/// Depth of the shadow map while it is drawn.
 pub(super) const MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// The same depths as three bytes, to be read.
+/// The same depth as three bytes, for reading.
 pub(super) const BLOCKER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Part of a wall or floor that receives a shadow.
@@ -21,44 +21,60 @@ pub(super) const BLOCKER_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba
 pub(super) struct ReceivingPlane {
     /// Corner at texture coordinates (0, 0), world, m.
     pub origin: Vec3,
-    /// Unit, along texture u and v.
+    /// Unit vectors along texture u and v.
     pub u: Vec3,
     pub v: Vec3,
     pub normal: Vec3,
-    /// m along u and v.
+    /// Size along u and v, m.
     pub size: Vec2,
     /// Texels along u and v.
     pub texels: (u32, u32),
 }
 
 impl ReceivingPlane {
-    /// The wall and the floor of a room, cut to where the exhibit's shadow can fall.
-    pub fn of_room(room: &Room, exhibit: &Exhibit, quality: Quality) -> [Self; 2] {
+    /// The wall and the floor of a gallery, limited to where the exhibit's shadow can fall.
+    pub fn of_gallery(gallery: &Gallery, exhibit: &Exhibit, quality: ShadowQuality) -> [Self; 2] {
         let (wall, floor) = match quality {
-            Quality::Light => (560, 400),
-            Quality::Full => (1024, 720),
+            ShadowQuality::Light => (560, 400),
+            ShadowQuality::Full => (1024, 720),
         };
-        let corner = room.to_world(-room.half);
+        let corner = gallery.to_world(-gallery.half);
         [
-            Self::reached(room, exhibit, corner + Vec3::Y * (2.0 * room.half.y), room.x, -Vec3::Y, room.z, wall),
-            Self::reached(room, exhibit, corner, room.x, room.z, Vec3::Y, floor),
+            Self::reached(
+                gallery,
+                exhibit,
+                corner + Vec3::Y * (2.0 * gallery.half.y),
+                gallery.x,
+                -Vec3::Y,
+                gallery.z,
+                wall,
+            ),
+            Self::reached(gallery, exhibit, corner, gallery.x, gallery.z, Vec3::Y, floor),
         ]
     }
 
-    /// The rectangle of the plane through `corner` that the box's shadow reaches, `resolution` texels at its longer
-    /// side.
-    fn reached(room: &Room, exhibit: &Exhibit, corner: Vec3, u: Vec3, v: Vec3, normal: Vec3, resolution: u32) -> Self {
+    /// The rectangle of the plane through `corner` that the box's shadow reaches, with `resolution` texels along its
+    /// longer side.
+    fn reached(
+        gallery: &Gallery,
+        exhibit: &Exhibit,
+        corner: Vec3,
+        u: Vec3,
+        v: Vec3,
+        normal: Vec3,
+        resolution: u32,
+    ) -> Self {
         let bounds = exhibit.bounds(false);
         let half = if bounds.is_empty() { Vec3::splat(0.5) } else { (0.5 * (bounds.max - bounds.min)).as_vec3() };
         let swept = half.with_y(0.0).length();
         let half = Vec3::new(swept, half.y, swept) * 1.08;
         let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        for lamp in &room.lamps {
+        for lamp in &gallery.lamps {
             let light = lamp.position - corner;
             let d = light.dot(normal);
             for i in 0..8 {
                 let sign = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
-                let p = room.work + half * Vec3::new(sign(1), sign(2), sign(4)) - corner;
+                let p = gallery.exhibit_center + half * Vec3::new(sign(1), sign(2), sign(4)) - corner;
                 let h = p.dot(normal).clamp(0.0, 0.8 * d);
                 let foot = light + (p - light) * (d / (d - h));
                 let penumbra = lamp.radius * h / (d - h) * 1.5;
@@ -67,8 +83,10 @@ impl ReceivingPlane {
                 high = high.max(at + penumbra);
             }
         }
-        let face =
-            Vec2::new((room.half * room_axis(room, u)).length(), (room.half * room_axis(room, v)).length()) * 2.0;
+        let face = Vec2::new(
+            (gallery.half * gallery_axis(gallery, u)).length(),
+            (gallery.half * gallery_axis(gallery, v)).length(),
+        ) * 2.0;
         let (low, high) = (low.max(Vec2::ZERO), high.min(face));
         let size = (high - low).max(Vec2::splat(1e-3));
         let texel = size.max_element() / resolution as f32;
@@ -77,55 +95,60 @@ impl ReceivingPlane {
     }
 }
 
-/// A world axis in the room's frame, without sign.
-fn room_axis(room: &Room, axis: Vec3) -> Vec3 {
-    Vec3::new(axis.dot(room.x), axis.y, axis.dot(room.z)).abs()
+/// Absolute components of a world axis in the gallery's frame.
+fn gallery_axis(gallery: &Gallery, axis: Vec3) -> Vec3 {
+    Vec3::new(axis.dot(gallery.x), axis.y, axis.dot(gallery.z)).abs()
 }
 
-/// The camera at the light that shades the work itself.
+/// The shadow-map camera at the light that shades the exhibit itself.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MapCamera {
+pub(super) struct ShadowMapCamera {
     pub clip_from_world: Mat4,
     /// Radius of the light, m.
     pub light_radius: f32,
     /// Size of a texel at distance 1.
     pub texel: f32,
-    /// Where the reversed depth is 1, and where it is 0, m.
+    /// Distances of reversed depth 1 and 0, m.
     pub near: f32,
     pub far: f32,
 }
 
-impl MapCamera {
+impl ShadowMapCamera {
     /// Texels along a side of the map.
-    pub fn size(quality: Quality) -> u32 {
-        if quality == Quality::Light { 768 } else { 1024 }
+    pub fn size(quality: ShadowQuality) -> u32 {
+        if quality == ShadowQuality::Light { 768 } else { 1024 }
     }
 
-    /// From the area light if there is one, from the key lamp otherwise, around everything the work may sweep; in a still
-    /// scene around its casters alone, where there are any.
-    pub fn new(room: &Room, look: &Look, quality: Quality, casters: impl FnOnce(Vec3) -> Vec<Vec3>) -> Self {
-        let (eye, light_radius) = match &look.area_light {
+    /// The camera of the area light if there is one, of the key lamp otherwise. It covers everything the exhibit may
+    /// sweep; in a static scene its casters alone, where there are any.
+    pub fn new(
+        gallery: &Gallery,
+        lighting: &Lighting,
+        quality: ShadowQuality,
+        casters: impl FnOnce(Vec3) -> Vec<Vec3>,
+    ) -> Self {
+        let (eye, light_radius) = match &lighting.area_light {
             Some(area) => {
                 let surface = 4.0 * area.half.0.cross(area.half.1).length();
                 (area.center, (surface / std::f32::consts::PI).sqrt())
             }
-            None => (room.lamps[0].position, room.lamps[0].radius),
+            None => (gallery.lamps[0].position, gallery.lamps[0].radius),
         };
-        let offset = room.work - eye;
-        let distance = offset.length().max(1.05 * room.radius);
+        let offset = gallery.exhibit_center - eye;
+        let distance = offset.length().max(1.05 * gallery.radius);
         let casters = casters(eye);
         let low = casters.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = casters.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         let aim = if casters.is_empty() { offset } else { 0.5 * (low + high) - eye };
         let forward = aim.normalize_or(Vec3::NEG_Z);
         let (right, up) = forward.any_orthonormal_pair();
-        let sine = (1.02 * room.radius / distance).min(0.97);
+        let sine = (1.02 * gallery.radius / distance).min(0.97);
         let widest = sine / (1.0 - sine * sine).sqrt();
-        // All that the work sweeps lies between these.
-        let far = distance + 1.02 * room.radius;
+        // The volume that the exhibit sweeps lies between these.
+        let far = distance + 1.02 * gallery.radius;
         let nearest = 0.02 * distance;
         let (half, near) = if casters.is_empty() {
-            (widest, distance - 1.02 * room.radius)
+            (widest, distance - 1.02 * gallery.radius)
         } else {
             let seen = casters.iter().map(|&p| p - eye).filter(|p| p.dot(forward) > nearest);
             seen.fold((0.0_f32, far), |(half, near), p| {

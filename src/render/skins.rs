@@ -1,40 +1,40 @@
-//! Meshes that follow joints (glTF 2.0, 3.7.3) or key frames of their shape, from picture to picture.
+//! Linear blend skinning (glTF 2.0, 3.7.3) and animated shapes (3.7.2.2), computed on the CPU in each frame.
 //!
-//! A joint is carried by a body, or stands still. With F the pose of its body now, F₀ at rest, J₀ the joint's node at rest and I
-//! its inverse bind matrix, a corner p₀ with shares w stands at
+//! A joint is carried by a body or is fixed. With F the pose of its body now, F₀ at rest, J₀ the joint's node at rest
+//! and I its inverse bind matrix, a vertex p₀ with weights w is at
 //!
 //! ```text
 //! p = A p₀,   A = Σ wⱼ Pⱼ,   Pⱼ = F_b⁻¹ Fⱼ Kⱼ,   Kⱼ = Fⱼ₀⁻¹ Jⱼ₀ Iⱼ
 //! ```
 //!
-//! in the frame F_b of one of these bodies, so that the scene takes the mesh for one more of its parts; its normal is that of
-//! the cofactors of A. Where key frames change scales, F₀ and J₀ are those of the time; a mesh without a skin whose node grows
-//! follows that node alone. Where they change the weights of morph targets, p₀ is p + Σ ωₜ dₜ (3.7.2.2), and so are normals and
-//! tangents. All passes read the same vertices, which are written anew where something has moved: a few thousand
-//! corners cost a fraction of a millisecond, and no shader knows of it. The memory is there before the first frame.
+//! in the frame F_b of one of these bodies, so that the mesh is one more batch of the scene. Normals use the cofactors
+//! of A. Where key frames change scales, F₀ and J₀ are those of the time; a mesh without a skin whose node has an
+//! animated scale follows that node alone. Where they change the weights of morph targets, p₀ is p + Σ ωₜ dₜ, and
+//! likewise for normals and tangents. All passes read the same vertices, which are written anew where something has
+//! moved. A few thousand vertices cost a fraction of a millisecond. The memory is allocated before the first frame.
 
 use glam::{Mat3, Mat4, Vec3, Vec4};
 
 use super::frames::rigid_of;
 use super::vertex::Vertex;
 use soffio_exhibit::Exhibit;
-use soffio_exhibit::growth::Growth;
+use soffio_exhibit::animated_scale::AnimatedScale;
 use soffio_exhibit::model::{Influences, MorphTarget, Primitive, Track};
-use soffio_exhibit::shapes::ShapeTrack;
+use soffio_exhibit::shape_tracks::ShapeTrack;
 use soffio_math::DMat4;
 
-/// What a mesh follows.
-pub(super) struct Bound<'a> {
-    /// Nodes, and what takes the mesh to the frame of each.
+/// A mesh with the joints that it follows.
+pub(super) struct BoundMesh<'a> {
+    /// Joint nodes, and the inverse bind matrix of each.
     pub joints: Vec<(usize, DMat4)>,
-    /// The primitives of the mesh as they are bound; without influences they follow the first joint.
+    /// The undeformed primitives; without influences they follow the first joint.
     pub primitives: &'a [Primitive],
-    /// What changes the weights of its morph targets.
+    /// Key frames of its morph weights.
     pub weights: Option<ShapeTrack>,
 }
 
-impl<'a> Bound<'a> {
-    /// Of a node, where what it shows is not always the same in its body's frame.
+impl<'a> BoundMesh<'a> {
+    /// The bound mesh of a node; `None` where its mesh is rigid in its body's frame.
     pub fn of(exhibit: &'a Exhibit, node: usize, carriers: &[Option<usize>]) -> Option<Self> {
         let model = &exhibit.model;
         let weights = exhibit
@@ -42,7 +42,7 @@ impl<'a> Bound<'a> {
             .iter()
             .find(|track| track.channel.node == node && matches!(track.channel.track, Track::Weights(_)));
         let weights = weights.cloned();
-        let grows = |node: usize| Growth::of(exhibit, node).grows();
+        let grows = |node: usize| AnimatedScale::of(exhibit, node).is_animated();
         if let Some(skin) = model.skins.iter().find(|skin| skin.node == node) {
             let moves = |&joint: &usize| carriers[joint].is_some() || grows(joint);
             let joints = skin.joints.iter().copied().zip(skin.inverse_bind.iter().copied()).collect();
@@ -64,23 +64,23 @@ impl<'a> Bound<'a> {
     }
 }
 
-/// A joint: the frame that carries it, and K.
+/// A joint: the index of its frame, and K.
 struct Joint {
     frame: usize,
     frame_from_bound: Mat4,
-    grows: Option<Grows>,
+    grows: Option<AnimatedScaleBinding>,
 }
 
-/// What K is made of where scales change.
-struct Grows {
-    own: Growth,
-    carrier: Option<Growth>,
-    /// F₀ without them.
+/// The parts of K where scales are animated.
+struct AnimatedScaleBinding {
+    own: AnimatedScale,
+    carrier: Option<AnimatedScale>,
+    /// F₀ without animated scales.
     rest: DMat4,
     inverse_bind: DMat4,
 }
 
-impl Grows {
+impl AnimatedScaleBinding {
     /// K at `t` seconds.
     fn frame_from_bound(&self, t: f64) -> Mat4 {
         let frame = self.carrier.as_ref().and_then(|carrier| carrier.frame(t)).unwrap_or(self.rest);
@@ -88,20 +88,20 @@ impl Grows {
     }
 }
 
-/// A corner before any morph target is added.
+/// A vertex without morph targets.
 struct Unmorphed {
     position: Vec3,
     normal: Vec3,
     tangent: Vec3,
 }
 
-/// What key frames add to the corners.
+/// Animated morph targets.
 struct Morph {
     track: ShapeTrack,
     base: Vec<Unmorphed>,
     targets: Vec<MorphTarget>,
     weights: Vec<f64>,
-    /// Normals are those of the triangles.
+    /// Are the normals those of the triangles?
     flat: bool,
 }
 
@@ -118,9 +118,9 @@ impl Morph {
         }
     }
 
-    /// Puts the corners where the weights at `t` seconds have them.
+    /// Morphs the vertices by the weights at `t` seconds.
     fn place(&mut self, corners: &mut [Corner], t: f64) {
-        self.track.channel.weigh(self.track.time(t), &mut self.weights);
+        self.track.channel.sample_weights(self.track.time(t), &mut self.weights);
         for (corner, base) in corners.iter_mut().zip(&self.base) {
             (corner.position, corner.normal, corner.tangent) = (base.position, base.normal, base.tangent);
         }
@@ -142,7 +142,7 @@ impl Morph {
     }
 }
 
-/// A corner as it is bound.
+/// An undeformed vertex.
 struct Corner {
     position: Vec3,
     normal: Vec3,
@@ -150,27 +150,27 @@ struct Corner {
     influences: Influences,
 }
 
-/// A primitive of such a mesh among the scene's vertices.
+/// A skinned primitive among the scene's vertices.
 pub(super) struct Skinned {
-    /// Its first vertex.
+    /// Index of its first vertex.
     pub first: u32,
-    /// Its vertices as they stand.
+    /// Its deformed vertices.
     pub vertices: Vec<Vertex>,
     frame: usize,
     corners: Vec<Corner>,
     joints: Vec<Joint>,
-    /// −1 where the node that shows it is mirrored.
+    /// −1 where the node that shows it is mirrored, else 1.
     side: f32,
     palette: Vec<Mat4>,
     morph: Option<Morph>,
 }
 
 impl Skinned {
-    /// The primitive of this number, whose vertices begin at `first` in `frame`. `carriers` are the bodies that carry the model's
-    /// nodes.
+    /// The primitive of this number, whose vertices begin at `first` in `frame`. `carriers` gives the body that carries
+    /// each node.
     pub fn new(
         exhibit: &Exhibit,
-        bound: &Bound,
+        bound: &BoundMesh,
         number: usize,
         (first, frame, mirrored): (u32, usize, bool),
         carriers: &[Option<usize>],
@@ -179,10 +179,10 @@ impl Skinned {
             let carrier = carriers[node];
             let rest = carrier.map_or(DMat4::IDENTITY, |b| rigid_of(exhibit, b));
             let frame_from_bound = (rest.inverse() * exhibit.model.nodes[node].world * inverse_bind).as_mat4();
-            let own = Growth::of(exhibit, node);
-            let grows = own.grows().then(|| {
-                let carrier = carrier.map(|body| Growth::of(exhibit, exhibit.bodies[body].node));
-                Grows { own, carrier, rest, inverse_bind }
+            let own = AnimatedScale::of(exhibit, node);
+            let grows = own.is_animated().then(|| {
+                let carrier = carrier.map(|body| AnimatedScale::of(exhibit, exhibit.bodies[body].node));
+                AnimatedScaleBinding { own, carrier, rest, inverse_bind }
             });
             Joint { frame: carrier.map_or(0, |body| body + 1), frame_from_bound, grows }
         });
@@ -211,18 +211,18 @@ impl Skinned {
         }
     }
 
-    /// Do key frames change its shape, so that it may move while no body does?
+    /// Do key frames change its shape, so that it can move while no body does?
     pub fn is_keyed(&self) -> bool {
         self.morph.is_some() || self.joints.iter().any(|joint| joint.grows.is_some())
     }
 
-    /// Takes the looks of its vertices from the scene's: all but where they stand.
-    pub fn dress(&mut self, vertices: &[Vertex]) {
+    /// Copies everything except positions, normals and tangents from the scene's vertices.
+    pub fn fill(&mut self, vertices: &[Vertex]) {
         let first = self.first as usize;
         self.vertices = vertices[first..first + self.corners.len()].to_vec();
     }
 
-    /// Puts its vertices where the joints have them, with the rows of all frames, and key frames, `t` seconds after the reset.
+    /// Deforms its vertices for the poses of all frames and for the key frames at `t` seconds after the reset.
     pub fn place(&mut self, frames: &[[Vec4; 3]], t: f64) {
         if let Some(morph) = &mut self.morph {
             morph.place(&mut self.corners, t);
@@ -242,7 +242,7 @@ impl Skinned {
             for (joint, share) in corner.influences.iter().filter(|(_, share)| *share > 0.0) {
                 blended += self.palette[usize::from(*joint)] * *share;
             }
-            // What follows no joint stays where it is at rest.
+            // Vertices without influences stay where they are at rest.
             if blended == Mat4::ZERO {
                 continue;
             }
@@ -273,7 +273,7 @@ mod tests {
         Node { name: String::new(), parent, children: Vec::new(), local, world, mesh, camera: None, light: None }
     }
 
-    /// A bent quadrilateral that morphs: its corner 2 rises, with a normal of its own where there are any.
+    /// A bent quadrilateral that morphs: its corner 2 rises, with a normal of its own unless `flat`.
     fn bent(flat: bool) -> Primitive {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.5], [0.0, 1.0, 0.0]];
         let indices = [0, 1, 2, 0, 2, 3];
@@ -293,7 +293,8 @@ mod tests {
         }
     }
 
-    /// Vertices at `t` of the primitive, whose weight and whose parent's scale go from nothing and from one to these in a second.
+    /// Vertices of the primitive at `t`; its weight and its parent's scale grow from 0 and 1 to these values in one
+    /// second.
     fn vertices(primitive: Primitive, weight: f64, scale: DVec3, t: f64) -> Vec<Vertex> {
         let channel = |node, track| Channel { node, curve: Curve::Linear, times: vec![0.0, 1.0], track };
         let model = Model {
@@ -310,11 +311,11 @@ mod tests {
             }],
             ..Model::default()
         };
-        let exhibit = Exhibit::of_model(model);
+        let exhibit = Exhibit::from_model(model);
         let mut scene = Scene::new(&exhibit).expect("few bodies");
         let mut skin = scene.skins.pop().expect("what morphs");
         assert!(skin.is_keyed() && scene.skins.is_empty());
-        skin.dress(&scene.vertices);
+        skin.fill(&scene.vertices);
         skin.place(&[rows(&Pose::IDENTITY)], t);
         skin.vertices
     }
@@ -327,11 +328,11 @@ mod tests {
         let position = Vec3::new(1.5, 1.0 + 0.4 * 0.25, 2.0 * (0.5 + 0.4));
         assert!(placed[2].position.distance(position) < ROUNDING, "{}", placed[2].position);
         assert!(placed[1].position.distance(Vec3::new(1.5, 0.0, 0.0)) < ROUNDING, "{}", placed[1].position);
-        // A normal goes by the inverse of the scale.
+        // Normals transform by the inverse of the scale.
         let normal = (Vec3::new(0.0, -0.4 * 0.25, 1.0 - 0.4).normalize() / Vec3::new(1.5, 1.0, 2.0)).normalize();
         assert!(placed[2].normal.distance(normal) < ROUNDING, "{} instead of {normal}", placed[2].normal);
         assert!(placed[0].normal.distance(Vec3::Z) < ROUNDING);
-        // Over and over: 2.5 s shows what 0.5 s does.
+        // It repeats: 2.5 s shows the same as 0.5 s.
         let again = vertices(bent(false), 0.8, scale, 2.5);
         assert!(placed.iter().zip(&again).all(|(a, b)| a.position == b.position && a.normal == b.normal));
     }

@@ -1,6 +1,7 @@
-//! Textures and their mip maps.
+//! Textures and mip maps.
 //!
-//! Colour images are averaged in linear light for the smaller levels; data images (roughness, normals) as they are.
+//! Colour images are averaged in linear light for the smaller levels; data images (roughness, normals) are averaged as
+//! stored.
 
 use wgpu::util::DeviceExt;
 
@@ -12,12 +13,12 @@ pub(super) fn white(gpu: &Gpu) -> wgpu::TextureView {
     upload(gpu, &Image { width: 1, height: 1, rgba: vec![255; 4] }, false)
 }
 
-/// An image and its smaller levels.
+/// A texture of an image with all its mip levels.
 pub(super) fn upload(gpu: &Gpu, image: &Image, srgb: bool) -> wgpu::TextureView {
     texture(gpu, std::slice::from_ref(image), srgb).create_view(&Default::default())
 }
 
-/// Images of one size as the layers of a texture, each with its smaller levels.
+/// An array texture of images of one size, each with all its mip levels.
 pub(super) fn texture(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::Texture {
     let chains: Vec<Vec<Vec<u8>>> = layers.iter().map(|image| mip_chain(image, srgb)).collect();
     let (width, height) = layers.first().map_or((1, 1), |image| (image.width, image.height));
@@ -38,7 +39,7 @@ pub(super) fn texture(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::Texture 
     )
 }
 
-/// The image and its halves down to one pixel, each the box average of the one before.
+/// All mip levels down to one pixel, each the box average of the one before.
 fn mip_chain(image: &Image, srgb: bool) -> Vec<Vec<u8>> {
     let (mut width, mut height) = (image.width as usize, image.height as usize);
     let mut levels = vec![image.rgba.clone()];

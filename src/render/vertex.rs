@@ -1,9 +1,9 @@
-//! One corner of a scene.
+//! Layout of a vertex.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-/// One corner, in the frame of its body.
+/// A vertex, in the frame of its body.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Vertex {
@@ -13,11 +13,11 @@ pub(super) struct Vertex {
     /// Both sets of texture coordinates.
     pub uv: [f32; 4],
     pub color: [f32; 4],
-    /// Frame in the low 16 bits, then ambient visibility, then opacity to lamps.
+    /// Index of the frame in the low 16 bits, then ambient visibility, then opacity to lamps, 8 bits each.
     pub tag: u32,
-    /// Irradiance from other surfaces of a still scene.
+    /// Baked indirect irradiance of a static scene.
     pub bounce: Vec3,
-    /// Index of the plate, where the part is outlined.
+    /// Index of the plate, where the batch is outlined.
     pub outline: u32,
 }
 
@@ -27,7 +27,7 @@ impl Vertex {
         (self.tag & 0xffff) as usize
     }
 
-    /// Sets what part of the sky it sees.
+    /// Sets the ambient visibility, 0…1.
     pub fn set_visibility(&mut self, visibility: f32) {
         let byte = (visibility.clamp(0.0, 1.0) * 255.0 + 0.5) as u32;
         self.tag = (self.tag & 0xff00_ffff) | (byte << 16);

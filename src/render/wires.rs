@@ -1,4 +1,4 @@
-//! Wires as capsule segments, cut at their joints by the planes that bisect them.
+//! Wires as capsule segments, cut at their joints by the bisecting planes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
@@ -6,13 +6,13 @@ use glam::{Vec3, Vec4};
 use soffio_exhibit::Wire;
 use soffio_math::Pose;
 
-/// One straight piece of a wire, in the world, as `wires.wgsl` reads it.
+/// A straight segment of a wire, in the world, in the layout of `wires.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Segment {
-    /// End, m, and radius.
+    /// One end, m, and the radius.
     a: Vec4,
-    /// Other end and metallic.
+    /// Other end, m, and the metalness.
     b: Vec4,
     /// Linear colour and roughness.
     color: Vec4,
@@ -22,12 +22,13 @@ pub(super) struct Segment {
     cut_b: Vec4,
 }
 
-/// Straight pieces of all wires.
+/// Number of segments of all wires.
 pub(super) fn count(wires: &[Wire]) -> usize {
     wires.iter().map(|wire| wire.points.len().saturating_sub(1)).sum()
 }
 
-/// Fills `segments` with all wires at these poses, the farthest from the eye first. Bodies beyond the poses are at `rest`.
+/// Fills `segments` with all wires at these poses, the farthest from the camera first. Bodies without a pose are at
+/// `rest`.
 pub(super) fn fill(wires: &[Wire], rest: &[Pose], poses: &[Pose], eye: Vec3, segments: &mut Vec<Segment>) {
     segments.clear();
     for wire in wires {

@@ -36,6 +36,6 @@ impl Camera {
         } else if turn == self.turn {
             return;
         }
-        (self.turn, self.view) = (turn, self.own.turned(turn));
+        (self.turn, self.view) = (turn, self.own.orbited(turn));
     }
 }

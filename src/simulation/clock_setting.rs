@@ -89,13 +89,13 @@ pub struct ClockSetting {
 impl ClockSetting {
     /// Of a clock at its start, to `time`, s after any midnight.
     pub fn new(clock: &Clock, bodies: &[RigidBody], time: f64) -> Self {
-        let axis = Axis { body: Some(clock.hand), direction: clock.axis };
+        let axis = Axis { body: Some(clock.minute_hand), direction: clock.axis };
         let angle = |seconds: f64| 2.0 * PI * seconds / HOUR;
         Self {
             gauge: Gauge::new(Measure::Angle { axis, frame: None }, bodies),
-            goal: angle(clock.left(time)),
+            goal: angle(clock.remaining_seconds(time)),
             set_point: 0.0,
-            hour: angle(HOUR - clock.shows.rem_euclid(HOUR)),
+            hour: angle(HOUR - clock.initial_time.rem_euclid(HOUR)),
             since_hour: TUNING.warning_time,
             stick_torque: 1.0,
             load: 0.0,
@@ -118,19 +118,19 @@ impl ClockSetting {
         }
         self.since_hour += dt;
         let rate_of = |body: usize| dynamics.bodies[body].angular_velocity.length();
-        let strikes = clock.strikes.is_some_and(|body| rate_of(body) > TUNING.striking_rate);
+        let strikes = clock.striking_body.is_some_and(|body| rate_of(body) > TUNING.striking_rate);
         if strikes || self.since_hour < TUNING.warning_time {
             (self.set_point, self.stick_torque) = (angle, 1.0);
             return true;
         }
         self.set_point = (self.set_point.max(angle) + TUNING.rate * dt).min(angle + TUNING.lead).min(goal);
-        let body = &dynamics.bodies[clock.hand];
+        let body = &dynamics.bodies[clock.minute_hand];
         let axis = body.rotation * clock.axis;
         // T over the clutch's friction.
-        let torque = if dynamics.clutch_slips(clock.hand) {
+        let torque = if dynamics.clutch_slips(clock.minute_hand) {
             let rate = body.angular_velocity.dot(axis);
             // Change of the rate in a step by the clutch's friction alone, rad/s.
-            let friction_rate = dynamics.angular_response(clock.hand, axis) * dt * clock.friction;
+            let friction_rate = dynamics.angular_response(clock.minute_hand, axis) * dt * clock.friction;
             self.load =
                 (self.load + (self.desired_rate - rate) / friction_rate).clamp(-TUNING.most_torque, TUNING.most_torque);
             self.desired_rate = ((self.set_point - angle) / TUNING.time_constant).min(TUNING.most_rate);
@@ -142,7 +142,7 @@ impl ClockSetting {
             self.stick_torque
         };
         let torque = torque.clamp(-TUNING.most_torque, TUNING.most_torque) * clock.friction * axis;
-        for (sum, x) in out[clock.hand].iter_mut().zip(vec6(DVec3::ZERO, torque)) {
+        for (sum, x) in out[clock.minute_hand].iter_mut().zip(vec6(DVec3::ZERO, torque)) {
             *sum += x;
         }
         true

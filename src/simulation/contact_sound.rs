@@ -248,7 +248,7 @@ impl ContactSound {
         for (i, sound) in exhibit.sounds.iter().enumerate().filter(|(_, sound)| sound.on != SoundTrigger::Wind) {
             of_body[sound.body].push(i);
         }
-        let meet = exhibit.pairs().meet;
+        let meet = exhibit.collider_pairs().meet;
         let of_pair: Vec<[usize; 2]> = meet.iter().map(|pair| key(exhibit, [pair.a, pair.b])).collect();
         let sounds = |key: &[usize; 2]| key.iter().any(|&end| of_body.get(end).is_some_and(|of| !of.is_empty()));
         let limits = exhibit.limits.iter().map(|limit| limit_key(&limit.kind));

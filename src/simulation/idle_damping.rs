@@ -17,7 +17,7 @@
 //! The motion that attract mode leaves behind would hide what a new visitor does. [`IdleDamping::settle`] damps it at once,
 //! five times as strongly.
 
-use soffio_exhibit::Calm;
+use soffio_exhibit::IdleDamping as IdleDampingSpec;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, vec6};
 

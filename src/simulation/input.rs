@@ -174,9 +174,9 @@ impl MotionMode {
     /// Solver of an exhibit while the time budget allows it.
     pub fn of(exhibit: &Exhibit) -> Self {
         match exhibit.motion {
-            Motion::Laws | Motion::Auto { .. } => Self::Dynamic,
-            Motion::Places(Method::Compulsive) => Self::Procedural,
-            Motion::Places(Method::TreeSolve) => Self::PositionBased,
+            Motion::Dynamics | Motion::Auto { .. } => Self::Dynamic,
+            Motion::PositionBased(Method::Compulsive) => Self::Procedural,
+            Motion::PositionBased(Method::TreeSolve) => Self::PositionBased,
         }
     }
 

@@ -45,7 +45,7 @@ pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
         springs: &exhibit.springs,
         kinematic_bodies: &exhibit.drives,
         colliders: &exhibit.colliders,
-        pairs: exhibit.pairs().meet.into_iter().map(|pair| exhibit.surface_pair(pair)).collect(),
+        pairs: exhibit.collider_pairs().meet.into_iter().map(|pair| exhibit.surface_pair(pair)).collect(),
     };
     let dynamics = dynamics::Settings {
         gravity: exhibit.gravity,

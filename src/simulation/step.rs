@@ -134,7 +134,7 @@ impl Simulation {
     /// Resets the exhibit and starts its assembly animation, if it has one.
     fn assemble(&mut self, seed: u64) {
         self.reset();
-        if self.exhibit.gathers {
+        if self.exhibit.assembles {
             self.motion.assemble(&self.exhibit, &self.settings_now(), seed);
         }
     }
@@ -281,7 +281,7 @@ impl Simulation {
 
     /// The view for a picture of this aspect (width over height), turned as in the last step.
     pub fn view(&self, aspect: f64) -> View {
-        self.exhibit.view(aspect).turned(self.camera.turn)
+        self.exhibit.view(aspect).orbited(self.camera.turn)
     }
 
     /// The view of the last step.

@@ -86,9 +86,9 @@ fn rest_tilt_deg(exhibit: &Arc<Exhibit>) -> f64 {
 
 fn found(id: &str, moves: Option<String>) -> Expected {
     let exhibit = load(id);
-    let driven = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
+    let kinematic = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
     let moving: Vec<f64> =
-        (0..exhibit.bodies.len()).filter(|&b| !driven(b)).map(|b| exhibit.bodies[b].properties.mass).collect();
+        (0..exhibit.bodies.len()).filter(|&b| !kinematic(b)).map(|b| exhibit.bodies[b].properties.mass).collect();
     Expected {
         state: played(id),
         moving_bodies: moving.len(),

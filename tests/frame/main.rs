@@ -9,7 +9,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::step::moments::Moments;
 use soffio_math::{DQuat, Pose};
-use soffio_render::{Frame, Gpu, Options, RenderError, Renderer};
+use soffio_render::{FrameInput, Gpu, Options, RenderError, Renderer};
 use soffio_simulation::{DustParticle, Settings, Simulation, Snapshot, StepInput};
 
 #[path = "../suite/require.rs"]
@@ -65,9 +65,9 @@ fn turned(exhibit: &Exhibit, angle: f64) -> Vec<Pose> {
     exhibit.bodies.iter().map(|body| pose(&body.pose)).collect()
 }
 
-fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], motes: &'a [DustParticle]) -> Frame<'a> {
+fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], dust_particles: &'a [DustParticle]) -> FrameInput<'a> {
     let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-    Frame { poses, motes, view, size: SIZE, exposure: 1.0, time: 0.0 }
+    FrameInput { poses, dust: motes, view, size: SIZE, exposure: 1.0, time: 0.0 }
 }
 
 #[test]
@@ -121,8 +121,8 @@ fn the_moment_that_a_picture_shows_is_found_in_memory_that_is_there() {
         moments.push(&simulation.snapshot());
         let region = Region::new(ALLOCATOR);
         moments.before(1.3, &mut moment);
-        let asked = region.change();
-        assert!(step == 0 || asked.allocations + asked.reallocations == 0, "step {step}: {asked:?}");
+        let requested = region.change();
+        assert!(step == 0 || requested.allocations + requested.reallocations == 0, "step {step}: {requested:?}");
     }
 }
 

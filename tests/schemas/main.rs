@@ -5,8 +5,8 @@
 use std::collections::BTreeSet;
 
 use serde_json::{Map, Value, json};
-use soffio_exhibit::shape::schema;
-use soffio_exhibit::shape::validate::{Kind, Problem, problems};
+use soffio_exhibit::schema::schema;
+use soffio_exhibit::schema::validate::{Kind, Problem, problems};
 use soffio_sound::timbre::{self, Preset};
 
 /// Sidecars with many keys: one that has them all, and two that are shipped.
@@ -78,12 +78,12 @@ fn ours<'a>(found: &'a [Problem]) -> BTreeSet<(&'a str, &'static str)> {
     let word = |kind: &Kind| match kind {
         Kind::Unknown(_) => "unknown",
         Kind::Missing(_) => "missing",
-        Kind::Choice(_) | Kind::Many(_) => "choice",
+        Kind::Choice(_) | Kind::Ambiguous(_) => "choice",
         Kind::Type(_) => "type",
-        Kind::Constant(_) | Kind::Words(_) => "word",
+        Kind::Constant(_) | Kind::OneOf(_) => "word",
         Kind::Pattern(_) => "pattern",
         Kind::Minimum(_) | Kind::Maximum(_) => "range",
-        Kind::Short(_) | Kind::Long(_) => "length",
+        Kind::TooShort(_) | Kind::TooLong(_) => "length",
         Kind::Forbidden => "forbidden",
     };
     found.iter().map(|problem| (problem.at.as_str(), word(&problem.kind))).collect()

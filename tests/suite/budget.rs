@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use soffio_exhibit::{Exhibit, codes};
 use soffio_offline::budget::{SEEDS, check_within};
-use soffio_offline::load::{HARD, Load, LoadReport, LoadRun, LoadTimes, loads};
+use soffio_offline::load::{HARDEST_BREATH, LoadReport, LoadRun, LoadTimes, StressLoad, loads};
 use soffio_offline::scene::times::StepTimes;
 
 fn shipped(id: &str) -> Arc<Exhibit> {
@@ -17,7 +17,7 @@ fn shipped(id: &str) -> Arc<Exhibit> {
 fn loads_blow_drag_and_scatter_and_repeat_to_the_bit() {
     let exhibit = shipped("wind-chimes");
     let all = loads(&exhibit, 2, 1.0);
-    assert_eq!(all, [Load::Breath(1.0), Load::Drag, Load::Assembly(0), Load::Assembly(1)]);
+    assert_eq!(all, [StressLoad::Breath(1.0), StressLoad::Drag, StressLoad::Assembly(0), StressLoad::Assembly(1)]);
     let home: Vec<_> = exhibit.bodies.iter().map(|body| body.pose.position).collect();
     let mut ends = Vec::new();
     for load in all {
@@ -28,9 +28,9 @@ fn loads_blow_drag_and_scatter_and_repeat_to_the_bit() {
         let away =
             snapshot.poses.iter().zip(&home).map(|(pose, home)| pose.position.distance(*home)).fold(0.0, f64::max);
         match load {
-            Load::Breath(_) => assert_eq!(snapshot.breath.speed, HARD),
-            Load::Drag => assert_eq!(snapshot.diagnostics.grabs, 1),
-            Load::Assembly(_) => assert!(away > 0.1 && run.simulation.assembly_distance().is_some(), "{away}"),
+            StressLoad::Breath(_) => assert_eq!(snapshot.breath.speed, HARDEST_BREATH),
+            StressLoad::Drag => assert_eq!(snapshot.diagnostics.hands, 1),
+            StressLoad::Assembly(_) => assert!(away > 0.1 && run.simulation.gathers_from().is_some(), "{away}"),
         }
         for _ in 0..120 {
             run.step();
@@ -46,7 +46,7 @@ fn loads_blow_drag_and_scatter_and_repeat_to_the_bit() {
 #[test]
 fn a_hand_takes_every_body_of_a_small_exhibit_in_turn() {
     let exhibit = shipped("plates");
-    let mut run = LoadRun::new(&exhibit, Load::Drag);
+    let mut run = LoadRun::new(&exhibit, StressLoad::Drag);
     let mut takes = 0;
     let mut held = false;
     for _ in 0..run.steps() {
@@ -62,9 +62,9 @@ fn a_hand_takes_every_body_of_a_small_exhibit_in_turn() {
 fn the_worst_step_of_several_loads_is_told_by_its_load() {
     let times = |load, us: &[f64]| LoadTimes { load, times: us.iter().copied().collect::<StepTimes>() };
     let all = [
-        times(Load::Breath(1.0), &[1.0, 2.0]),
-        times(Load::Assembly(7), &[3.0, 1.0, 9.0, 1.0]),
-        times(Load::Drag, &[4.0]),
+        times(StressLoad::Breath(1.0), &[1.0, 2.0]),
+        times(StressLoad::Assembly(7), &[3.0, 1.0, 9.0, 1.0]),
+        times(StressLoad::Drag, &[4.0]),
     ];
     let report = LoadReport::of(&all).expect("loads");
     assert_eq!((report.worst_load.as_str(), report.times.worst_step), ("assembly of seed 7", 2));

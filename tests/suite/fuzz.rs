@@ -24,7 +24,7 @@ fn seeds_are_good_files() {
     let stored = std::fs::read("tests/fuzz/seeds/model/figure.glb").expect("a seed");
     assert!(stored == boom_and_plate(), "seeds/model/figure.glb is not the figure that the tests make");
     for file in files("seeds", "model") {
-        exhibit::plain(&file).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        exhibit::load_model(&file).unwrap_or_else(|report| panic!("{}", report.render(false)));
     }
     for file in files("seeds", "recording") {
         assert!(wav::read(&file).is_ok_and(|recording| recording.samples.len() == 64), "{file:?}");
@@ -67,6 +67,6 @@ fn a_sound_of_a_body_whose_material_nobody_knows_is_told_and_not_looked_up() {
 
 #[test]
 fn a_model_that_says_it_is_shorter_than_its_header_is_refused() {
-    let report = exhibit::plain(Path::new("tests/fuzz/found/model/short-length.glb")).expect_err("no room");
+    let report = exhibit::load_model(Path::new("tests/fuzz/found/model/short-length.glb")).expect_err("no room");
     assert!(report.to_string().contains("no room for its header"), "{report}");
 }

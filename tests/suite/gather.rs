@@ -19,7 +19,7 @@ fn steps(seconds: f64) -> u64 {
 #[test]
 fn what_may_not_gather_is_reset() {
     let mut exhibit = Exhibit::clone(&load("pendulum"));
-    exhibit.gathers = false;
+    exhibit.assembles = false;
     let exhibit = Arc::new(exhibit);
     let [mut one, mut other] = [(); 2].map(|()| Simulation::new(exhibit.clone(), Settings::default()));
     for step in 0..100 {

@@ -22,9 +22,9 @@ fn trains_answer_each_other_as_the_whole_figure_does() {
     let folder = exhibit::resolve("terry-clock").unwrap_or_else(|report| panic!("{report}"));
     let clock = exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let bodies = start_dynamics(&clock, &Settings::default()).bodies;
-    let driven = vec![false; bodies.len()];
+    let kinematic = vec![false; bodies.len()];
     let [mut lean, mut whole] = [Method::Sparse, Method::Dense].map(|method| {
-        let mut system = System::new(&bodies, &driven, &clock.constraints, method);
+        let mut system = System::new(&bodies, &kinematic, &clock.constraints, method);
         system.activity.set_shares(0.0);
         system.activity.set_time(0.0);
         system.evaluate(&bodies);

@@ -110,14 +110,14 @@ fn frictionless(exhibit: &Exhibit) -> Dynamics {
         colliders: &[],
         pairs: Vec::new(),
     };
-    let laws = Laws {
+    let dynamics = Laws {
         gravity: exhibit.gravity,
         friction: false,
         stabilization_time: exhibit.stabilization_time,
         integrator: exhibit.integrator,
         solver: exhibit.solver,
     };
-    Dynamics::new(figure, laws)
+    Dynamics::new(figure, dynamics)
 }
 
 /// Seconds in which `force` (N) on the level at `point` (m, in the frame of body `i`), always across the body's x, turns it
@@ -220,12 +220,12 @@ fn blown_about(id: &str, seconds: f64, seed: u64) {
         let commands = [Command::Blow(None)];
         simulation.step(&StepInput { commands: &commands, pointer, ..StepInput::default() });
     }
-    let driven = !exhibit.drives.is_empty();
+    let kinematic = !exhibit.drives.is_empty();
     let up = |body: &RigidBody| (body.rotation * DVec3::Y).y;
     let least = simulation.bodies().iter().map(up).fold(1.0, f64::min);
     let tilt = least.clamp(-1.0, 1.0).acos().to_degrees();
     println!("{id}: joints within {worst:.1e} m, {hits} hits, {tilt:.2}° off upright after a quiet minute");
-    assert!(driven || tilt < UPRIGHT_DEG, "{id}, seed {seed}: something is caught, {tilt}°");
+    assert!(kinematic || tilt < UPRIGHT_DEG, "{id}, seed {seed}: something is caught, {tilt}°");
 }
 
 #[test]

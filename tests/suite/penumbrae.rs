@@ -3,12 +3,12 @@
 
 use glam::{DVec2, DVec3};
 use soffio_authoring::outline::{Polygon, ellipse, reversed};
-use soffio_authoring::solid::sheet;
+use soffio_authoring::solid::extrude;
 use soffio_exhibit::model::{Mesh, Model, Node, Primitive};
 use soffio_exhibit::{Body, Exhibit, View, Wire};
 use soffio_math::{DQuat, Pose};
-use soffio_render::gallery::{Lamp, Room, WALL_ALBEDO};
-use soffio_render::{Frame, ImageRenderer, Look, Tonemap};
+use soffio_render::gallery::{Gallery, Lamp, WALL_ALBEDO};
+use soffio_render::{FrameInput, ImageRenderer, Lighting, Tonemap};
 
 use super::pictures::{linear, paint, renderer, still};
 
@@ -45,7 +45,7 @@ fn cases() -> [Case; 4] {
 /// A plate that hangs before the wall. `closed` or with a hole in its rim, too small to be seen: then it is no plate to the
 /// renderer, and its triangles throw the shadow.
 fn hung(case: &Case, closed: bool) -> Exhibit {
-    let solid = sheet(&case.outline, &case.holes, THICKNESS, BEVEL);
+    let solid = extrude(&case.outline, &case.holes, THICKNESS, BEVEL);
     let mut primitive = Primitive {
         material: Some(0),
         positions: solid.positions.iter().map(|p| p.as_vec3().to_array()).collect(),
@@ -65,7 +65,7 @@ fn hung(case: &Case, closed: bool) -> Exhibit {
         materials: vec![paint("black", [0.01, 0.01, 0.01, 1.0], 0.0, 0.5)],
         ..Default::default()
     };
-    let mut exhibit = Exhibit::of_model(model);
+    let mut exhibit = Exhibit::from_model(model);
     exhibit.bodies.push(Body {
         name: "plate".into(),
         node: 0,
@@ -155,7 +155,7 @@ fn the_part_of_a_lamp_behind_a_plate_is_a_sum_over_its_edges() {
     /// Points across the disc, and what their count may be off: an outline passes a tenth of a row's points wrongly.
     const ACROSS: usize = 400;
     const COUNTED: f64 = 1.5e-3;
-    let lamp = Room::around(&hung(&cases()[0], true)).lamps[0];
+    let lamp = Gallery::around(&hung(&cases()[0], true)).lamps[0];
     let mut worst: f64 = 0.0;
     for case in cases() {
         let pose = Pose { position: DVec3::ZERO, rotation: case.turn };
@@ -176,7 +176,7 @@ fn the_part_of_a_lamp_behind_a_plate_is_a_sum_over_its_edges() {
 
 /// A case hung in a room, its picture square on the key's shadow, and what a pixel is wide on the wall, m.
 struct Wall {
-    room: Room,
+    gallery: Gallery,
     renderer: ImageRenderer,
     view: View,
     foot: DVec3,
@@ -186,16 +186,16 @@ struct Wall {
 impl Wall {
     fn of(case: &Case, closed: bool) -> Option<Self> {
         let exhibit = hung(case, closed);
-        let room = Room::around(&exhibit);
-        let look = Look { tonemap: Tonemap::Clamp, ..Default::default() };
-        let renderer = renderer(&exhibit, |options| options.look = look)?;
-        let (key, wall) = (room.lamps[0].position, room.center - room.z * room.half.z);
-        let (height, distance) = (-wall.dot(room.z), (key - wall).dot(room.z));
+        let gallery = Gallery::around(&exhibit);
+        let look = Lighting { tonemap: Tonemap::Clamp, ..Default::default() };
+        let renderer = renderer(&exhibit, |options| options.lighting = look)?;
+        let (key, wall) = (gallery.lamps[0].position, gallery.center - gallery.z * gallery.half.z);
+        let (height, distance) = (-wall.dot(gallery.z), (key - wall).dot(gallery.z));
         let foot = (key - key * (distance / (distance - height))).as_dvec3();
-        let z = room.z.as_dvec3();
+        let z = gallery.z.as_dvec3();
         let view = View { eye: foot + z * 2.0, target: foot, up: DVec3::Y, fovy: 0.11 };
         let pixel = 2.0 * (0.5 * view.fovy).tan() * 2.0 / f64::from(SIZE.1);
-        Some(Self { room, renderer, view, foot, pixel })
+        Some(Self { gallery, renderer, view, foot, pixel })
     }
 
     /// Radiance in each pixel, linear, of the green channel: the mean of so many exposures, each with codes of its own.
@@ -203,7 +203,7 @@ impl Wall {
         let mut sum = vec![0.0; (SIZE.0 * SIZE.1) as usize];
         for k in 0..exposures {
             let exposure = 1.0 - 0.013 * k as f32;
-            let frame = Frame { poses: &[pose], motes: &[], view: self.view, size: SIZE, exposure, time: 0.0 };
+            let frame = FrameInput { poses: &[pose], dust: &[], view: self.view, size: SIZE, exposure, time: 0.0 };
             let picture = self.renderer.draw(&frame).expect("a picture");
             for (sum, pixel) in sum.iter_mut().zip(picture.pixels()) {
                 *sum += f64::from(linear(pixel.0[1]) / exposure) / f64::from(exposures);
@@ -214,7 +214,7 @@ impl Wall {
 
     /// The wall where a pixel's middle is.
     fn at(&self, x: u32, y: u32) -> DVec3 {
-        let right = self.room.x.as_dvec3();
+        let right = self.gallery.x.as_dvec3();
         let [across, up] = [f64::from(x) + 0.5 - 0.5 * f64::from(SIZE.0), 0.5 * f64::from(SIZE.1) - f64::from(y) - 0.5];
         self.foot + (right * across + DVec3::Y * up) * self.pixel
     }
@@ -225,7 +225,7 @@ impl Wall {
         let cosine = away.normalize().dot(lamp.axis.as_dvec3());
         let (inner, outer) = (f64::from(lamp.cone.0), f64::from(lamp.cone.1));
         let t = ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0);
-        let falls = -away.normalize().dot(self.room.z.as_dvec3());
+        let falls = -away.normalize().dot(self.gallery.z.as_dvec3());
         f64::from(WALL_ALBEDO.y) / std::f64::consts::PI * f64::from(lamp.intensity.y) * t * t * (3.0 - 2.0 * t) * falls
             / away.length_squared()
     }
@@ -242,13 +242,13 @@ fn a_plate_before_the_wall_throws_the_penumbra_that_the_closed_form_says() {
     const EXPOSURES: u32 = 8;
     let mut sums = [0.0; 2];
     for case in cases() {
-        let mut figures = Vec::new();
+        let mut measurements = Vec::new();
         for closed in [true, false] {
             let Some(mut wall) = Wall::of(&case, closed) else { return };
             let pose = Pose { position: DVec3::ZERO, rotation: case.turn };
             let (with, without) = (wall.picture(pose, EXPOSURES), wall.picture(GONE, EXPOSURES));
             let loops = placed(&case, &pose);
-            let key = wall.lit(&wall.room.lamps[0], wall.foot);
+            let key = wall.lit(&wall.gallery.lamps[0], wall.foot);
             let y = SIZE.1 / 2;
             let mut squares = 0.0;
             let (mut deepest, mut worst): (f64, f64) = (0.0, 0.0);
@@ -257,7 +257,7 @@ fn a_plate_before_the_wall_throws_the_penumbra_that_the_closed_form_says() {
                 let i = (y * SIZE.0 + x) as usize;
                 let lost = (without[i] - with[i]) / key;
                 let expected: f64 = wall
-                    .room
+                    .gallery
                     .lamps
                     .iter()
                     .map(|lamp| {
@@ -271,7 +271,7 @@ fn a_plate_before_the_wall_throws_the_penumbra_that_the_closed_form_says() {
                 worst = worst.max((lost - expected).abs());
             }
             let rms = (squares / f64::from(SIZE.0)).sqrt();
-            figures.push(rms);
+            measurements.push(rms);
             let how = if closed { "closed form" } else { "triangles" };
             println!("{}, {how}: rms {rms:.4}, worst {worst:.4} of the key, deepest {deepest:.3}", case.name);
             if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
@@ -283,8 +283,8 @@ fn a_plate_before_the_wall_throws_the_penumbra_that_the_closed_form_says() {
                 grey.save(std::path::Path::new(&folder).join(name)).expect("a writable folder");
             }
         }
-        assert!(figures[0] < RMS, "{}: {} of the key's light", case.name, figures[0]);
-        (0..2).for_each(|i| sums[i] += figures[i]);
+        assert!(measurements[0] < RMS, "{}: {} of the key's light", case.name, measurements[0]);
+        (0..2).for_each(|i| sums[i] += measurements[i]);
     }
     // One shadow or another may lie better on its texels; in the mean the closed form is nearer.
     assert!(sums[0] < sums[1], "triangles are nearer, {sums:?}");
@@ -301,7 +301,7 @@ fn a_shadow_that_moves_by_tenths_of_a_pixel_goes_evenly() {
     for closed in [true, false] {
         let Some(mut wall) = Wall::of(&case, closed) else { return };
         let x = SIZE.0 / 2;
-        let right = wall.room.x.as_dvec3();
+        let right = wall.gallery.x.as_dvec3();
         let column: Vec<f64> = (0..STEPS)
             .map(|k| {
                 // The shadow goes a little farther than the plate.

@@ -8,19 +8,19 @@ use soffio_exhibit::model::{Appearance, Mesh, Model, Primitive};
 use soffio_exhibit::{Exhibit, View, Wire};
 use soffio_math::{DQuat, Pose};
 use soffio_render::environment::Environment;
-use soffio_render::gallery::{Room, WALL_ALBEDO};
-use soffio_render::{Frame, Gpu, ImageRenderer, Look, Quality, Tonemap};
+use soffio_render::gallery::{Gallery, WALL_ALBEDO};
+use soffio_render::{FrameInput, Gpu, ImageRenderer, Lighting, ShadowQuality, Tonemap};
 
 use super::pictures::{ball, frame, linear, mobile, paint, renderer, still};
 use super::require::require;
 
 /// A picture that is a measurement: no curve, no dither, one colour behind, no light but that.
-fn bare(background: Vec3) -> Look {
-    Look { tonemap: Tonemap::Clamp, background: Some(background), env_intensity: 0.0, ..Default::default() }
+fn bare(background: Vec3) -> Lighting {
+    Lighting { tonemap: Tonemap::Clamp, background: Some(background), env_intensity: 0.0, ..Default::default() }
 }
 
 fn wire(points: Vec<DVec3>, radius: f64) -> Exhibit {
-    let mut exhibit = Exhibit::of_model(Model::default());
+    let mut exhibit = Exhibit::from_model(Model::default());
     exhibit.wires.push(Wire {
         name: "wire".into(),
         body: None,
@@ -59,9 +59,9 @@ fn a_bent_wire_has_no_light_seam_and_no_blot_where_its_segments_meet() {
         let points =
             (0..=23).map(|i| i as f64 / 11.5 - 1.0).map(|t| DVec3::new(0.24 * t, 0.06 * bend * (t * t - 0.5), 0.0));
         let exhibit = wire(points.collect(), 0.5 * width * pixel);
-        let Some(mut renderer) = renderer(&exhibit, |options| options.look = bare(Vec3::ONE)) else { return };
+        let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = bare(Vec3::ONE)) else { return };
         let view = square_on(DVec3::Z * 2.0, DVec3::ZERO, fovy);
-        let frame = Frame { poses: &[], motes: &[], view, size, exposure: 1.0, time: 0.0 };
+        let frame = FrameInput { poses: &[], dust: &[], view, size, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         let relative: Vec<f32> = (0..size.0)
             .filter_map(|x| {
@@ -87,9 +87,9 @@ fn a_wire_that_points_at_the_eye_is_whole() {
     let size = (96, 96);
     let (eye, near, radius) = (DVec3::Z * 3.0, DVec3::new(0.0, 0.004, 0.5), 0.02);
     let exhibit = wire(vec![DVec3::new(0.01, 0.0, -0.5), DVec3::new(0.01, 0.0, 0.0), near], radius);
-    let Some(mut renderer) = renderer(&exhibit, |options| options.look = bare(Vec3::ONE)) else { return };
+    let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = bare(Vec3::ONE)) else { return };
     let view = square_on(eye, DVec3::ZERO, 0.05);
-    let frame = Frame { poses: &[], motes: &[], view, size, exposure: 1.0, time: 0.0 };
+    let frame = FrameInput { poses: &[], dust: &[], view, size, exposure: 1.0, time: 0.0 };
     let picture = renderer.draw(&frame).expect("a picture");
     let pixel = 2.0 * (0.025f64).tan() * 2.5 / 96.0;
     for (x, y, p) in picture.enumerate_pixels() {
@@ -115,18 +115,18 @@ fn the_shadow_of_a_wire_is_unbroken_and_as_dark_as_the_closed_form_says() {
             exhibit.wires.push(pole.clone());
             exhibit
         });
-        let room = Room::around(&exhibits[0]);
-        let key = room.lamps[0];
+        let gallery = Gallery::around(&exhibits[0]);
+        let key = gallery.lamps[0];
         // The shadow's middle, where the ray from the lamp through the wire's middle meets the wall.
-        let wall = room.center - room.z * room.half.z;
-        let height = -wall.dot(room.z);
-        let distance = (key.position - wall).dot(room.z);
+        let wall = gallery.center - gallery.z * gallery.half.z;
+        let height = -wall.dot(gallery.z);
+        let distance = (key.position - wall).dot(gallery.z);
         let foot = key.position - key.position * (distance / (distance - height)); // through the origin
         let pictures = exhibits.map(|exhibit| {
-            let look = Look { tonemap: Tonemap::Clamp, ..Default::default() };
-            let mut renderer = renderer(&exhibit, |options| options.look = look)?;
-            let view = square_on((foot + room.z * 2.0).as_dvec3(), foot.as_dvec3(), 0.1);
-            let frame = Frame { poses: &[], motes: &[], view, size: (200, 160), exposure: 1.0, time: 0.0 };
+            let look = Lighting { tonemap: Tonemap::Clamp, ..Default::default() };
+            let mut renderer = renderer(&exhibit, |options| options.lighting = look)?;
+            let view = square_on((foot + gallery.z * 2.0).as_dvec3(), foot.as_dvec3(), 0.1);
+            let frame = FrameInput { poses: &[], dust: &[], view, size: (200, 160), exposure: 1.0, time: 0.0 };
             Some(renderer.draw(&frame).expect("a picture"))
         });
         let [Some(with), Some(without)] = pictures else { return };
@@ -155,7 +155,7 @@ fn the_shadow_of_a_wire_is_unbroken_and_as_dark_as_the_closed_form_says() {
         let magnified = distance / (distance - height);
         let across = (DVec3::Z.as_vec3()).cross(along.as_vec3().normalize()).normalize();
         let ray = away.normalize();
-        let slant = ray.cross(along.as_vec3().normalize()).length() / ray.dot(room.z).abs();
+        let slant = ray.cross(along.as_vec3().normalize()).length() / ray.dot(gallery.z).abs();
         let expected = 2.0 * radius as f32 * magnified * slant / across.y.abs();
         let faintest = ink.iter().copied().fold(f32::INFINITY, f32::min) / mean;
         println!(
@@ -177,20 +177,20 @@ fn nothing_gains_or_loses_light_in_a_furnace_at_any_roughness() {
         for step in 0..=10 {
             let mut sphere = ball(0.4);
             sphere.material = Some(0);
-            let exhibit = Exhibit::of_model(Model {
+            let exhibit = Exhibit::from_model(Model {
                 nodes: vec![still(DMat4::IDENTITY)],
                 roots: vec![0],
                 meshes: vec![Mesh { name: "ball".into(), primitives: vec![sphere] }],
                 materials: vec![paint("white", [1.0; 4], metallic, 0.1 * step as f32)],
                 ..Default::default()
             });
-            let look = Look {
+            let look = Lighting {
                 tonemap: Tonemap::Clamp,
                 environment: Some(white.clone()),
                 background: Some(radiance),
                 ..Default::default()
             };
-            let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
+            let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = look) else { return };
             let picture = renderer.draw(&frame(&exhibit, &[], (48, 48))).expect("a picture");
             for pixel in picture.pixels() {
                 let value = linear(pixel.0[1]) / radiance.y;
@@ -222,14 +222,14 @@ fn neutral(c: [f64; 3]) -> [f64; 3] {
 fn eight_primaries_come_through_neutral_as_the_formula_says() {
     // Mean over a picture, so that the dither of half a step averages out.
     const TOLERANCE: f64 = 1.0;
-    let exhibit = Exhibit::of_model(Model::default());
+    let exhibit = Exhibit::from_model(Model::default());
     let mut worst: f64 = 0.0;
     for primary in 0..8 {
         for level in [0.3, 0.9, 3.0] {
             let color = [0, 1, 2].map(|i| if primary >> i & 1 == 1 { level } else { 0.0 });
             let background = Some(Vec3::from_array(color.map(|c| c as f32)));
-            let look = Look { background, ..Default::default() };
-            let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
+            let look = Lighting { background, ..Default::default() };
+            let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = look) else { return };
             let picture = renderer.draw(&frame(&exhibit, &[], (32, 32))).expect("a picture");
             for (channel, value) in neutral(color).into_iter().enumerate() {
                 let code = if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
@@ -248,7 +248,7 @@ fn a_frame_moves_few_bytes_and_asks_for_few_draws() {
     const MOST_BYTES: u64 = 450_000_000;
     const MOST_DRAWS: u32 = 20;
     let exhibit = mobile();
-    let Some(renderer) = renderer(&exhibit, |options| options.quality = Quality::Full) else { return };
+    let Some(renderer) = renderer(&exhibit, |options| options.shadow_quality = ShadowQuality::Full) else { return };
     let passes = renderer.renderer().passes((3840, 2160));
     for pass in &passes {
         println!("{}: {:.1} MB, {} draws", pass.label, pass.bytes() as f64 / 1e6, pass.draws);
@@ -286,7 +286,8 @@ fn vulkan_and_gl_draw_the_same_picture() {
     let Some(gpu) = require("OpenGL driver", Gpu::headless_on(wgpu::Backends::GL)) else { return };
     println!("{} and {}", vulkan.gpu().name(), gpu.name());
     let software = gpu.is_software() && vulkan.gpu().is_software();
-    let mut gl = ImageRenderer::on(gpu, &exhibit, |options| options.quality = Quality::Light).expect("a renderer");
+    let mut gl =
+        ImageRenderer::on(gpu, &exhibit, |options| options.shadow_quality = ShadowQuality::Light).expect("a renderer");
     let [a, b] = [&mut vulkan, &mut gl].map(|r| r.draw(&frame(&exhibit, &[], (480, 320))).expect("a picture"));
     if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
         b.save(std::path::Path::new(&folder).join("gl.png")).expect("a writable folder");
@@ -350,16 +351,16 @@ fn a_pane_of_glass_lets_its_colour_through_and_casts_a_lighter_shadow() {
         pane.indices.extend(quad.map(|k: u32| base + k));
     }
     let green = Appearance { transmission: 1.0, ..paint("glass", [0.5, 0.9, 0.6, 1.0], 0.0, 0.05) };
-    let exhibit = Exhibit::of_model(Model {
+    let exhibit = Exhibit::from_model(Model {
         nodes: vec![still(DMat4::IDENTITY)],
         roots: vec![0],
         meshes: vec![Mesh { name: "pane".into(), primitives: vec![pane] }],
         materials: vec![green],
         ..Default::default()
     });
-    let Some(mut renderer) = renderer(&exhibit, |options| options.look = bare(Vec3::ONE)) else { return };
+    let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = bare(Vec3::ONE)) else { return };
     let view = square_on(DVec3::Z * 4.0, DVec3::ZERO, 0.3);
-    let frame = Frame { poses: &[], motes: &[], view, size: (32, 32), exposure: 1.0, time: 0.0 };
+    let frame = FrameInput { poses: &[], dust: &[], view, size: (32, 32), exposure: 1.0, time: 0.0 };
     let seen = renderer.draw(&frame).expect("a picture").get_pixel(16, 16).0;
     for (code, base) in seen.into_iter().zip([0.5, 0.9, 0.6]) {
         let expected = 0.96 * 0.96 * base;

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec3};
 use soffio_exhibit::model::{Appearance, Camera, Mesh, Model, Node, Primitive};
 use soffio_exhibit::{Body, Exhibit, Wire};
 use soffio_math::Pose;
-use soffio_render::{Frame, ImageRenderer, Look, Options, RenderError, Tonemap};
+use soffio_render::{FrameInput, ImageRenderer, Lighting, Options, RenderError, Tonemap};
 use soffio_simulation::DustParticle;
 
 use crate::require::require;
@@ -104,7 +104,7 @@ pub fn mobile() -> Exhibit {
     let bodies: Vec<(usize, DVec3)> = places.into_iter().map(|(n, p, at)| (add(n, Some(p), at, None), at)).collect();
     let camera = add("camera", None, DVec3::new(0.08, 0.34, 1.75), Some(0));
     model.cameras.push(Camera { fovy: 0.42, aspect: Some(1.5) });
-    let mut exhibit = Exhibit::of_model(model);
+    let mut exhibit = Exhibit::from_model(model);
     exhibit.camera_node = Some(camera);
     let properties = soffio_geometry::bodies::MassProperties {
         mass: 0.1,
@@ -159,10 +159,10 @@ pub(crate) fn renderer(exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> 
     }
 }
 
-pub(crate) fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], size: (u32, u32)) -> Frame<'a> {
-    Frame {
+pub(crate) fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], size: (u32, u32)) -> FrameInput<'a> {
+    FrameInput {
         poses,
-        motes: &[],
+        dust: &[],
         view: exhibit.view(f64::from(size.0) / f64::from(size.1)),
         size,
         exposure: 1.0,
@@ -205,12 +205,12 @@ fn each_lamp_throws_the_fish_on_the_wall_where_geometry_says() {
     without[0].position.z = -100.0;
     let size = (600, 400);
     let [with, without] = [&poses, &without].map(|p| renderer.draw(&frame(&exhibit, p, size)).expect("a picture"));
-    let room = soffio_render::gallery::Room::around(&exhibit);
-    let wall = room.center - room.z * room.half.z;
-    for (lamp, share) in room.lamps.iter().zip([0.37 / 0.79, 0.12 / 0.79]) {
+    let gallery = soffio_render::gallery::Gallery::around(&exhibit);
+    let wall = gallery.center - gallery.z * gallery.half.z;
+    for (lamp, share) in gallery.lamps.iter().zip([0.37 / 0.79, 0.12 / 0.79]) {
         let center = exhibit.bodies[0].pose.position.as_vec3();
         let ray = center - lamp.position;
-        let foot = lamp.position + ray * ((wall - lamp.position).dot(room.z) / ray.dot(room.z));
+        let foot = lamp.position + ray * ((wall - lamp.position).dot(gallery.z) / ray.dot(gallery.z));
         let [x, y] = exhibit.view(1.5).project(foot.as_dvec3(), 1.5).expect("in front");
         let at = |picture: &image::RgbaImage| linear(picture.get_pixel((x * 600.0) as u32, (y * 400.0) as u32).0[1]);
         let lost = 1.0 - at(&with) / at(&without);
@@ -229,7 +229,7 @@ fn a_furnace_shows_no_white_thing() {
         for roughness in [0.05, 0.3, 0.6, 1.0] {
             let mut sphere = ball(0.4);
             sphere.material = Some(0);
-            let exhibit = Exhibit::of_model(Model {
+            let exhibit = Exhibit::from_model(Model {
                 nodes: vec![still(DMat4::IDENTITY)],
                 roots: vec![0],
                 meshes: vec![Mesh { name: "ball".into(), primitives: vec![sphere] }],
@@ -237,13 +237,13 @@ fn a_furnace_shows_no_white_thing() {
                 ..Default::default()
             });
             let white = std::sync::Arc::new(soffio_render::environment::Environment::new(|_| radiance));
-            let look = Look {
+            let look = Lighting {
                 tonemap: Tonemap::Clamp,
                 environment: Some(white),
                 background: Some(radiance),
                 ..Default::default()
             };
-            let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
+            let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = look) else { return };
             let picture = renderer.draw(&frame(&exhibit, &[], (64, 64))).expect("a picture");
             for (x, y, pixel) in picture.enumerate_pixels() {
                 let value = linear(pixel.0[1]) / radiance.y;
@@ -261,7 +261,7 @@ fn a_wire_thinner_than_a_pixel_is_an_unbroken_line_of_the_right_darkness() {
     let size = (160, 80);
     let pixel = 2.0 * (0.2f64 / 2.0).tan() * 2.0 / f64::from(size.1);
     for width in [0.25, 0.47, 0.88, 1.66] {
-        let mut exhibit = Exhibit::of_model(Model::default());
+        let mut exhibit = Exhibit::from_model(Model::default());
         let slope = DVec3::new(1.0, 0.13, 0.0);
         exhibit.wires.push(Wire {
             name: "wire".into(),
@@ -274,10 +274,10 @@ fn a_wire_thinner_than_a_pixel_is_an_unbroken_line_of_the_right_darkness() {
             roughness: 0.5,
         });
         let look =
-            Look { tonemap: Tonemap::Clamp, background: Some(Vec3::ONE), env_intensity: 0.0, ..Default::default() };
-        let Some(mut renderer) = renderer(&exhibit, |options| options.look = look) else { return };
+            Lighting { tonemap: Tonemap::Clamp, background: Some(Vec3::ONE), env_intensity: 0.0, ..Default::default() };
+        let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = look) else { return };
         let view = soffio_exhibit::View { eye: DVec3::Z * 2.0, target: DVec3::ZERO, up: DVec3::Y, fovy: 0.2 };
-        let frame = Frame { poses: &[], motes: &[], view, size, exposure: 1.0, time: 0.0 };
+        let frame = FrameInput { poses: &[], dust: &[], view, size, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         let ink: Vec<f32> =
             (8..152).map(|x| (0..80).map(|y| 1.0 - linear(picture.get_pixel(x, y).0[1])).sum::<f32>()).collect();
@@ -309,7 +309,7 @@ fn dust_adds_light_where_it_is_and_nowhere_else() {
     let position = exhibit.bodies[0].pose.position + DVec3::Z * 0.1;
     let mote = DustParticle { position: position.as_vec3().to_array(), velocity: [0.0; 3], brightness: 0.8 };
     let dark = frame(&exhibit, &[], (300, 200));
-    let lit = Frame { motes: &[mote], ..dark };
+    let lit = FrameInput { dust: &[mote], ..dark };
     let [before, after] = [dark, lit].map(|f| renderer.draw(&f).expect("a picture"));
     let [x, y] = dark.view.project(position, 1.5).expect("in front");
     let (x, y) = ((x * 300.0) as i32, (y * 200.0) as i32);

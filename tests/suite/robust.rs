@@ -10,7 +10,7 @@ use soffio_multibody::articulation::{Anchor, Breaking, Constraint, ConstraintKin
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{self, Articulation, Dynamics, Integrator, KeyframeMotion, KinematicBody, Solver};
 use soffio_offline::scene::make;
-use soffio_offline::scene::run::{self, Limits, watch};
+use soffio_offline::scene::run::{self, Limits, observe};
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
 use super::exhibit::glb::{Folder, Scene, cuboid};
@@ -127,7 +127,7 @@ fn a_million_times_the_mass_hangs_on_a_chain() {
     for seed in [3, 4] {
         let scene = make::mass_ratio(10, 1e6, seed);
         let mut engine = run::Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
-        let watched = watch(&scene, &mut engine, DT, Limits { seconds: 10.0, budget: f64::INFINITY });
+        let watched = observe(&scene, &mut engine, DT, Limits { seconds: 10.0, budget: f64::INFINITY });
         let report = watched.report;
         println!(
             "seed {seed}: energy drifts by {:.1e}, joints by {:.1e} m, {:.1} substeps",

@@ -12,7 +12,9 @@ use soffio_offline::scene::make;
 use soffio_offline::scene::measure::{self, Coordinate};
 use soffio_offline::scene::run::{self, Best};
 use soffio_offline::scene::times::StepTimes;
-use soffio_offline::scene::{Engine, Joint, JointKind, Limits, OLD_FORMAT, Observer, Scene, Soffio, State};
+use soffio_offline::scene::{
+    BodyState, Engine, JointKind, Limits, OLD_FORMAT, Observer, PhysicsScene, SceneJoint, Soffio,
+};
 
 const DT: f64 = 1.0 / 240.0;
 /// A few operations of f64 on numbers of about one.
@@ -27,19 +29,19 @@ fn shipped(name: &str) -> String {
     std::fs::read_to_string(path).expect("shipped")
 }
 
-fn pendulum() -> Scene {
-    Scene::parse(&shipped("pendulum.json"), "pendulum.json").expect("sound")
+fn pendulum() -> PhysicsScene {
+    PhysicsScene::parse(&shipped("pendulum.json"), "pendulum.json").expect("sound")
 }
 
-fn joint(kind: JointKind, a: i64, b: usize, anchors: [[f64; 3]; 2], axis: Option<[DVec3; 2]>) -> Joint {
+fn joint(kind: JointKind, a: i64, b: usize, anchors: [[f64; 3]; 2], axis: Option<[DVec3; 2]>) -> SceneJoint {
     let [axis_a, axis_b] = axis.map_or([None; 2], |axis| axis.map(|axis| Some(axis.to_array())));
-    Joint { kind, a, b, anchor_a: anchors[0], anchor_b: anchors[1], axis_a, axis_b, limits: None }
+    SceneJoint { kind, a, b, anchor_a: anchors[0], anchor_b: anchors[1], axis_a, axis_b, limits: None }
 }
 
 #[test]
 fn a_scene_is_written_and_read_back() {
     for scene in [pendulum(), make::chain(5, 1), make::mobile(6, 2), make::mass_ratio(3, 50.0, 3)] {
-        assert_eq!(Scene::parse(&scene.to_json(), "again").expect("sound"), scene);
+        assert_eq!(PhysicsScene::parse(&scene.to_json(), "again").expect("sound"), scene);
     }
 }
 
@@ -86,7 +88,7 @@ fn a_bad_scene_is_told_by_place_and_reason() {
         ),
     ] {
         assert!(good.contains(find), "the scene has no {find}");
-        let error = Scene::parse(&good.replacen(find, replace, 1), "s.json").expect_err(replace).to_string();
+        let error = PhysicsScene::parse(&good.replacen(find, replace, 1), "s.json").expect_err(replace).to_string();
         for word in words {
             assert!(error.contains(word), "{find} → {replace}: no \"{word}\" in: {error}");
         }
@@ -94,7 +96,7 @@ fn a_bad_scene_is_told_by_place_and_reason() {
     let mut scene = make::chain(3, 1);
     scene.format = OLD_FORMAT.into();
     scene.joints.swap(1, 2);
-    let error = Scene::parse(&scene.to_json(), "s.json").expect_err("out of order").to_string();
+    let error = PhysicsScene::parse(&scene.to_json(), "s.json").expect_err("out of order").to_string();
     assert!(error.contains("joints[1].b: 2 is out of order"), "{error}");
 }
 
@@ -117,7 +119,7 @@ const GATE: &str = r#"{
 
 #[test]
 fn a_bad_scene_of_contacts_and_loops_is_told_by_place_and_reason() {
-    Scene::parse(GATE, "gate.json").expect("valid");
+    PhysicsScene::parse(GATE, "gate.json").expect("valid");
     for (find, replace, words) in [
         ("\"limits\": [-0.1, 0.2]", "\"limits\": [0.1, 0.2]", &["joints[0].limits:", "enclose the start"][..]),
         ("\"limits\": [-0.1, 0.2]", "\"limits\": [0.2, -0.1]", &["joints[0].limits:", "enclose the start"]),
@@ -147,7 +149,7 @@ fn a_bad_scene_of_contacts_and_loops_is_told_by_place_and_reason() {
         ),
     ] {
         assert!(GATE.contains(find), "the scene has no {find}");
-        let error = Scene::parse(&GATE.replacen(find, replace, 1), "gate.json").expect_err(replace).to_string();
+        let error = PhysicsScene::parse(&GATE.replacen(find, replace, 1), "gate.json").expect_err(replace).to_string();
         for word in words {
             assert!(error.contains(word), "{find} → {replace}: no \"{word}\" in: {error}");
         }
@@ -158,7 +160,7 @@ fn a_bad_scene_of_contacts_and_loops_is_told_by_place_and_reason() {
 fn a_ball_lands_a_gate_stops_and_a_loop_holds() {
     /// A contact rests anywhere within the touching layer, m.
     const SINKS: f64 = 2.0 * TOUCH;
-    let scene = Scene::parse(GATE, "gate.json").expect("valid");
+    let scene = PhysicsScene::parse(GATE, "gate.json").expect("valid");
     let mut gate = Coordinate::new(&scene, 0).expect("a hinge");
     let mut engine = Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
     let mut states = Vec::new();
@@ -166,14 +168,14 @@ fn a_ball_lands_a_gate_stops_and_a_loop_holds() {
     for _ in 0..480 {
         assert!(engine.step());
         engine.states(&mut states);
-        opened = opened.max(gate.follow(&states));
+        opened = opened.max(gate.unwrap_angle(&states));
     }
     assert!((opened - 0.2).abs() < 1e-6, "0.5 rad/s carry the gate to its stop at 0.2 rad, not to {opened}");
     assert!(measure::joint_error(&scene, &states) < JOINT_ERROR);
     assert!((states[1].position.y + 0.9).abs() < SINKS, "the ball lies at {}", states[1].position.y);
 
     let limits = Limits { seconds: 2.0, budget: f64::INFINITY };
-    let watched = run::watch(&scene, &mut Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse), DT, limits);
+    let watched = run::observe(&scene, &mut Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse), DT, limits);
     let contacts = watched.report.contacts.expect("a scene that collides");
     assert!(contacts.max_penetration_m < SINKS && contacts.max_energy_rise_rel < 1e-9, "{contacts:?}");
     assert!((contacts.max_way_m - 0.1).abs() < SINKS, "the ball falls by 0.1 m: {contacts:?}");
@@ -183,14 +185,14 @@ fn a_ball_lands_a_gate_stops_and_a_loop_holds() {
 
 #[test]
 fn a_penetration_and_a_rise_of_energy_are_seen() {
-    let scene = Scene::parse(GATE, "gate.json").expect("valid");
+    let scene = PhysicsScene::parse(GATE, "gate.json").expect("valid");
     let mut states: Vec<_> = scene.bodies.iter().map(|body| body.state()).collect();
     let mut observer = Observer::new(&scene);
     // Down to 3 mm below the floor, and up again by 0.5 m.
     states[1].position.y = -0.903;
-    observer.see(DT, &states);
+    observer.observe(DT, &states);
     states[1].position.y = -0.403;
-    observer.see(2.0 * DT, &states);
+    observer.observe(2.0 * DT, &states);
     let contacts = observer.report(&states).contacts.expect("a scene that collides");
     assert!((contacts.max_penetration_m - 3e-3).abs() < ROUNDING, "{contacts:?}");
     assert_eq!(contacts.rest_penetration_m, 0.0);
@@ -209,7 +211,7 @@ fn percentiles_of_step_times_are_those_of_the_least_times() {
     for step in 0..10 {
         times.time(|| spin(if step == 3 || step == 7 { 2.0 } else { 0.1 }));
     }
-    times.again_by(|step| spin(if step == 7 { 2.0 } else { 0.1 }));
+    times.repeat_with(|step| spin(if step == 7 { 2.0 } else { 0.1 }));
     let report = times.report();
     assert_eq!(report.worst_step, 7, "{report:?}");
     assert!(report.p100_us >= 2e3 && report.p50_us >= 100.0 && report.p50_us < 2e3, "{report:?}");
@@ -224,7 +226,7 @@ fn energy_is_that_of_the_formula() {
     let mut states: Vec<_> = scene.bodies.iter().map(|body| body.state()).collect();
     for (body, state) in scene.bodies.iter_mut().zip(&mut states) {
         (body.mass, body.inertia) = (3.0, [0.1, 0.2, 0.4]);
-        *state = State {
+        *state = BodyState {
             position: DVec3::new(5.0, 2.0, -1.0),
             rotation: turn,
             velocity: DVec3::new(2.0, -1.0, 2.0),
@@ -240,8 +242,8 @@ fn energy_is_that_of_the_formula() {
 fn a_gap_is_the_anchors_distance_and_a_sliders_way_is_none() {
     let axis = DVec3::new(0.0, 0.6, 0.8);
     let (turn, at) = (rotation(DVec3::new(0.4, 0.2, -0.9)), DVec3::new(1.0, 2.0, 3.0));
-    let a = State { position: at, rotation: turn, ..State::WORLD };
-    let b = State { position: at + turn * (3.0 * axis + 4e-3 * DVec3::X), ..a };
+    let a = BodyState { position: at, rotation: turn, ..BodyState::WORLD };
+    let b = BodyState { position: at + turn * (3.0 * axis + 4e-3 * DVec3::X), ..a };
     let spherical = joint(JointKind::Spherical, 0, 1, [[0.0; 3]; 2], None);
     let slider = joint(JointKind::Slider, 0, 1, [[0.0; 3]; 2], Some([axis; 2]));
     let expected = (9.0_f64 + 16e-6).sqrt();
@@ -250,11 +252,11 @@ fn a_gap_is_the_anchors_distance_and_a_sliders_way_is_none() {
 }
 
 /// Two bodies: one on a hinge of the world with a skew axis, one on a hinge or slider of the first, both turned.
-fn two(kind: JointKind) -> (Scene, DVec3) {
+fn two(kind: JointKind) -> (PhysicsScene, DVec3) {
     let mut scene = make::chain(2, 5);
     let axis = DVec3::new(2.0, -1.0, 2.0) / 3.0;
     let states: Vec<_> = scene.bodies.iter().map(|body| body.state()).collect();
-    let inside = |state: &State| state.rotation.conjugate() * axis;
+    let inside = |state: &BodyState| state.rotation.conjugate() * axis;
     let first = [scene.joints[0].anchor_a, scene.joints[0].anchor_b];
     let second = [scene.joints[1].anchor_a, scene.joints[1].anchor_b];
     scene.joints[0] = joint(JointKind::Hinge, -1, 0, first, Some([axis, inside(&states[0])]));
@@ -262,7 +264,7 @@ fn two(kind: JointKind) -> (Scene, DVec3) {
     for body in &mut scene.bodies {
         (body.linvel, body.angvel) = ([0.0; 3], [0.0; 3]);
     }
-    (Scene::parse(&scene.to_json(), "two").expect("sound"), axis)
+    (PhysicsScene::parse(&scene.to_json(), "two").expect("sound"), axis)
 }
 
 #[test]
@@ -275,7 +277,7 @@ fn a_hinge_counts_right_handed_turns_of_the_child_and_all_of_them() {
         // The first turns forward about the axis, the second back at twice the rate, seen from the world.
         states[0].rotation = rotation(axis * step) * states[0].rotation;
         states[1].rotation = rotation(-2.0 * step * axis) * states[1].rotation;
-        let [q0, q1] = hinges.each_mut().map(|hinge| hinge.follow(&states));
+        let [q0, q1] = hinges.each_mut().map(|hinge| hinge.unwrap_angle(&states));
         let turned = f64::from(k) * step;
         assert!((q0 - turned).abs() < 100.0 * ROUNDING, "{q0} against {turned}");
         assert!((q1 + 3.0 * turned).abs() < 300.0 * ROUNDING, "{q1} against {}", -3.0 * turned);
@@ -284,7 +286,7 @@ fn a_hinge_counts_right_handed_turns_of_the_child_and_all_of_them() {
     let mut states: Vec<_> = scene.bodies.iter().map(|body| body.state()).collect();
     let mut slider = Coordinate::new(&scene, 1).expect("a slider");
     states[1].position += 0.25 * axis;
-    let way = slider.follow(&states);
+    let way = slider.unwrap_angle(&states);
     assert!((way - 0.25).abs() < ROUNDING, "{way}");
     assert!(Coordinate::new(&make::chain(1, 1), 0).is_none(), "a spherical joint has no coordinate");
 }
@@ -334,14 +336,14 @@ fn periods_are_found_between_samples() {
     for k in 1..=2_400 {
         let t = f64::from(k) * DT;
         let turn = rotation(DVec3::Z * (amplitude * cos(omega * t)));
-        let state = State {
+        let state = BodyState {
             position: turn * DVec3::new(0.0, -0.2, 0.0),
             rotation: turn,
             velocity: DVec3::ZERO,
             angular_velocity: DVec3::Z * (-amplitude * omega * sin(omega * t)),
         };
         states = vec![state];
-        observer.see(t, &states);
+        observer.observe(t, &states);
     }
     let found = observer.report(&states).pendulum.expect("a pendulum");
     assert!(found.period_err_ppm.abs() < LINES_PPM, "{found:?}");
@@ -355,13 +357,13 @@ fn periods_are_found_between_samples() {
 fn a_run_that_leaves_its_energy_or_its_numbers_has_diverged() {
     let scene = make::chain(2, 1);
     let start: Vec<_> = scene.bodies.iter().map(|body| body.state()).collect();
-    let fast = State { velocity: DVec3::X * 1e3, ..start[1] };
-    let none = State { position: DVec3::X * f64::NAN, ..start[1] };
+    let fast = BodyState { velocity: DVec3::X * 1e3, ..start[1] };
+    let none = BodyState { position: DVec3::X * f64::NAN, ..start[1] };
     for bad in [fast, none] {
         let mut observer = Observer::new(&scene);
-        assert!(observer.see(DT, &start));
+        assert!(observer.observe(DT, &start));
         let states = [start[0], bad];
-        assert!(!observer.see(2.0 * DT, &states));
+        assert!(!observer.observe(2.0 * DT, &states));
         assert_eq!(observer.report(&states).diverged_at_s, Some(2.0 * DT));
     }
 }
@@ -402,8 +404,8 @@ impl Engine for Slow {
         1
     }
 
-    fn states(&self, out: &mut Vec<State>) {
-        *out = vec![State { position: DVec3::X * f64::from(self.done), ..State::WORLD }];
+    fn states(&self, out: &mut Vec<BodyState>) {
+        *out = vec![BodyState { position: DVec3::X * f64::from(self.done), ..BodyState::WORLD }];
     }
 }
 
@@ -412,7 +414,7 @@ fn later_rounds_run_the_steps_of_the_first_however_long_they_take() {
     let mut best = Best::default();
     let limits = Limits { seconds: f64::INFINITY, budget: 5e-3 };
     for step in [1e-3, 3e-3, 2e-3] {
-        best.round(&mut Slow { step, done: 0 }, 1_000, limits);
+        best.run_round(&mut Slow { step, done: 0 }, 1_000, limits);
     }
     assert!((1..1_000).contains(&best.steps()), "the first round ends in its time, not after {} steps", best.steps());
     assert!(best.agree(), "all rounds have the same steps");
@@ -421,11 +423,11 @@ fn later_rounds_run_the_steps_of_the_first_however_long_they_take() {
 
 /// A scene as a file has it, half a second of it, at most `drift` of its energy lost or won.
 #[track_caller]
-fn runs_well(scene: &Scene, drift: f64) {
-    let scene = Scene::parse(&scene.to_json(), &scene.name).expect("sound");
+fn runs_well(scene: &PhysicsScene, drift: f64) {
+    let scene = PhysicsScene::parse(&scene.to_json(), &scene.name).expect("sound");
     let limits = Limits { seconds: 0.5, budget: f64::INFINITY };
     let mut engine = Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
-    let watched = run::watch(&scene, &mut engine, DT, limits);
+    let watched = run::observe(&scene, &mut engine, DT, limits);
     let (name, report) = (&scene.name, &watched.report);
     println!("{name}: energy {:.1e}, joints {:.1e} m", report.max_energy_drift_rel, report.max_joint_err_m);
     assert_eq!(report.diverged_at_s, None, "{name}: {report:?}");
@@ -435,7 +437,7 @@ fn runs_well(scene: &Scene, drift: f64) {
     let brief = Limits { seconds: 0.1, ..limits };
     for _ in 0..2 {
         let mut engine = Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
-        best.round(&mut engine, run::step_count(&scene, DT, brief.seconds), brief);
+        best.run_round(&mut engine, run::step_count(&scene, DT, brief.seconds), brief);
     }
     assert!(best.agree(), "{name}: two runs differ");
 }
@@ -474,7 +476,7 @@ fn heavy_blocks_on_light_rods_keep_energy_and_joints() {
 #[test]
 fn costs_are_measured_on_chains_and_trees() {
     for (shape, scene) in linear::scenes(linear::SIZES[0]) {
-        let scene = Scene::parse(&scene.to_json(), shape).expect("sound");
+        let scene = PhysicsScene::parse(&scene.to_json(), shape).expect("sound");
         let cost = linear::measure(shape, &scene, 0.0);
         assert_eq!(cost.n, 10);
         for us in [cost.us_per_body_step, cost.us_per_body_factor_solve] {

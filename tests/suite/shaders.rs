@@ -20,9 +20,9 @@ fn a_folder_of_shaders_is_taken_whole_or_not_at_all() {
         let path = entry.expect("an entry").path();
         std::fs::copy(&path, folder.path().join(path.file_name().expect("a name"))).expect("a copy");
     }
-    std::fs::write(folder.path().join("room.wgsl"), "fn fragment( {").expect("written");
-    let error = Shaders::load(folder.path()).expect_err("room.wgsl is broken");
-    assert!(matches!(error, ShaderError::Invalid("room", _)), "{error}");
+    std::fs::write(folder.path().join("gallery.wgsl"), "fn fragment( {").expect("written");
+    let error = Shaders::load(folder.path()).expect_err("gallery.wgsl is broken");
+    assert!(matches!(error, ShaderError::Invalid("gallery", _)), "{error}");
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn a_kiosk_reads_changed_shaders_and_says_what_is_wrong_with_them() {
     let mut workbench = Workbench::new(folder.path().into());
     assert!(workbench.news(0.0).is_some_and(|news| news.is_ok()), "the first look reads them");
     assert!(workbench.news(1.0).is_none(), "nothing has changed");
-    let path = folder.path().join("motes.wgsl");
+    let path = folder.path().join("dust.wgsl");
     let good = std::fs::read_to_string(&path).expect("read");
     std::fs::write(&path, "fn vertex( {").expect("written");
     assert!(workbench.news(2.0).is_some_and(|news| news.is_err()), "a mistake is said");

@@ -1,8 +1,8 @@
 //! Key frames of morph weights and of scales: read, played at the time of the run, drawn, and refused where they are broken.
 
 use serde_json::json;
-use soffio_exhibit::growth::Growth;
-use soffio_exhibit::shapes::ShapeTrack;
+use soffio_exhibit::animated_scale::AnimatedScale;
+use soffio_exhibit::shape_tracks::ShapeTrack;
 use soffio_exhibit::{self as exhibit, Exhibit, model};
 use soffio_math::DVec3;
 
@@ -29,12 +29,12 @@ fn plain(scene: &Scene) -> Exhibit {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("model.glb");
     std::fs::write(&path, scene.glb()).expect("writable");
-    Exhibit::of_model(model::load(&path).unwrap_or_else(|report| panic!("{}", report.render(false))))
+    Exhibit::from_model(model::load(&path).unwrap_or_else(|report| panic!("{}", report.render(false))))
 }
 
 fn weights(track: &ShapeTrack, t: f64) -> [f64; 2] {
     let mut weights = [f64::NAN; 2];
-    track.channel.weigh(track.time(t), &mut weights);
+    track.channel.sample_weights(track.time(t), &mut weights);
     weights
 }
 
@@ -54,7 +54,7 @@ fn weights_go_from_key_to_key_as_their_curve_says_and_begin_anew() {
         near(weights(track, 1.5), [1.0, 0.5], curve);
         // The animation lasts two seconds.
         near(weights(track, 6.75), wanted, curve);
-        assert!(track.moves(100.0));
+        assert!(track.is_changing(100.0));
     }
     // In-tangents, values and out-tangents of each key; the values of a cubic by glTF 2.0, appendix C.5.
     let (mut scene, leaf) = leaf();
@@ -79,9 +79,9 @@ fn a_node_grows_with_what_is_above_it_and_a_body_follows_its_place_alone() {
     scene.animate("Grow", stem, "scale", "LINEAR", &[(0.0, vec![0.0; 3]), (2.0, vec![2.0, 4.0, 2.0])]);
     let exhibit = plain(&scene);
     // A quarter turn takes the bud's height to −x.
-    let at = Growth::of(&exhibit, bud).world(1.0).transform_point3(DVec3::ZERO);
+    let at = AnimatedScale::of(&exhibit, bud).world(1.0).transform_point3(DVec3::ZERO);
     assert!(at.distance(DVec3::new(1.0 - 0.4, 0.0, 0.0)) < ROUNDING, "{at}");
-    assert!(Growth::of(&exhibit, bud).frame(0.0).is_none(), "what is nowhere has no frame");
+    assert!(AnimatedScale::of(&exhibit, bud).frame(0.0).is_none(), "what is nowhere has no frame");
 
     let (mut scene, leaf) = leaf();
     let turn = |angle: f32| vec![0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()];
@@ -96,8 +96,8 @@ fn a_node_grows_with_what_is_above_it_and_a_body_follows_its_place_alone() {
     assert!(turned.shapes.iter().all(|track| track.repeat), "these are not of the animation that the body follows");
     // Shapes do not move a body.
     for name in ["Wave", "Stretch"] {
-        let told = load(name).expect_err("nothing to follow").render(false);
-        assert!(told.contains(&format!("no animation \"{name}\" of the model moves \"Leaf\"")), "{told}");
+        let output = load(name).expect_err("nothing to follow").render(false);
+        assert!(output.contains(&format!("no animation \"{name}\" of the model moves \"Leaf\"")), "{output}");
     }
 }
 
@@ -115,21 +115,21 @@ fn what_is_below_a_body_goes_on_with_the_animation_that_the_body_follows() {
     let [track] = exhibit.shapes.as_slice() else { panic!("one track: {:?}", exhibit.shapes) };
     assert_eq!((track.repeat, track.span), (false, (0.0, 1.0)));
     assert_eq!((weights(track, 0.25), weights(track, 5.0)), ([0.25; 2], [1.0; 2]));
-    assert!(track.moves(0.5) && !track.moves(1.5));
+    assert!(track.is_changing(0.5) && !track.is_changing(1.5));
 }
 
 #[test]
 fn broken_key_frames_of_shapes_are_told_where_they_are() {
-    let told = |scene: &Scene| {
+    let output = |scene: &Scene| {
         let report = exhibit::load(Folder::exhibit(&scene.glb(), "").path()).expect_err("broken");
         report.render(false)
     };
     let refused = |keys: &[(f32, Vec<f32>)], curve: &str, words: &[&str]| {
         let (mut scene, leaf) = leaf();
         scene.animate("Wave", leaf, "weights", curve, keys);
-        let told = told(&scene);
+        let output = output(&scene);
         for word in words.iter().chain(&["exhibit.toml:2", "model.glb", "animation \"Wave\""]) {
-            assert!(told.contains(word), "no {word} in\n{told}");
+            assert!(output.contains(word), "no {word} in\n{output}");
         }
     };
     refused(&[(0.0, vec![0.0]), (1.0, vec![1.0, 1.0])], "LINEAR", &["3 weights of node \"Leaf\"", "2 a key"]);
@@ -139,8 +139,8 @@ fn broken_key_frames_of_shapes_are_told_where_they_are() {
     let mut scene = Scene::default();
     let stiff = scene.node("Stiff", [0.0; 3], Some(&cuboid([0.1; 3])), &[]);
     scene.animate("Wave", stiff, "weights", "LINEAR", &[(0.0, vec![0.0]), (1.0, vec![1.0])]);
-    let told = told(&scene);
-    assert!(told.contains("morphs node \"Stiff\", which has no morph targets"), "{told}");
+    let output = output(&scene);
+    assert!(output.contains("morphs node \"Stiff\", which has no morph targets"), "{output}");
 }
 
 #[test]
@@ -153,8 +153,11 @@ fn an_export_names_the_shapes_that_it_leaves_at_rest() {
         .current_dir(folder.path())
         .output()
         .expect("the program starts");
-    let told = String::from_utf8_lossy(&run.stderr);
-    assert!(run.status.success() && told.contains("left out: key frames of scales and morph weights (1)"), "{told}");
+    let output = String::from_utf8_lossy(&run.stderr);
+    assert!(
+        run.status.success() && output.contains("left out: key frames of scales and morph weights (1)"),
+        "{output}"
+    );
     let written = model::load(&folder.file("out.glb")).unwrap_or_else(|report| panic!("{}", report.render(false)));
     assert!(written.animations.is_empty() && written.meshes.len() == 1);
 }
@@ -163,7 +166,7 @@ fn an_export_names_the_shapes_that_it_leaves_at_rest() {
 mod drawn {
     use soffio_exhibit::View;
     use soffio_kiosk::step::stillness::Stillness;
-    use soffio_render::Frame;
+    use soffio_render::FrameInput;
     use soffio_simulation::{Settings, Simulation, StepInput};
 
     use super::*;
@@ -221,7 +224,8 @@ mod drawn {
             let t = f64::from(step) / 240.0;
             assert!((now.time - t).abs() < ROUNDING, "{} at {t}", now.time);
             if step % 160 == 40 {
-                let frame = Frame { poses: &now.poses, motes: &[], view, size: SIZE, exposure: 1.0, time: now.time };
+                let frame =
+                    FrameInput { poses: &now.poses, dust: &[], view, size: SIZE, exposure: 1.0, time: now.time };
                 let picture = renderer.draw(&frame).expect("a picture");
                 if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
                     picture.save(std::path::Path::new(&folder).join(format!("shape-{step}.png"))).expect("writable");

@@ -5,7 +5,7 @@ use serde_json::json;
 use soffio_exhibit::{Body, Exhibit, View, model};
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DMat3, Pose};
-use soffio_render::Frame;
+use soffio_render::FrameInput;
 
 use crate::pictures::renderer;
 
@@ -87,7 +87,7 @@ fn exhibit(folder: &std::path::Path) -> Exhibit {
     let path = folder.join("strip.gltf");
     std::fs::write(folder.join("strip.bin"), bin).expect("writable");
     std::fs::write(&path, json.to_string()).expect("writable");
-    let mut exhibit = Exhibit::of_model(model::load(&path).unwrap_or_else(|report| panic!("{report}")));
+    let mut exhibit = Exhibit::from_model(model::load(&path).unwrap_or_else(|report| panic!("{report}")));
     let body = |node: usize| {
         let (_, rotation, position) = exhibit.model.nodes[node].world.to_scale_rotation_translation();
         Body {
@@ -168,7 +168,7 @@ fn a_skin_follows_the_bodies_that_carry_its_joints_as_the_formula_says() {
     ];
     let mut pictures = Vec::new();
     for (i, poses) in scenes.iter().enumerate() {
-        let frame = Frame { poses, motes: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
+        let frame = FrameInput { poses, dust: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
             picture.save(std::path::Path::new(&folder).join(format!("skin-{i}.png"))).expect("a writable folder");
@@ -197,5 +197,5 @@ fn at_rest_it_is_what_physics_and_hands_take_it_for() {
         assert!((world - wanted).length() < ROUNDING, "{world} instead of {wanted}");
     }
     // A joint that turns moves all of it: nobody may take it for still.
-    assert!(exhibit.reaches().iter().all(|reach| *reach >= HEIGHT - ROUNDING), "{:?}", exhibit.reaches());
+    assert!(exhibit.body_radii().iter().all(|reach| *reach >= HEIGHT - ROUNDING), "{:?}", exhibit.body_radii());
 }

@@ -99,7 +99,7 @@ const SYSTEMS: &[System] = &[
     ("slack cord", |e| limit(e, |l| matches!(l, LimitKind::Distance { .. }))),
     ("tilt on a point", |e| limit(e, |l| matches!(l, LimitKind::Tilt { .. }))),
     // 1.1 and 1.4: time
-    ("self-assembly when it comes on", |e| e.gathers && e.constraints.len() > 1),
+    ("self-assembly when it comes on", |e| e.assembles && e.constraints.len() > 1),
     ("self-assembly in the course of it", |e| any(e, |c| c.schedule.trigger.is_some() && matches!(c.kind, ConstraintKind::PointToPoint { .. }))),
     ("time window", |e| any(e, |c| !c.schedule.windows.is_empty())),
     ("ramp", |e| any(e, |c| c.schedule.ramp_in > 0.0 && c.schedule.ramp_out > 0.0)),

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
-use soffio_offline::load::{HARD, Load, LoadReport, LoadTimes, loads};
+use soffio_offline::load::{HARDEST_BREATH, LoadReport, LoadTimes, StressLoad, loads};
 use soffio_offline::scene::times::timed;
 use soffio_simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_sound::{SoundCommand, Synth};
@@ -112,7 +112,7 @@ pub fn run(names: &[String], (seconds, seeds): (f64, u64), within: Option<f64>, 
 
 fn measure(exhibit: &Arc<Exhibit>, seconds: f64, seeds: u64) -> Result<Row, Failure> {
     let steps = (seconds * STEPS_PER_SECOND as f64).ceil() as u64;
-    let blow = [Command::Blow(Some(HARD))];
+    let blow = [Command::Blow(Some(HARDEST_BREATH))];
     let still = Settings::default();
     let bare = Settings { wind: false, friction: false, ..still };
     let (motion_us, _, _) = time(exhibit, bare, &[], steps);
@@ -136,11 +136,11 @@ fn measure(exhibit: &Arc<Exhibit>, seconds: f64, seeds: u64) -> Result<Row, Fail
     let instruments_ms = best_ms(|| Synth::new(SAMPLE_RATE, &exhibit.instruments, still.seed));
     let times: Vec<LoadTimes> =
         loads(exhibit, seeds, seconds).into_iter().map(|load| LoadTimes::measure(exhibit, load, ROUNDS)).collect();
-    let of = |kind: fn(&Load) -> bool| LoadReport::of(times.iter().filter(|times| kind(&times.load)));
+    let of = |kind: fn(&StressLoad) -> bool| LoadReport::of(times.iter().filter(|times| kind(&times.load)));
     Ok(Row {
-        hard_breath: of(|load| matches!(load, Load::Breath(_))),
-        drag: of(|load| matches!(load, Load::Drag)),
-        assembly: of(|load| matches!(load, Load::Assembly(_))),
+        hard_breath: of(|load| matches!(load, StressLoad::Breath(_))),
+        drag: of(|load| matches!(load, StressLoad::Drag)),
+        assembly: of(|load| matches!(load, StressLoad::Assembly(_))),
         all: LoadReport::of(&times),
         exhibit: exhibit.id.clone(),
         bodies: exhibit.bodies.len(),

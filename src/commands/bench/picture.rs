@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
-use soffio_render::{Frame, Gpu, Options, Quality, Renderer};
+use soffio_render::{FrameInput, Gpu, Options, Renderer, ShadowQuality};
 use soffio_simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// A hard breath, m/s at the lips.
@@ -83,7 +83,7 @@ fn measure(gpu: &Gpu, exhibit: &Arc<Exhibit>, size: (u32, u32), seconds: f64) ->
             moments.push(simulation.snapshot());
         }
     }
-    let [light, full] = [Quality::Light, Quality::Full]
+    let [light, full] = [ShadowQuality::Light, ShadowQuality::Full]
         .map(|quality| draw(gpu, exhibit, size, quality, &moments).map_err(Failure::of_picture));
     let ((light_cpu_ms, light_ms), (full_cpu_ms, full_ms)) = (light?, full?);
     Ok(Row {
@@ -105,10 +105,11 @@ fn draw(
     gpu: &Gpu,
     exhibit: &Exhibit,
     size: (u32, u32),
-    quality: Quality,
+    quality: ShadowQuality,
     moments: &[Snapshot],
 ) -> Result<(f64, f64), soffio_render::RenderError> {
-    let mut renderer = Renderer::new(gpu, exhibit, Options { quality, ..Options::for_gpu(gpu, FORMAT) })?;
+    let mut renderer =
+        Renderer::new(gpu, exhibit, Options { shadow_quality: quality, ..Options::for_gpu(gpu, FORMAT) })?;
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("measured picture"),
         size: wgpu::Extent3d { width: size.0, height: size.1, depth_or_array_layers: 1 },
@@ -127,7 +128,7 @@ fn draw(
             began = (ProcessTime::now(), Instant::now());
         }
         let frame =
-            Frame { poses: &moment.poses, motes: &moment.dust_particles, view, size, exposure: 1.0, time: moment.time };
+            FrameInput { poses: &moment.poses, dust: &moment.dust_particles, view, size, exposure: 1.0, time: moment.time };
         renderer.draw(gpu, &target, &frame);
         let finished = gpu.device.poll(wgpu::PollType::wait_indefinitely());
         finished.map_err(|error| soffio_render::RenderError::NoDevice(error.to_string()))?;

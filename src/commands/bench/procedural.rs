@@ -13,7 +13,7 @@ use soffio_exhibit::Exhibit;
 use soffio_math::{DVec3, sincos};
 use soffio_multibody::dynamics::{Dynamics, Integrator, Solver};
 use soffio_multibody::procedural::{Grip, Method, Procedural};
-use soffio_offline::load::HARD;
+use soffio_offline::load::HARDEST_BREATH;
 use soffio_offline::scene::make;
 use soffio_simulation::{Command, MotionMode, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
@@ -191,7 +191,7 @@ fn beside(exhibit: &Arc<Exhibit>, seconds: f64) -> Beside {
     const BREATH: [MotionMode; 2] = [MotionMode::Dynamic, MotionMode::PositionBased];
     let without_wind = Settings { wind: false, ..Settings::default() };
     let [dynamic_us, position_based_us, procedural_us] = medians(exhibit, seconds, without_wind, STILL, None);
-    let [dynamic, position_based] = medians(exhibit, seconds, Settings::default(), BREATH, Some(HARD));
+    let [dynamic, position_based] = medians(exhibit, seconds, Settings::default(), BREATH, Some(HARDEST_BREATH));
     let breath_ratio = position_based / dynamic;
     Beside {
         exhibit: exhibit.id.clone(),

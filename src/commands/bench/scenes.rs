@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::commands::failure::{Failure, Outcome};
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::linear::{self, SIZES};
-use soffio_offline::scene::{Limits, Row, Scene, run};
+use soffio_offline::scene::{BenchRecord, Limits, PhysicsScene, run};
 
 /// Measures each scene at `dt`, or at the steps that it names. All files are read before the first is run.
 pub fn run(
@@ -17,7 +17,7 @@ pub fn run(
     json: bool,
 ) -> Outcome {
     let scenes: Vec<_> =
-        files.iter().map(|file| Scene::read(file)).collect::<Result<_, _>>().map_err(Failure::input)?;
+        files.iter().map(|file| PhysicsScene::read(file)).collect::<Result<_, _>>().map_err(Failure::input)?;
     if !json {
         println!(
             "{:<22} {:>5} {:>9} {:>11} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>7}",
@@ -37,7 +37,7 @@ pub fn run(
     Ok(())
 }
 
-fn print(row: &Row) {
+fn print(row: &BenchRecord) {
     println!(
         "{:<22} {:>5} {:>9.6} {:>11.2} {:>9.1} {:>9.1} {:>9.1} {:>8.1} {:>9.1e} {:>9.1e} {:>9} {:>7.2}",
         row.scene,

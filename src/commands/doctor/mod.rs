@@ -91,7 +91,7 @@ fn pin(config: &Config) -> Finding {
 
 /// Every exhibit of the configured folder, and whether those to be shown are among them.
 fn exhibits(config: &Config) -> Vec<Finding> {
-    let folder = &exhibit::shelf(&config.exhibits.folder);
+    let folder = &exhibit::exhibits_folder(&config.exhibits.folder);
     let mut folders: Vec<PathBuf> = std::fs::read_dir(folder)
         .map(|entries| entries.flatten().map(|entry| entry.path()).filter(|path| is_exhibit(path)).collect())
         .unwrap_or_default();

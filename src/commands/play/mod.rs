@@ -153,7 +153,7 @@ pub fn run(args: Args) -> Outcome {
 fn tell(compared: Result<compare::Comparison, PlayError>, args: &Args, exhibit: &Exhibit) -> Outcome {
     let compared = compared.map_err(Failure::of_run)?;
     if let Some(path) = &args.out {
-        compared.write_rows(path).map_err(Failure::input)?;
+        compared.write_csv(path).map_err(Failure::input)?;
     }
     if let Some(path) = &args.plot {
         compared.write_picture(path, exhibit).map_err(Failure::of_run)?;

@@ -1,7 +1,7 @@
-//! Accessors as plain numbers: every view, stride and count is checked before a byte is read.
+//! glTF accessors as plain numbers. Every view, stride and count is checked before a byte is read.
 //!
-//! Decoding is our own and small: it takes integer and normalised positions (KHR_mesh_quantization) and sparse
-//! accessors as well, and a file that lies about its lengths gives a message instead of a panic.
+//! The decoder reads integer and normalised positions (KHR_mesh_quantization) and sparse accessors. A file with wrong
+//! lengths gives a message instead of a panic.
 
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::View;
@@ -9,10 +9,10 @@ use gltf::buffer::View;
 /// Most elements of one accessor.
 const MAX_COUNT: usize = 16_000_000;
 
-/// What is wrong with an accessor.
-pub type Broken = String;
+/// A message that says what is wrong with an accessor.
+pub type ModelError = String;
 
-/// Bytes of the view's element `index` that is `size` long.
+/// Bytes of the view's element `index`, `size` bytes long.
 fn element<'b>(buffers: &'b [Vec<u8>], view: &View, offset: usize, index: usize, size: usize) -> Option<&'b [u8]> {
     let stride = view.stride().unwrap_or(size);
     let inside = index.checked_mul(stride)?.checked_add(offset)?;
@@ -40,7 +40,7 @@ fn signed(value: f32, full: f32, normalized: bool) -> f32 {
     if normalized { (value / full).max(-1.0) } else { value }
 }
 
-fn count_of(accessor: &gltf::Accessor, broken: &impl Fn(&str) -> Broken) -> Result<usize, Broken> {
+fn count_of(accessor: &gltf::Accessor, broken: &impl Fn(&str) -> ModelError) -> Result<usize, ModelError> {
     let count = accessor.count();
     if count > MAX_COUNT {
         return Err(broken(&format!("has {count} elements; the limit is {MAX_COUNT}")));
@@ -48,13 +48,13 @@ fn count_of(accessor: &gltf::Accessor, broken: &impl Fn(&str) -> Broken) -> Resu
     Ok(count)
 }
 
-/// Elements of `LANES` finite numbers each. Fewer lanes in the file are filled with `fill`.
+/// Elements of `LANES` finite numbers each. Missing lanes are filled with `fill`.
 pub fn vectors<const LANES: usize>(
     accessor: &gltf::Accessor,
     buffers: &[Vec<u8>],
     allowed: &[Dimensions],
     fill: f32,
-) -> Result<Vec<[f32; LANES]>, Broken> {
+) -> Result<Vec<[f32; LANES]>, ModelError> {
     let broken = |what: &str| format!("accessor {} {what}", accessor.index());
     if !allowed.contains(&accessor.dimensions()) {
         return Err(broken(&format!("is {:?}, which does not fit its use", accessor.dimensions())));
@@ -97,7 +97,7 @@ pub fn vectors<const LANES: usize>(
         }
     }
     if out.iter().flatten().any(|x| !x.is_finite()) {
-        return Err(broken("holds numbers that are not finite"));
+        return Err(broken("contains numbers that are not finite"));
     }
     Ok(out)
 }
@@ -107,7 +107,7 @@ fn unsigned(bytes: &[u8]) -> u32 {
 }
 
 /// Indices of triangles, points or lines, each below `vertices`.
-pub fn indices(accessor: &gltf::Accessor, buffers: &[Vec<u8>], vertices: usize) -> Result<Vec<u32>, Broken> {
+pub fn indices(accessor: &gltf::Accessor, buffers: &[Vec<u8>], vertices: usize) -> Result<Vec<u32>, ModelError> {
     let broken = |what: &str| format!("accessor {} {what}", accessor.index());
     let unsigned_kind = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
     if accessor.dimensions() != Dimensions::Scalar || !unsigned_kind {

@@ -1,5 +1,5 @@
-//! Key frames of nodes: the channels of glTF 2.0 (section 3.11 and appendix C), decoded, and the world pose of a node at any
-//! time.
+//! Key-frame animation of nodes: the channels of glTF 2.0 (section 3.11 and appendix C), decoded, and the world pose of
+//! a node at any time.
 //!
 //! A cubic channel has an in-tangent a, a value v and an out-tangent b at each key; with d the span and s in 0 … 1
 //!
@@ -15,55 +15,55 @@ use super::primitive::targets;
 use super::scene::Model;
 use soffio_math::{DMat4, DQuat, DVec3};
 
-/// Key frames that belong together.
+/// An animation: channels that play together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animation {
     /// Name, or `#index` where the file has none.
     pub name: String,
-    /// What moves.
+    /// The channels.
     pub channels: Vec<Channel>,
 }
 
 /// Key frames of one property of one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// The node.
+    /// Index of the node.
     pub node: usize,
-    /// What happens between two keys.
+    /// Interpolation between two keys.
     pub curve: Curve,
-    /// s, rising.
+    /// Times of the keys, s, increasing.
     pub times: Vec<f64>,
-    /// The values: one a key, or three (in-tangent, value, out-tangent) where the curve is cubic.
+    /// The values: one for each key, or three (in-tangent, value, out-tangent) where the curve is cubic.
     pub track: Track,
 }
 
-/// What happens between two keys.
+/// Interpolation between two keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curve {
-    /// The earlier value.
+    /// The earlier value, until the next key.
     Step,
-    /// A straight line, or the shortest turn.
+    /// Linear; for rotations, spherical along the shorter arc.
     Linear,
     /// A cubic Hermite curve.
     Cubic,
 }
 
-/// Values of a channel.
+/// The values of a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Track {
-    /// Of the node in its parent, m.
+    /// Translations of the node in its parent, m.
     Translation(Vec<DVec3>),
-    /// Of the node in its parent; cubic ones are not of unit length.
+    /// Rotations of the node in its parent; cubic ones are not of unit length.
     Rotation(Vec<DQuat>),
-    /// Of the node in its parent, beside the rotation and the translation (m) that it has at rest: a matrix whose scale is zero
-    /// tells of neither.
+    /// Scales of the node in its parent, with its rotation and translation (m) in the model: a matrix whose scale is
+    /// zero has lost both.
     Scale(Vec<DVec3>, DQuat, DVec3),
-    /// Of the morph targets of the node's mesh, each list one weight a target.
+    /// Weights of the morph targets of the node's mesh, one for each target.
     Weights(Vec<Vec<f64>>),
 }
 
 /// Decodes a channel.
-pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) -> Result<Channel, accessor::Broken> {
+pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) -> Result<Channel, accessor::ModelError> {
     let (target, sampler) = (source.target(), source.sampler());
     let output = sampler.output();
     let track = match target.property() {
@@ -132,8 +132,9 @@ impl Track {
 }
 
 impl Channel {
-    /// Index of the earlier key, and the share of the span passed; before the first and after the last key, that key.
-    fn place(&self, t: f64) -> (usize, usize, f64) {
+    /// Index of the earlier key, of the later key, and the fraction of the span passed; before the first and after the
+    /// last key, that key.
+    fn interval(&self, t: f64) -> (usize, usize, f64) {
         let last = self.times.len() - 1;
         let after = self.times.partition_point(|&time| time <= t);
         match after {
@@ -146,7 +147,7 @@ impl Channel {
         }
     }
 
-    /// Weights of the out-going value and tangent and of the in-coming ones, for a cubic span.
+    /// Hermite weights of the earlier value and tangent and of the later ones.
     fn hermite(&self, (from, to, s): (usize, usize, f64)) -> [f64; 4] {
         let d = self.times[to] - self.times[from];
         let (s2, s3) = (s * s, s * s * s);
@@ -154,25 +155,25 @@ impl Channel {
     }
 
     fn vector(&self, values: &[DVec3], t: f64) -> DVec3 {
-        let place @ (from, to, s) = self.place(t);
+        let interval @ (from, to, s) = self.interval(t);
         if self.curve == Curve::Cubic {
-            let [v, b, w, a] = self.hermite(place);
+            let [v, b, w, a] = self.hermite(interval);
             return v * values[3 * from + 1] + b * values[3 * from + 2] + w * values[3 * to + 1] + a * values[3 * to];
         }
         values[from].lerp(values[to], s)
     }
 
-    /// The scale at `t` seconds; `None` of another channel.
+    /// The scale at `t` seconds; `None` for another kind of channel.
     pub fn scale(&self, t: f64) -> Option<DVec3> {
         let Track::Scale(values, ..) = &self.track else { return None };
         Some(self.vector(values, t))
     }
 
-    /// Sets the weights to those at `t` seconds, in the memory that they have; another channel leaves them.
-    pub fn weigh(&self, t: f64, weights: &mut [f64]) {
+    /// Sets the morph weights to those at `t` seconds; other kinds of channels leave them.
+    pub fn sample_weights(&self, t: f64, weights: &mut [f64]) {
         let Track::Weights(values) = &self.track else { return };
-        let place @ (from, to, s) = self.place(t);
-        let [v, b, w, a] = if self.curve == Curve::Cubic { self.hermite(place) } else { [1.0 - s, 0.0, s, 0.0] };
+        let interval @ (from, to, s) = self.interval(t);
+        let [v, b, w, a] = if self.curve == Curve::Cubic { self.hermite(interval) } else { [1.0 - s, 0.0, s, 0.0] };
         let key = |index: usize| if self.curve == Curve::Cubic { 3 * index + 1 } else { index };
         for (i, weight) in weights.iter_mut().enumerate() {
             let of = |list: usize| values[list].get(i).copied().unwrap_or_default();
@@ -183,15 +184,15 @@ impl Channel {
         }
     }
 
-    /// Does it change a shape, and not a place?
+    /// Does it change a shape rather than a pose?
     pub fn shapes(&self) -> bool {
         matches!(self.track, Track::Scale(..) | Track::Weights(_))
     }
 
     fn rotation(&self, values: &[DQuat], t: f64) -> DQuat {
-        let place @ (from, to, s) = self.place(t);
+        let interval @ (from, to, s) = self.interval(t);
         if self.curve == Curve::Cubic {
-            let [v, b, w, a] = self.hermite(place);
+            let [v, b, w, a] = self.hermite(interval);
             let sum = values[3 * from + 1] * v + values[3 * from + 2] * b + values[3 * to + 1] * w + values[3 * to] * a;
             return if sum.length() > 0.0 { sum.normalize() } else { DQuat::IDENTITY };
         }
@@ -203,7 +204,7 @@ impl Channel {
 }
 
 impl Animation {
-    /// The channels that move a node, its ancestors' included: of scales those of ancestors alone.
+    /// The channels that move a node, its ancestors' included; scales count from ancestors alone.
     pub fn channels_of<'a>(&'a self, model: &Model, node: usize) -> Vec<&'a Channel> {
         let above: Vec<usize> = std::iter::successors(Some(node), |&n| model.nodes[n].parent).collect();
         let moves = |channel: &&Channel| match channel.track {
@@ -214,7 +215,7 @@ impl Animation {
         self.channels.iter().filter(moves).collect()
     }
 
-    /// Node to world at `t` seconds, its own scale that at rest.
+    /// Transform from node to world at `t` seconds, with the node's own scale as in the model.
     pub fn world(&self, model: &Model, node: usize, t: f64) -> DMat4 {
         let above = std::iter::successors(Some(node), |&n| model.nodes[n].parent);
         above.fold(DMat4::IDENTITY, |below, n| self.local(model, n, n != node, t) * below)

@@ -1,83 +1,82 @@
-//! How surfaces look, and the textures on them.
+//! Materials for rendering: metallic–roughness factors and textures.
 
-/// How a surface looks: the metallic–roughness model of glTF 2.0 and the layers that ratified extensions add.
+/// Surface appearance: the metallic–roughness model of glTF 2.0 with its ratified extensions.
 ///
-/// It has 25 fields, because it is a plain table that mirrors the file format: one field for each factor and texture that a
-/// glTF material has.
+/// It has 25 fields because it mirrors the file format: one field for each factor and texture of a glTF material.
 #[derive(Clone, Debug)]
 pub struct Appearance {
     /// Name.
     pub name: String,
-    /// Linear RGBA.
+    /// Base colour, linear RGBA.
     pub base_color: [f32; 4],
-    /// Multiplies it.
+    /// Multiplies the base colour.
     pub base_color_texture: Option<TextureUse>,
-    /// 0…1.
+    /// Metalness, 0…1.
     pub metallic: f32,
-    /// Perceptual, 0…1.
+    /// Perceptual roughness, 0…1.
     pub roughness: f32,
-    /// Green roughness, blue metallic.
+    /// Roughness in the green channel, metalness in the blue one.
     pub metallic_roughness_texture: Option<TextureUse>,
-    /// With its scale.
+    /// Normal map with its scale.
     pub normal_texture: Option<(TextureUse, f32)>,
-    /// With its strength.
+    /// Occlusion map with its strength.
     pub occlusion_texture: Option<(TextureUse, f32)>,
-    /// Linear RGB, strength included.
+    /// Emitted colour, linear RGB, strength included.
     pub emissive: [f32; 3],
-    /// Multiplies it.
+    /// Multiplies the emitted colour.
     pub emissive_texture: Option<TextureUse>,
-    /// How alpha is used.
+    /// Use of the alpha channel.
     pub alpha: AlphaMode,
-    /// Drawn from both sides.
+    /// Are both sides drawn?
     pub double_sided: bool,
-    /// The base colour as it is, whatever the light (KHR_materials_unlit).
+    /// Is the base colour drawn without lighting (KHR_materials_unlit)?
     pub unlit: bool,
     /// Index of refraction (KHR_materials_ior).
     pub ior: f32,
-    /// Strength of what is not metal's mirror (KHR_materials_specular), and its linear colour.
+    /// Strength of the dielectric reflection (KHR_materials_specular).
     pub specular: f32,
-    /// Linear RGB.
+    /// Colour of the dielectric reflection, linear RGB.
     pub specular_color: [f32; 3],
-    /// Part of the light below the surface that goes through (KHR_materials_transmission), 0…1.
+    /// Fraction of the refracted light that is transmitted (KHR_materials_transmission), 0…1.
     pub transmission: f32,
-    /// Of the wall of what is transparent (KHR_materials_volume), m.
+    /// Wall thickness of a transparent body (KHR_materials_volume), m.
     pub thickness: f32,
-    /// Way in it after which white has become the attenuation colour, m; may be infinite.
+    /// Distance in the material after which white light has the attenuation colour, m; may be infinite.
     pub attenuation_distance: f32,
-    /// Linear RGB.
+    /// Attenuation colour, linear RGB.
     pub attenuation_color: [f32; 3],
     /// Strength of the clear coat (KHR_materials_clearcoat), 0…1.
     pub coat: f32,
-    /// Perceptual.
+    /// Perceptual roughness of the clear coat.
     pub coat_roughness: f32,
-    /// Linear RGB of a cloth's sheen (KHR_materials_sheen).
+    /// Sheen colour of cloth, linear RGB (KHR_materials_sheen).
     pub sheen: [f32; 3],
-    /// Perceptual.
+    /// Perceptual roughness of the sheen.
     pub sheen_roughness: f32,
-    /// Textures of these layers.
+    /// Textures of the extensions.
     pub details: Details,
 }
 
-/// Textures of the extensions' layers: each multiplies the factor of its name, by the channels that the extension says.
+/// Textures of the material extensions: each multiplies the factor of its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Details {
-    /// Red.
+    /// Red channel.
     pub transmission: Option<TextureUse>,
-    /// Green.
+    /// Green channel.
     pub thickness: Option<TextureUse>,
-    /// Alpha.
+    /// Alpha channel.
     pub specular: Option<TextureUse>,
     /// Colour.
     pub specular_color: Option<TextureUse>,
-    /// Red.
+    /// Red channel.
     pub coat: Option<TextureUse>,
-    /// Green.
+    /// Green channel.
     pub coat_roughness: Option<TextureUse>,
-    /// Of the coat alone, with its scale.
+    /// Normal map of the coat alone, with its scale.
     pub coat_normal: Option<(TextureUse, f32)>,
     /// Colour.
     pub sheen: Option<TextureUse>,
-    /// Alpha.
+    /// Alpha channel.
     pub sheen_roughness: Option<TextureUse>,
 }
 
@@ -135,36 +134,36 @@ impl Default for Appearance {
     }
 }
 
-/// An image on a surface.
+/// A texture as a material uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureUse {
     /// Index of the image.
     pub image: usize,
-    /// Which set of texture coordinates it lies on: 0 or 1.
+    /// Index of its set of texture coordinates: 0 or 1.
     pub set: usize,
-    /// Rows that take (u, v, 1) to its own coordinates (KHR_texture_transform).
+    /// Rows of the 2 × 3 matrix that maps (u, v, 1) to its coordinates (KHR_texture_transform).
     pub transform: [[f32; 3]; 2],
-    /// How it is read.
+    /// Filter and wrapping.
     pub sampler: Sampler,
 }
 
 impl TextureUse {
-    /// The image as it is on the first set.
+    /// The image without a transform on the first set of coordinates.
     pub fn of(image: usize) -> Self {
         Self { image, set: 0, transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], sampler: Sampler::default() }
     }
 }
 
-/// How an image is read.
+/// Filter and wrapping of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Sampler {
-    /// What lies beyond its edges, along u and v.
+    /// Wrapping along u and v.
     pub wrap: [Wrap; 2],
-    /// Blend neighbours when magnified.
+    /// Linear filter when magnified.
     pub smooth_near: bool,
-    /// Blend neighbours when minified.
+    /// Linear filter when minified.
     pub smooth_far: bool,
-    /// Smaller levels: none, the nearest, or two blended.
+    /// Use of the mip levels.
     pub levels: Levels,
 }
 
@@ -174,35 +173,35 @@ impl Default for Sampler {
     }
 }
 
-/// What lies beyond an image's edge.
+/// Wrapping of texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Wrap {
-    /// The image again.
+    /// The image repeats.
     Repeat,
-    /// The image mirrored.
+    /// The image repeats mirrored.
     Mirror,
-    /// Its edge.
+    /// The edge continues.
     Clamp,
 }
 
-/// Use of an image's smaller levels.
+/// Use of an image's mip levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Levels {
-    /// Only the image itself.
+    /// The full image alone.
     None,
-    /// The level that fits best.
+    /// The nearest level.
     Nearest,
-    /// The two that fit best, blended.
+    /// Two levels, interpolated.
     Blended,
 }
 
-/// How alpha is used.
+/// Use of the alpha channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
     /// Ignored.
     Opaque,
-    /// Cut at a threshold.
+    /// Alpha test with this threshold.
     Mask(f32),
-    /// Blended.
+    /// Alpha blending.
     Blend,
 }

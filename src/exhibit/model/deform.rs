@@ -1,21 +1,22 @@
-//! Shapes that are not rigid, as they stand at rest: morph targets at their weights (glTF 2.0, 3.7.2.2) and skins at
-//! the pose of their joints (3.7.3.3).
+//! Mesh deformation at rest: morph targets at their weights (glTF 2.0, 3.7.2.2) and linear blend skinning at the pose
+//! of the joints (3.7.3.3).
 //!
-//! A body is rigid, so what deforms is frozen once: `p = Σ wⱼ Jⱼ Iⱼ (p₀ + Σ ωₜ dₜ)`, with J a joint's node to world and I
-//! its inverse bind matrix. The result is stored in the frame of the node that shows it. Where bodies carry the joints, or key
-//! frames change a scale or the weights ω, the picture goes on with the same formula (`render/skins.rs`), from what [`bind`]
-//! keeps: p₀ + Σ ωₜ dₜ, or p₀ and the d where the ω change, and of the shares w the four that weigh most.
+//! Bodies are rigid, so deformed meshes are computed once: `p = Σ wⱼ Jⱼ Iⱼ (p₀ + Σ ωₜ dₜ)`, with J the transform from
+//! joint node to world and I its inverse bind matrix. The result is stored in the frame of the node that shows it.
+//! Where bodies carry the joints, or key frames change a scale or the weights ω, the renderer applies the same formula
+//! in each frame. For this, [`bind`] keeps p₀ + Σ ωₜ dₜ (or p₀ and the d where the ω change), and the four largest
+//! weights w.
 
 use gltf::Semantic;
 use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
 
-use super::accessor::{self, Broken};
+use super::accessor::{self, ModelError};
 use super::mesh::{Influences, MorphTarget, Primitive};
 use super::primitive::MAX_TARGETS;
 use super::scene::Node;
 use soffio_math::{DMat3, DMat4, DVec3};
 
-/// Does this node show its mesh otherwise than the file stores it?
+/// Is the node's mesh deformed by a skin or by morph targets?
 pub fn deforms(node: &gltf::Node) -> bool {
     let weights = weights(node);
     let morphs = node.mesh().is_some_and(|m| m.primitives().any(|p| p.morph_targets().next().is_some()));
@@ -27,14 +28,14 @@ fn weights(node: &gltf::Node) -> Vec<f32> {
     own.or_else(|| node.mesh().and_then(|m| m.weights())).unwrap_or_default().to_vec()
 }
 
-/// Deforms `out`, the primitive as stored and not yet flattened, for `node`.
+/// Deforms `out` for `node`; `out` is the primitive as stored, before flat normals.
 pub fn deform(
     node: &gltf::Node,
     source: &gltf::Primitive,
     nodes: &[Node],
     buffers: &[Vec<u8>],
     out: &mut Primitive,
-) -> Result<(), Broken> {
+) -> Result<(), ModelError> {
     morph(node, source, buffers, out)?;
     if let Some(skin) = node.skin() {
         pose(&skin, source, nodes[node.index()].world, nodes, buffers, out)?;
@@ -45,15 +46,15 @@ pub fn deform(
     Ok(())
 }
 
-/// Makes `out`, the primitive as stored and not yet flattened, what the joints of a skin move, if it has one, and what key frames
-/// morph where `morphs` says that there are such.
+/// The undeformed primitive of a skin or of animated morph targets (`morphs`), from `out`, the primitive as stored,
+/// before flat normals.
 pub fn bind(
     node: &gltf::Node,
     morphs: bool,
     source: &gltf::Primitive,
     buffers: &[Vec<u8>],
     out: &mut Primitive,
-) -> Result<(), Broken> {
+) -> Result<(), ModelError> {
     if morphs {
         out.targets = source
             .morph_targets()
@@ -65,24 +66,24 @@ pub fn bind(
                     tangents: differences(target.tangents(), out.tangents.len(), buffers, TANGENTS)?,
                 })
             })
-            .collect::<Result<_, Broken>>()?;
+            .collect::<Result<_, ModelError>>()?;
     } else {
         morph(node, source, buffers, out)?;
     }
     let Some(skin) = node.skin() else { return Ok(()) };
     let joints = skin.joints().count();
     let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); out.positions.len()];
-    shares(source, all.len(), buffers, |corner, joint, share| {
+    skin_weights(source, all.len(), buffers, |corner, joint, share| {
         let index = u16::try_from(joint).ok().filter(|_| joint < joints).ok_or(NO_JOINT)?;
         all[corner].push((index, share));
         Ok(())
     })?;
-    out.influences = all.into_iter().map(heaviest).collect();
+    out.influences = all.into_iter().map(strongest_influences).collect();
     Ok(())
 }
 
-/// The four that weigh most, their sum 1.
-fn heaviest(mut all: Vec<(u16, f32)>) -> Influences {
+/// The four strongest influences, normalised to the sum 1.
+fn strongest_influences(mut all: Vec<(u16, f32)>) -> Influences {
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     all.truncate(4);
     let total: f32 = all.iter().map(|(_, share)| share).sum();
@@ -92,7 +93,12 @@ fn heaviest(mut all: Vec<(u16, f32)>) -> Influences {
 }
 
 /// Adds the morph targets at their weights.
-fn morph(node: &gltf::Node, source: &gltf::Primitive, buffers: &[Vec<u8>], out: &mut Primitive) -> Result<(), Broken> {
+fn morph(
+    node: &gltf::Node,
+    source: &gltf::Primitive,
+    buffers: &[Vec<u8>],
+    out: &mut Primitive,
+) -> Result<(), ModelError> {
     let weights = weights(node);
     for (target, weight) in source.morph_targets().take(MAX_TARGETS).zip(&weights) {
         if !weight.is_finite() {
@@ -112,20 +118,20 @@ const POSITIONS: &str = "morphed positions";
 const NORMALS: &str = "morphed normals";
 const TANGENTS: &str = "morphed tangents";
 
-/// What a target adds to a list of `count`; nothing where there is no such list. A primitive without normals gets flat ones
-/// afterwards.
+/// The differences of a target for a list of `count` vectors; `None` where there is no such list. A primitive without
+/// normals gets flat ones afterwards.
 fn differences(
     source: Option<gltf::Accessor>,
     count: usize,
     buffers: &[Vec<u8>],
     what: &str,
-) -> Result<Vec<[f32; 3]>, Broken> {
+) -> Result<Vec<[f32; 3]>, ModelError> {
     let Some(source) = source.filter(|_| count > 0) else { return Ok(Vec::new()) };
     let differences = accessor::vectors::<3>(&source, buffers, &[Vec3], 0.0)?;
     if differences.len() == count { Ok(differences) } else { Err(format!("{what} differ in number")) }
 }
 
-/// Adds weighted differences; a tangent's sign stays.
+/// Adds weighted differences; the sign of a tangent stays.
 fn add<const LANES: usize>(weight: f32, differences: &[[f32; 3]], to: &mut [[f32; LANES]]) {
     for (to, difference) in to.iter_mut().zip(differences) {
         for (to, difference) in to.iter_mut().zip(difference) {
@@ -136,8 +142,8 @@ fn add<const LANES: usize>(weight: f32, differences: &[[f32; 3]], to: &mut [[f32
 
 const NO_JOINT: &str = "a vertex names a joint that the skin does not have";
 
-/// For each joint of a skin what takes the bound mesh to its frame.
-pub fn inverse_bind(skin: &gltf::Skin, buffers: &[Vec<u8>]) -> Result<Vec<DMat4>, Broken> {
+/// The inverse bind matrix of each joint of a skin.
+pub fn inverse_bind(skin: &gltf::Skin, buffers: &[Vec<u8>]) -> Result<Vec<DMat4>, ModelError> {
     let joints = skin.joints().count();
     let Some(inverse) = skin.inverse_bind_matrices() else { return Ok(vec![DMat4::IDENTITY; joints]) };
     let inverse = accessor::vectors::<16>(&inverse, buffers, &[Mat4], 0.0)?;
@@ -147,26 +153,27 @@ pub fn inverse_bind(skin: &gltf::Skin, buffers: &[Vec<u8>]) -> Result<Vec<DMat4>
     Ok(inverse.iter().take(joints).map(|matrix| DMat4::from_cols_array(&matrix.map(f64::from))).collect())
 }
 
-/// Tells every share that is not zero: corner, joint and weight.
-fn shares(
+/// Reports each non-zero skin weight: vertex, joint and weight.
+fn skin_weights(
     source: &gltf::Primitive,
     corners: usize,
     buffers: &[Vec<u8>],
-    mut tell: impl FnMut(usize, usize, f32) -> Result<(), Broken>,
-) -> Result<(), Broken> {
+    mut report: impl FnMut(usize, usize, f32) -> Result<(), ModelError>,
+) -> Result<(), ModelError> {
     for set in 0.. {
-        let (Some(joints), Some(shares)) = (source.get(&Semantic::Joints(set)), source.get(&Semantic::Weights(set)))
+        let (Some(joints), Some(skin_weights)) =
+            (source.get(&Semantic::Joints(set)), source.get(&Semantic::Weights(set)))
         else {
             break;
         };
         let joints = accessor::vectors::<4>(&joints, buffers, &[Vec4], 0.0)?;
-        let shares = accessor::vectors::<4>(&shares, buffers, &[Vec4], 0.0)?;
-        if joints.len() != corners || shares.len() != corners {
+        let skin_weights = accessor::vectors::<4>(&skin_weights, buffers, &[Vec4], 0.0)?;
+        if joints.len() != corners || skin_weights.len() != corners {
             return Err("joints, weights and positions differ in number".into());
         }
-        for (corner, (joints, shares)) in joints.iter().zip(&shares).enumerate() {
-            for (joint, share) in joints.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
-                tell(corner, *joint as usize, *share)?;
+        for (corner, (joints, skin_weights)) in joints.iter().zip(&skin_weights).enumerate() {
+            for (joint, share) in joints.iter().zip(skin_weights).filter(|(_, share)| **share != 0.0) {
+                report(corner, *joint as usize, *share)?;
             }
         }
     }
@@ -180,7 +187,7 @@ fn pose(
     nodes: &[Node],
     buffers: &[Vec<u8>],
     out: &mut Primitive,
-) -> Result<(), Broken> {
+) -> Result<(), ModelError> {
     let node_from_world = world_from_node.inverse();
     if !node_from_world.is_finite() {
         return Err("a skinned node has a scale of zero".into());
@@ -191,13 +198,13 @@ fn pose(
     }
     let mut blended = vec![DMat4::ZERO; out.positions.len()];
     let mut total = vec![0.0; blended.len()];
-    shares(source, total.len(), buffers, |corner, joint, share| {
+    skin_weights(source, total.len(), buffers, |corner, joint, share| {
         blended[corner] += *matrices.get(joint).ok_or(NO_JOINT)? * f64::from(share);
         total[corner] += f64::from(share);
         Ok(())
     })?;
     for (i, matrix) in blended.iter().enumerate().filter(|(i, _)| total[*i] > 0.0) {
-        // Weights that were rounded do not sum to one.
+        // Rounded weights do not sum to one.
         let matrix = *matrix * (1.0 / total[i]);
         out.positions[i] = matrix.transform_point3(DVec3::from(out.positions[i].map(f64::from))).as_vec3().to_array();
         let turn = DMat3::from_mat4(matrix);

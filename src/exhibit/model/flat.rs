@@ -3,7 +3,7 @@
 use super::mesh::Primitive;
 use soffio_math::DVec3;
 
-/// Gives a primitive without normals flat ones, as glTF 2.0 asks (3.7.2.1): each triangle gets corners of its own.
+/// Gives a primitive without normals flat ones, as glTF 2.0 requires (3.7.2.1): no two triangles share a vertex.
 pub fn flatten(primitive: &mut Primitive) {
     let positions = std::mem::take(&mut primitive.positions);
     let pick = |list: &mut Vec<[f32; 2]>, indices: &[u32]| {
@@ -28,7 +28,7 @@ pub fn flatten(primitive: &mut Primitive) {
         };
     }
     primitive.flat = true;
-    // Tangents without normals mean nothing (3.7.2.1).
+    // Tangents without normals are meaningless (3.7.2.1).
     primitive.tangents.clear();
     primitive.positions = indices.iter().map(|&i| positions[i as usize]).collect();
     primitive.normals = Vec::with_capacity(primitive.positions.len());

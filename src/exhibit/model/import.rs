@@ -1,7 +1,7 @@
 //! glTF 2.0 (`.glb`, `.gltf`) to [`Model`]: checked, decoded, within limits. Nothing here panics on a bad file.
 //!
-//! The `gltf` crate refuses every required extension outside a short list of its own, so those handled here are taken
-//! out of the list before it looks; its index checks stay.
+//! The `gltf` crate refuses every required extension outside a short list of its own. Those handled here are removed
+//! from the list before it looks; its index checks stay.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use super::super::diagnostic::{Diagnostic, Report};
 use super::super::paths;
 use super::primitive::{decode, is_drawn};
 use super::{
-    Animation, Camera, Image, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, deform, look,
+    Animation, Camera, Image, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, deform, material,
     primitive,
 };
 use soffio_math::{DMat4, DQuat, DVec3};
@@ -27,12 +27,12 @@ pub const MAX_IMAGE_PIXELS: u64 = 8192 * 8192;
 pub const MAX_PIXELS: u64 = 4 * MAX_IMAGE_PIXELS;
 /// Most nodes of a model.
 pub const MAX_NODES: usize = 65_536;
-/// What to do about a file that is no whole model.
+/// Remedy for a file that is not a complete model.
 pub const EXPORT_AGAIN: &str = "export the model again; a copy may have been cut short";
-/// What to do about too many triangles.
+/// Remedy for too many triangles.
 const SIMPLIFY: &str = "simplify the model: gltf-transform simplify in.glb out.glb";
 
-/// Extensions a file may require: what they ask for is done here, or changes nothing in the picture.
+/// Required extensions that are supported: handled here, or without effect on the picture.
 const HANDLED: &[&str] = &[
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
@@ -48,12 +48,12 @@ const HANDLED: &[&str] = &[
     "KHR_node_visibility",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
-    // What `soffio import` takes over into a sidecar.
+    // Physics that `soffio import` converts into a sidecar.
     "KHR_implicit_shapes",
     "KHR_physics_rigid_bodies",
 ];
 
-/// What to do about a required extension that is not handled.
+/// Remedy for a required extension that is not supported.
 fn remedy(extension: &str) -> String {
     let command = match extension {
         "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
@@ -65,7 +65,7 @@ fn remedy(extension: &str) -> String {
     format!("export again without it, or run: {command}")
 }
 
-/// A model and what was not taken over from its file.
+/// A model, with warnings about parts of its file that were skipped.
 #[derive(Debug)]
 pub struct Imported {
     /// The model.
@@ -75,16 +75,22 @@ pub struct Imported {
 }
 
 /// Loads a plain `.glb` or `.gltf`.
+///
+/// # Errors
+/// All problems of the file.
 pub fn load(path: &Path) -> Result<Model, Report> {
     import(path).map(|imported| imported.model)
 }
 
 /// Loads a plain `.glb` or `.gltf`, with warnings.
+///
+/// # Errors
+/// All problems of the file.
 pub fn import(path: &Path) -> Result<Imported, Report> {
     let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
     let mut reader =
         Reader { name, folder: path.parent().map(PathBuf::from).unwrap_or_default(), warnings: Vec::new() };
-    let model = reader.read(path).map_err(Report::of)?;
+    let model = reader.read(path).map_err(Report::single)?;
     Ok(Imported { model, warnings: reader.warnings })
 }
 
@@ -115,10 +121,10 @@ impl Reader {
     fn read(&mut self, path: &Path) -> Outcome<Model> {
         let bytes = paths::read_limited(path, MAX_FILE_BYTES)?;
         let (json_bytes, blob) = if bytes.starts_with(b"glTF") {
-            // The reader takes a length that has room for its own header for granted.
+            // The reader assumes that the length includes its own header.
             let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
             if length.is_none_or(|length| length < GLB_HEADER) {
-                return Err(self.broken("not a whole GLB file: its length has no room for its header"));
+                return Err(self.broken("not a complete GLB file: its length is shorter than its header"));
             }
             let glb = gltf::binary::Glb::from_slice(&bytes)
                 .map_err(|error| self.broken(format_args!("not a whole GLB file: {error}")))?;
@@ -137,28 +143,28 @@ impl Reader {
             return Err(self.problem(codes::EXTENSION, what, remedy(extension)));
         }
         root.extensions_required.clear();
-        // The crate's own check looks up the positions' accessor before it has checked the index.
+        // The crate looks up the positions' accessor before it has checked its index.
         let position = json::validation::Checked::Valid(json::mesh::Semantic::Positions);
         let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
         let positions = primitives.filter_map(|primitive| primitive.attributes.get(&position));
         if let Some(index) = positions.map(|i| i.value()).find(|&i| i >= root.accessors.len()) {
             return Err(self.broken(format_args!("accessor {index} does not exist")));
         }
-        // Nor does it ask whether an image has a source at all.
+        // The crate does not check that an image has a source.
         if let Some(index) = root.images.iter().position(|image| image.uri.is_none() && image.buffer_view.is_none()) {
             return Err(self.broken(format_args!("image {index} has neither a uri nor a bufferView")));
         }
         let document =
             gltf::Document::from_json(root).map_err(|error| self.broken(format_args!("not valid glTF: {error}")))?;
         if document.nodes().len() > MAX_NODES {
-            let help = "join what never moves apart, and export it again";
+            let help = "join meshes that do not move against each other, and export the model again";
             return Err(self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_NODES} nodes"), help));
         }
         let buffers = self.buffers(&document, blob)?;
         let (mut nodes, roots) = self.nodes(&document)?;
         let hidden = hidden(&document, &nodes);
         let mut meshes = self.meshes(&document, &buffers)?;
-        let (skins, morphs) = self.frozen(&document, &buffers, &mut nodes, &mut meshes)?;
+        let (skins, morphs) = self.rest_pose_meshes(&document, &buffers, &mut nodes, &mut meshes)?;
         Ok(Model {
             nodes,
             roots,
@@ -166,7 +172,10 @@ impl Reader {
             skins,
             morphs,
             hidden,
-            materials: document.materials().map(|m| look::appearance(&m, &document, |what| self.warn(what))).collect(),
+            materials: document
+                .materials()
+                .map(|m| material::appearance(&m, &document, |what| self.warn(what)))
+                .collect(),
             images: self.images(&document, &buffers)?,
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
@@ -226,7 +235,7 @@ impl Reader {
                 if nodes[child].parent.replace(parent).is_some() || child == parent {
                     let name = &nodes[child].name;
                     let help = "give it one parent, copy it for the other, and export the model again";
-                    return Err(self.problem(codes::CYCLE, format!("node \"{name}\" hangs from two parents"), help));
+                    return Err(self.problem(codes::CYCLE, format!("node \"{name}\" has two parents"), help));
                 }
             }
         }
@@ -235,7 +244,7 @@ impl Reader {
             Some(scene) => scene.nodes().map(|node| node.index()).collect(),
             None => (0..nodes.len()).filter(|&i| nodes[i].parent.is_none()).collect(),
         };
-        // Every node has at most one parent, so what no root reaches is a ring (or belongs to another scene).
+        // Every node has at most one parent, so nodes that no root reaches form a cycle (or belong to another scene).
         let mut waiting: Vec<usize> = (0..nodes.len()).filter(|&i| nodes[i].parent.is_none()).collect();
         let mut reached = 0;
         while let Some(index) = waiting.pop() {
@@ -246,7 +255,7 @@ impl Reader {
             waiting.extend(&nodes[index].children);
         }
         if reached < nodes.len() {
-            let help = "take one of them out of the ring, and export the model again";
+            let help = "remove one of them from the cycle, and export the model again";
             return Err(self.problem(codes::CYCLE, "some nodes are their own ancestors", help));
         }
         Ok((nodes, roots))
@@ -278,9 +287,9 @@ impl Reader {
         Ok(meshes)
     }
 
-    /// Nodes that morph or have a skin get a mesh of their own, frozen as it stands at rest. What follows joints, or key frames
-    /// that morph, is returned as it is bound, too.
-    fn frozen(
+    /// Gives each skinned or morphed node a mesh of its own, deformed as in the rest pose. Also returns the undeformed
+    /// meshes of skins and animated morph targets.
+    fn rest_pose_meshes(
         &mut self,
         document: &gltf::Document,
         buffers: &[Vec<u8>],
@@ -355,7 +364,7 @@ impl Reader {
             };
             let open = || image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
             let reader = open().map_err(|error| undecodable(error.into()))?;
-            // Ask for the size first: a small file can claim a picture that fills the memory.
+            // Check the size first: a small file can claim an image that fills the memory.
             let (width, height) = reader.into_dimensions().map_err(undecodable)?;
             let size = u64::from(width) * u64::from(height);
             pixels += size;
@@ -391,7 +400,7 @@ impl Reader {
                 Camera { fovy: f64::from(lens.yfov()), aspect: lens.aspect_ratio().map(f64::from) }
             }
             gltf::camera::Projection::Orthographic(_) => {
-                /// A long lens: nearest to parallel projection that still has a place to stand.
+                /// Field of view that approximates a parallel projection.
                 const NARROW: f64 = 0.2;
                 self.warn("an orthographic camera is shown as a narrow perspective one");
                 Camera { fovy: NARROW, aspect: None }
@@ -400,12 +409,13 @@ impl Reader {
     }
 }
 
-/// Nodes that KHR_node_visibility hides, and all below them.
+/// Nodes hidden by KHR_node_visibility, and all nodes below them.
 fn hidden(document: &gltf::Document, nodes: &[Node]) -> Vec<usize> {
     let visible = |node: &gltf::Node| node.extension_value("KHR_node_visibility")?.get("visible")?.as_bool();
     let mut open: Vec<usize> = document.nodes().filter(|n| visible(n) == Some(false)).map(|n| n.index()).collect();
     let mut hidden = Vec::new();
-    // Nodes form a forest, so none is met more often than it has hidden ancestors; seen ones are not opened again.
+    // Nodes form a forest, so none is visited more often than it has hidden ancestors; visited ones are not opened
+    // again.
     let mut seen = vec![false; nodes.len()];
     while let Some(index) = open.pop() {
         if !std::mem::replace(&mut seen[index], true) {
@@ -424,7 +434,7 @@ fn matrix(transform: gltf::scene::Transform) -> Option<DMat4> {
             DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
         }
         gltf::scene::Transform::Decomposed { translation, rotation, scale } => {
-            // Composed here rather than by the crate: its quaternions are single precision and not quite unit.
+            // Composed in double precision: the crate's quaternions are single precision and not quite unit.
             let quaternion = DQuat::from_array(rotation.map(f64::from));
             let length = quaternion.length();
             if !(length.is_finite() && length > 0.0) {

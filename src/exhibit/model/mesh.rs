@@ -1,4 +1,4 @@
-//! Meshes: triangles with a material each, and what they follow or morph to.
+//! Triangle meshes, skins and morph targets.
 
 use soffio_math::DMat4;
 
@@ -7,68 +7,69 @@ use soffio_math::DMat4;
 pub struct Mesh {
     /// Name.
     pub name: String,
-    /// Parts.
+    /// Primitives: triangles of one material.
     pub primitives: Vec<Primitive>,
 }
 
-/// A mesh that follows joints (glTF 2.0, 3.7.3).
+/// A skinned mesh: it follows joints (glTF 2.0, 3.7.3).
 #[derive(Clone, Debug, Default)]
 pub struct Skin {
-    /// The node that shows it.
+    /// Index of the node that shows it.
     pub node: usize,
-    /// Nodes that it follows.
+    /// Indices of the joint nodes.
     pub joints: Vec<usize>,
-    /// For each joint, what takes the mesh as it is bound to the joint's frame.
+    /// Inverse bind matrix of each joint.
     pub inverse_bind: Vec<DMat4>,
-    /// The primitives of the node's mesh as they are bound, corner by corner; not morphed where key frames change its weights.
+    /// The undeformed primitives of the node's mesh; without morph targets where their weights are animated.
     pub bound: Vec<Primitive>,
 }
 
-/// A mesh whose morph weights key frames change (glTF 2.0, 3.7.2.2).
+/// A mesh with animated morph weights (glTF 2.0, 3.7.2.2).
 #[derive(Clone, Debug, Default)]
 pub struct Morph {
-    /// The node that shows it.
+    /// Index of the node that shows it.
     pub node: usize,
-    /// The primitives of its mesh before any target is added, with their targets.
+    /// The primitives of its mesh without any target, and their targets.
     pub primitives: Vec<Primitive>,
 }
 
-/// A morph target: what is added to each corner for a weight of one. A list is empty where the file has none.
+/// A morph target: differences at weight one. A list is empty where the file has none.
 #[derive(Clone, Debug, Default)]
 pub struct MorphTarget {
-    /// m.
+    /// Differences of the positions, m.
     pub positions: Vec<[f32; 3]>,
-    /// To unit normals.
+    /// Differences of the unit normals.
     pub normals: Vec<[f32; 3]>,
-    /// To unit tangents.
+    /// Differences of the unit tangents.
     pub tangents: Vec<[f32; 3]>,
 }
 
-/// Joints of its skin that a corner follows, and by which shares: their sum is 1, or 0 where it follows none.
+/// Joint index and skin weight of the joints that a vertex follows; the weights sum to 1, or are all 0 where it follows
+/// none.
 pub type Influences = [(u16, f32); 4];
 
 /// Triangles with one material.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
-    /// m.
+    /// Positions, m.
     pub positions: Vec<[f32; 3]>,
-    /// Unit; computed flat where the file has none.
+    /// Unit normals; flat ones where the file has none.
     pub normals: Vec<[f32; 3]>,
-    /// Unit, w the sign of the bitangent; empty where the file has none.
+    /// Unit tangents, w the sign of the bitangent; empty where the file has none.
     pub tangents: Vec<[f32; 4]>,
     /// Texture coordinates; empty where the file has none.
     pub uvs: Vec<[f32; 2]>,
-    /// The second set of them.
+    /// Second set of texture coordinates.
     pub second_uvs: Vec<[f32; 2]>,
-    /// Linear RGBA per vertex; empty where the file has none.
+    /// Vertex colours, linear RGBA; empty where the file has none.
     pub colors: Vec<[f32; 4]>,
-    /// Joints of a bound primitive's corners; empty elsewhere.
+    /// Joints of a skinned primitive's vertices; empty elsewhere.
     pub influences: Vec<Influences>,
-    /// What key frames morph it to; empty elsewhere.
+    /// Animated morph targets; empty elsewhere.
     pub targets: Vec<MorphTarget>,
-    /// Has the file no normals? Then they are those of the triangles, none of which shares a corner.
+    /// Are the normals those of the triangles, because the file has none? Then no two triangles share a vertex.
     pub flat: bool,
-    /// Three per triangle.
+    /// Vertex indices, three for each triangle.
     pub indices: Vec<u32>,
     /// Index of the appearance.
     pub material: Option<usize>,

@@ -6,7 +6,7 @@ mod appearance;
 mod deform;
 mod flat;
 mod import;
-mod look;
+mod material;
 mod mesh;
 mod primitive;
 mod scene;

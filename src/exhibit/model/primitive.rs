@@ -1,4 +1,4 @@
-//! Primitives of a mesh: attributes as lists of one length, and separate triangles whatever the file has.
+//! Mesh primitives: vertex attributes as lists of equal length, and separate triangles from any topology.
 
 use gltf::Semantic;
 use gltf::accessor::Dimensions::{Vec2, Vec3, Vec4};
@@ -7,26 +7,26 @@ use gltf::mesh::Mode;
 use super::mesh::Primitive;
 use super::{accessor, flat};
 
-/// Most targets that one primitive morphs to.
+/// Most morph targets of one primitive.
 pub const MAX_TARGETS: usize = 256;
 
-/// Has it triangles?
+/// Does it consist of triangles?
 pub fn is_drawn(primitive: &gltf::Primitive) -> bool {
     !matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip)
 }
 
-/// Morph targets of the mesh of a node; those of its first primitive, as all have the same number.
+/// Number of morph targets of a node's mesh: that of its first primitive, as all have the same.
 pub fn targets(node: &gltf::Node) -> usize {
     let first = node.mesh().and_then(|mesh| mesh.primitives().next());
     first.map_or(0, |primitive| primitive.morph_targets().take(MAX_TARGETS).count())
 }
 
-/// Decodes a primitive; `deform` may change it before flat normals are made.
+/// Decodes a primitive; `deform` can change it before flat normals are made.
 pub fn decode(
     primitive: &gltf::Primitive,
     buffers: &[Vec<u8>],
-    deform: impl FnOnce(&mut Primitive) -> Result<(), accessor::Broken>,
-) -> Result<Primitive, accessor::Broken> {
+    deform: impl FnOnce(&mut Primitive) -> Result<(), accessor::ModelError>,
+) -> Result<Primitive, accessor::ModelError> {
     let positions = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
     let positions: Vec<[f32; 3]> = accessor::vectors(&positions, buffers, &[Vec3], 0.0)?;
     let list = match primitive.indices() {
@@ -71,7 +71,7 @@ pub fn decode(
     Ok(out)
 }
 
-/// Indices of a strip or fan as separate triangles, all wound alike.
+/// Separate triangles of a strip or fan, all with the same winding.
 fn triangles(mode: Mode, list: &[u32]) -> Vec<u32> {
     match mode {
         Mode::TriangleStrip => {

@@ -1,4 +1,4 @@
-//! The model: its tree of nodes, and what the nodes show.
+//! The glTF scene: its tree of nodes with meshes, cameras and lights.
 
 use super::animation::Animation;
 use super::appearance::Appearance;
@@ -10,11 +10,11 @@ use soffio_math::{DMat4, DVec3};
 pub struct Model {
     /// All nodes, in file order.
     pub nodes: Vec<Node>,
-    /// Nodes without a parent in the scene shown.
+    /// Root nodes of the scene shown.
     pub roots: Vec<usize>,
     /// Meshes.
     pub meshes: Vec<Mesh>,
-    /// Surface appearances.
+    /// Surface materials.
     pub materials: Vec<Appearance>,
     /// Decoded images, RGBA8.
     pub images: Vec<Image>,
@@ -22,13 +22,13 @@ pub struct Model {
     pub cameras: Vec<Camera>,
     /// Punctual lights, by index.
     pub lights: Vec<Light>,
-    /// Key frames.
+    /// Key-frame animations.
     pub animations: Vec<Animation>,
-    /// Meshes that follow joints; the mesh of each one's node is as it stands at rest.
+    /// Skinned meshes; the mesh of each one's node is deformed as in the rest pose.
     pub skins: Vec<Skin>,
-    /// Meshes without joints whose weights key frames change; the mesh of each one's node is as it stands at rest.
+    /// Meshes with animated morph weights; the mesh of each one's node is as at rest.
     pub morphs: Vec<Morph>,
-    /// Nodes that are not drawn, sorted: hidden by KHR_node_visibility, or below one that is.
+    /// Nodes that are not drawn, sorted: those hidden by KHR_node_visibility and all nodes below them.
     pub hidden: Vec<usize>,
 }
 
@@ -41,9 +41,9 @@ pub struct Node {
     pub parent: Option<usize>,
     /// Child nodes.
     pub children: Vec<usize>,
-    /// Node to parent.
+    /// Transform from node to parent.
     pub local: DMat4,
-    /// Node to world at rest.
+    /// Transform from node to world in the model.
     pub world: DMat4,
     /// Index of the mesh.
     pub mesh: Option<usize>,
@@ -53,14 +53,14 @@ pub struct Node {
     pub light: Option<usize>,
 }
 
-/// A decoded image, 8 bit RGBA as stored (sRGB or linear by use), with its sampler's wrapping.
+/// A decoded image, 8-bit RGBA as stored (sRGB or linear, depending on its use).
 #[derive(Clone, Debug, Default)]
 pub struct Image {
-    /// Pixels.
+    /// Width in pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height in pixels.
     pub height: u32,
-    /// width × height × 4 bytes.
+    /// Pixels, width × height × 4 bytes.
     pub rgba: Vec<u8>,
 }
 
@@ -69,11 +69,11 @@ pub struct Image {
 pub struct Camera {
     /// Vertical field of view, rad.
     pub fovy: f64,
-    /// width / height it was made for.
+    /// Width / height that it was made for.
     pub aspect: Option<f64>,
 }
 
-/// A punctual light (KHR_lights_punctual), shining along −Z of its node.
+/// A punctual light (KHR_lights_punctual) that shines along −Z of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Kind and shape.
@@ -82,17 +82,17 @@ pub struct Light {
     pub color: DVec3,
     /// Candela (point, spot) or lux (directional).
     pub intensity: f64,
-    /// m; infinite where the file has none.
+    /// Range, m; infinite where the file has none.
     pub range: f64,
 }
 
 /// Kind of a punctual light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
-    /// Parallel rays.
+    /// Directional: parallel rays.
     Directional,
-    /// All directions.
+    /// Point: all directions.
     Point,
-    /// A cone, inner and outer half-angle, rad.
+    /// Spot: a cone, inner and outer half-angle, rad.
     Spot(f64, f64),
 }

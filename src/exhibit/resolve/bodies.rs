@@ -51,7 +51,7 @@ impl Context<'_> {
             if body.motion != Motion::Kinematic {
                 for (key, given) in [("path", body.path.is_some()), ("animation", body.animation.is_some())] {
                     if given {
-                        let message = format!("body \"{}\" has a {key} and does not follow it", body.node);
+                        let message = format!("body \"{}\" has a {key} but is not kinematic", body.node);
                         let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
                         self.report(&format!("/body/{entry}/{key}"), problem.help("add motion = \"kinematic\""));
                     }
@@ -94,7 +94,7 @@ impl Context<'_> {
         if declared.len() > MAX_BODIES {
             let message = format!("{} moving bodies; the limit is {MAX_BODIES}", declared.len());
             let problem = Diagnostic::new(codes::MODEL_LIMIT, message);
-            self.report("/body", problem.help("make one body of what does not move against each other"));
+            self.report("/body", problem.help("join bodies that do not move against each other"));
         }
         for node in 0..self.model.nodes.len() {
             let ancestors = std::iter::successors(Some(node), |&n| self.model.nodes[n].parent);
@@ -105,7 +105,7 @@ impl Context<'_> {
     }
 
     /// Mass, centre, inertia and start of each declared body.
-    pub(super) fn weigh_bodies(&mut self, declared: &[Declared], wires: &[Wire]) -> Vec<Body> {
+    pub(super) fn resolve_masses(&mut self, declared: &[Declared], wires: &[Wire]) -> Vec<Body> {
         let sidecar = self.sidecar;
         let mut bodies = Vec::new();
         for (index, entry) in declared.iter().enumerate() {
@@ -124,13 +124,14 @@ impl Context<'_> {
                 let help = "add material = \"steel\" (mass from the mesh), or mass = \"85 g\"";
                 self.report(&at, Diagnostic::new(codes::NO_MASS, message).help(help));
             }
-            self.trace(&of, "material", named.unwrap_or("steel").into(), &format!("{at}/material"), "default");
-            let properties = if weightless { NOMINAL } else { self.weigh(given, index, material, wires, &at, &of) };
+            self.record_origin(&of, "material", named.unwrap_or("steel").into(), &format!("{at}/material"), "default");
+            let properties =
+                if weightless { NOMINAL } else { self.body_mass_properties(given, index, material, wires, &at, &of) };
             let pose = self.starts[index];
-            let source = if self.is_driven(index) { "its motion at 0 s" } else { "glTF node" };
-            self.trace(&of, "position", meters(pose.position), &format!("{at}/initial/position"), source);
+            let source = if self.is_kinematic(index) { "its motion at 0 s" } else { "glTF node" };
+            self.record_origin(&of, "position", meters(pose.position), &format!("{at}/initial/position"), source);
             let rotation = format!("{} (x y z w)", pose.rotation);
-            self.trace(&of, "rotation", rotation, &format!("{at}/initial/rotation"), source);
+            self.record_origin(&of, "rotation", rotation, &format!("{at}/initial/rotation"), source);
             let velocity = given.initial.velocity.map_or(DVec3::ZERO, |v| DVec3::from(v.map(|x| x.0)));
             let angular_velocity = given.initial.angular_velocity.map_or(DVec3::ZERO, |v| DVec3::from(v.map(|x| x.0)));
             let linear_damping =
@@ -143,7 +144,7 @@ impl Context<'_> {
                 ("linear_damping", format!("{linear_damping} /s")),
                 ("angular_damping", format!("{angular_damping} /s")),
             ] {
-                self.trace(&of, key, value, &format!("{at}/{}", key.replace('.', "/")), "default");
+                self.record_origin(&of, key, value, &format!("{at}/{}", key.replace('.', "/")), "default");
             }
             bodies.push(Body {
                 name: self.model.nodes[self.body_nodes[index]].name.clone(),
@@ -195,7 +196,7 @@ impl Context<'_> {
         f64::MIN_POSITIVE
     }
 
-    fn weigh(
+    fn body_mass_properties(
         &mut self,
         given: &sidecar::Body,
         body: usize,
@@ -232,11 +233,11 @@ impl Context<'_> {
                 properties.inertia = axes * DMat3::from_diagonal(diagonal) * axes.transpose();
             }
         }
-        self.trace(of, "mass", format!("{:.6} kg", properties.mass), &format!("{at}/mass"), derived);
+        self.record_origin(of, "mass", format!("{:.6} kg", properties.mass), &format!("{at}/mass"), derived);
         let center = meters(properties.center);
-        self.trace(of, "center_of_mass", center, &format!("{at}/center_of_mass"), derived);
+        self.record_origin(of, "center_of_mass", center, &format!("{at}/center_of_mass"), derived);
         let (moments, _) = principal_axes(properties.inertia);
-        self.trace(
+        self.record_origin(
             of,
             "inertia",
             format!("{:.4e}, {:.4e}, {:.4e} kg m² (principal)", moments.x, moments.y, moments.z),
@@ -270,9 +271,10 @@ impl Context<'_> {
                     .help("write inertia = { diagonal = [ … ] }, or give it a mesh"),
             );
         } else if i.z > (i.x + i.y) * (1.0 + TYPED) {
-            let message = format!("the moments of inertia of \"{name}\" belong to no body");
+            let message = format!("the moments of inertia of \"{name}\" are impossible");
             let label = format!("{} > {} + {}", i.z, i.x, i.y);
-            let help = "no moment is larger than the other two together; leave the key out to have it from the mesh";
+            let help =
+                "no moment is larger than the other two together; leave the key out to compute them from the mesh";
             self.report(&format!("{at}/inertia"), Diagnostic::new(codes::INERTIA, message).label(label).help(help));
         }
     }
@@ -297,7 +299,7 @@ impl Context<'_> {
             if self.owner[node] != Some(body) || node == root {
                 let message = format!("node \"{}\" is not below the body \"{}\"", part.node, given.node);
                 let problem = Diagnostic::new(codes::NOT_DESCENDANT, message);
-                self.report(&format!("{place}/node"), problem.help("hang it below the body in the model"));
+                self.report(&format!("{place}/node"), problem.help("move it below the body in the model's tree"));
                 continue;
             }
             let material = self.material(&part.material, &format!("{place}/material"));
@@ -312,7 +314,13 @@ impl Context<'_> {
                 if moments.mass > 0.0 {
                     let source = format!("derived: mesh × {density} kg/m³");
                     let name = self.model.nodes[piece].name.clone();
-                    self.trace(of, &format!("mass of {name}"), format!("{:.6} kg", moments.mass), "/-", &source);
+                    self.record_origin(
+                        of,
+                        &format!("mass of {name}"),
+                        format!("{:.6} kg", moments.mass),
+                        "/-",
+                        &source,
+                    );
                 }
                 total.add(&moments);
             }
@@ -322,7 +330,13 @@ impl Context<'_> {
             let mut moments = Moments::default();
             moments.add_wire(&wire.points, wire.radius, density);
             let source = format!("derived: length × πr² × {density} kg/m³");
-            self.trace(of, &format!("mass of wire {}", wire.name), format!("{:.6} kg", moments.mass), "/-", &source);
+            self.record_origin(
+                of,
+                &format!("mass of wire {}", wire.name),
+                format!("{:.6} kg", moments.mass),
+                "/-",
+                &source,
+            );
             total.add(&moments);
         }
         total

@@ -1,12 +1,12 @@
 //! Colliders, and who never collides with whom.
 
-use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::fit;
 use super::super::sidecar::{self, ConstrainedPairs, Fit};
 use super::super::source::join;
 use super::super::{Wire, codes};
 use super::context::Context;
-use super::joints::pairs::{Pair, pairs as joined_pairs};
+use super::joints::pairs::{BodyPair, pairs as joined_pairs};
 use soffio_math::{DMat3, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Constraint, Limit, LimitKind};
 use soffio_multibody::collision::{Collider, Excluded, Exclusion, Shape};
@@ -33,10 +33,10 @@ impl Context<'_> {
             }
             let of = format!("collider {}", given.node);
             let moves_with = self.body_name(body).to_owned();
-            self.trace(&of, "body", moves_with, "/-", "glTF node tree");
-            self.trace(&of, "material", name, &format!("{at}/material"), "the body's");
+            self.record_origin(&of, "body", moves_with, "/-", "glTF node tree");
+            self.record_origin(&of, "material", name, &format!("{at}/material"), "the body's");
             let shown = shapes.iter().map(Shape::describe).collect::<Vec<_>>().join("; ");
-            self.trace(&of, "shape", shown, &format!("{at}/shape"), "");
+            self.record_origin(&of, "shape", shown, &format!("{at}/shape"), "");
             let Some(material) = material else { continue };
             out.extend(shapes.into_iter().map(|shape| Collider { body, shape, material, node: given.node.clone() }));
         }
@@ -84,8 +84,9 @@ impl Context<'_> {
             }
             sidecar::Shape::Plane(_) => {
                 if self.owner[node].is_some() {
-                    let message = format!("\"{}\" moves, and a plane has no end", self.model.nodes[node].name);
-                    let help = "give the plane to a node of no body, or write a box";
+                    let message =
+                        format!("\"{}\" moves, but a plane is infinite and must be fixed", self.model.nodes[node].name);
+                    let help = "put the plane on a node that belongs to no body, or use a box";
                     self.report(&place, Diagnostic::new(codes::ENDLESS, message).help(help));
                 }
                 vec![Shape::plane(origin, axes[1])]
@@ -151,10 +152,10 @@ impl Context<'_> {
         pairs
     }
 
-    fn exclude(&mut self, pairs: &mut Vec<Exclusion>, (a, b): Pair, why: Excluded, (reason, at): (&str, &str)) {
+    fn exclude(&mut self, pairs: &mut Vec<Exclusion>, (a, b): BodyPair, why: Excluded, (reason, at): (&str, &str)) {
         if a != b {
             let shown = format!("{} – {}", self.body_name(a), self.body_name(b));
-            self.trace("collision", "excluded", shown, at, reason);
+            self.record_origin("collision", "excluded", shown, at, reason);
             pairs.push(Exclusion { bodies: (a.min(b), a.max(b)), why });
         }
     }
@@ -166,9 +167,9 @@ impl Context<'_> {
             return self.node(name, at, "a pair that never collides").map(|n| self.owner[n]).into_iter().collect();
         };
         let Some(members) = groups.get(group) else {
-            let likely = near(group, groups.keys().map(String::as_str));
+            let likely = similar_names(group, groups.keys().map(String::as_str));
             let problem = Diagnostic::new(codes::NOT_FOUND, format!("no group named \"{group}\""));
-            let help = format!("groups stand in [collision] groups; near: {}", quoted(&likely));
+            let help = format!("groups are defined in [collision] groups; similar names: {}", quoted(&likely));
             self.report(at, problem.help(help));
             return Vec::new();
         };

@@ -9,13 +9,13 @@ use super::super::exhibit::Origin;
 use super::super::model::Model;
 use super::super::paths::SIDECAR;
 use super::super::sidecar::Sidecar;
-use super::super::source::Source;
+use super::super::source::SidecarText;
 use soffio_math::Pose;
 use soffio_multibody::dynamics::KinematicBody;
 
 /// What all stages share.
 pub(super) struct Context<'a> {
-    pub(super) source: &'a Source,
+    pub(super) source: &'a SidecarText,
     pub(super) sidecar: &'a Sidecar,
     pub(super) model: &'a Model,
     /// Nodes of each name, in the model's order.
@@ -39,7 +39,7 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(source: &'a Source, sidecar: &'a Sidecar, model: &'a Model, folder: &'a Path) -> Self {
+    pub(super) fn new(source: &'a SidecarText, sidecar: &'a Sidecar, model: &'a Model, folder: &'a Path) -> Self {
         let mut named: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (index, node) in model.nodes.iter().enumerate() {
             named.entry(&node.name).or_default().push(index);
@@ -69,7 +69,7 @@ impl<'a> Context<'a> {
     }
 
     /// Notes a value: from the sidecar where it stands there, else from `otherwise`.
-    pub(super) fn trace(&mut self, of: &str, key: &str, value: String, at: &str, otherwise: &str) {
+    pub(super) fn record_origin(&mut self, of: &str, key: &str, value: String, at: &str, otherwise: &str) {
         let given = self.source.value.pointer(at).is_some();
         let file = SIDECAR;
         let source = if given { format!("{file}:{}", self.source.line(at)) } else { otherwise.to_owned() };

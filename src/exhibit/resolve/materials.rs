@@ -1,6 +1,6 @@
 //! Materials: the built-in table, what the sidecar changes of it, and pairs that break the combine rule.
 
-use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::quantity::Length;
 use super::super::source::join;
 use super::super::{Material, MaterialPair, codes, materials};
@@ -52,12 +52,12 @@ impl Context<'_> {
                     );
                 }
             }
-            self.trace_material(&material, &at, base.is_some());
+            self.record_material_origins(&material, &at, base.is_some());
             self.materials.push(material);
         }
     }
 
-    pub(super) fn trace_material(&mut self, material: &Material, at: &str, builtin: bool) {
+    pub(super) fn record_material_origins(&mut self, material: &Material, at: &str, builtin: bool) {
         let of = format!("material {}", material.name);
         let otherwise = if builtin { "built-in table" } else { "default" };
         for (key, value) in [
@@ -71,7 +71,7 @@ impl Context<'_> {
             ("rolling_resistance", format!("{} mm", 1e3 * material.resistance.rolling)),
             ("spin_resistance", format!("{} mm", 1e3 * material.resistance.spinning)),
         ] {
-            self.trace(&of, key, value, &join(at, key), otherwise);
+            self.record_origin(&of, key, value, &join(at, key), otherwise);
         }
     }
 
@@ -112,13 +112,13 @@ impl Context<'_> {
             return Some(index);
         }
         if let Some(material) = materials::builtin(name) {
-            self.trace_material(&material, "/material/-", true);
+            self.record_material_origins(&material, "/material/-", true);
             self.materials.push(material);
             return Some(self.materials.len() - 1);
         }
         let builtin: Vec<&str> = materials::names().collect();
         let known = self.sidecar.material.keys().map(String::as_str).chain(builtin.iter().copied());
-        let likely = near(name, known);
+        let likely = similar_names(name, known);
         let help = match likely.as_slice() {
             [] => format!(
                 "built in: {}; or write a table [material.{name}]",

@@ -15,23 +15,23 @@ mod nail_paths;
 mod nodes;
 mod picture;
 mod surfaces;
+mod texts;
 mod winds;
 mod wires;
-mod words;
 
 use std::path::{Path, PathBuf};
 
-use super::behavior::{BreathTuning, Motion, Touch};
+use super::behavior::{BreathTuning, Motion, TouchPermission};
 use super::bodies::Body;
 use super::diagnostic::{Diagnostic, Report, quoted};
 use super::exhibit::Exhibit;
 use super::model::{Imported, Model, import};
 use super::paths::SIDECAR;
 use super::presentation::{Attract, Credit, Labels};
-use super::shapes::shapes;
+use super::shape_tracks::shapes;
 use super::sidecar::{self, Sidecar};
-use super::source::Source;
-use super::{codes, paths, shape};
+use super::source::SidecarText;
+use super::{codes, paths, schema};
 use context::Context;
 use nail_paths::add_path_nodes;
 use soffio_math::DVec3;
@@ -48,13 +48,13 @@ const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 /// Loads and checks the exhibit in `folder`: all problems at once, or a valid exhibit with its warnings.
 pub fn load(folder: &Path) -> Result<Exhibit, Report> {
     let path = folder.join(SIDECAR);
-    let bytes = paths::read_limited(&path, MAX_SIDECAR_BYTES).map_err(Report::of)?;
+    let bytes = paths::read_limited(&path, MAX_SIDECAR_BYTES).map_err(Report::single)?;
     let file = path.display().to_string();
     let text = String::from_utf8(bytes).map_err(|error| {
-        Report::of(Diagnostic::new(codes::SYNTAX, format!("{file} is not UTF-8: {error}")).help("save it as UTF-8"))
+        Report::single(Diagnostic::new(codes::SYNTAX, format!("{file} is not UTF-8: {error}")).help("save it as UTF-8"))
     })?;
     let alone = |diagnostics| Report::in_file(&file, text.as_str().into(), diagnostics);
-    let source = Source::parse(&file, &text).map_err(|problem| alone(vec![problem]))?;
+    let source = SidecarText::parse(&file, &text).map_err(|problem| alone(vec![problem]))?;
     let sidecar = typed(&source).map_err(&alone)?;
     let placed = |mut problem: Diagnostic| {
         problem.location.get_or_insert_with(|| source.locate(source.span("/model")));
@@ -75,16 +75,16 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
 }
 
 /// A plain model as an exhibit in which nothing moves.
-pub fn plain(model_path: &Path) -> Result<Exhibit, Report> {
+pub fn load_model(model_path: &Path) -> Result<Exhibit, Report> {
     let Imported { model, warnings } = import(model_path)?;
     let id = model_path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = model_path.parent().map(PathBuf::from).unwrap_or_default();
-    Ok(Exhibit { id, folder, warnings, ..Exhibit::of_model(model) })
+    Ok(Exhibit { id, folder, warnings, ..Exhibit::from_model(model) })
 }
 
 impl Exhibit {
     /// A model alone as an exhibit in which nothing moves, seen through its first camera.
-    pub fn of_model(model: Model) -> Self {
+    pub fn from_model(model: Model) -> Self {
         let camera_node = model.nodes.iter().position(|node| node.camera.is_some());
         Self { camera_node, ..empty(model, PathBuf::new()) }
     }
@@ -107,9 +107,9 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         springs: Vec::new(),
         drives: Vec::new(),
         duration: f64::INFINITY,
-        gathers: false,
-        motion: Motion::Laws,
-        touch: Touch { permitted: false, force: 0.0 },
+        assembles: false,
+        motion: Motion::Dynamics,
+        touch: TouchPermission { permitted: false, force: 0.0 },
         clock: None,
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
@@ -121,7 +121,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         shelters: Vec::new(),
         winds: Vec::new(),
         breath: BreathTuning::default(),
-        calm: None,
+        idle_damping: None,
         level_db: 0.0,
         instruments: Vec::new(),
         sounds: Vec::new(),
@@ -134,7 +134,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
 }
 
 /// The sidecar as types, once its version and shape are right.
-fn typed(source: &Source) -> Result<Sidecar, Vec<Diagnostic>> {
+fn typed(source: &SidecarText) -> Result<Sidecar, Vec<Diagnostic>> {
     let version = source.value.get("schema").and_then(|v| v.as_str());
     if let Some(other) = version.filter(|v| *v != VERSION) {
         let mut problem = Diagnostic::new(codes::VERSION, format!("the format \"{other}\" is not known"))
@@ -142,7 +142,7 @@ fn typed(source: &Source) -> Result<Sidecar, Vec<Diagnostic>> {
         problem.location = Some(source.locate(source.span("/schema")));
         return Err(vec![problem]);
     }
-    let problems = shape::check(source);
+    let problems = schema::check(source);
     if !problems.is_empty() {
         return Err(problems);
     }
@@ -175,13 +175,13 @@ impl Context<'_> {
         let folder_name =
             self.folder.canonicalize().ok().and_then(|f| Some(f.file_name()?.to_string_lossy().into_owned()));
         let id = self.sidecar.id.clone().or(folder_name).unwrap_or_default();
-        self.trace("scene", "gravity", format!("{gravity} m/s²"), "/scene/gravity", "default");
+        self.record_origin("scene", "gravity", format!("{gravity} m/s²"), "/scene/gravity", "default");
         self.duplicate_nodes();
         self.materials();
         let material_pairs = self.material_pairs();
         let declared = self.declare_bodies();
         let wires = self.wires();
-        let bodies = self.weigh_bodies(&declared, &wires);
+        let bodies = self.resolve_masses(&declared, &wires);
         let joints::Joints { constraints, limits, springs, .. } = self.joints();
         let drives = std::mem::take(&mut self.drives);
         self.check_gear_rings(&constraints);
@@ -217,7 +217,7 @@ impl Context<'_> {
                 followed.map(|&(_, animation, repeat)| (animation, repeat))
             }),
             duration: self.duration(),
-            gathers: self.sidecar.scene.gathers.unwrap_or(true),
+            assembles: self.sidecar.scene.gathers.unwrap_or(true),
             motion: self.motion(),
             touch,
             clock,
@@ -231,7 +231,7 @@ impl Context<'_> {
             shelters,
             winds,
             breath,
-            calm,
+            idle_damping: calm,
             level_db: self.sidecar.scene.level.0,
             instruments,
             sounds,
@@ -247,7 +247,7 @@ impl Context<'_> {
     fn duration(&mut self) -> f64 {
         let Some(given) = self.sidecar.scene.duration else { return f64::INFINITY };
         let duration = self.positive(given.seconds(), "/scene/duration");
-        self.trace("scene", "duration", format!("{duration} s"), "/scene/duration", "");
+        self.record_origin("scene", "duration", format!("{duration} s"), "/scene/duration", "");
         duration
     }
 
@@ -268,9 +268,9 @@ impl Context<'_> {
         let place = "/solver/stabilize/time_constant";
         let time = given.stabilize.time_constant.map_or(STABILIZATION_TIME, |t| t.0);
         let time = self.positive(time, place);
-        self.trace("solver", "integrator", format!("{integrator:?}"), "/solver/integrator", "default");
-        self.trace("solver", "method", format!("{solver:?}"), "/solver/method", "default");
-        self.trace("solver", "time_constant", format!("{time} s"), place, "default");
+        self.record_origin("solver", "integrator", format!("{integrator:?}"), "/solver/integrator", "default");
+        self.record_origin("solver", "method", format!("{solver:?}"), "/solver/method", "default");
+        self.record_origin("solver", "time_constant", format!("{time} s"), place, "default");
         (integrator, solver, time)
     }
 
@@ -281,27 +281,33 @@ impl Context<'_> {
         let budget = self.positive(budget, "/solver/budget");
         let motion = match given.motion {
             sidecar::MovedBy::Auto => Motion::Auto { budget },
-            sidecar::MovedBy::Dynamics => Motion::Laws,
-            sidecar::MovedBy::Procedural => Motion::Places(Method::Compulsive),
-            sidecar::MovedBy::PositionBased => Motion::Places(Method::TreeSolve),
+            sidecar::MovedBy::Dynamics => Motion::Dynamics,
+            sidecar::MovedBy::Procedural => Motion::PositionBased(Method::Compulsive),
+            sidecar::MovedBy::PositionBased => Motion::PositionBased(Method::TreeSolve),
         };
         if given.budget.is_some() && given.motion != sidecar::MovedBy::Auto {
             let problem = Diagnostic::new(codes::UNUSED, "the budget is for motion = \"auto\" and does nothing here");
             self.report("/solver/budget", problem.help("leave it out, or write motion = \"auto\""));
         }
-        self.trace("solver", "motion", format!("{motion:?}"), "/solver/motion", "default");
+        self.record_origin("solver", "motion", format!("{motion:?}"), "/solver/motion", "default");
         motion
     }
 
     /// What hands may do.
-    fn touch(&mut self, bodies: &[Body]) -> Touch {
+    fn touch(&mut self, bodies: &[Body]) -> TouchPermission {
         let given = self.sidecar.touch;
         let weight: f64 = bodies.iter().map(|body| body.properties.mass * STANDARD_GRAVITY).sum();
         let force = given.force.map_or(STRENGTH * weight, |force| force.0);
         let force = if bodies.is_empty() { force } else { self.positive(force, "/touch/force") };
-        self.trace("touch", "permitted", given.permitted.to_string(), "/touch/permitted", "default");
-        self.trace("touch", "force", format!("{force:.3} N"), "/touch/force", "twice the weight of what moves");
-        Touch { permitted: given.permitted, force }
+        self.record_origin("touch", "permitted", given.permitted.to_string(), "/touch/permitted", "default");
+        self.record_origin(
+            "touch",
+            "force",
+            format!("{force:.3} N"),
+            "/touch/force",
+            "twice the weight of all moving bodies",
+        );
+        TouchPermission { permitted: given.permitted, force }
     }
 
     /// May constraints be open at the start?

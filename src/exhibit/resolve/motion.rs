@@ -14,7 +14,7 @@ use soffio_multibody::dynamics::{KeyframeMotion, KinematicBody};
 /// Curves of the model are followed through this many poses a second.
 const SAMPLES_PER_SECOND: f64 = 60.0;
 /// Most poses of one motion.
-const MOST_KEYS: usize = 100_000;
+const MAX_KEYS: usize = 100_000;
 /// Time in which a stepped channel beside smooth ones goes from value to value, s.
 const STEP_TIME: f64 = 1e-3;
 
@@ -44,7 +44,13 @@ impl Context<'_> {
                 let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
                 self.report(&format!("{at}/animation"), problem.help("it can follow one of them"));
             }
-            self.trace(&of, "motion", format!("a path of {} points", path.points.len()), &format!("{at}/path"), "");
+            self.record_origin(
+                &of,
+                "motion",
+                format!("a path of {} points", path.points.len()),
+                &format!("{at}/path"),
+                "",
+            );
             return self.drive_along(path, rest, &format!("{at}/path"));
         }
         let model = self.model;
@@ -70,7 +76,7 @@ impl Context<'_> {
         let animation = &model.animations[found];
         let (keys, interpolation) = self.sampled(animation, node, at);
         let shown = format!("animation {}, {} poses, {interpolation:?}", animation.name, keys.len());
-        self.trace(&of, "motion", shown, &format!("{at}/motion"), "");
+        self.record_origin(&of, "motion", shown, &format!("{at}/motion"), "");
         let repeat = body.animation.as_ref().is_none_or(|a| a.repeat);
         self.followed.push((self.body_nodes.len() - 1, found, repeat));
         self.push_drive(KeyframeMotion { keys, interpolation, repeat })
@@ -87,7 +93,7 @@ impl Context<'_> {
         };
         let times = times(&channels, interpolation);
         let mut keys = Vec::new();
-        for t in times.into_iter().take(MOST_KEYS) {
+        for t in times.into_iter().take(MAX_KEYS) {
             let Some(pose) = rigid(&animation.world(self.model, node, t)) else {
                 let message = format!("animation \"{}\" shears the node of a body", animation.name);
                 let problem = Diagnostic::new(codes::SCALED_BODY, message);
@@ -128,7 +134,7 @@ fn times(channels: &[&Channel], interpolation: Interpolation) -> Vec<f64> {
     match interpolation {
         Interpolation::Spline => {
             let first = times.iter().copied().fold(last, f64::min);
-            let count = ((last - first) * SAMPLES_PER_SECOND).ceil().clamp(1.0, MOST_KEYS as f64 - 1.0);
+            let count = ((last - first) * SAMPLES_PER_SECOND).ceil().clamp(1.0, MAX_KEYS as f64 - 1.0);
             return (0..=count as usize).map(|i| first + (last - first) * i as f64 / count).collect();
         }
         Interpolation::Linear => {

@@ -1,7 +1,7 @@
 //! From a name in the sidecar to a node of the model, and from a node to points, axes and meshes of its body.
 
 use super::super::codes;
-use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::sidecar::Point;
 use super::super::source::natural_key;
 use super::context::Context;
@@ -32,10 +32,10 @@ impl Context<'_> {
         match found.as_slice() {
             [one] => Some(*one),
             [] => {
-                let likely = near(name, model.nodes.iter().map(|node| node.name.as_str()));
+                let likely = similar_names(name, model.nodes.iter().map(|node| node.name.as_str()));
                 let help = match likely.as_slice() {
                     [] => "names are case-sensitive; `soffio explain` lists the nodes".to_owned(),
-                    names => format!("nodes with near names: {}", quoted(names)),
+                    names => format!("similar names: {}", quoted(names)),
                 };
                 let message = format!("no node named \"{name}\" in {}", self.sidecar.model);
                 self.report(
@@ -79,11 +79,17 @@ impl Context<'_> {
 
     /// The nodes that a pattern such as `Rod.*` stands for, in natural order: children of `root` that belong to its
     /// body, or without a root all nodes that stand still.
-    pub(super) fn marks(&mut self, root: Option<usize>, pattern: &str, at: &str, used_for: &str) -> Option<Vec<usize>> {
+    pub(super) fn marker_nodes(
+        &mut self,
+        root: Option<usize>,
+        pattern: &str,
+        at: &str,
+        used_for: &str,
+    ) -> Option<Vec<usize>> {
         let model = self.model;
         let Some(start) = pattern.strip_suffix('*').filter(|start| !start.is_empty() && !start.contains('*')) else {
-            let message = format!("\"{pattern}\" names no points");
-            let help = "write how their names begin, and a *: \"Rod.*\"; or list them one by one";
+            let message = format!("\"{pattern}\" is not a pattern of names");
+            let help = "write the beginning of their names and a *, such as \"Rod.*\", or list them one by one";
             self.report(at, Diagnostic::new(codes::WRONG_SHAPE, message).help(help));
             return None;
         };
@@ -93,21 +99,21 @@ impl Context<'_> {
         };
         let owner = root.and_then(|root| self.owner[root]);
         let named = |node: &usize| self.owner[*node] == owner && model.nodes[*node].name.starts_with(start);
-        let mut marks: Vec<usize> = candidates.into_iter().filter(named).collect();
-        marks.sort_by_cached_key(|&node| natural_key(&model.nodes[node].name));
-        if marks.len() < 2 {
+        let mut marker_nodes: Vec<usize> = candidates.into_iter().filter(named).collect();
+        marker_nodes.sort_by_cached_key(|&node| natural_key(&model.nodes[node].name));
+        if marker_nodes.len() < 2 {
             let place = match root {
                 Some(root) => format!("below \"{}\"", model.nodes[root].name),
-                None => "that stands still".to_owned(),
+                None => "that is fixed".to_owned(),
             };
-            let message = match marks.len() {
+            let message = match marker_nodes.len() {
                 0 => format!("no node {place} has a name that begins with \"{start}\""),
-                _ => format!("one node alone {place} has a name that begins with \"{start}\""),
+                _ => format!("only one node {place} has a name that begins with \"{start}\""),
             };
             let known = model.nodes.iter().map(|node| node.name.as_str());
-            let help = match near(start, known).as_slice() {
-                [] => "a wire has at least two points".to_owned(),
-                names => format!("a wire has at least two points; near names: {}", quoted(names)),
+            let help = match similar_names(start, known).as_slice() {
+                [] => "a wire needs at least two points".to_owned(),
+                names => format!("a wire needs at least two points; similar names: {}", quoted(names)),
             };
             self.report(
                 at,
@@ -115,7 +121,7 @@ impl Context<'_> {
             );
             return None;
         }
-        Some(marks)
+        Some(marker_nodes)
     }
 
     /// Is `node` `root` or below it?
@@ -138,7 +144,7 @@ impl Context<'_> {
     }
 
     /// Does this body follow a given motion?
-    pub(super) fn is_driven(&self, body: usize) -> bool {
+    pub(super) fn is_kinematic(&self, body: usize) -> bool {
         self.drives.iter().any(|drive| drive.body == body)
     }
 
@@ -159,7 +165,7 @@ impl Context<'_> {
     pub(super) fn unit(&mut self, direction: DVec3, at: &str) -> Option<DVec3> {
         let unit = direction.try_normalize();
         if unit.is_none() {
-            let problem = Diagnostic::new(codes::NO_AXIS, "a direction has no length");
+            let problem = Diagnostic::new(codes::NO_AXIS, "a direction has length zero");
             self.report(at, problem.help("give a vector such as [0, 1, 0]"));
         }
         unit
@@ -178,7 +184,7 @@ impl Context<'_> {
                     self.report(
                         at,
                         Diagnostic::new(codes::NOT_DESCENDANT, message)
-                            .help("hang the node below the body in the model"),
+                            .help("move the node below the body in the model's tree"),
                     );
                     return None;
                 }
@@ -188,12 +194,12 @@ impl Context<'_> {
     }
 
     /// World position of an anchor at rest.
-    pub(super) fn at_rest(&self, anchor: &Anchor) -> DVec3 {
+    pub(super) fn reference_position(&self, anchor: &Anchor) -> DVec3 {
         self.pose_of(anchor.body).point(anchor.point)
     }
 
     /// World position of an anchor where its body starts.
-    pub(super) fn at_start(&self, anchor: &Anchor) -> DVec3 {
+    pub(super) fn start_position(&self, anchor: &Anchor) -> DVec3 {
         self.start_of(anchor.body).point(anchor.point)
     }
 

@@ -17,11 +17,11 @@ use soffio_math::{DMat4, DVec3};
 use soffio_sound::SurfaceLine;
 
 /// Most points of a line: half of what the synth takes, there and back.
-const MOST: usize = 1 << 17;
+const MAX_SAMPLES: usize = 1 << 17;
 /// A picture that has fewer pixels across has nothing to read.
-const FEWEST: usize = 4;
+const MIN_SAMPLES: usize = 4;
 /// Steepest slope that a normal map's pixel is read as.
-const STEEPEST: f32 = 4.0;
+const MAX_SLOPE: f32 = 4.0;
 
 impl Context<'_> {
     /// The line over the largest picture on a node and on those below it; `None` where they have none.
@@ -52,7 +52,7 @@ impl Context<'_> {
 /// n_x/n_z of a normal map's pixel.
 fn slope([x, _, z, _]: [u8; 4]) -> f32 {
     let part = |c: u8| f32::from(c) / 127.5 - 1.0;
-    (part(x) / part(z).max(1e-3)).clamp(-STEEPEST, STEEPEST)
+    (part(x) / part(z).max(1e-3)).clamp(-MAX_SLOPE, MAX_SLOPE)
 }
 
 /// Luma of a colour as stored, so as seen (ITU-R BT.709).
@@ -85,10 +85,10 @@ fn size(primitive: &Primitive, world: &DMat4) -> [f64; 2] {
 fn wind(image: &Image, read: fn([u8; 4]) -> f32, slopes: bool, width: f64) -> Option<SurfaceLine> {
     let (w, h) = (image.width as usize, image.height as usize);
     let pixels = image.rgba.as_chunks::<4>().0;
-    if w.min(h) < FEWEST || pixels.len() != w * h || w > MOST {
+    if w.min(h) < MIN_SAMPLES || pixels.len() != w * h || w > MAX_SAMPLES {
         return None;
     }
-    let rows = h.min(MOST / w);
+    let rows = h.min(MAX_SAMPLES / w);
     let value = |i: usize| {
         let stroke = i / w;
         let back = stroke % 2 == 1;

@@ -1,6 +1,6 @@
 //! What feels the wind and what sounds: both are read off the meshes and wires of the bodies.
 
-use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::sidecar::{self, Faces, Trigger};
 use super::super::{Body, SoundBinding, SoundTrigger, Wire, codes, fit};
 use super::context::Context;
@@ -53,7 +53,7 @@ impl Context<'_> {
         let place = format!("{at}/node");
         let node = self.node(&given.node, &place, "a wind surface")?;
         let Some(body) = self.owner[node] else {
-            let message = format!("node \"{}\" stands still: wind does not move it", given.node);
+            let message = format!("node \"{}\" belongs to no body: wind does not move it", given.node);
             self.report(
                 &place,
                 Diagnostic::new(codes::UNKNOWN_BODY, message).help("make it a [[body]], or leave this table out"),
@@ -75,15 +75,15 @@ impl Context<'_> {
         let mesh = if sheet && mesh.is_closed() { fit::one_side(&mesh, extents.axes.z_axis) } else { mesh };
         let of = format!("wind surface {}", given.node);
         let area = format!("{:.6} m²{}", mesh.area(), if sheet { ", both sides" } else { "" });
-        self.trace(&of, "area", area, "/-", "derived: mesh");
-        self.trace(
+        self.record_origin(&of, "area", area, "/-", "derived: mesh");
+        self.record_origin(
             &of,
             "drag.normal",
             given.drag.normal.to_string(),
             &format!("{at}/drag/normal"),
             "default: flat plate",
         );
-        self.trace(
+        self.record_origin(
             &of,
             "drag.tangential",
             given.drag.tangential.to_string(),
@@ -139,7 +139,7 @@ impl Context<'_> {
         let body_node = self.node(&given.body, &format!("{at}/body"), &used_for)?;
         let Some(body) = self.owner[body_node] else {
             let message = format!("node \"{}\" is not a moving body", given.body);
-            let problem = Diagnostic::new(codes::UNKNOWN_BODY, message).label("it cannot set off a sound");
+            let problem = Diagnostic::new(codes::UNKNOWN_BODY, message).label("it cannot trigger a sound");
             self.report(&format!("{at}/body"), problem.help("make it a [[body]], or name the body that is hit"));
             return None;
         };
@@ -159,7 +159,7 @@ impl Context<'_> {
             self.report(
                 at,
                 problem
-                    .label("visitors who do not hear it read nothing")
+                    .label("visitors who cannot hear it get no caption")
                     .help("add caption = \"key\" and label.*.caption.key"),
             );
         }
@@ -176,9 +176,9 @@ impl Context<'_> {
         };
         let own_mass = (given.node.is_none()).then(|| bodies[body].properties.mass);
         let size = sound_body(given.params, &mesh, &extents, own_mass, material.density);
-        self.trace_size(&size, at, &used_for);
-        self.trace(&used_for, "timbre", given.timbre.clone(), &format!("{at}/timbre"), "");
-        self.trace(&used_for, "gain", format!("{} dB", given.gain.0), &format!("{at}/gain"), "default");
+        self.record_size_origins(&size, at, &used_for);
+        self.record_origin(&used_for, "timbre", given.timbre.clone(), &format!("{at}/timbre"), "");
+        self.record_origin(&used_for, "gain", format!("{} dB", given.gain.0), &format!("{at}/gain"), "default");
         let spec = InstrumentSpec {
             timbre: given.timbre.clone(),
             body: size,
@@ -204,13 +204,13 @@ impl Context<'_> {
     }
 
     /// Checks the size of a sounding body and notes where it comes from.
-    fn trace_size(&mut self, size: &SoundBody, at: &str, used_for: &str) {
+    fn record_size_origins(&mut self, size: &SoundBody, at: &str, used_for: &str) {
         for (key, value) in
             [("half_length", size.half_extents[0]), ("half_width", size.half_extents[1]), ("thickness", size.thickness)]
         {
             let place = format!("{at}/params/{key}");
             self.positive(value, &place);
-            self.trace(used_for, key, format!("{:.3} mm", value * 1e3), &place, "derived: mesh");
+            self.record_origin(used_for, key, format!("{:.3} mm", value * 1e3), &place, "derived: mesh");
         }
     }
 
@@ -218,7 +218,7 @@ impl Context<'_> {
     fn sounding_wire(&mut self, name: &str, wires: &[Wire], at: &str, used_for: &str) -> Option<usize> {
         let found = wires.iter().position(|wire| wire.name == name);
         if found.is_none() {
-            let likely = near(name, wires.iter().map(|wire| wire.name.as_str()));
+            let likely = similar_names(name, wires.iter().map(|wire| wire.name.as_str()));
             let help = match likely.as_slice() {
                 [] => "give the name of a [[wire]]".to_owned(),
                 names => format!("did you mean {}?", quoted(names)),
@@ -250,7 +250,7 @@ impl Context<'_> {
             }
             return;
         }
-        let likely = near(name, timbre::names());
+        let likely = similar_names(name, timbre::names());
         let help = match likely.as_slice() {
             [] => format!("there are {}", quoted(&timbre::names().collect::<Vec<_>>())),
             names => format!("did you mean {}? `soffio sound --list` names them all", quoted(names)),

@@ -3,7 +3,7 @@
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Gusts, Point};
-use super::super::{BreathTuning, Calm};
+use super::super::{BreathTuning, IdleDamping};
 use super::context::Context;
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
@@ -28,22 +28,22 @@ impl Context<'_> {
         };
         let place = "/wind/breath/lip_diameter";
         let lip_diameter = given.lip_diameter.map(|d| self.positive(d.0, place));
-        self.trace("breath", "law", format!("{law:?}"), "/wind/breath/law", "default");
-        self.trace("breath", "gain", given.gain.to_string(), "/wind/breath/gain", "default");
+        self.record_origin("breath", "law", format!("{law:?}"), "/wind/breath/law", "default");
+        self.record_origin("breath", "gain", given.gain.to_string(), "/wind/breath/gain", "default");
         if let Some(d) = lip_diameter {
-            self.trace("breath", "lip_diameter", format!("{} mm", d * 1e3), place, "");
+            self.record_origin("breath", "lip_diameter", format!("{} mm", d * 1e3), place, "");
         }
         BreathTuning { law, gain: given.gain, lip_diameter }
     }
 
     /// How it comes to rest when nobody blows.
-    pub(super) fn calm(&mut self) -> Option<Calm> {
+    pub(super) fn calm(&mut self) -> Option<IdleDamping> {
         let given = self.sidecar.wind.calm?;
         let after = self.not_negative(given.after.0, "/wind/calm/after");
         let time = self.positive(given.time.0, "/wind/calm/time");
-        self.trace("calm", "after", format!("{after} s"), "/wind/calm/after", "");
-        self.trace("calm", "time", format!("{time} s"), "/wind/calm/time", "");
-        Some(Calm { after, time })
+        self.record_origin("calm", "after", format!("{after} s"), "/wind/calm/after", "");
+        self.record_origin("calm", "time", format!("{time} s"), "/wind/calm/time", "");
+        Some(IdleDamping { after, time })
     }
 
     /// The room's air, fans, draughts and gusts.
@@ -78,20 +78,15 @@ impl Context<'_> {
     fn room(&mut self, given: &sidecar::Room, at: &str) -> Wind {
         let scale = given.scale.map_or(ROOM_SCALE, |l| self.positive(l.0, &format!("{at}/scale")));
         let period = given.period.map_or(ROOM_PERIOD, |t| self.positive(t.0, &format!("{at}/period")));
-        self.trace("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
-        self.trace("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
+        self.record_origin("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
+        self.record_origin("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
         let kind = WindKind::Turbulence { scale, period, seed: given.seed };
-        Wind {
-            name: ROOM.into(),
-            kind,
-            speed: self.wind_speed(&given.speed, at, "room"),
-            modulation: Modulation::Steady,
-        }
+        Wind { name: ROOM.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), modulation: Modulation::Steady }
     }
 
     fn fan(&mut self, given: &sidecar::Fan, at: &str) -> Option<Wind> {
         let used_for = format!("fan \"{}\"", given.name);
-        let place = self.still_point(&given.at, &format!("{at}/at"), &used_for);
+        let place = self.fixed_point(&given.at, &format!("{at}/at"), &used_for);
         let direction = self.unit(DVec3::from(given.direction), &format!("{at}/direction"));
         let diameter = self.positive(given.diameter.0, &format!("{at}/diameter"));
         let speed = self.wind_speed(&given.speed, at, &given.name);
@@ -116,7 +111,7 @@ impl Context<'_> {
         let lasts = self.positive(given.lasts.0, &format!("{at}/lasts"));
         if lasts > every {
             let message = format!("{used_for} lasts {lasts} s and comes every {every} s");
-            let problem = Diagnostic::new(codes::RANGE, message).help("puffs do not overlap: lasts ≤ every");
+            let problem = Diagnostic::new(codes::RANGE, message).help("gusts must not overlap: lasts ≤ every");
             self.report(&format!("{at}/lasts"), problem);
         }
         let rhythm = Modulation::Puffs { interval: every, duration: lasts, seed: given.seed };
@@ -137,7 +132,7 @@ impl Context<'_> {
             (None, None) => Some(None),
             (Some(place), Some(width)) => {
                 let width = self.positive(width, &format!("{at}/width"));
-                self.still_point(place, &format!("{at}/at"), used_for).map(|center| Some(Inlet { center, width }))
+                self.fixed_point(place, &format!("{at}/at"), used_for).map(|center| Some(Inlet { center, width }))
             }
             _ => {
                 let message = format!("{used_for} needs both a place and a width, or neither");
@@ -158,7 +153,7 @@ impl Context<'_> {
         let place = format!("{at}/speed");
         let speed = self.function_from_zero(given, &place);
         if let Function::Constant(speed) = speed {
-            self.trace(&format!("wind {name}"), "speed", format!("{speed} m/s"), &place, "");
+            self.record_origin(&format!("wind {name}"), "speed", format!("{speed} m/s"), &place, "");
         }
         speed
     }
@@ -177,7 +172,7 @@ impl Context<'_> {
         let sidecar = self.sidecar;
         let mut taken: Vec<bool> = vec![false; self.model.nodes.len()];
         for (i, name) in sidecar.wind.open.iter().enumerate() {
-            if let Some(root) = self.node(name, &format!("/wind/open/{i}"), "what lets the wind through") {
+            if let Some(root) = self.node(name, &format!("/wind/open/{i}"), "a node that lets the wind through") {
                 for node in 0..taken.len() {
                     taken[node] |= self.is_below(node, root);
                 }

@@ -32,7 +32,7 @@ impl Context<'_> {
     pub(super) fn unique(&mut self, name: &str, taken: bool, at: &str) {
         if taken {
             let problem = Diagnostic::new(codes::DUPLICATE_NAME, format!("the name \"{name}\" is taken"));
-            self.report(at, problem.help("names of a kind are unique"));
+            self.report(at, problem.help("choose another: names must be unique within a kind"));
         }
     }
 
@@ -47,8 +47,8 @@ impl Context<'_> {
         if let (Some(node), None) = (node, body) {
             // A node that stands still carries the wire in its own space; nothing is wrong with that.
             let name = &self.model.nodes[node].name;
-            let source = format!("glTF node {name}, which stands still");
-            self.trace(&format!("wire {}", given.name), "body", "the world".into(), "/-", &source);
+            let source = format!("glTF node {name}, which is fixed");
+            self.record_origin(&format!("wire {}", given.name), "body", "the world".into(), "/-", &source);
         }
         let mut points = self.wire_points(node, &given.points, &format!("{at}/points"), &used_for)?;
         points.dedup();
@@ -64,10 +64,8 @@ impl Context<'_> {
             (Some(radius), None) => self.positive(radius.0, &format!("{at}/radius")),
             (None, Some(diameter)) => 0.5 * self.positive(diameter.0, &format!("{at}/diameter")),
             _ => {
-                let problem = Diagnostic::new(
-                    codes::MISSING_KEY,
-                    format!("{used_for} needs a radius or a diameter, one of them"),
-                );
+                let problem =
+                    Diagnostic::new(codes::MISSING_KEY, format!("{used_for} needs either a radius or a diameter"));
                 self.report(at, problem.help("add radius = \"1 mm\""));
                 return None;
             }
@@ -88,8 +86,8 @@ impl Context<'_> {
     fn wire_points(&mut self, node: Option<usize>, points: &Points, at: &str, used_for: &str) -> Option<Vec<DVec3>> {
         match points {
             Points::Named(pattern) => {
-                let marks = self.marks(node, pattern, at, used_for)?;
-                Some(marks.into_iter().map(|mark| self.anchor(mark, DVec3::ZERO).point).collect())
+                let marker_nodes = self.marker_nodes(node, pattern, at, used_for)?;
+                Some(marker_nodes.into_iter().map(|mark| self.anchor(mark, DVec3::ZERO).point).collect())
             }
             Points::Listed(points) => {
                 let resolved: Vec<Option<DVec3>> = (points.iter().enumerate())
@@ -103,20 +101,20 @@ impl Context<'_> {
     fn wire_point(&mut self, node: Option<usize>, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
         match (node, point) {
             (Some(node), point) => self.point(node, Some(point), at, used_for).map(|anchor| anchor.point),
-            (None, point) => self.still_point(point, at, used_for),
+            (None, point) => self.fixed_point(point, at, used_for),
         }
     }
 
     /// A point of the world, or the place of a node that stands still.
-    pub(super) fn still_point(&mut self, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
+    pub(super) fn fixed_point(&mut self, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
         match point {
             Point::Position(p) => Some(DVec3::from(p.map(|x| x.0))),
             Point::Node(name) => {
                 let mark = self.node(name, at, used_for)?;
                 if self.owner[mark].is_some() {
                     let body = self.body_name(self.owner[mark]);
-                    let message = format!("node \"{name}\" moves with {body}, and {used_for} stands still");
-                    let help = "name a node that stands still, or give [x, y, z]; a wire takes body = \"…\"";
+                    let message = format!("node \"{name}\" moves with {body}, but {used_for} must be fixed");
+                    let help = "name a fixed node, or give [x, y, z]; a wire takes body = \"…\"";
                     self.report(at, Diagnostic::new(codes::NOT_DESCENDANT, message).help(help));
                     return None;
                 }

@@ -12,9 +12,9 @@ use super::{Name, Path, Point};
 pub struct Body {
     /// glTF node: a name, a path "Frame/Arm", or "#12".
     pub node: String,
-    /// Material: density for the mass, friction, restitution, sound.
+    /// Material: gives density, friction, restitution and sound.
     pub material: Option<String>,
-    /// Mass; wins over density.
+    /// Mass; overrides the density.
     pub mass: Option<Mass>,
     /// Centre of mass in node space.
     pub center_of_mass: Option<[Length; 3]>,
@@ -22,9 +22,9 @@ pub struct Body {
     pub inertia: Option<PrincipalInertia>,
     /// Thickness of the sheet, where the mesh is an open surface.
     pub thickness: Option<Length>,
-    /// Rate at which linear motion fades besides the air on the wind surfaces.
+    /// Linear damping rate, in addition to the air drag of the wind surfaces.
     pub linear_damping: Option<Rate>,
-    /// Rate at which rotation fades.
+    /// Angular damping rate.
     pub angular_damping: Option<Rate>,
     /// Motion at the start.
     #[serde(default)]
@@ -32,11 +32,11 @@ pub struct Body {
     /// Does it move?
     #[serde(default)]
     pub motion: Motion,
-    /// Of a kinematic body: the world path of the node's origin.
+    /// Of a kinematic body: path of the node's origin in the world.
     pub path: Option<Path>,
     /// Of a kinematic body: how it follows the model's animation of its node.
     pub animation: Option<Animation>,
-    /// Nodes below it that are made of something else.
+    /// Nodes below it of another material.
     #[serde(default)]
     pub part: Vec<Part>,
 }
@@ -47,16 +47,16 @@ pub struct Body {
 pub struct PrincipalInertia {
     /// Moments about the principal axes.
     pub diagonal: [Inertia; 3],
-    /// Principal axes to node axes, quaternion [x, y, z, w].
+    /// Rotation from principal axes to node axes, quaternion [x, y, z, w].
     pub orientation: Option<[f64; 4]>,
 }
 
-/// Place and motion at the start.
+/// Pose and velocity at the start.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
-    /// World position of the node at the start; by default where the model has it. Needs `[solver] assemble = true`
-    /// where that opens a constraint.
+    /// World position of the node at the start; by default that of the model. Needs `[solver] assemble = true` where it
+    /// opens a constraint.
     pub position: Option<[Length; 3]>,
     /// World rotation of the node at the start, quaternion [x, y, z, w]; by default as in the model.
     pub rotation: Option<[f64; 4]>,
@@ -66,26 +66,26 @@ pub struct Initial {
     pub angular_velocity: Option<[Rotation; 3]>,
 }
 
-/// Does a body move?
+/// How a body moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Motion {
-    /// Moved by forces.
+    /// By forces.
     #[default]
     Dynamic,
-    /// Follows the animation of its node, or its path, whatever pulls at it.
+    /// By the animation of its node or by its path, whatever forces act on it.
     Kinematic,
-    /// Stands still.
+    /// Not at all.
     Static,
 }
 
-/// How a kinematic body follows the model's animation; morph weights and scales of the same animation go with it.
+/// How a kinematic body follows the model's animation. Morph weights and scales of the same animation play with it.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Animation {
     /// Name of the animation; by default the first that moves the node.
     pub name: Option<String>,
-    /// Begins anew after its last key.
+    /// Starts again after its last key.
     #[serde(rename = "loop")]
     pub repeat: bool,
 }
@@ -96,7 +96,7 @@ impl Default for Animation {
     }
 }
 
-/// A node below a body, with what is below it, of another material.
+/// A node below a body, with the nodes below it, of another material.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
@@ -114,7 +114,7 @@ pub struct Part {
 pub struct Wire {
     /// Unique name.
     pub name: Name,
-    /// Node of the body that carries it; without it the wire stands still.
+    /// Node of the body that carries it; without it the wire is fixed.
     pub body: Option<String>,
     /// The line.
     pub points: Points,
@@ -129,7 +129,7 @@ pub struct Wire {
     pub material: String,
     /// Colour: linear [r, g, b], or sRGB "#rrggbb".
     pub color: Option<Color>,
-    /// 0 dielectric … 1 metal.
+    /// Metalness: 0 dielectric … 1 metal.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub metallic: Option<f32>,
     /// Perceptual roughness 0 … 1.
@@ -138,7 +138,7 @@ pub struct Wire {
     /// Does it collide?
     #[serde(default)]
     pub collide: bool,
-    /// Does it feel the wind?
+    /// Does the wind act on it?
     #[serde(default = "yes")]
     pub wind: bool,
 }
@@ -147,14 +147,14 @@ fn yes() -> bool {
     true
 }
 
-/// The line of a wire.
+/// The points of a wire.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Points {
-    /// "Rod.*": all nodes below the body's whose names begin so, in natural order (Rod.9 before Rod.10); for a wire
-    /// that stands still, all nodes that do.
+    /// "Rod.*": all nodes below the body's whose names begin with "Rod.", in natural order (Rod.9 before Rod.10). For a
+    /// fixed wire, all such nodes that belong to no body.
     Named(String),
-    /// One by one: nodes, or [x, y, z] in the body's node space.
+    /// A list of nodes or of [x, y, z] in the body's node space.
     Listed(#[schemars(length(min = 2, max = 4096))] Vec<Point>),
 }
 

@@ -1,4 +1,4 @@
-//! Combinations: short forms of several basic constraints, expanded at load.
+//! Combined joints: short forms of several basic constraints, expanded at load.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::super::quantity::*;
 use super::*;
 
-/// A hinge or a windmill's rotor: a point and two orientations, one turn left (5 rows).
+/// A hinge or a windmill's rotor: a point and two orientations (5 rows) leave one rotation.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Hinge {
@@ -18,18 +18,19 @@ pub struct Hinge {
     pub at: Option<Point>,
     /// Axis in its node space.
     pub axis: [f64; 3],
-    /// What carries it: [x, y, z] in the world, { node, at }, or a path; by default the world, where it is at rest.
+    /// The other side: [x, y, z] in the world, { node, at }, or a path; by default the world, at the point's position
+    /// in the model.
     pub to: Option<Target>,
-    /// Stops, counted from the start.
+    /// Stops, from the position at the start.
     pub limit: Option<AngleStops>,
     /// Friction of the pivot.
     pub friction: Option<Friction>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
 
-/// Stops of a turn, counted from the start.
+/// Stops of a rotation, from the position at the start.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AngleStops {
@@ -43,13 +44,13 @@ pub struct AngleStops {
     pub restitution: f64,
 }
 
-/// Stops of a way, counted from the start.
+/// Stops of a displacement, from the position at the start.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LengthStops {
-    /// Least way; by default none.
+    /// Least displacement; by default none.
     pub min: Option<Length>,
-    /// Greatest way; by default none.
+    /// Greatest displacement; by default none.
     pub max: Option<Length>,
     /// Coefficient of restitution at the stops, 0 … 1.
     #[serde(default)]
@@ -57,7 +58,7 @@ pub struct LengthStops {
     pub restitution: f64,
 }
 
-/// Two crossed axes meet in a point: a point and one orientation (4 rows).
+/// Universal joint, two crossed axes that meet in a point: a point and one orientation (4 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Universal {
@@ -67,20 +68,20 @@ pub struct Universal {
     pub body: String,
     /// A node below it, or [x, y, z] in node space; by default its origin.
     pub at: Option<Point>,
-    /// Its axis of the cross, node space.
+    /// Axis of the cross in this body, node space.
     pub axis: [f64; 3],
-    /// What carries it; by default the world, where it is at rest.
+    /// The other side; by default the world, at the point's position in the model.
     pub to: Option<Target>,
-    /// The carrier's axis of the cross, in its node space (world axes without a node); at a right angle to `axis`.
+    /// Axis of the cross in the other body, in its node space (world axes without a node); at a right angle to `axis`.
     pub other_axis: [f64; 3],
     /// Friction of the pivot.
     pub friction: Option<Friction>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
 
-/// Slides along one axis and does not turn: two planes and three orientations (5 rows).
+/// Slides along one axis without rotating: two planes and three orientations (5 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Slider {
@@ -90,18 +91,18 @@ pub struct Slider {
     pub body: String,
     /// A node below it, or [x, y, z] in node space; by default its origin.
     pub at: Option<Point>,
-    /// Direction of the way in its node space.
+    /// Direction of the displacement in its node space.
     pub axis: [f64; 3],
-    /// What it slides on; by default the world, where it is at rest.
+    /// The guide; by default the world, at the point's position in the model.
     pub to: Option<Target>,
-    /// Stops, counted from the start.
+    /// Stops, from the position at the start.
     pub limit: Option<LengthStops>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
 
-/// A point of a body slides along a line and turns freely: two planes (2 rows).
+/// A point of a body slides along a line, and the body rotates freely: two planes (2 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Line {
@@ -111,16 +112,16 @@ pub struct Line {
     pub body: String,
     /// A node below it, or [x, y, z] in node space; by default its origin.
     pub at: Option<Point>,
-    /// A point of the line; by default the world, where it is at rest.
+    /// A point of the line; by default the world, at the point's position in the model.
     pub to: Option<Target>,
     /// Direction of the line in the space of the node of `to` (world axes without a node).
     pub direction: [f64; 3],
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
 
-/// Nothing moves: a point and three orientations (6 rows).
+/// Joins two bodies rigidly: a point and three orientations (6 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Weld {
@@ -130,9 +131,9 @@ pub struct Weld {
     pub body: String,
     /// A node below it, or [x, y, z] in node space; by default its origin.
     pub at: Option<Point>,
-    /// What it is welded to; by default the world, where it is at rest.
+    /// The other side; by default the world, at the point's position in the model.
     pub to: Option<Target>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }

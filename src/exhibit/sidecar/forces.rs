@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::super::quantity::*;
 use super::*;
 
-/// Two wheels mesh: their turns stay in proportion (1 row), or within some backlash of it.
+/// Two wheels mesh: their rotations stay in proportion (1 row), or within a backlash of it.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Gear {
@@ -16,15 +16,15 @@ pub struct Gear {
     pub a: Wheel,
     /// The other; both by teeth, or both by radius.
     pub b: Wheel,
-    /// Teeth inside a rim keep the sense of rotation.
+    /// Internal gear: both wheels rotate in the same sense.
     #[serde(default)]
     pub internal: bool,
-    /// Play between the flanks of the teeth: a way along the pitch circle where the wheels have radii, a turn of wheel b
-    /// where they have teeth. By default none.
+    /// Play between the teeth: a length along the pitch circle where the wheels have radii, an angle of wheel b where
+    /// they have teeth. By default none.
     pub backlash: Option<Travel>,
     /// Node of the body that carries both axles; by default the world.
     pub frame: Option<String>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -44,7 +44,7 @@ pub struct Wheel {
     pub radius: Option<Length>,
 }
 
-/// A weight hangs by a cord on a drum: its way follows the drum's turn (1 row).
+/// A weight hangs on a cord around a drum: its displacement follows the drum's rotation (1 row).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct GearWeight {
@@ -54,13 +54,13 @@ pub struct GearWeight {
     pub gear: Drum,
     /// The weight.
     pub weight: CordWeight,
-    /// Cords that carry the weight: 1 hangs directly, 2 in a pulley (half the way, twice the pull).
+    /// Cords that carry the weight: 1 hangs directly, 2 in a pulley (half the displacement, twice the pull).
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 64))]
     pub pulleys: u32,
     /// Node of the body that carries the drum's axle; by default the world.
     pub frame: Option<String>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -75,7 +75,7 @@ fn one() -> u32 {
 pub struct Drum {
     /// Node of the body.
     pub body: String,
-    /// Its axle in node space; a right-handed turn about it pays the cord out.
+    /// Its axle in node space; a right-handed rotation about it pays the cord out.
     pub axis: [f64; 3],
     /// Radius to the middle of the cord.
     pub radius: Length,
@@ -87,59 +87,60 @@ pub struct Drum {
 pub struct CordWeight {
     /// Node of the body.
     pub body: String,
-    /// Where the cord holds it; by default its origin.
+    /// Where the cord is attached; by default the node's origin.
     pub at: Option<Point>,
-    /// The way it goes as the cord pays out; world axes, or those of `frame`.
+    /// Direction of the displacement as the cord pays out; world axes, or those of `frame`.
     pub direction: [f64; 3],
 }
 
-/// A turn about an axis: that of a named hinge, or of a body against another.
+/// A rotation about an axis: that of a named hinge, or of one body relative to another.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Axle {
     /// A hinge (for a ratchet also a slider).
     pub of: Option<String>,
-    /// Instead of `of`: node of the body that turns.
+    /// Instead of `of`: node of the body that rotates.
     pub body: Option<String>,
     /// With `body`: its axle in node space.
     pub axis: Option<[f64; 3]>,
-    /// With `body`: node of the body that it turns against; by default the world.
+    /// With `body`: node of the body that it rotates relative to; by default the world.
     pub frame: Option<String>,
 }
 
-/// A wheel turns one way only: a pawl on its teeth.
+/// A ratchet: a wheel rotates one way only, as a pawl on its teeth allows.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Ratchet {
     /// Unique name.
     pub name: Name,
-    /// What turns, freely where the turn (or way) grows.
+    /// The rotation (or displacement), free where it grows.
     #[serde(flatten)]
     pub axle: Axle,
-    /// Free the other way round.
+    /// Free the other way instead.
     #[serde(default)]
     pub reverse: bool,
     /// Number of teeth.
     #[schemars(range(min = 1))]
     pub teeth: Option<u32>,
-    /// Instead of `teeth`: way from tooth to tooth; without either it catches anywhere.
+    /// Instead of `teeth`: distance from tooth to tooth; without either it catches anywhere.
     pub pitch: Option<Travel>,
-    /// Does it act at all? By default true.
+    /// Is it active at all? By default true.
     pub enabled: Option<bool>,
 }
 
-/// Two bodies turn as one until their friction gives way: a minute hand on its arbor. It holds again where it comes to rest.
+/// Two bodies rotate together until their friction slips: a minute hand on its arbor. It holds again when they come to
+/// rest.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Clutch {
     /// Unique name.
     pub name: Name,
-    /// What turns about an axis of which body.
+    /// The rotation that it holds.
     #[serde(flatten)]
     pub axle: Axle,
-    /// Friction: what it carries at the most, and what it carries while it slips.
+    /// Friction torque: the most it transmits, and what it transmits while it slips.
     pub torque: Torque,
-    /// Does it act at all? By default true.
+    /// Is it active at all? By default true.
     pub enabled: Option<bool>,
 }
 
@@ -149,17 +150,17 @@ pub struct Clutch {
 pub struct Bounds {
     /// Unique name.
     pub name: Name,
-    /// A hinge or slider whose turn or way, counted from the start, is bounded.
+    /// A hinge or slider whose rotation or displacement, from the start, is bounded.
     pub of: Option<String>,
     /// Instead of `of`: a point of the body that moves.
     pub a: Option<Attachment>,
-    /// A point of the other body, or of what stands still; by default the world.
+    /// A point of the other body, or of a fixed node; by default the world.
     pub b: Option<Attachment>,
-    /// The turn of `a` about this axis of its node space is bounded, counted from the start.
+    /// Bounds the rotation of `a` about this axis of its node space, from the start.
     pub axis: Option<[f64; 3]>,
-    /// The way of `a` along this direction in the space of `b` is bounded, counted from the start.
+    /// Bounds the displacement of `a` along this direction in the space of `b`, from the start.
     pub direction: Option<[f64; 3]>,
-    /// With `axis`: instead of its turn, the tilt of the axis from where it points at rest is bounded by `max`.
+    /// With `axis`: bounds by `max` the tilt of the axis from its direction in the model, instead of the rotation.
     #[serde(default)]
     pub tilt: bool,
     /// Least value.
@@ -170,15 +171,15 @@ pub struct Bounds {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
-    /// Does it act at all? By default true.
+    /// Is it active at all? By default true.
     pub enabled: Option<bool>,
 }
 
-/// A way or a turn, whichever fits: a bare number is m or rad.
+/// A displacement or a rotation, whichever fits: a bare number is m or rad.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Travel {
-    /// m.
+    /// A number, m or rad.
     Bare(f64),
     /// A text with a unit of length.
     Way(Length),
@@ -206,13 +207,13 @@ pub struct Spring {
     pub a: Attachment,
     /// The other end.
     pub b: Attachment,
-    /// Length without force; by default the length at rest.
+    /// Length without force; by default the length in the model.
     pub rest_length: Option<Function<Length>>,
     /// Force per length.
     pub stiffness: Function<Stiffness>,
     /// Force per speed.
     pub damping: Option<Function<Damping>>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -223,16 +224,16 @@ pub struct Spring {
 pub struct TorsionSpring {
     /// Unique name.
     pub name: Name,
-    /// What turns.
+    /// The rotation.
     #[serde(flatten)]
     pub axle: Axle,
-    /// Angle without torque, counted from the start; by default 0.
+    /// Angle without torque, from the start; by default 0.
     pub rest_angle: Option<Function<Angle>>,
     /// Torque per angle.
     pub stiffness: Function<AngularStiffness>,
     /// Torque per angular velocity.
     pub damping: Option<Function<AngularDamping>>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }

@@ -5,29 +5,29 @@ use serde::Deserialize;
 
 use super::super::quantity::*;
 
-/// A number that may change with time: a plain one, keys, or a wave. Time counts from the exhibit's reset.
+/// A number that may change with time: a constant, key frames, or a wave. Time counts from the exhibit's reset.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Function<Q> {
-    /// Always the same.
+    /// A constant.
     Value(Q),
-    /// Through given values.
+    /// Key frames.
     Keys(Keys<Q>),
     /// A sine about a mean.
     Wave(Wave<Q>),
 }
 
-/// Values at given times.
+/// Key frames: values at given times.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Keys<Q> {
-    /// [time, value] pairs, times rising.
+    /// [time, value] pairs in increasing time.
     #[schemars(length(min = 1, max = 4096))]
     pub keys: Vec<(Time, Q)>,
-    /// What happens between two keys.
+    /// Interpolation between two keys.
     #[serde(default)]
     pub interpolation: Interpolation,
-    /// Begins anew after the last key; otherwise the last value stays.
+    /// Starts again after the last key; otherwise the last value stays.
     #[serde(default, rename = "loop")]
     pub repeat: bool,
 }
@@ -57,31 +57,31 @@ pub enum WaveShape {
     Sine,
 }
 
-/// What happens between two keys.
+/// Interpolation between two keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Interpolation {
     /// The earlier value, until the next key.
     Step,
-    /// A straight line.
+    /// A straight line (linear).
     Linear,
-    /// Starts and stops at each key, without jerk.
+    /// Starts and stops at each key, without a jump of acceleration.
     #[default]
     Smooth,
-    /// Passes through each key without stopping, its acceleration without jumps.
+    /// Passes through each key without stopping; the acceleration has no jumps.
     Spline,
 }
 
-/// A way through the world.
+/// A path in the world.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Path {
-    /// [time s, x, y, z m], times rising.
+    /// [time s, x, y, z m] in increasing time.
     #[schemars(length(min = 1, max = 4096))]
     pub points: Vec<[f64; 4]>,
-    /// What happens between two points; by default "spline".
+    /// Interpolation between two points; by default "spline".
     pub interpolation: Option<Interpolation>,
-    /// Begins anew after the last point.
+    /// Starts again after the last point.
     #[serde(default, rename = "loop")]
     pub repeat: bool,
 }

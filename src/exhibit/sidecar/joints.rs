@@ -1,5 +1,5 @@
-//! Constraints: one array of tables per kind, named as the field names them. Here are the basic kinds; combinations,
-//! forces, and the times that all kinds share have files of their own.
+//! Constraints: one array of tables for each kind. This file has the basic kinds; combined joints, forces, and the
+//! timing that all kinds share have files of their own.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -11,7 +11,7 @@ use super::*;
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct Constraints {
-    /// Two points coincide.
+    /// Two points coincide (ball joint).
     pub point_to_point: Vec<PointToPoint>,
     /// A point of a body stays at a point of the world, of a node, or of a path.
     pub nail: Vec<Nail>,
@@ -19,37 +19,37 @@ pub struct Constraints {
     pub orientation: Vec<Orientation>,
     /// A point of a body stays in a plane, or at a height above it.
     pub point_on_plane: Vec<PointOnPlane>,
-    /// Two wheels mesh.
+    /// Two gear wheels mesh.
     pub gear: Vec<Gear>,
-    /// A weight hangs by a cord on a drum.
+    /// A weight hangs on a cord around a drum.
     pub gear_weight: Vec<GearWeight>,
-    /// A wheel turns one way only.
+    /// A wheel rotates one way only.
     pub ratchet: Vec<Ratchet>,
-    /// Turns with another body until it slips.
+    /// Two bodies rotate together until the clutch slips.
     pub clutch: Vec<Clutch>,
-    /// Adds one degree of freedom to what is held, or takes one away.
+    /// Constrains one more degree of freedom, or frees one.
     pub element: Vec<Element>,
     /// A spring and damper between two points.
     pub spring: Vec<Spring>,
     /// A spring and damper about an axis.
     pub torsion_spring: Vec<TorsionSpring>,
-    /// Stops: of a turn, a way, a distance, a tilt.
+    /// Stops of a rotation, a displacement, a distance, or a tilt.
     pub limit: Vec<Bounds>,
-    /// Turns about one axis: a point and two orientations.
+    /// Rotates about one axis: a point and two orientations.
     pub hinge: Vec<Hinge>,
     /// Two crossed axes: a point and one orientation.
     pub universal: Vec<Universal>,
-    /// Slides along one axis and does not turn: two planes and three orientations.
+    /// Slides along one axis without rotating: two planes and three orientations.
     pub slider: Vec<Slider>,
     /// A point slides along a line: two planes.
     pub line: Vec<Line>,
-    /// Nothing moves: a point and three orientations.
+    /// Joins two bodies rigidly: a point and three orientations.
     pub weld: Vec<Weld>,
     /// A rotor on its shaft: a point and two orientations.
     pub windmill: Vec<Hinge>,
 }
 
-/// Where a nail is driven in.
+/// What a point is nailed to.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Target {
@@ -57,7 +57,7 @@ pub enum Target {
     World([Length; 3]),
     /// A node, or a point of it; a kinematic body makes it a moving nail.
     Node(Attachment),
-    /// A path of its own.
+    /// A path of its own in the world.
     Path {
         /// The path of the nail.
         path: Path,
@@ -85,25 +85,25 @@ pub struct BodyAxis {
     pub axis: [f64; 3],
 }
 
-/// Largest tilt of an axis of the first body away from an axis of the other, or of the world.
+/// Largest tilt of an axis of the first body from an axis of the other, or of the world.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tilt {
     /// Axis of the first body, node space.
     pub axis: [f64; 3],
-    /// Axis of the world; the default is `axis` where it points at rest.
+    /// Axis of the world; by default the direction of `axis` in the model.
     pub world_axis: Option<[f64; 3]>,
     /// Axis of another body.
     pub other: Option<BodyAxis>,
     /// Largest angle between the two.
     pub max: Angle,
-    /// Coefficient of restitution at the rim, 0 … 1.
+    /// Coefficient of restitution at the limit, 0 … 1.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
 }
 
-/// Two points coincide (3 rows).
+/// Ball joint: two points coincide (3 rows).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct PointToPoint {
@@ -117,7 +117,7 @@ pub struct PointToPoint {
     pub friction: Option<Friction>,
     /// Tilt limit.
     pub limit: Option<Tilt>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -138,12 +138,12 @@ pub struct Nail {
     pub friction: Option<Friction>,
     /// Tilt limit.
     pub limit: Option<Tilt>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
 
-/// Two axes stay at a right angle, or at a given one from it (1 row). Give `world_axis` or `other`.
+/// Two axes stay at a right angle, or at a given deviation from it (1 row). Give `world_axis` or `other`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Orientation {
@@ -157,13 +157,13 @@ pub struct Orientation {
     pub world_axis: Option<[f64; 3]>,
     /// Axis of another body.
     pub other: Option<BodyAxis>,
-    /// How far the first axis leans from the right angle towards the second; by default 0.
+    /// Deviation of the first axis from the right angle towards the second; by default 0.
     pub angle: Option<Function<Angle>>,
     /// Friction of the pivot.
     pub friction: Option<Friction>,
     /// Tilt limit.
     pub limit: Option<Tilt>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -180,7 +180,7 @@ pub struct PointOnPlane {
     pub at: Option<Point>,
     /// The plane.
     pub plane: Plane,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -189,38 +189,38 @@ pub struct PointOnPlane {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
-    /// glTF node that carries it; without it the world does.
+    /// glTF node that carries it; without it the plane is fixed in the world.
     pub node: Option<String>,
     /// A point of the plane: a node below, or [x, y, z]; by default the node's origin.
     pub at: Option<Point>,
     /// Normal in node space (world axes without a node).
     pub normal: [f64; 3],
-    /// Height of the point above the plane; by default its height at rest.
+    /// Height of the point above the plane; by default its height in the model.
     pub offset: Option<Function<Length>>,
 }
 
-/// Adds one degree of freedom to what is held (`op = "add"`), or frees one of a named constraint (`"remove"`).
+/// Constrains one more degree of freedom (`op = "add"`), or frees one of a named constraint (`"remove"`).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Element {
     /// Unique name.
     pub name: Name,
-    /// A constraint: the one to be freed, or whose two bodies are to be held further.
+    /// A constraint: the one to be freed, or whose two bodies are to be constrained further.
     pub of: Option<String>,
-    /// To add: node of the body to be held, where no constraint is named.
+    /// To add: node of the body to be constrained, where no constraint is named.
     pub body: Option<String>,
-    /// To add: the point that is held, a node below the body, or [x, y, z]; by default its origin.
+    /// To add: the constrained point, a node below the body, or [x, y, z]; by default its origin.
     pub at: Option<Point>,
-    /// Adds a freedom to those held, or takes one away from them.
+    /// Adds a constraint, or removes one.
     pub op: Op,
-    /// Which degree of freedom: way along, or turn about, an axis of the frame.
+    /// Which degree of freedom: translation along, or rotation about, an axis of the frame.
     pub dof: Dof,
     /// "world" (the default), "body", or { node = "…" }.
     #[serde(default)]
     pub frame: Frame,
-    /// To add: way or turn from where it is at rest, m or rad; by default 0.
+    /// To add: displacement or rotation from the model's pose, m or rad; by default 0.
     pub value: Option<Function<Travel>>,
-    /// When it acts.
+    /// When it is active.
     #[serde(flatten)]
     pub timing: Timing,
 }
@@ -229,7 +229,7 @@ pub struct Element {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Op {
-    /// Holds one more degree of freedom.
+    /// Constrains one more degree of freedom.
     Add,
     /// Frees one.
     Remove,
@@ -239,34 +239,34 @@ pub enum Op {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Dof {
-    /// Way along x.
+    /// Translation along x.
     Tx,
-    /// Way along y.
+    /// Translation along y.
     Ty,
-    /// Way along z.
+    /// Translation along z.
     Tz,
-    /// Turn about x.
+    /// Rotation about x.
     Rx,
-    /// Turn about y.
+    /// Rotation about y.
     Ry,
-    /// Turn about z.
+    /// Rotation about z.
     Rz,
 }
 
-/// Whose axes a degree of freedom is counted in.
+/// The axes of a degree of freedom.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Frame {
     /// "world" or "body".
     Word(FrameWord),
-    /// A node's.
+    /// The axes of a node.
     Node {
         /// glTF node.
         node: String,
     },
 }
 
-/// Whose axes a degree of freedom is counted in.
+/// The axes of a degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FrameWord {

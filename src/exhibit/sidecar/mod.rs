@@ -1,8 +1,8 @@
-//! The format "exhibit/1" as Rust types: what a curator can write in `exhibit.toml`. The JSON Schema is made from
-//! these types (`soffio schema exhibit`), so the doc comments here are the help that an editor shows.
+//! The sidecar format "exhibit/1" as Rust types. The JSON Schema (`soffio schema exhibit`) is generated from these
+//! types, so their doc comments are the help that an editor shows.
 //!
-//! Points are a child node's name or `[x, y, z]` in node space; glTF axes: metres, right-handed, +Y up. All objects
-//! are closed; keys that begin with `x_` are ignored.
+//! Points are a child node's name or `[x, y, z]` in node space; glTF axes: metres, right-handed, +Y up. Unknown keys
+//! are refused, except those that begin with `x_`, which are ignored.
 
 mod bodies;
 mod combinations;
@@ -10,9 +10,9 @@ mod forces;
 mod function;
 mod joints;
 mod surfaces;
+mod texts;
 mod timing;
 mod wind;
-mod words;
 
 use std::collections::BTreeMap;
 
@@ -27,14 +27,14 @@ pub use forces::*;
 pub use function::*;
 pub use joints::*;
 pub use surfaces::*;
+pub use texts::*;
 pub use timing::*;
 pub use wind::*;
-pub use words::*;
 
 /// A name: lower-case letters, digits and hyphens.
 type Name = String;
 
-/// An exhibit: what a glTF model is made of, how it hangs together, sounds, and what is said about it.
+/// An exhibit: the materials, bodies, joints, sounds and texts of a glTF model.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sidecar {
@@ -50,37 +50,37 @@ pub struct Sidecar {
     /// How motion is computed.
     #[serde(default)]
     pub solver: Solver,
-    /// What hands may do to it.
+    /// What visitors may do to it by touch.
     #[serde(default)]
     pub touch: Touch,
-    /// Its hands, where it tells the time.
+    /// Its hands, if it is a clock.
     pub clock: Option<Clock>,
     /// Physical materials by name. A built-in name (steel, aluminium, lead, brass, copper, glass, beech, cherry, oak …)
-    /// changes only the keys that stand here.
+    /// needs only the keys that differ.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
-    /// What a pair of materials does that the combine rule does not say.
+    /// Pairs of materials that depart from the combine rule.
     #[serde(default)]
     pub material_pair: Vec<MaterialPair>,
-    /// Nodes that move as one, with what hangs below them.
+    /// Moving bodies: nodes that move as one with the nodes below them.
     #[serde(default)]
     pub body: Vec<Body>,
     /// Wires and cords.
     #[serde(default)]
     pub wire: Vec<Wire>,
-    /// Joints, one array per kind.
+    /// Joints, one array for each kind.
     #[serde(default)]
     pub constraint: Constraints,
     /// Collision shapes.
     #[serde(default)]
     pub collider: Vec<Collider>,
-    /// What collides with what.
+    /// Exceptions from collision.
     #[serde(default)]
     pub collision: Collision,
-    /// What feels the wind.
+    /// Surfaces on which wind acts.
     #[serde(default)]
     pub wind_surface: Vec<WindSurface>,
-    /// What a breath is to the exhibit, and what blows by itself.
+    /// How a breath acts on the exhibit, and winds of its own.
     #[serde(default)]
     pub wind: Winds,
     /// Which motion of which body plays which sound.
@@ -89,10 +89,10 @@ pub struct Sidecar {
     /// What happens when nobody is there.
     #[serde(default)]
     pub attract: Attract,
-    /// Words by language.
+    /// Label texts by language.
     #[serde(default)]
     pub label: Label,
-    /// Who made it, and whose rights it carries.
+    /// Author, licence and rights notice.
     #[serde(default)]
     pub credit: Credit,
 }
@@ -105,12 +105,12 @@ pub struct Scene {
     pub gravity: Option<[Acceleration; 3]>,
     /// A glTF camera node; without it the bounds are framed.
     pub camera: Option<String>,
-    /// Level of all its sounds; `soffio loudness` finds the one that makes exhibits alike.
+    /// Level of all its sounds; `soffio loudness` finds the one that makes exhibits equally loud.
     #[serde(default)]
     pub level: Decibel,
     /// Length of one run: the exhibit then starts again; by default "inf".
     pub duration: Option<Until>,
-    /// Does it gather itself from scattered parts when it comes on? By default true.
+    /// Does it play an assembly animation when it is shown? By default true.
     pub gathers: Option<bool>,
 }
 
@@ -118,66 +118,66 @@ pub struct Scene {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
-    /// What moves the figure.
+    /// How the motion is computed.
     pub motion: MovedBy,
-    /// With motion = "auto": longest step by the laws, processor time; by default 2.8 ms.
+    /// With motion = "auto": longest step of constrained dynamics, processor time; by default 2.8 ms.
     pub budget: Option<Time>,
-    /// How time is advanced.
+    /// Time integrator.
     pub integrator: Integrator,
-    /// Which linear solver finds the constraint forces.
+    /// Linear solver of the constraint forces.
     pub method: Method,
-    /// How constraints that are open draw themselves together.
+    /// How open constraints are closed (stabilisation).
     pub stabilize: Stabilize,
-    /// Lets constraints be open at the start: the figure assembles itself.
+    /// Allows open constraints at the start: the mechanism closes them itself.
     pub assemble: bool,
 }
 
-/// What moves the figure.
+/// How the motion is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MovedBy {
-    /// The laws, and places where the machine is too slow for them.
+    /// Constrained dynamics; position-based motion where the machine is too slow for them.
     #[default]
     Auto,
-    /// The laws always.
+    /// Always constrained dynamics.
     Dynamics,
-    /// Places first, joint by joint: the classical procedural motion.
+    /// Positions first, joint by joint: the classical procedural motion.
     Procedural,
-    /// Places first, all joints at once.
+    /// Positions first, all joints at once.
     PositionBased,
 }
 
-/// What hands may do to the sculpture.
+/// What visitors may do to the sculpture by touch or mouse.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Touch {
-    /// May visitors take it by the hand?
+    /// May visitors grab and drag bodies?
     pub permitted: bool,
-    /// How strong a hand is; by default twice the weight of all that moves.
+    /// Largest force of a grab; by default twice the weight of all moving bodies.
     pub force: Option<Force>,
 }
 
-/// The hands of a clock: the kiosk sets them to the local time, by hand and through the clock's own works.
+/// The hands of a clock: the kiosk sets them to the local time by turning the minute hand.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Clock {
     /// Body of the minute hand; a clutch holds it on its arbor.
     pub hand: String,
-    /// Axis about which it turns with the sun, in its node space.
+    /// Axis of its clockwise rotation, in its node space.
     pub axis: [f64; 3],
     /// What the hands of the model show, as "10:50".
     pub shows: String,
-    /// What stands otherwise at another hour: so much an hour.
+    /// Bodies that rotate by a fixed angle each hour.
     #[serde(default)]
     pub by_hour: Vec<Turning>,
-    /// What stands otherwise when hours have been struck: so much a blow.
+    /// Bodies that rotate by a fixed angle at each strike of the bell.
     #[serde(default)]
     pub by_blow: Vec<Turning>,
-    /// Body that runs while it strikes; whoever sets the hands waits for it.
+    /// Body that moves while the clock strikes; setting the hands waits for it.
     pub strikes: Option<String>,
 }
 
-/// A body that is turned about an axis through its origin.
+/// The rotation of a body about an axis through its origin.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turning {
@@ -185,7 +185,7 @@ pub struct Turning {
     pub body: String,
     /// Axis, in its node space.
     pub axis: [f64; 3],
-    /// By how much.
+    /// Angle.
     pub turn: Angle,
 }
 
@@ -195,14 +195,14 @@ impl Default for Touch {
     }
 }
 
-/// How time is advanced.
+/// Time integrator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
-    /// Precise where that costs next to nothing, else Runge–Kutta.
+    /// Gauss–Legendre where it is cheap, else Runge–Kutta.
     #[default]
     Auto,
-    /// First order, one solve a step.
+    /// First order, one evaluation a step.
     Fast,
     /// Classical, fourth order.
     RungeKutta,
@@ -210,18 +210,18 @@ pub enum Integrator {
     Precise,
 }
 
-/// Which linear solver finds the constraint forces.
+/// Linear solver of the constraint forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// Linear in the number of bodies.
+    /// Sparse: its cost grows linearly with the number of bodies.
     #[default]
     Sparse,
-    /// One dense matrix: the reference.
+    /// Dense: one matrix, the reference.
     Dense,
 }
 
-/// How constraints that are open draw themselves together: always critically damped.
+/// How open constraints are closed: critically damped (Baumgarte stabilisation).
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stabilize {
@@ -248,7 +248,7 @@ pub enum Never {
 }
 
 impl Until {
-    /// s; may be infinite.
+    /// Seconds; may be infinite.
     pub fn seconds(self) -> f64 {
         match self {
             Self::Time(time) => time.0,
@@ -263,10 +263,10 @@ impl Until {
 pub struct Material {
     /// Mass per volume.
     pub density: Option<Density>,
-    /// Coulomb coefficient while sticking.
+    /// Coulomb coefficient of static friction.
     #[schemars(range(min = 0.0))]
     pub static_friction: Option<f64>,
-    /// Coulomb coefficient while sliding.
+    /// Coulomb coefficient of sliding friction.
     #[schemars(range(min = 0.0))]
     pub dynamic_friction: Option<f64>,
     /// Coefficient of restitution, 0 … 1.
@@ -277,13 +277,13 @@ pub struct Material {
     /// Poisson's ratio, 0 … 0.5.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub poisson: Option<f64>,
-    /// Loss factor η of the hung part: T60 = 2.2/(η f).
+    /// Loss factor η of the mounted part: T60 = 2.2/(η f).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub loss_factor: Option<f64>,
-    /// Rolling resistance: the couple against rolling over the normal force. Those of two surfaces add; without it nothing
-    /// that rolls slows down.
+    /// Rolling resistance: torque against rolling over the normal force. The values of two surfaces add up; without it
+    /// rolling bodies do not slow down.
     pub rolling_resistance: Option<Length>,
-    /// Drilling friction: the couple against spin about the normal over the normal force. Those of two surfaces add.
+    /// Drilling friction: torque about the normal over the normal force. The values of two surfaces add up.
     pub spin_resistance: Option<Length>,
 }
 
@@ -296,15 +296,15 @@ pub struct MaterialPair {
     /// Coefficient of restitution, 0 … 1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: Option<f64>,
-    /// Coulomb coefficient while sliding.
+    /// Coulomb coefficient of sliding friction.
     #[schemars(range(min = 0.0))]
     pub dynamic_friction: Option<f64>,
-    /// Coulomb coefficient while sticking.
+    /// Coulomb coefficient of static friction.
     #[schemars(range(min = 0.0))]
     pub static_friction: Option<f64>,
-    /// Rolling resistance of both together: the couple against rolling over the normal force.
+    /// Rolling resistance of both together: torque against rolling over the normal force.
     pub rolling_resistance: Option<Length>,
-    /// Drilling friction of both together: the couple against spin about the normal over the normal force.
+    /// Drilling friction of both together: torque about the normal over the normal force.
     pub spin_resistance: Option<Length>,
 }
 
@@ -322,7 +322,7 @@ pub enum Point {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
-    /// glTF node; a node of no body stands still.
+    /// glTF node; a node that belongs to no body is fixed.
     pub node: String,
     /// A node below it, or [x, y, z] in node space; by default its origin.
     pub at: Option<Point>,

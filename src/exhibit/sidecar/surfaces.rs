@@ -1,4 +1,4 @@
-//! What the surfaces of a work do: collide, feel the wind, sound.
+//! Surfaces of an exhibit: collision shapes, wind surfaces, sounds.
 
 use std::collections::BTreeMap;
 
@@ -12,28 +12,28 @@ use super::Name;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Collider {
-    /// glTF node: it moves with the body the node belongs to, and the shape is centred in its frame.
+    /// glTF node: the shape is centred in its frame and moves with its body.
     pub node: String,
     /// Material; by default the body's.
     pub material: Option<String>,
     /// The shape.
     pub shape: Shape,
-    /// As many of them, evenly round an axis: the teeth of a wheel.
+    /// Copies of the shape evenly around an axis: the teeth of a wheel.
     pub ring: Option<Ring>,
 }
 
-/// How a collision shape is repeated: evenly round an axis through the origin of the body's node.
+/// Copies of a collision shape, evenly around an axis through the origin of the body's node.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
-    /// How many there are in all.
+    /// Number of shapes in all.
     #[schemars(range(min = 2, max = 512))]
     pub count: usize,
     /// The axis, in the node space of the body.
     pub axis: [f64; 3],
 }
 
-/// A collision shape: one of the kinds. Axes as in glTF: capsules and cylinders stand along Y, planes face it.
+/// A collision shape. Axes as in glTF: capsules and cylinders stand along Y, a plane's normal is Y.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -45,9 +45,9 @@ pub enum Shape {
     Box(BoxShape),
     /// A cylinder.
     Cylinder(Cylinder),
-    /// All that lies below the plane through the node's origin across its Y: a floor or wall without end, which stands still.
+    /// Half-space below the plane through the node's origin, normal Y: an infinite floor or wall, which is fixed.
     Plane(HalfSpace),
-    /// Taken from the mesh of the node and of the nodes below it.
+    /// Fitted to the mesh of the node and of the nodes below it.
     Fit(Fit),
 }
 
@@ -87,12 +87,12 @@ pub struct Cylinder {
     pub radius: Length,
 }
 
-/// A half-space: nothing is to be said of it.
+/// A half-space, without parameters.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpace {}
 
-/// What is fitted to a mesh.
+/// The shape that is fitted to a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Fit {
@@ -102,13 +102,13 @@ pub enum Fit {
     Capsule,
     /// The box along its principal axes.
     Box,
-    /// Sheet metal: its outline, cut into convex pieces, half its thickness around.
+    /// Sheet metal: its outline, cut into convex pieces, with half its thickness as radius.
     Plate,
     /// Its convex hull.
     Convex,
 }
 
-/// What collides with what.
+/// Exceptions from collision.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Collision {
@@ -116,11 +116,11 @@ pub struct Collision {
     pub groups: BTreeMap<String, Vec<String>>,
     /// Pairs of nodes or groups that never collide.
     pub exclude: Vec<[String; 2]>,
-    /// Do bodies that are joined collide?
+    /// Do bodies that are joined collide with each other?
     pub constrained_pairs: ConstrainedPairs,
 }
 
-/// Do bodies that are joined collide?
+/// Do bodies that are joined collide with each other?
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ConstrainedPairs {
@@ -131,7 +131,7 @@ pub enum ConstrainedPairs {
     Collide,
 }
 
-/// A surface that feels the wind: the mesh of a node and of the nodes below it.
+/// A surface on which wind acts: the mesh of a node and of the nodes below it.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WindSurface {
@@ -140,12 +140,12 @@ pub struct WindSurface {
     /// How densely it is sampled.
     #[serde(default)]
     pub sampling: Sampling,
-    /// Which side of the triangles feels the wind.
+    /// Which side of the triangles the wind acts on.
     pub faces: Option<Faces>,
-    /// Coefficients.
+    /// Drag coefficients.
     #[serde(default)]
     pub drag: Drag,
-    /// Does it shelter what lies behind it?
+    /// Does it shelter bodies behind it from the wind?
     #[serde(default = "yes")]
     pub shadow: bool,
 }
@@ -176,13 +176,13 @@ impl Default for Sampling {
     }
 }
 
-/// Which side of the triangles feels the wind.
+/// Which side of the triangles the wind acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Faces {
-    /// A thin sheet: either side.
+    /// Both sides, as of a thin sheet.
     Both,
-    /// A solid: the outside.
+    /// The outside, as of a solid.
     Front,
 }
 
@@ -215,11 +215,11 @@ pub struct Sound {
     pub name: Name,
     /// Node of the body.
     pub body: String,
-    /// The part that sounds, where it is not all of the body.
+    /// Node that sounds, where it is not the whole body.
     pub node: Option<String>,
-    /// What sets it off.
+    /// What triggers it.
     pub on: Trigger,
-    /// Of wind: the wire that sings; only what blows across it is heard.
+    /// Of wind: the wire that sings; only wind across it sounds.
     pub wire: Option<String>,
     /// Name of the timbre.
     pub timbre: String,
@@ -228,15 +228,15 @@ pub struct Sound {
     pub gain: Decibel,
     /// Key of a caption in the labels.
     pub caption: Option<String>,
-    /// Most simultaneous clicks of hits; what rings adds up without bound.
+    /// Most simultaneous clicks of impacts; resonances add up without limit.
     #[schemars(range(min = 1, max = 64))]
     pub max_voices: Option<usize>,
-    /// Dimensions that the mesh does not tell.
+    /// Dimensions that the mesh does not give.
     #[serde(default)]
     pub params: SoundParams,
 }
 
-/// Dimensions of a sounding body that the mesh does not tell.
+/// Dimensions of a sounding body that the mesh does not give.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SoundParams {
@@ -248,14 +248,14 @@ pub struct SoundParams {
     pub thickness: Option<Length>,
 }
 
-/// What sets a sound off.
+/// What triggers a sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Trigger {
-    /// A hit on the body.
+    /// An impact on the body.
     Impact,
-    /// What slides or rolls over the body, or the body over it.
+    /// A contact that slides or rolls over the body.
     Slide,
-    /// The wind at the body.
+    /// Wind at the body.
     Wind,
 }

@@ -1,4 +1,4 @@
-//! When constraints act and break.
+//! When constraints are active and when they break.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -6,22 +6,22 @@ use serde::Deserialize;
 use super::super::quantity::*;
 use super::{Stabilize, Until};
 
-/// When a constraint acts and when it gives way: the same keys for all kinds.
+/// When a constraint is active and when it breaks: the same keys for all kinds.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Timing {
-    /// When it acts: one table or a list; by default always.
+    /// When it is active: one table or a list; by default always.
     pub window: Option<Windows>,
     /// The windows repeat after this time.
     pub period: Option<Time>,
-    /// What starts the clock of the windows, each time anew; by default the exhibit's reset.
+    /// What starts the time of the windows, again each time; by default the exhibit's reset.
     pub trigger: Option<Start>,
-    /// The load at which it gives way.
+    /// The load at which it breaks.
     #[serde(rename = "break")]
     pub breaking: Option<Break>,
-    /// How it draws itself together while it is open; by default as `stabilize` of the solver says.
+    /// How it closes while it is open; by default the `stabilize` of the solver.
     pub stabilize: Option<Stabilize>,
-    /// Does it act at all? By default true.
+    /// Is it active at all? By default true.
     pub enabled: Option<bool>,
 }
 
@@ -35,25 +35,25 @@ pub enum Windows {
     Several(#[schemars(length(min = 1, max = 256))] Vec<Window>),
 }
 
-/// A span of time in which a constraint acts.
+/// A time span in which a constraint is active.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Window {
-    /// By default 0.
+    /// Start of the span; by default 0.
     pub start: Time,
-    /// By default "inf".
+    /// End of the span; by default "inf".
     pub end: Option<Until>,
-    /// Time in which its force grows from nothing.
+    /// Time over which its force grows from zero.
     pub ramp_in: Time,
-    /// Time in which its force fades before the end.
+    /// Time over which its force fades before the end.
     pub ramp_out: Time,
 }
 
-/// What starts the clock of the windows.
+/// What starts the time of the windows.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "on", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Start {
-    /// A hit on a body.
+    /// An impact on a body.
     Impact {
         /// Node of the body; it needs a collider.
         body: String,
@@ -69,7 +69,7 @@ pub enum Start {
     },
 }
 
-/// The load at which a constraint gives way: force, torque or impulse, one of them at least.
+/// The load at which a constraint breaks: force, torque or impulse, at least one of them.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Break {
@@ -77,9 +77,9 @@ pub struct Break {
     pub force: Option<Force>,
     /// Largest torque that it bears.
     pub torque: Option<Torque>,
-    /// Largest impulse of a hit that it bears.
+    /// Largest impulse of an impact that it bears.
     pub impulse: Option<Impulse>,
-    /// Time after which it closes again, or "on-reset" (the default) or "never": not before the exhibit starts anew.
+    /// Time after which it closes again, or "on-reset" (the default) or "never".
     pub restore: Option<Restore>,
 }
 
@@ -89,7 +89,7 @@ pub struct Break {
 pub enum Restore {
     /// Seconds, or a text with a unit.
     After(Time),
-    /// Not of itself.
+    /// A word.
     Word(RestoreWord),
 }
 

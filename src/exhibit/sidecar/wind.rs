@@ -1,4 +1,4 @@
-//! The winds of an exhibit: what a breath is to it, and what blows by itself.
+//! The winds of an exhibit: how a breath acts on it, and winds of its own.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -6,27 +6,27 @@ use serde::Deserialize;
 use super::super::quantity::*;
 use super::{Function, Name, Point};
 
-/// The winds of an exhibit: what a breath is to it, and what blows by itself.
+/// The winds of an exhibit: how a breath acts on it, and winds of its own.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Winds {
-    /// What a breath is to this exhibit.
+    /// How a breath acts on this exhibit.
     pub breath: BreathTuning,
-    /// How the work comes to rest when nobody blows, so that the next breath is seen. By default it does so by itself.
+    /// Idle damping: brings the exhibit to rest when nobody blows, so that the next breath is visible. By default none.
     pub calm: Option<Calm>,
-    /// The room's own air: it stirs, and keeps a mobile alive when nobody blows. By default it is at rest.
+    /// Ambient turbulence, which keeps a mobile moving when nobody blows. By default none.
     pub room: Option<Room>,
-    /// Winds from a round opening: a fan, an air conditioner.
+    /// Jets from a round opening: a fan, an air conditioner.
     pub fan: Vec<Fan>,
-    /// Winds that blow one way: from a door, through a window.
+    /// Winds in one direction: from a door, through a window.
     pub draught: Vec<Draught>,
-    /// Separate puffs of wind that come one way.
+    /// Separate gusts in one direction.
     pub gust: Vec<Gust>,
-    /// glTF nodes that let the wind through. Every other mesh shelters what lies behind it.
+    /// glTF nodes that let the wind through. Every other mesh shelters bodies behind it.
     pub open: Vec<String>,
 }
 
-/// What a breath is to an exhibit.
+/// How a breath acts on an exhibit.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BreathTuning {
@@ -45,14 +45,14 @@ impl Default for BreathTuning {
     }
 }
 
-/// How the work comes to rest when nobody blows: the gallery's air thickens. The true profile leaves it out.
+/// Idle damping: the air of the gallery becomes more viscous when nobody blows. The profile "physical" leaves it out.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Calm {
-    /// So long after the last breath or hand.
+    /// Delay after the last breath or grab.
     pub after: Time,
-    /// Time in which free motion fades to 37 % at first; a swing takes twice as long. The calm grows eight times as firm within
-    /// five seconds.
+    /// Time in which free motion decays to 37 % at first; oscillations take twice as long. The damping grows eightfold
+    /// within five seconds.
     pub time: Time,
 }
 
@@ -60,97 +60,97 @@ pub struct Calm {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Law {
-    /// A cone that only the breath's own air fills: weak at a distance.
+    /// A cone filled by the breath's own air alone: weak at a distance.
     Cone,
-    /// A turbulent jet that takes the room's air along, as a real breath does.
+    /// A turbulent jet that entrains the surrounding air, as a real breath does.
     #[default]
     Jet,
 }
 
-/// The room's own air.
+/// Ambient turbulence of the gallery.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Room {
-    /// How fast it moves, root mean square: 0.05 … 0.2 m/s indoors.
+    /// Speed, root mean square: 0.05 … 0.2 m/s indoors.
     pub speed: Function<Speed>,
     /// Size of its largest eddies; by default 0.6 m.
     pub scale: Option<Length>,
-    /// Time in which they change; by default 6 s.
+    /// Time in which the eddies change; by default 6 s.
     pub period: Option<Time>,
     /// Seed of the eddies.
     #[serde(default)]
     pub seed: u64,
 }
 
-/// A wind from a round opening: a jet as wide as it.
+/// A jet from a round opening.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fan {
     /// Unique name.
     pub name: Name,
-    /// Middle of the opening: a node that stands still, or a point of the world.
+    /// Centre of the opening: a fixed node, or a point of the world.
     pub at: Point,
-    /// Where it blows, world axes.
+    /// Direction of the jet, world axes.
     pub direction: [f64; 3],
     /// Diameter of the opening.
     pub diameter: Length,
-    /// How fast the air leaves it.
+    /// Speed of the air at the opening.
     pub speed: Function<Speed>,
-    /// How it comes and goes; by default it blows evenly.
+    /// Fluctuations of the speed; by default none.
     pub gusts: Option<Gusts>,
 }
 
-/// A wind that blows one way.
+/// A wind in one direction.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Draught {
     /// Unique name.
     pub name: Name,
-    /// Where it blows, world axes.
+    /// Direction, world axes.
     pub direction: [f64; 3],
-    /// Where it comes in: a node that stands still, or a point of the world; with `width`. By default it is everywhere.
+    /// Where it enters: a fixed node, or a point of the world; with `width`. By default it is everywhere.
     pub at: Option<Point>,
-    /// With `at`: across it is half as fast this far from side to side.
+    /// With `at`: full width at half the speed of the middle.
     pub width: Option<Length>,
-    /// How fast it is in its middle.
+    /// Speed in its middle.
     pub speed: Function<Speed>,
-    /// How it comes and goes; by default it blows evenly.
+    /// Fluctuations of the speed; by default none.
     pub gusts: Option<Gusts>,
 }
 
-/// How a wind comes and goes: three octaves of it, weaker as they grow quicker.
+/// Fluctuations of a wind: three octaves, the faster the weaker.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gusts {
-    /// Greatest departure from the speed, as a share of it.
+    /// Greatest deviation from the speed, as a fraction of it.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub strength: f64,
-    /// Time of the slowest change.
+    /// Period of the slowest fluctuation.
     pub period: Time,
-    /// Seed.
+    /// Seed of the fluctuations.
     #[serde(default)]
     pub seed: u64,
 }
 
-/// Separate puffs of wind, each at a moment of its own.
+/// Separate gusts, each at a random moment.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gust {
     /// Unique name.
     pub name: Name,
-    /// Where it blows, world axes.
+    /// Direction, world axes.
     pub direction: [f64; 3],
-    /// Where it comes in: a node that stands still, or a point of the world; with `width`. By default it is everywhere.
+    /// Where they enter: a fixed node, or a point of the world; with `width`. By default they are everywhere.
     pub at: Option<Point>,
-    /// With `at`: across it is half as fast this far from side to side.
+    /// With `at`: full width at half the speed of the middle.
     pub width: Option<Length>,
-    /// How fast the strongest puff is.
+    /// Speed of the strongest gust.
     pub speed: Function<Speed>,
-    /// One puff in each such time.
+    /// Time span in which one gust comes.
     pub every: Time,
-    /// How long a puff lasts.
+    /// Duration of a gust.
     pub lasts: Time,
-    /// Seed.
+    /// Seed of the gusts.
     #[serde(default)]
     pub seed: u64,
 }

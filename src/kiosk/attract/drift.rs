@@ -38,6 +38,6 @@ impl Drift {
         }
         let share = self.grown * self.grown * (3.0 - 2.0 * self.grown);
         let [aside, tilt] = PERIODS.map(|period| share * sin(2.0 * PI * time / period));
-        rest.turned([ASIDE * aside, -TILT * tilt])
+        rest.orbited([ASIDE * aside, -TILT * tilt])
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use soffio_offline::whole_file::WholeFile;
+use soffio_offline::atomic_file::AtomicFile;
 
 /// Writes one file.
 #[derive(Debug)]
@@ -62,7 +62,7 @@ impl Writer {
 
 /// Writes a file that survives a loss of power.
 pub fn write(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = WholeFile::create(path)?;
+    let mut file = AtomicFile::create(path)?;
     file.write_all(text.as_bytes())?;
     file.flush()?;
     file.reopen()?.sync_all()?;

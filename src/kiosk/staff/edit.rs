@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
 
-use soffio_offline::whole_file::WholeFile;
+use soffio_offline::atomic_file::AtomicFile;
 
 /// Tables of a sidecar whose numbers are no parameters of the work: words, and what plays when nobody is there.
 const NOT_OFFERED: [&str; 3] = ["label", "attract", "credit"];
@@ -257,6 +257,6 @@ impl Changes {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {
-    let mut file = WholeFile::create(path).map_err(|error| error.to_string())?;
+    let mut file = AtomicFile::create(path).map_err(|error| error.to_string())?;
     file.write_all(text.as_bytes()).and_then(|()| file.finish()).map_err(|error| error.to_string())
 }

@@ -79,7 +79,7 @@ impl Governor {
     pub fn new(motion: Motion) -> Self {
         let budget = match motion {
             Motion::Auto { budget } => Some(budget),
-            Motion::Laws | Motion::Places(_) => None,
+            Motion::Dynamics | Motion::PositionBased(_) => None,
         };
         Self {
             budget,
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn an_exhibit_that_chose_for_itself_is_left_alone() {
-        for motion in [Motion::Laws, Motion::Places(soffio_multibody::procedural::Method::Compulsive)] {
+        for motion in [Motion::Dynamics, Motion::PositionBased(soffio_multibody::procedural::Method::Compulsive)] {
             let mut governor = Governor::new(motion);
             run(&mut governor, 10.0, 1.0, 1e-6);
             assert_eq!((governor.switches(), governor.mode()), (0, None));

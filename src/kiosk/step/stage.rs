@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use soffio_exhibit::{Exhibit, Leeway, View};
+use soffio_exhibit::{Exhibit, OrbitLimits, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::{
@@ -47,7 +47,7 @@ pub struct Stage {
     gestures: Gestures,
     orbit: Orbit,
     /// How far it goes, for a picture of that shape; `None` until somebody asks.
-    leeway: Option<(f64, Leeway)>,
+    leeway: Option<(f64, OrbitLimits)>,
     holds: bool,
     /// What the last step was told beside breath and hands.
     told: Told,
@@ -187,7 +187,7 @@ impl Stage {
             Some((aspect, leeway)) if aspect == controls.aspect => leeway,
             // It has never been away: there is nothing to measure.
             None if way == Way::Home => return [0.0; 2],
-            _ => self.simulation.exhibit().leeway(controls.aspect),
+            _ => self.simulation.exhibit().orbit_limits(controls.aspect),
         };
         self.leeway = Some((controls.aspect, leeway));
         self.orbit.step(way, &leeway, self.calm)

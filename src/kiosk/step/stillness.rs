@@ -47,13 +47,13 @@ impl Stillness {
     /// Takes notice of a step, seen from `view`.
     pub fn note(&mut self, exhibit: &Arc<Exhibit>, now: &Snapshot, view: &View) {
         if self.exhibit.as_ref().is_none_or(|known| !Arc::ptr_eq(known, exhibit)) {
-            *self = Self { exhibit: Some(exhibit.clone()), reaches: exhibit.reaches(), ..Self::default() };
+            *self = Self { exhibit: Some(exhibit.clone()), reaches: exhibit.body_radii(), ..Self::default() };
             self.remember(now);
         }
         self.age += 1;
         self.quiet += 1;
         let breath = &now.breath;
-        let shaped = exhibit.shapes.iter().any(|track| track.moves(now.time));
+        let shaped = exhibit.shapes.iter().any(|track| track.is_changing(now.time));
         let flies = now.dust_particles.iter().any(|mote| mote.brightness > BRIGHT);
         let blown = breath.speed > 0.0 || breath.estimate.speed > 0.0;
         if blown

@@ -68,7 +68,7 @@ pub struct Overrides {
 impl Overrides {
     /// The configuration as the run has it.
     pub fn apply(self, mut config: Config) -> Config {
-        config.exhibits.folder = exhibit::shelf(&config.exhibits.folder);
+        config.exhibits.folder = exhibit::exhibits_folder(&config.exhibits.folder);
         config.screen.fullscreen &= !self.windowed;
         config.attract.enabled &= !self.no_attract;
         if self.safe {

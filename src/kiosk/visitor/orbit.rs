@@ -18,7 +18,7 @@
 //!
 //! Where less motion is wanted, the camera is where the finger puts it and nothing moves on by itself.
 
-use soffio_exhibit::Leeway;
+use soffio_exhibit::OrbitLimits;
 use soffio_math::exp;
 use soffio_simulation::STEPS_PER_SECOND;
 
@@ -60,8 +60,8 @@ pub struct Orbit {
 
 impl Orbit {
     /// Goes on by a step. Returns the turn.
-    pub fn step(&mut self, way: Way, leeway: &Leeway, calm: bool) -> [f64; 2] {
-        let ends = [[leeway.aside; 2], [leeway.down, leeway.up]];
+    pub fn step(&mut self, way: Way, leeway: &OrbitLimits, calm: bool) -> [f64; 2] {
+        let ends = [[leeway.yaw; 2], [leeway.down, leeway.up]];
         let (goal, speed) = match way {
             Way::Pulled(by) if by.iter().all(|x| x.is_finite()) => ([0, 1].map(|i| self.goal[i] + by[i]), FOLLOWS),
             Way::Pulled(_) => (self.goal, FOLLOWS),

@@ -106,7 +106,7 @@ impl App<'_> {
         let desk = self.setup.on_desk();
         let show = self.show.as_mut()?;
         let (adapter, _) = show.screen.adapter();
-        let rest = frame.exhibit.view(show.screen.aspect()).turned(moment.turn);
+        let rest = frame.exhibit.view(show.screen.aspect()).orbited(moment.turn);
         let sways = frame.attracts && !self.visit.needs.calm;
         let view = self.graphics.drift.view(rest, self.pacing.clock.seconds(begun.shown), sways);
         let vitals = Vitals {

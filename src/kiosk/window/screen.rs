@@ -12,7 +12,7 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use soffio_exhibit::{Exhibit, View};
-use soffio_render::{Finish, Frame, Gpu, Options, Renderer, Shaders, Work};
+use soffio_render::{FrameInput, Gpu, GpuExhibit, Options, Renderer, Sampling, Shaders};
 use soffio_simulation::Snapshot;
 
 use crate::pages::fonts;
@@ -33,7 +33,7 @@ pub struct Screen {
     scene: Renderer,
     shown: Arc<Exhibit>,
     /// The exhibit that comes on next, ready to be drawn.
-    next: Option<(Arc<Exhibit>, Work)>,
+    next: Option<(Arc<Exhibit>, GpuExhibit)>,
     type_setter: egui_wgpu::Renderer,
     broken: Arc<AtomicBool>,
     refresh: Option<f64>,
@@ -114,8 +114,8 @@ impl Screen {
     }
 
     /// Draws so finely from the next picture on.
-    pub fn set_finish(&mut self, finish: Finish) {
-        self.scene.set_finish(&self.gpu, finish);
+    pub fn set_finish(&mut self, finish: Sampling) {
+        self.scene.set_sampling(&self.gpu, finish);
     }
 
     /// Draws with these shaders from the next picture on.
@@ -213,9 +213,9 @@ impl Screen {
         let light = frame.texture.create_view(&as_srgb);
         let plain = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let size = (self.config.width, self.config.height);
-        let picture = Frame {
+        let picture = FrameInput {
             poses: &moment.poses,
-            motes: &moment.dust_particles,
+            dust: &moment.dust_particles,
             view: *view,
             size,
             exposure: 1.0,

@@ -6,7 +6,7 @@
 //! a finer one would take cannot be seen while the display's rhythm makes every picture wait, so it is tried after a while;
 //! each time that fails the next try waits twice as long, since a machine that is too slow stays so.
 
-use soffio_render::Finish;
+use soffio_render::Sampling;
 
 /// Pictures that are looked at.
 const WINDOW: usize = 60;
@@ -23,17 +23,17 @@ const PAUSE: f64 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tier {
     /// Pixels and samples.
-    pub finish: Finish,
+    pub finish: Sampling,
     /// Least time from picture to picture, s.
     pub least: f64,
 }
 
 /// From the finest to the coarsest.
 pub const TIERS: [Tier; 4] = [
-    Tier { finish: Finish { scale: 1.0, msaa: 4 }, least: 0.0 },
-    Tier { finish: Finish { scale: 0.75, msaa: 4 }, least: 0.0 },
-    Tier { finish: Finish { scale: 0.75, msaa: 1 }, least: 0.0 },
-    Tier { finish: Finish { scale: 0.75, msaa: 1 }, least: 1.0 / 30.0 },
+    Tier { finish: Sampling { scale: 1.0, msaa: 4 }, least: 0.0 },
+    Tier { finish: Sampling { scale: 0.75, msaa: 4 }, least: 0.0 },
+    Tier { finish: Sampling { scale: 0.75, msaa: 1 }, least: 0.0 },
+    Tier { finish: Sampling { scale: 0.75, msaa: 1 }, least: 1.0 / 30.0 },
 ];
 
 /// Chooses the tier.

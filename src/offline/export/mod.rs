@@ -1,9 +1,9 @@
-//! A run, or a model of it, for other programs: glTF with key frames, RenderMan scenes, a MuJoCo model.
+//! Export of a run or a model to other programs: glTF animation, RenderMan scenes, MuJoCo models.
 
+pub mod export_model;
 pub mod key_frames;
+mod key_reduction;
 pub mod mjcf;
 #[cfg(feature = "pictures")]
 pub mod rib;
-pub mod scenery;
-mod thin;
 mod tube;

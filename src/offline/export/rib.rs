@@ -1,73 +1,74 @@
-//! A run as RenderMan scenes: one RIB a frame, to the RenderMan Interface Specification 3.2.
+//! RenderMan export: a run as one RIB file for each frame (RenderMan Interface Specification 3.2).
 //!
-//! A frame names camera, lamps, the gallery's walls, and each mesh by an archive of its own (`meshes/`), placed by the
-//! body's poses when the shutter opens and when it closes: a half of the time between two frames. RIB's own camera looks
-//! along +z with x to the right and y up, and points are rows, p′ = p M. Surfaces are the standard's `matte`, `plastic`,
-//! `metal` and `constant`, lamps its `spotlight`; images on surfaces have no place in those and are left out.
+//! A frame contains camera, lamps, the gallery's walls, and each mesh as an archive (`meshes/`), placed at the body's
+//! poses when the shutter opens and closes. The shutter is open for half a frame. RIB's camera looks along +z with x to
+//! the right and y up, and points are rows, p′ = p M. Surfaces are the standard's `matte`, `plastic`, `metal` and
+//! `constant`, lamps its `spotlight`. These have no texture images, which are left out.
 
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::super::whole_file::WholeFile;
-use super::scenery::Scenery;
+use super::super::atomic_file::AtomicFile;
+use super::export_model::ExportModel;
 use soffio_exhibit::model::{Appearance, LightKind, Primitive};
 use soffio_exhibit::{Exhibit, View};
 use soffio_math::{DMat4, DVec3, PI, Pose, acos};
-use soffio_render::gallery::{FLOOR_ALBEDO, Face, Room, WALL_ALBEDO, WALL_AMBIENT};
+use soffio_render::gallery::{FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO, WALL_AMBIENT};
 
-/// The shutter is open for this share of a frame.
+/// Fraction of a frame in which the shutter is open.
 const SHUTTER: f64 = 0.5;
-/// Samples a pixel, in each direction; what is blurred by motion needs more than what stands.
+/// Samples a pixel in each direction; motion blur needs more than static scenes.
 const SAMPLES: u32 = 6;
-/// Curve of the written pictures to a display's.
+/// Gamma of the rendered pictures.
 const GAMMA: f64 = 2.2;
-/// More metal than this is drawn as metal.
+/// Metalness above which a surface is rendered as metal.
 const METAL: f32 = 0.5;
-/// The camera sees from here on, m.
+/// Near plane of the camera, m.
 const NEAR: f64 = 0.01;
-/// Faces of the room that the camera can see.
+/// Faces of the gallery that the camera can see.
 const WALLS: [Face; 5] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right];
 
-/// Writes scenes while a run goes on.
+/// Writes RIB files during a run.
 pub struct RibWriter<'a> {
     exhibit: &'a Exhibit,
     folder: PathBuf,
     size: (u32, u32),
     fps: u32,
-    /// What does not change: camera, lamps, walls.
+    /// Constant part of each frame: camera, lamps, walls.
     head: String,
-    /// Body, attributes and archive of each part.
+    /// Body, attributes and archive of each mesh.
     parts: Vec<(Option<usize>, String)>,
     open: Option<Vec<Pose>>,
 }
 
 impl<'a> RibWriter<'a> {
-    /// Begins scenes in `folder` (made where it is not there) of pictures of `size` pixels, `fps` a second.
+    /// Starts the frames in `folder` (created if missing), pictures of `size` pixels, `fps` a second.
     pub fn create(exhibit: &'a Exhibit, folder: &Path, size: (u32, u32), fps: u32) -> io::Result<Self> {
         std::fs::create_dir_all(folder.join("meshes"))
             .map_err(|e| io::Error::new(e.kind(), format!("cannot make the folder {}: {e}", folder.display())))?;
-        let scenery = Scenery::new(exhibit);
+        let export_model = ExportModel::new(exhibit);
         let mut parts = Vec::new();
-        for piece in scenery.pieces(exhibit) {
+        for piece in export_model.placed_primitives(exhibit) {
             for primitive in piece.mesh.primitives.iter().filter(|primitive| !primitive.indices.is_empty()) {
                 let archive = format!("meshes/{:04}.rib", parts.len());
                 write(&folder.join(&archive), &polygons(primitive, &piece.place))?;
-                let look = primitive.material.and_then(|m| scenery.model.materials.get(m)).cloned().unwrap_or_default();
+                let look =
+                    primitive.material.and_then(|m| export_model.model.materials.get(m)).cloned().unwrap_or_default();
                 parts.push((piece.body, format!("{}    ReadArchive \"{archive}\"\n", surface(&look))));
             }
         }
         let view = exhibit.view(f64::from(size.0) / f64::from(size.1));
-        let head = room(&Room::around(exhibit), &view) + &punctual(exhibit, &scenery);
+        let head = gallery(&Gallery::around(exhibit), &view) + &punctual(exhibit, &export_model);
         Ok(Self { exhibit, folder: folder.into(), size, fps, head, parts, open: None })
     }
 
-    /// Frames a second that [`Self::push`] wants to see: both ends of each shutter.
-    pub fn moments_per_second(&self) -> u32 {
+    /// Number of [`Self::push`] calls a second: both ends of each shutter interval.
+    pub fn samples_per_second(&self) -> u32 {
         2 * self.fps
     }
 
-    /// Takes the poses of the next moment, in the order of the exhibit's bodies; every other one ends a frame.
+    /// Takes the poses of the next sample, in the order of the exhibit's bodies; every second one completes a frame.
     pub fn push(&mut self, number: u64, poses: &[Pose]) -> io::Result<()> {
         match self.open.take() {
             None => self.open = Some(poses.to_vec()),
@@ -105,7 +106,7 @@ impl<'a> RibWriter<'a> {
             out += "  AttributeBegin\n";
             if let Some(body) = *body {
                 let [from, to] = [open, closed].map(|poses| rows(&poses[body].matrix()));
-                // What does not move needs no blur.
+                // Static meshes need no motion blur.
                 let _ = if from == to {
                     writeln!(out, "    ConcatTransform {from}")
                 } else {
@@ -123,27 +124,27 @@ impl<'a> RibWriter<'a> {
 }
 
 fn write(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = WholeFile::create(path)?;
+    let mut file = AtomicFile::create(path)?;
     file.write_all(text.as_bytes())?;
     file.finish()
 }
 
-/// A matrix for column vectors as the interface has it, for rows.
+/// A matrix for column vectors as one for RIB's row vectors.
 fn rows(matrix: &DMat4) -> String {
     list(matrix.to_cols_array())
 }
 
-/// Numbers in brackets, nine digits each: more than single precision holds.
+/// Numbers in brackets, nine digits each: more than single precision.
 fn list(numbers: impl IntoIterator<Item = f64>) -> String {
     let mut out = String::from("[");
     for (i, number) in numbers.into_iter().enumerate() {
-        // No minus before nothing.
+        // Writes −0 as 0.
         let _ = write!(out, "{}{}", if i == 0 { "" } else { " " }, (number * 1e9).round() / 1e9 + 0.0);
     }
     out + "]"
 }
 
-/// World to camera.
+/// Transform from world to camera.
 fn camera(view: &View) -> String {
     let (right, up, forward) = view.axes();
     let turned = DMat4::from_cols(right.extend(0.0), up.extend(0.0), forward.extend(0.0), glam::DVec4::W).transpose();
@@ -192,14 +193,14 @@ fn surface(look: &Appearance) -> String {
     out
 }
 
-/// The gallery: light from all around, its two lamps, its walls.
-fn room(room: &Room, view: &View) -> String {
+/// The gallery: ambient light, its two lamps, its walls.
+fn gallery(gallery: &Gallery, view: &View) -> String {
     let ambient = WALL_AMBIENT / WALL_ALBEDO.y;
     let mut out = format!("  LightSource \"ambientlight\" 1 \"intensity\" [{ambient}]\n");
     let vector = |v: glam::Vec3| list(v.as_dvec3().to_array());
-    for (handle, lamp) in (2..).zip(&room.lamps) {
+    for (handle, lamp) in (2..).zip(&gallery.lamps) {
         let [inner, outer] = [lamp.cone.0, lamp.cone.1].map(|cosine| acos(f64::from(cosine)));
-        // The standard's surfaces send back Kd Cs Cl cos θ, without the π of Lambert's law.
+        // The standard surfaces reflect Kd Cs Cl cos θ, without the π of Lambert's law.
         let intensity = f64::from(lamp.intensity.y) / PI;
         let _ = writeln!(
             out,
@@ -212,10 +213,10 @@ fn room(room: &Room, view: &View) -> String {
         );
     }
     for face in WALLS {
-        let [a, b, middle] = room.face_axes(face);
+        let [a, b, middle] = gallery.face_axes(face);
         let corners = [middle - a - b, middle + a - b, middle + a + b, middle - a + b];
         let albedo = if face == Face::Floor { FLOOR_ALBEDO } else { WALL_ALBEDO };
-        let points = in_front(&corners.map(|corner| room.to_world(corner).as_dvec3()), view);
+        let points = in_front(&corners.map(|corner| gallery.to_world(corner).as_dvec3()), view);
         if points.is_empty() {
             continue;
         }
@@ -230,7 +231,7 @@ fn room(room: &Room, view: &View) -> String {
     out
 }
 
-/// The part of a polygon that lies before the eye: renderers that dice surfaces on the screen cannot take the rest.
+/// The part of a polygon in front of the camera: renderers that dice surfaces on the screen cannot process the rest.
 fn in_front(corners: &[DVec3], view: &View) -> Vec<DVec3> {
     let forward = view.axes().2;
     let depth = |p: DVec3| (p - view.eye).dot(forward) - NEAR;
@@ -248,11 +249,11 @@ fn in_front(corners: &[DVec3], view: &View) -> Vec<DVec3> {
     out
 }
 
-/// The model's own lamps where they begin.
-fn punctual(exhibit: &Exhibit, scenery: &Scenery) -> String {
+/// The model's own lights at their start positions.
+fn punctual(exhibit: &Exhibit, export_model: &ExportModel) -> String {
     let mut out = String::new();
     let nodes = exhibit.model.nodes.iter();
-    let lights = nodes.filter_map(|node| Some((node.world, scenery.model.lights.get(node.light?)?)));
+    let lights = nodes.filter_map(|node| Some((node.world, export_model.model.lights.get(node.light?)?)));
     for (handle, (world, light)) in (10..).zip(lights) {
         let from = world.w_axis.truncate();
         let to = from - world.z_axis.truncate().try_normalize().unwrap_or(DVec3::Z);

@@ -1,20 +1,20 @@
-//! A bent wire as a mesh: a ring of corners at each of its points, turned along without twist.
+//! Tube meshes of wires: a ring of vertices at each point, transported without twist.
 
 use soffio_exhibit::model::Primitive;
 use soffio_math::{DVec3, PI, sincos, tangents};
 
-/// Corners of a ring: the outline is off by r (1 − cos π/12), a thirtieth of the radius.
+/// Vertices of a ring: the outline deviates by r (1 − cos π/12), a thirtieth of the radius.
 const SIDES: u32 = 12;
-/// Points nearer to each other than this share of the radius are one.
-const APART: f64 = 1e-3;
-/// A ring at a bend is stretched so that the wire keeps its width, but no more than this.
+/// Points nearer to each other than this fraction of the radius are merged.
+const SAME_POINT: f64 = 1e-3;
+/// Largest stretch of a ring at a bend, which keeps the wire's width.
 const MITRE: f64 = 2.0;
 
-/// The wire through `points` (m) as triangles, its ends flat; nothing where it has no length.
+/// Triangles of the wire through `points` (m), its ends flat; empty where it has no length.
 pub(super) fn tube(points: &[DVec3], radius: f64) -> Primitive {
     let mut line: Vec<DVec3> = Vec::with_capacity(points.len());
     for &point in points {
-        if line.last().is_none_or(|last| last.distance(point) > APART * radius) {
+        if line.last().is_none_or(|last| last.distance(point) > SAME_POINT * radius) {
             line.push(point);
         }
     }
@@ -26,14 +26,14 @@ pub(super) fn tube(points: &[DVec3], radius: f64) -> Primitive {
     let mut side = tangents(ways[0]).0;
     for (i, &point) in line.iter().enumerate() {
         let (before, after) = (ways[i.saturating_sub(1)], ways[i.min(ways.len() - 1)]);
-        // The plane that bisects the bend holds the ring; a wire that turns right back has none.
+        // The ring lies in the bisecting plane of the bend; a wire that reverses has none.
         let normal = (before + after).try_normalize().unwrap_or(after);
         side = side.reject_from_normalized(before).try_normalize().unwrap_or_else(|| tangents(before).0);
         let other = before.cross(side);
         for k in 0..SIDES {
             let (s, c) = sincos(2.0 * PI * f64::from(k) / f64::from(SIDES));
             let across = side * c + other * s;
-            // Along `before` from the ring square to it into the bisecting plane.
+            // Project along `before` into the bisecting plane.
             let along = -across.dot(normal) / before.dot(normal).max(1.0 / MITRE);
             out.positions.push((point + (across + before * along) * radius).as_vec3().to_array());
             out.normals.push(across.as_vec3().to_array());
@@ -52,7 +52,7 @@ pub(super) fn tube(points: &[DVec3], radius: f64) -> Primitive {
     out
 }
 
-/// Closes the ring that begins at a corner, facing outwards.
+/// Closes the ring that begins at a vertex, facing outwards.
 fn cap(out: &mut Primitive, ring: u32, outwards: DVec3) {
     let base = out.positions.len() as u32;
     for k in 0..SIDES {

@@ -1,18 +1,18 @@
-//! How well a scene's contacts hold, from the file's shapes and the bodies' states alone.
+//! Contact quality: penetration, energy rise and drift, from the file's shapes and the bodies' states alone.
 //!
 //! ```text
-//! penetration = largest −gap of two shapes that may meet, m
+//! penetration = largest −gap of two shapes that can touch, m
 //! rise        = largest E(t) − E(s), s ≤ t: contacts, friction and joints only lose energy, J
-//! way         = farthest distance of a body from where it began, m
+//! displacement = farthest distance of a body from its start, m
 //! drift       = the same within the last second of the run: resting bodies do not move, m
 //! ```
 //!
-//! Gaps are measured where the balls around two shapes overlap; shapes that only touch have none to tell.
+//! Gaps are computed where the bounding spheres of two shapes overlap.
 
 use serde::Serialize;
 
-use super::format::Scene;
-use super::measure::{State, larger};
+use super::format::PhysicsScene;
+use super::measure::{BodyState, larger};
 use soffio_math::{DVec3, Pose};
 use soffio_multibody::collision::{Collider, proximity};
 use soffio_multibody::dynamics::SurfacePair;
@@ -20,7 +20,7 @@ use soffio_multibody::dynamics::SurfacePair;
 /// Span at the end of a run in which bodies should be at rest, s.
 const REST_SPAN: f64 = 1.0;
 
-/// What the contacts of a run came to.
+/// Contact quality of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ContactReport {
     /// Deepest overlap of two shapes over the run, m; 0 where none overlap.
@@ -29,21 +29,21 @@ pub struct ContactReport {
     pub rest_penetration_m: f64,
     /// Largest rise of the energy above its least value so far, J.
     pub max_energy_rise_j: f64,
-    /// Over the scene's energy.
+    /// The energy rise over the scene's energy scale.
     pub max_energy_rise_rel: f64,
-    /// Farthest that a body came from where it began, m.
+    /// Farthest distance of a body from its start, m.
     pub max_way_m: f64,
-    /// Farthest that a body came from where it was a second before the end, m; none if the run ended earlier.
+    /// Farthest distance of a body from its position a second before the end, m; `None` if the run ended earlier.
     pub rest_drift_m: Option<f64>,
 }
 
-/// Watches the contacts of a run step by step.
+/// Observes the contacts of a run step by step.
 #[derive(Clone, Debug)]
 pub(super) struct ContactObserver {
     colliders: Vec<Collider>,
     pairs: Vec<SurfacePair>,
     start: Vec<DVec3>,
-    /// When the last second begins, s, and where the bodies were then.
+    /// Start of the last second, s, and the positions of the bodies then.
     rest: (f64, Option<Vec<DVec3>>),
     least_energy: f64,
     report: ContactReport,
@@ -51,7 +51,7 @@ pub(super) struct ContactObserver {
 
 impl ContactObserver {
     /// `None` for a scene without collisions. `energy` is that of the start, J.
-    pub fn new(scene: &Scene, energy: f64) -> Option<Self> {
+    pub fn new(scene: &PhysicsScene, energy: f64) -> Option<Self> {
         scene.surface?;
         let colliders = scene.colliders();
         Some(Self {
@@ -64,13 +64,13 @@ impl ContactObserver {
         })
     }
 
-    /// A run ends after so many seconds, if that is before the scene's end.
-    pub fn ends(&mut self, seconds: f64) {
+    /// Sets the end of the run, s, where it is before the scene's end.
+    pub fn set_end_time(&mut self, seconds: f64) {
         self.rest.0 = self.rest.0.min(seconds - REST_SPAN);
     }
 
-    /// Sees the states at `t` seconds and their energy, J; `scale` is the scene's.
-    pub fn see(&mut self, t: f64, states: &[State], energy: f64, scale: f64) {
+    /// Takes the states at `t` seconds and their energy, J; `scale` is the scene's energy scale.
+    pub fn observe(&mut self, t: f64, states: &[BodyState], energy: f64, scale: f64) {
         let penetration = self.penetration(states);
         let report = &mut self.report;
         report.max_penetration_m = larger(report.max_penetration_m, penetration);
@@ -97,9 +97,9 @@ impl ContactObserver {
         self.report
     }
 
-    fn penetration(&self, states: &[State]) -> f64 {
+    fn penetration(&self, states: &[BodyState]) -> f64 {
         let pose = |collider: &Collider| {
-            let state = collider.body.map_or(&State::WORLD, |body| &states[body]);
+            let state = collider.body.map_or(&BodyState::WORLD, |body| &states[body]);
             Pose { rotation: state.rotation, position: state.position }
         };
         let placed: Vec<(Pose, DVec3, f64)> = self

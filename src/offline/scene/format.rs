@@ -1,107 +1,108 @@
 //! The scene format `soffio-scene/1`: JSON, SI units, `y` up, right-handed.
 //!
-//! Bodies without a joint are free, joints beyond a body's first close loops, hinges and sliders may have limits. In a
-//! scene with a `surface` its bodies' shapes and the `static` ones collide, but for bodies that a joint connects.
+//! Bodies without a joint are free. Joints beyond a body's first close loops; hinges and sliders can have limits. In a
+//! scene with a `surface`, the shapes of bodies and the `static` ones collide, except between bodies that a joint
+//! connects.
 //!
-//! The older `isaac-bench-scene/1` is the part of it without collisions, limits, loops and free bodies: joint i hangs
-//! body i on an earlier body or the world. Its shapes are only drawn.
+//! The older `isaac-bench-scene/1` is the subset without collisions, limits, loops and free bodies: joint i attaches
+//! body i to an earlier body or the world. Its shapes are for display only.
 //!
-//! Invariant: a [`Scene`] that [`Scene::parse`] returns is valid. Its numbers are finite, its masses positive, its
-//! joints closed at the start and within their limits.
+//! Invariant: a [`PhysicsScene`] from [`PhysicsScene::parse`] is valid. Its numbers are finite, its masses positive,
+//! its joints closed at the start and within their limits.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::measure;
-use super::solid::{Solid, Static, Surface};
+use super::shape::{ContactSurface, SceneShape, StaticShape};
 use soffio_math::{DQuat, DVec3};
 
-/// What `format` says.
+/// Value of `format`.
 pub const FORMAT: &str = "soffio-scene/1";
-/// And in older files: joints in tree order, without collisions.
+/// Value of `format` in older files: joints in tree order, without collisions.
 pub const OLD_FORMAT: &str = "isaac-bench-scene/1";
 
-/// An articulated figure at its start, and how long to run it.
+/// A mechanism in its start state, and how long to simulate it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Scene {
+pub struct PhysicsScene {
     /// [`FORMAT`] or [`OLD_FORMAT`].
     pub format: String,
     /// Name of the scene.
     pub name: String,
-    /// What it shows.
+    /// Description.
     #[serde(default)]
     pub about: String,
-    /// m/s².
+    /// Acceleration of gravity, m/s².
     pub gravity: [f64; 3],
     /// Step lengths to run, s.
     pub dts: Vec<f64>,
     /// Time to simulate, s.
     pub duration: f64,
-    /// What energy errors are divided by, J.
+    /// Divisor of energy errors, J.
     pub energy_scale: f64,
     /// The bodies.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<SceneBody>,
     /// The joints.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<SceneJoint>,
     /// Gears and drums.
     #[serde(default)]
-    pub couplings: Vec<Coupling>,
-    /// What surfaces do to each other; without it nothing collides.
+    pub couplings: Vec<SceneCoupling>,
+    /// Default contact surface; without it nothing collides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub surface: Option<Surface>,
-    /// Shapes of the world.
+    pub surface: Option<ContactSurface>,
+    /// Static shapes.
     #[serde(default, rename = "static", skip_serializing_if = "Vec::is_empty")]
-    pub statics: Vec<Static>,
-    /// What is known of the motion.
+    pub statics: Vec<StaticShape>,
+    /// Known properties of the motion.
     #[serde(default)]
     pub meta: Meta,
 }
 
-/// A rigid body at its start.
+/// A rigid body in its start state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Body {
+pub struct SceneBody {
     /// Name of the body.
     pub name: String,
-    /// kg.
+    /// Mass, kg.
     pub mass: f64,
     /// Principal moments about the centre of mass, body axes, kg m².
     pub inertia: [f64; 3],
-    /// A [`Solid`] about the centre of mass, which collides where the scene has a surface.
+    /// A [`SceneShape`] about the centre of mass, which collides where the scene has a surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<serde_json::Value>,
-    /// If it differs from the scene's.
+    /// Contact surface, where it differs from the scene's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub surface: Option<Surface>,
-    /// Centre of mass in the world, m.
+    pub surface: Option<ContactSurface>,
+    /// Centre of mass, world, m.
     pub pos: [f64; 3],
-    /// Body axes to world axes, (x, y, z, w).
+    /// Rotation from body axes to world axes, (x, y, z, w).
     pub quat: [f64; 4],
     /// Velocity of the centre of mass, world axes, m/s.
     pub linvel: [f64; 3],
-    /// World axes, rad/s.
+    /// Angular velocity, world axes, rad/s.
     pub angvel: [f64; 3],
 }
 
-/// What a joint leaves free.
+/// Kind of a joint, by its degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum JointKind {
-    /// All rotation.
+    /// All rotations.
     Spherical,
     /// Rotation about an axis.
     Hinge,
-    /// A way along an axis.
+    /// Translation along an axis.
     Slider,
 }
 
 /// A joint between a body and its parent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Joint {
-    /// What it leaves free.
+pub struct SceneJoint {
+    /// Degrees of freedom.
     #[serde(rename = "type")]
     pub kind: JointKind,
     /// Index of the parent; −1 is the world.
@@ -123,21 +124,21 @@ pub struct Joint {
     pub limits: Option<[f64; 2]>,
 }
 
-/// Coordinates of joints that keep a proportion: Σ coefficient · (q − q₀) = 0.
+/// Coupled joint coordinates (gears and drums): Σ coefficient · (q − q₀) = 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Coupling {
+pub struct SceneCoupling {
     /// Joint and coefficient: m for a hinge's radians where the sum is in metres, 1 for a slider's metres.
     pub terms: Vec<(usize, f64)>,
 }
 
-/// What is known of a scene's motion; keys that are not known here are passed over.
+/// Known properties of a scene's motion; unknown keys are ignored.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Meta {
     /// Exact period of a pendulum, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period: Option<f64>,
-    /// Its amplitude, rad.
+    /// Amplitude of the pendulum, rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theta0: Option<f64>,
     /// Exact acceleration of a falling weight, m/s².
@@ -151,15 +152,15 @@ pub struct Meta {
     pub weight_y0: Option<f64>,
 }
 
-/// Why a scene cannot be used.
+/// Errors of scenes.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// The file is not there or not readable.
+    /// The file does not exist or is not readable.
     #[error("cannot read {path}: {source}. Check the path")]
     Read {
-        /// Where it was looked for.
+        /// Path of the file.
         path: String,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// Not JSON, or not the keys and types of a scene.
@@ -167,14 +168,14 @@ pub enum SceneError {
     Syntax {
         /// File.
         path: String,
-        /// From 1.
+        /// Line, from 1.
         line: usize,
-        /// From 1.
+        /// Column, from 1.
         column: usize,
-        /// What was found there.
+        /// What was found.
         what: String,
     },
-    /// A value that makes no figure.
+    /// A value out of range.
     #[error("{path}: {key}: {what}")]
     Value {
         /// File.
@@ -186,42 +187,48 @@ pub enum SceneError {
     },
 }
 
-impl Scene {
+impl PhysicsScene {
     /// Reads a scene from a file.
+    ///
+    /// # Errors
+    /// As [`SceneError`] lists.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: name.clone(), source })?;
         Self::parse(&text, &name)
     }
 
-    /// Reads a scene from text; `path` is what messages call it.
+    /// Reads a scene from text; `path` is its name in messages.
+    ///
+    /// # Errors
+    /// As [`SceneError`] lists.
     pub fn parse(text: &str, path: &str) -> Result<Self, SceneError> {
         let scene: Self = serde_json::from_str(text).map_err(|error| {
             let what = error.to_string();
             let what = what.rsplit_once(" at line ").map_or(what.as_str(), |(what, _)| what).to_owned();
             SceneError::Syntax { path: path.to_owned(), line: error.line(), column: error.column(), what }
         })?;
-        match scene.fault() {
+        match scene.problem() {
             None => Ok(scene),
             Some((key, what)) => Err(SceneError::Value { path: path.to_owned(), key, what }),
         }
     }
 
-    /// The scene as text that [`Scene::parse`] reads back.
+    /// The scene as text that [`PhysicsScene::parse`] reads back.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and names are JSON")
     }
 }
 
-impl Body {
-    /// The shape that collides; `None` where there is none.
-    pub fn solid(&self) -> Option<Solid> {
-        Solid::deserialize(self.shape.as_ref()?).ok()
+impl SceneBody {
+    /// The collision shape; `None` where the body has none.
+    pub fn solid(&self) -> Option<SceneShape> {
+        SceneShape::deserialize(self.shape.as_ref()?).ok()
     }
 
     /// Pose and velocities at the start.
-    pub fn state(&self) -> measure::State {
-        measure::State {
+    pub fn state(&self) -> measure::BodyState {
+        measure::BodyState {
             position: DVec3::from_array(self.pos),
             rotation: DQuat::from_array(self.quat).normalize(),
             velocity: DVec3::from_array(self.linvel),
@@ -230,13 +237,13 @@ impl Body {
     }
 }
 
-impl Joint {
+impl SceneJoint {
     /// The parent body; `None` is the world.
     pub fn parent(&self) -> Option<usize> {
         usize::try_from(self.a).ok()
     }
 
-    /// The axis in both frames, of a hinge or slider.
+    /// The axis of a hinge or slider in both frames, unit.
     pub fn axes(&self) -> Option<(DVec3, DVec3)> {
         let unit = |axis| DVec3::from_array(axis).normalize();
         (self.kind != JointKind::Spherical).then(|| Some((unit(self.axis_a?), unit(self.axis_b?))))?

@@ -1,50 +1,50 @@
-//! What a body costs as figures grow: a chain and a binary tree of 10 to 10,000 bodies.
+//! Cost per body of growing mechanisms: a chain and a binary tree of 10 to 10,000 bodies.
 //!
-//! A solver that is linear in the number of bodies costs the same per body at every size, but for the caches.
+//! The cost per body of a linear-time solver is constant, apart from cache effects.
 
 use std::hint::black_box;
 
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
-use super::format::Scene;
+use super::format::PhysicsScene;
 use super::make;
 use super::run::{Engine, ROUNDS, Soffio};
 use soffio_multibody::articulation::System;
 use soffio_multibody::dynamics::{Integrator, Solver};
 
-/// Sizes of the figures.
+/// Numbers of bodies.
 pub const SIZES: [usize; 4] = [10, 100, 1_000, 10_000];
-/// Seed of the figures.
+/// Seed of the scenes.
 const SEED: u64 = 1;
 /// Step of the integrator, s.
 const DT: f64 = 1e-3;
-/// Bodies moved in a round: enough that a look at the clock and the caches' warming do not count.
+/// Body steps of a round: enough to outweigh reading the clock and warming the caches.
 const BODIES_A_ROUND: usize = 200_000;
 
-/// Cost of one figure, processor time, best of three.
+/// Cost of one mechanism, processor time, best of three.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cost {
     /// `chain` or `tree`.
     pub shape: &'static str,
-    /// Bodies.
+    /// Number of bodies.
     pub n: usize,
     /// µs per body and Runge–Kutta step.
     pub us_per_body_step: f64,
-    /// µs per body of one factor and one solve.
+    /// µs per body of one factorisation and one solve.
     pub us_per_body_factor_solve: f64,
 }
 
-/// The figures whose growth is watched: (shape, scene), at most `largest` bodies.
-pub fn scenes(largest: usize) -> impl Iterator<Item = (&'static str, Scene)> {
+/// The mechanisms to measure: (shape, scene), with at most `largest` bodies.
+pub fn scenes(largest: usize) -> impl Iterator<Item = (&'static str, PhysicsScene)> {
     SIZES
         .into_iter()
         .filter(move |&n| n <= largest)
         .flat_map(|n| [("chain", make::chain(n, SEED)), ("tree", make::mobile(n, SEED))])
 }
 
-/// Measures one figure; `effort` scales how much is run.
-pub fn measure(shape: &'static str, scene: &Scene, effort: f64) -> Cost {
+/// Measures one mechanism; `effort` scales the length of the measurement.
+pub fn measure(shape: &'static str, scene: &PhysicsScene, effort: f64) -> Cost {
     let n = scene.bodies.len();
     let rounds = ((effort * BODIES_A_ROUND as f64) as usize / n).max(2);
     let (mut step, mut solve) = (f64::INFINITY, f64::INFINITY);
@@ -56,8 +56,8 @@ pub fn measure(shape: &'static str, scene: &Scene, effort: f64) -> Cost {
     Cost { shape, n, us_per_body_step: per_body * step, us_per_body_factor_solve: per_body * solve }
 }
 
-/// s per substep of a fixed Runge–Kutta method: steps are divided as the tension asks, and counted.
-fn step_time(scene: &Scene, steps: usize) -> f64 {
+/// Time of a Runge–Kutta substep, s; the number of substeps follows from the tension.
+fn step_time(scene: &PhysicsScene, steps: usize) -> f64 {
     let mut engine = Soffio::new(scene, DT, Integrator::RungeKutta, Solver::Sparse);
     let (mut substeps, mut done) = (0, 0);
     let start = ThreadTime::now();
@@ -69,8 +69,8 @@ fn step_time(scene: &Scene, steps: usize) -> f64 {
     start.elapsed().as_secs_f64() / f64::from(substeps)
 }
 
-/// s per factor and solve at the start.
-fn solve_time(scene: &Scene, times: usize) -> f64 {
+/// Time of a factorisation and a solve at the start, s.
+fn solve_time(scene: &PhysicsScene, times: usize) -> f64 {
     let bodies = scene.rigid_bodies();
     let mut system = System::new(
         &bodies,

@@ -1,21 +1,21 @@
-//! Scenes made from a size and a seed: like the shipped ones, at sizes and shapes that nobody tuned for.
+//! Generated scenes: mechanisms of any size from a seed, for which nothing was tuned.
 //!
-//! Bodies are hung one by one under their parents, and get the velocity that the parent's motion and their own spin
-//! give them, so joints begin closed in place and speed.
+//! Bodies are attached one by one below their parents, with the velocity that follows from the parent's motion and
+//! their own spin. So joints start closed in position and velocity.
 
-use super::format::{Body, FORMAT, Joint, JointKind, Meta, Scene};
-use super::measure::{State, energy};
+use super::format::{FORMAT, JointKind, Meta, PhysicsScene, SceneBody, SceneJoint};
+use super::measure::{BodyState, energy};
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, PI, rotation};
 
 const G: f64 = 9.81;
 const TIMES: [f64; 2] = [1.0 / 240.0, 1e-3];
-/// Rods are this thick and wide, m.
+/// Thickness and width of rods, m.
 const THICKNESS: f64 = 0.01;
 
-/// A chain of `n` rods of various lengths and masses, nailed at the origin and released stretched out sideways with a
-/// small spin of each: it whips.
-pub fn chain(n: usize, seed: u64) -> Scene {
+/// A chain of `n` rods of random lengths and masses, nailed at the origin and released stretched out sideways, each
+/// with a small spin.
+pub fn chain(n: usize, seed: u64) -> PhysicsScene {
     let mut random = Random::new(seed);
     let mut maker = Maker::new(format!("chain_{n}_seed_{seed}"), "a whip of rods");
     let mut end = [0.0; 3];
@@ -24,30 +24,30 @@ pub fn chain(n: usize, seed: u64) -> Scene {
         let mass = random.range(0.02, 0.1);
         let turn = rotation(DVec3::new(0.0, random.signed(), 0.5 * random.signed()));
         let spin = 0.3 * vector(&mut random);
-        maker.hang(i.checked_sub(1), end, Part::rod(mass, half), [-half, 0.0, 0.0], turn, spin);
+        maker.hang(i.checked_sub(1), end, LinkShape::rod(mass, half), [-half, 0.0, 0.0], turn, spin);
         end = [half, 0.0, 0.0];
     }
     maker.falling()
 }
 
-/// A hanging mobile of `n` bodies in the order of a binary heap: beams hang on beams, plates on the lowest, all level;
-/// it spins, and each body has a small push of its own.
-pub fn mobile(n: usize, seed: u64) -> Scene {
+/// A hanging mobile of `n` bodies in binary-heap order: beams hang on beams, plates on the lowest, all level. It spins,
+/// and each body has a small random velocity.
+pub fn mobile(n: usize, seed: u64) -> PhysicsScene {
     let mut random = Random::new(seed);
     let children = |i: usize| [2 * i + 1, 2 * i + 2].into_iter().filter(move |&c| c < n);
     let parts: Vec<_> = (0..n)
         .map(|i| {
-            // A level's beams are shorter than those above.
+            // Beams of a level are shorter than those above.
             let level = (i + 1).ilog2();
             let half = 0.5 / (1.0 + 0.3 * f64::from(level)) * random.range(0.8, 1.2);
             if children(i).next().is_some() {
-                Part::beam(random.range(0.03, 0.08), half)
+                LinkShape::beam(random.range(0.03, 0.08), half)
             } else {
-                Part::plate(random.range(0.03, 0.08))
+                LinkShape::plate(random.range(0.03, 0.08))
             }
         })
         .collect();
-    // What hangs on each body, itself included.
+    // Mass that hangs on each body, itself included.
     let mut load: Vec<f64> = parts.iter().map(|part| part.mass).collect();
     for i in (1..n).rev() {
         load[(i - 1) / 2] += load[i];
@@ -57,7 +57,7 @@ pub fn mobile(n: usize, seed: u64) -> Scene {
         let parent = i.checked_sub(1).map(|below| below / 2);
         let side = if i % 2 == 1 { -1.0 } else { 1.0 };
         let anchor_a = parent.map_or([0.0; 3], |parent| [side * parts[parent].half[0], 0.0, 0.0]);
-        // Level: the pivot stands over the centre of all that hangs here.
+        // Level: the pivot is above the centre of mass of all that hangs here.
         let lean: f64 = children(i).zip([-1.0, 1.0]).map(|(child, side)| side * load[child]).sum();
         let anchor_b = if children(i).next().is_some() {
             [parts[i].half[0] * lean / load[i], 0.05, 0.0]
@@ -71,8 +71,8 @@ pub fn mobile(n: usize, seed: u64) -> Scene {
     maker.moving()
 }
 
-/// A chain of `n` light rods that carries a block `ratio` times as heavy as one of them, released off the vertical.
-pub fn mass_ratio(n: usize, ratio: f64, seed: u64) -> Scene {
+/// A chain of `n` light rods that carries a block `ratio` times as heavy as a rod, released off the vertical.
+pub fn mass_ratio(n: usize, ratio: f64, seed: u64) -> PhysicsScene {
     let mut random = Random::new(seed);
     let mut maker = Maker::new(format!("massratio_{n}_{ratio}_seed_{seed}"), "a heavy block on light rods");
     let off = random.range(0.3, 0.7);
@@ -81,10 +81,10 @@ pub fn mass_ratio(n: usize, ratio: f64, seed: u64) -> Scene {
     let half = random.range(0.03, 0.07);
     let mut end = [0.0; 3];
     for i in 0..n {
-        maker.hang(i.checked_sub(1), end, Part::rod(mass, half), [-half, 0.0, 0.0], turn, DVec3::ZERO);
+        maker.hang(i.checked_sub(1), end, LinkShape::rod(mass, half), [-half, 0.0, 0.0], turn, DVec3::ZERO);
         end = [half, 0.0, 0.0];
     }
-    let block = Part::cuboid(ratio * mass, DVec3::splat(half));
+    let block = LinkShape::cuboid(ratio * mass, DVec3::splat(half));
     maker.hang(n.checked_sub(1), end, block, [-half, 0.0, 0.0], turn, DVec3::ZERO);
     maker.falling()
 }
@@ -95,12 +95,12 @@ fn vector(random: &mut Random) -> DVec3 {
 
 /// A homogeneous box.
 #[derive(Clone, Copy)]
-struct Part {
+struct LinkShape {
     mass: f64,
     half: DVec3,
 }
 
-impl Part {
+impl LinkShape {
     fn cuboid(mass: f64, half: DVec3) -> Self {
         Self { mass, half }
     }
@@ -117,7 +117,7 @@ impl Part {
         Self::cuboid(mass, DVec3::new(0.06, 0.1, 0.001))
     }
 
-    /// m/3 of the squares of the other two half sides.
+    /// Moments of inertia: m/3 times the squares of the other two half sides, kg m².
     fn inertia(&self) -> [f64; 3] {
         let s = self.half * self.half;
         [s.y + s.z, s.z + s.x, s.x + s.y].map(|sum| sum * self.mass / 3.0)
@@ -125,13 +125,13 @@ impl Part {
 }
 
 struct Maker {
-    scene: Scene,
-    states: Vec<State>,
+    scene: PhysicsScene,
+    states: Vec<BodyState>,
 }
 
 impl Maker {
     fn new(name: String, about: &str) -> Self {
-        let scene = Scene {
+        let scene = PhysicsScene {
             format: FORMAT.into(),
             name,
             about: about.into(),
@@ -149,13 +149,21 @@ impl Maker {
         Self { scene, states: Vec::new() }
     }
 
-    /// Hangs a body with its `anchor_b` on the `anchor_a` of an earlier one or of the world; it spins by `spin`.
-    fn hang(&mut self, a: Option<usize>, anchor_a: [f64; 3], part: Part, anchor_b: [f64; 3], turn: DQuat, spin: DVec3) {
-        let parent = a.map_or(State::WORLD, |a| self.states[a]);
+    /// Attaches a body with its `anchor_b` to the `anchor_a` of an earlier one or of the world; it spins by `spin`.
+    fn hang(
+        &mut self,
+        a: Option<usize>,
+        anchor_a: [f64; 3],
+        part: LinkShape,
+        anchor_b: [f64; 3],
+        turn: DQuat,
+        spin: DVec3,
+    ) {
+        let parent = a.map_or(BodyState::WORLD, |a| self.states[a]);
         let arm = turn * DVec3::from_array(anchor_b);
         let pivot = parent.point(anchor_a);
         let pivot_velocity = parent.velocity + parent.angular_velocity.cross(pivot - parent.position);
-        let state = State {
+        let state = BodyState {
             position: pivot - arm,
             rotation: turn,
             velocity: pivot_velocity - spin.cross(arm),
@@ -163,7 +171,7 @@ impl Maker {
         };
         let b = self.states.len();
         self.states.push(state);
-        self.scene.bodies.push(Body {
+        self.scene.bodies.push(SceneBody {
             name: format!("body{b}"),
             mass: part.mass,
             inertia: part.inertia(),
@@ -176,11 +184,11 @@ impl Maker {
         });
         let a = a.map_or(-1, |a| a as i64);
         let kind = JointKind::Spherical;
-        self.scene.joints.push(Joint { kind, a, b, anchor_a, anchor_b, axis_a: None, axis_b: None, limits: None });
+        self.scene.joints.push(SceneJoint { kind, a, b, anchor_a, anchor_b, axis_a: None, axis_b: None, limits: None });
     }
 
-    /// The scene, its energy scale what its fall to hanging straight down sets free, and what moves already.
-    fn falling(mut self) -> Scene {
+    /// The scene, its energy scale the potential energy above hanging straight down plus the initial kinetic energy.
+    fn falling(mut self) -> PhysicsScene {
         let mut low: Vec<DVec3> = Vec::new();
         let straight = |half: f64, above: DVec3| above - DVec3::Y * half;
         let mut end = DVec3::ZERO;
@@ -189,14 +197,14 @@ impl Maker {
             low.push(straight(half, end));
             end = straight(2.0 * half, end);
         }
-        let hanging: Vec<_> = low.into_iter().map(|position| State { position, ..State::WORLD }).collect();
+        let hanging: Vec<_> = low.into_iter().map(|position| BodyState { position, ..BodyState::WORLD }).collect();
         self.scene.energy_scale = energy(&self.scene, &self.states) - energy(&self.scene, &hanging);
         self.scene
     }
 
-    /// The scene, its energy scale what moves at the start.
-    fn moving(mut self) -> Scene {
-        let at_rest = |state: &State| State { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..*state };
+    /// The scene, its energy scale the initial kinetic energy.
+    fn moving(mut self) -> PhysicsScene {
+        let at_rest = |state: &BodyState| BodyState { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..*state };
         let still: Vec<_> = self.states.iter().map(at_rest).collect();
         self.scene.energy_scale = energy(&self.scene, &self.states) - energy(&self.scene, &still);
         self.scene

@@ -1,35 +1,36 @@
-//! What a run is judged by, from the scene file and the bodies' states alone.
+//! Measures of a simulation, from the scene file and the bodies' states alone.
 //!
 //! ```text
 //! E   = Σ ½ m v² + ½ ω·(R I Rᵀ ω) − m g·x                        energy, J
-//! gap = |xₐ + Rₐ pₐ − x_b − R_b p_b|                              joint error, m; a slider's without its part along the axis
-//! q   = right-handed angle of b against a about the axis          hinge, not wrapped, rad
+//! gap = |xₐ + Rₐ pₐ − x_b − R_b p_b|                              joint error, m; of a slider without its component
+//! along the axis
+//! q   = right-handed angle of b relative to a about the axis      hinge, not wrapped, rad
 //! q   = (x_b + R_b p_b − xₐ − Rₐ pₐ) · axis                       slider, m
 //! ```
 
 use super::contact::{ContactObserver, ContactReport};
-use super::format::{Coupling, Joint, JointKind, Scene};
+use super::format::{JointKind, PhysicsScene, SceneCoupling, SceneJoint};
 use super::pendulum::Pendulum;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DQuat, DVec3, PI, StateHash, atan2, tangents};
 
-/// Relative energy error beyond which a run has diverged.
+/// Relative energy error from which on a run counts as diverged.
 const DIVERGED: f64 = 10.0;
 
-/// Pose and velocities of a body, as any engine has them.
+/// Pose and velocities of a body, in any engine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
-    /// Centre of mass in the world, m.
+pub struct BodyState {
+    /// Centre of mass, world, m.
     pub position: DVec3,
-    /// Body axes to world axes.
+    /// Rotation from body axes to world axes.
     pub rotation: DQuat,
-    /// Of the centre of mass, m/s.
+    /// Velocity of the centre of mass, m/s.
     pub velocity: DVec3,
-    /// World axes, rad/s.
+    /// Angular velocity, world axes, rad/s.
     pub angular_velocity: DVec3,
 }
 
-impl State {
+impl BodyState {
     /// The world itself.
     pub const WORLD: Self =
         Self { position: DVec3::ZERO, rotation: DQuat::IDENTITY, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO };
@@ -40,7 +41,7 @@ impl State {
     }
 }
 
-impl From<&RigidBody> for State {
+impl From<&RigidBody> for BodyState {
     fn from(body: &RigidBody) -> Self {
         Self {
             position: body.pose().point(body.properties.center),
@@ -52,9 +53,9 @@ impl From<&RigidBody> for State {
 }
 
 /// Kinetic and potential energy with the masses of the file, J; zero height is the world's origin.
-pub fn energy(scene: &Scene, states: &[State]) -> f64 {
+pub fn energy(scene: &PhysicsScene, states: &[BodyState]) -> f64 {
     let gravity = DVec3::from_array(scene.gravity);
-    let one = |(body, state): (&super::Body, &State)| {
+    let one = |(body, state): (&super::SceneBody, &BodyState)| {
         let spin = state.rotation.conjugate() * state.angular_velocity;
         let turning = 0.5 * spin.dot(DVec3::from_array(body.inertia) * spin);
         0.5 * body.mass * state.velocity.length_squared() + turning - body.mass * gravity.dot(state.position)
@@ -62,8 +63,8 @@ pub fn energy(scene: &Scene, states: &[State]) -> f64 {
     scene.bodies.iter().zip(states).map(one).sum()
 }
 
-/// Distance between the two anchors of a joint, m; of a slider, without its way.
-pub fn gap(joint: &Joint, a: &State, b: &State) -> f64 {
+/// Distance between the two anchors of a joint, m; of a slider without its displacement.
+pub fn gap(joint: &SceneJoint, a: &BodyState, b: &BodyState) -> f64 {
     let apart = b.point(joint.anchor_b) - a.point(joint.anchor_a);
     match joint.axes() {
         Some((axis, _)) if joint.kind == JointKind::Slider => apart.reject_from_normalized(a.rotation * axis).length(),
@@ -72,24 +73,24 @@ pub fn gap(joint: &Joint, a: &State, b: &State) -> f64 {
 }
 
 /// Largest [`gap`] of any joint, m.
-pub fn joint_error(scene: &Scene, states: &[State]) -> f64 {
+pub fn joint_error(scene: &PhysicsScene, states: &[BodyState]) -> f64 {
     scene.joints.iter().map(|joint| gap(joint, parent(joint, states), &states[joint.b])).fold(0.0, larger)
 }
 
-/// The larger of two numbers, and the one that is none.
+/// The larger of two numbers; NaN if either is NaN.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }
 
-fn parent<'a>(joint: &Joint, states: &'a [State]) -> &'a State {
-    joint.parent().map_or(&State::WORLD, |body| &states[body])
+fn parent<'a>(joint: &SceneJoint, states: &'a [BodyState]) -> &'a BodyState {
+    joint.parent().map_or(&BodyState::WORLD, |body| &states[body])
 }
 
-/// The coordinate of a hinge or slider since the start.
+/// The coordinate of a hinge or slider, from the start.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
-    joint: Joint,
-    /// A direction across the axis in the parent, and the same at the start as the child sees it.
+    joint: SceneJoint,
+    /// A direction perpendicular to the axis in the parent, and in the child at the start.
     across: (DVec3, DVec3),
     start: f64,
     value: f64,
@@ -97,10 +98,10 @@ pub struct Coordinate {
 
 impl Coordinate {
     /// The coordinate of a joint that has one, at zero.
-    pub fn new(scene: &Scene, joint: usize) -> Option<Self> {
+    pub fn new(scene: &PhysicsScene, joint: usize) -> Option<Self> {
         let joint = scene.joints[joint].clone();
         let (axis, _) = joint.axes()?;
-        let states: Vec<_> = scene.bodies.iter().map(super::Body::state).collect();
+        let states: Vec<_> = scene.bodies.iter().map(super::SceneBody::state).collect();
         let (a, b) = (parent(&joint, &states), &states[joint.b]);
         let (t, _) = tangents(axis);
         let across = (t, b.rotation.conjugate() * (a.rotation * t));
@@ -109,8 +110,8 @@ impl Coordinate {
         Some(coordinate)
     }
 
-    /// Angle within ±π, or way.
-    fn raw(&self, states: &[State]) -> f64 {
+    /// Angle within ±π, or displacement.
+    fn raw(&self, states: &[BodyState]) -> f64 {
         let (a, b) = (parent(&self.joint, states), &states[self.joint.b]);
         let axis = a.rotation * self.joint.axes().expect("checked in `new`").0;
         if self.joint.kind == JointKind::Slider {
@@ -120,8 +121,8 @@ impl Coordinate {
         atan2(axis.dot(t.cross(u)), t.dot(u))
     }
 
-    /// Follows the bodies; between two calls a hinge turns by less than π. Returns the coordinate since the start.
-    pub fn follow(&mut self, states: &[State]) -> f64 {
+    /// Updates the coordinate and returns it, from the start. Between two calls a hinge must rotate by less than π.
+    pub fn unwrap_angle(&mut self, states: &[BodyState]) -> f64 {
         let moved = self.raw(states) - self.start - self.value;
         let turns = if self.joint.kind == JointKind::Hinge { (moved / (2.0 * PI)).round() } else { 0.0 };
         self.value += moved - 2.0 * PI * turns;
@@ -129,8 +130,8 @@ impl Coordinate {
     }
 }
 
-/// One word for the bits of all states.
-pub fn hash(states: &[State]) -> u64 {
+/// Hash of the bits of all states.
+pub fn hash(states: &[BodyState]) -> u64 {
     let mut hash = StateHash::default();
     for state in states {
         hash.add_vector(state.position);
@@ -141,12 +142,12 @@ pub fn hash(states: &[State]) -> u64 {
     hash.0
 }
 
-/// Watches a run step by step.
+/// Observes a run step by step.
 #[derive(Clone, Debug)]
 pub struct Observer<'a> {
-    scene: &'a Scene,
+    scene: &'a PhysicsScene,
     start: f64,
-    couplings: Vec<(&'a Coupling, Vec<Coordinate>)>,
+    couplings: Vec<(&'a SceneCoupling, Vec<Coordinate>)>,
     pendulum: Option<Pendulum>,
     contacts: Option<ContactObserver>,
     coupling_error: f64,
@@ -154,7 +155,7 @@ pub struct Observer<'a> {
     time: f64,
 }
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Largest gap of any joint, m.
@@ -163,43 +164,43 @@ pub struct Report {
     pub max_energy_drift_rel: f64,
     /// The last E − E₀ over the scene's energy.
     pub final_energy_drift_rel: f64,
-    /// When the energy error passed 10 or the engine gave up, s.
+    /// Time at which the energy error passed 10 or the engine failed, s.
     pub diverged_at_s: Option<f64>,
-    /// Falling weight, where the scene knows its acceleration.
+    /// Falling weight, where the scene gives its acceleration.
     pub weight: Option<WeightReport>,
-    /// Pendulum, where the scene knows its period.
+    /// Pendulum, where the scene gives its period.
     pub pendulum: Option<PendulumReport>,
     /// Contacts, where the scene collides.
     pub contacts: Option<ContactReport>,
 }
 
-/// How a weight on gears fell.
+/// Errors of a weight that falls on gears.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WeightReport {
-    /// Its speed at the end against a t.
+    /// Relative error of its speed at the end against a t.
     pub speed_rel_err: f64,
-    /// Its way at the end against a t²/2.
+    /// Relative error of its displacement at the end against a t²/2.
     pub drop_rel_err: f64,
     /// Largest |Σ coefficient · (q − q₀)| of any coupling, m.
     pub max_coupling_err_m: f64,
 }
 
-/// How a pendulum kept time.
+/// Errors of a pendulum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PendulumReport {
-    /// Period by straight lines against the exact one, 10⁻⁶.
+    /// Relative error of the period by linear interpolation, 10⁻⁶.
     pub period_err_ppm: f64,
-    /// Period by cubics against the exact one, 10⁻⁶.
+    /// Relative error of the period by cubic interpolation, 10⁻⁶.
     pub period_err_hermite_ppm: f64,
-    /// Largest sampled angle of the last four seconds over the first one.
+    /// Largest sampled angle of the last four seconds over the initial one.
     pub amplitude_ratio: f64,
 }
 
 impl<'a> Observer<'a> {
-    /// Watches `scene` from its start.
-    pub fn new(scene: &'a Scene) -> Self {
-        let states: Vec<_> = scene.bodies.iter().map(super::Body::state).collect();
-        let coordinates = |coupling: &'a Coupling| {
+    /// An observer of `scene` at its start.
+    pub fn new(scene: &'a PhysicsScene) -> Self {
+        let states: Vec<_> = scene.bodies.iter().map(super::SceneBody::state).collect();
+        let coordinates = |coupling: &'a SceneCoupling| {
             (coupling, coupling.terms.iter().filter_map(|&(joint, _)| Coordinate::new(scene, joint)).collect())
         };
         let start = energy(scene, &states);
@@ -215,15 +216,15 @@ impl<'a> Observer<'a> {
         }
     }
 
-    /// The run is to end after so many seconds.
-    pub fn ends(&mut self, seconds: f64) {
+    /// Sets the end of the run, s.
+    pub fn set_end_time(&mut self, seconds: f64) {
         if let Some(contacts) = &mut self.contacts {
-            contacts.ends(seconds);
+            contacts.set_end_time(seconds);
         }
     }
 
-    /// Sees the states at `t` seconds; false once the run has diverged.
-    pub fn see(&mut self, t: f64, states: &[State]) -> bool {
+    /// Takes the states at `t` seconds; returns false once the run has diverged.
+    pub fn observe(&mut self, t: f64, states: &[BodyState]) -> bool {
         self.time = t;
         let energy = energy(self.scene, states);
         let drift = (energy - self.start) / self.scene.energy_scale;
@@ -233,28 +234,28 @@ impl<'a> Observer<'a> {
         report.max_joint_err_m = larger(report.max_joint_err_m, joint_error(self.scene, states));
         for (coupling, coordinates) in &mut self.couplings {
             let terms = coupling.terms.iter().zip(coordinates);
-            let error: f64 = terms.map(|(&(_, coefficient), q)| coefficient * q.follow(states)).sum();
+            let error: f64 = terms.map(|(&(_, coefficient), q)| coefficient * q.unwrap_angle(states)).sum();
             self.coupling_error = larger(self.coupling_error, error.abs());
         }
         if let Some(pendulum) = &mut self.pendulum {
             pendulum.follow(t, &states[pendulum.body]);
         }
         if let Some(contacts) = &mut self.contacts {
-            contacts.see(t, states, energy, self.scene.energy_scale);
+            contacts.observe(t, states, energy, self.scene.energy_scale);
         }
         if drift.is_nan() || drift.abs() > DIVERGED {
-            self.gave_up(t);
+            self.set_diverged(t);
         }
         self.report.diverged_at_s.is_none()
     }
 
-    /// The engine could not go on at `t` seconds.
-    pub fn gave_up(&mut self, t: f64) {
+    /// Records that the engine failed at `t` seconds.
+    pub fn set_diverged(&mut self, t: f64) {
         self.report.diverged_at_s.get_or_insert(t);
     }
 
-    /// What the run came to; `states` are the last ones seen.
-    pub fn report(&self, states: &[State]) -> Report {
+    /// The result; `states` are the last ones.
+    pub fn report(&self, states: &[BodyState]) -> Report {
         let meta = &self.scene.meta;
         let weight = meta.accel.zip(meta.weight_body).map(|(a, body)| {
             let (state, t) = (&states[body], self.time);

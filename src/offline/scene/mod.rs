@@ -1,25 +1,25 @@
-//! Scenes as files: the same bodies, joints and contacts for this engine and for any other, and one way to measure both.
+//! Physics scenes as files: the same bodies, joints and contacts for this engine and for others, with the same
+//! measures.
 //!
-//! A scene is bodies, joints, couplings and shapes, in SI units ([`format`](mod@format)). It becomes a figure
-//! (`figure.rs`), is run ([`run`]), and is judged by numbers that come from the file and the poses alone
-//! ([`measure`], [`contact`]), never from the engine. Scenes can be made as well as read ([`make`]), so that figures nobody tuned
-//! for go the same way.
+//! A scene consists of bodies, joints, couplings and shapes, in SI units ([`format`](mod@format)). It is converted to a
+//! mechanism (`mechanism.rs`), simulated ([`run`]), and measured ([`measure`], [`contact`]) from the file and the poses
+//! alone. Scenes can also be generated ([`make`]), so that mechanisms are tested for which nothing was tuned.
 
 pub mod contact;
-mod figure;
 pub mod format;
 pub mod linear;
 pub mod make;
 pub mod measure;
+mod mechanism;
 mod pendulum;
-mod row;
+mod record;
 pub mod run;
-pub mod solid;
+pub mod shape;
 pub mod times;
-mod valid;
+mod validate;
 
-pub use format::{Body, Coupling, FORMAT, Joint, JointKind, Meta, OLD_FORMAT, Scene, SceneError};
-pub use measure::{Observer, Report, State};
-pub use row::Row;
+pub use format::{FORMAT, JointKind, Meta, OLD_FORMAT, PhysicsScene, SceneBody, SceneCoupling, SceneError, SceneJoint};
+pub use measure::{BodyState, Observer, Report};
+pub use record::BenchRecord;
 pub use run::{Engine, Limits, Soffio};
-pub use solid::{Solid, SolidAxis, Static, Surface};
+pub use shape::{ContactSurface, SceneShape, ShapeAxis, StaticShape};

@@ -1,4 +1,4 @@
-//! Period and amplitude of a pendulum.
+//! Period and amplitude of a simulated pendulum.
 //!
 //! ```text
 //! θ = atan2(axis·(g × r), g·r), r from the hinge to the centre of mass, rad
@@ -7,16 +7,16 @@
 //! The period is the mean over all zero crossings of θ, two a period. A crossing between two samples is found on the
 //! straight line through them, and on the cubic through both angles and rates (Hermite).
 
-use super::format::{JointKind, Scene};
-use super::measure::{State, larger};
+use super::format::{JointKind, PhysicsScene};
+use super::measure::{BodyState, larger};
 use soffio_math::{DVec3, atan2};
 
 /// Span at the end of a pendulum's run in which its amplitude is sampled, s.
 const AMPLITUDE_SPAN: f64 = 4.0;
-/// Halvings that bring an interval of one step to the rounding of f64.
+/// Bisections that reduce an interval of one step to the precision of f64.
 const HALVINGS: usize = 60;
 
-/// Zero crossings of a pendulum on a hinge of the world.
+/// Zero crossings of a pendulum on a hinge to the world.
 #[derive(Clone, Debug)]
 pub(super) struct Pendulum {
     pub body: usize,
@@ -25,7 +25,7 @@ pub(super) struct Pendulum {
     gravity: DVec3,
     before: Sample,
     crossings: usize,
-    /// First and last crossing on the straight line and on the cubic, s.
+    /// First and last crossing by linear and by cubic interpolation, s.
     first: [f64; 2],
     last: [f64; 2],
     /// Sampled |θ| of the last seconds: (t, |θ|).
@@ -40,8 +40,8 @@ struct Sample {
 }
 
 impl Pendulum {
-    /// `None` where the first joint is no hinge of the world.
-    pub fn new(scene: &Scene) -> Option<Self> {
+    /// `None` where the first joint is not a hinge to the world.
+    pub fn new(scene: &PhysicsScene) -> Option<Self> {
         let joint = scene.joints.first().filter(|j| j.kind == JointKind::Hinge && j.parent().is_none())?;
         let mut pendulum = Self {
             body: joint.b,
@@ -58,14 +58,14 @@ impl Pendulum {
         Some(pendulum)
     }
 
-    fn sample(&self, t: f64, state: &State) -> Sample {
+    fn sample(&self, t: f64, state: &BodyState) -> Sample {
         let r = state.position - self.hinge;
         let angle = atan2(self.axis.dot(self.gravity.cross(r)), self.gravity.dot(r));
         Sample { t, angle, rate: self.axis.dot(state.angular_velocity) }
     }
 
-    /// Sees the body at `t` seconds.
-    pub fn follow(&mut self, t: f64, state: &State) {
+    /// Takes the state of the body at `t` seconds.
+    pub fn follow(&mut self, t: f64, state: &BodyState) {
         let (a, b) = (self.before, self.sample(t, state));
         self.before = b;
         self.recent.push_back((t, b.angle.abs()));
@@ -82,7 +82,7 @@ impl Pendulum {
         }
     }
 
-    /// Mean period on the straight line and on the cubic, s.
+    /// Mean period by linear and by cubic interpolation, s.
     pub fn periods(&self) -> Option<[f64; 2]> {
         let halves = self.crossings.checked_sub(1).filter(|&n| n > 0)? as f64;
         Some(std::array::from_fn(|k| 2.0 * (self.last[k] - self.first[k]) / halves))
@@ -94,7 +94,7 @@ impl Pendulum {
     }
 }
 
-/// Share of the step at which the cubic through both angles and rates is zero; the angles differ in sign.
+/// Fraction of the step at which the Hermite cubic through both angles and rates is zero; the angles differ in sign.
 fn hermite_root(a: &Sample, b: &Sample) -> f64 {
     let h = b.t - a.t;
     let cubic = |s: f64| {

@@ -1,42 +1,42 @@
-//! Runs a scene in an engine: rounds that measure only time, one pass that measures what comes out, and rounds that
-//! measure every step's time.
+//! Runs a scene in an engine: rounds that measure total time, one pass that measures the motion, and rounds that
+//! measure each step's time.
 //!
-//! Time is processor time of the thread, so other work on the machine counts less; the best of the rounds is told, as
-//! other work can only add. The rounds of several engines can take turns ([`Best::round`]), so that a slow spell of the
-//! machine hits all of them.
+//! Time is processor time of the thread, and the best of the rounds counts, since other work on the machine only adds
+//! time. The rounds of several engines can alternate ([`Best::run_round`]), so that a slow spell of the machine affects
+//! all of them.
 
 use std::hint::black_box;
 
 use cpu_time::ThreadTime;
 
-use super::format::Scene;
-use super::measure::{Observer, Report, State, hash};
-use super::row::Row;
+use super::format::PhysicsScene;
+use super::measure::{BodyState, Observer, Report, hash};
+use super::record::BenchRecord;
 use super::times::StepTimes;
 use soffio_multibody::dynamics::{Dynamics, Impact, Integrator, Solver};
 
-/// Rounds of a measurement of time.
+/// Number of timing rounds.
 pub const ROUNDS: usize = 3;
-/// Processor time of one round, s: a round ends here, or with the scene.
+/// Processor time of one round, s: a round ends after it, or with the scene.
 const ROUND_TIME: f64 = 2.0;
-/// Processor time between two looks at the clock, s: a look costs less than a thousandth of it.
-const LOOK: f64 = 1e-3;
+/// Processor time between two readings of the clock, s; a reading costs less than a thousandth of it.
+const CLOCK_INTERVAL: f64 = 1e-3;
 
 /// A scene in an engine.
 pub trait Engine {
-    /// Advances by one step; false if the engine had to give up the motion.
+    /// Advances by one step; false if the engine failed.
     fn step(&mut self) -> bool;
-    /// Substeps that the last step took.
+    /// Number of substeps of the last step.
     fn substeps(&self) -> u32;
-    /// Bodies that sleep after the last step.
+    /// Number of sleeping bodies after the last step.
     fn asleep(&self) -> usize {
         0
     }
     /// The bodies' states in the scene's order.
-    fn states(&self, out: &mut Vec<State>);
+    fn states(&self, out: &mut Vec<BodyState>);
 }
 
-/// This engine.
+/// This engine as an [`Engine`].
 pub struct Soffio {
     dynamics: Dynamics,
     dt: f64,
@@ -45,8 +45,8 @@ pub struct Soffio {
 }
 
 impl Soffio {
-    /// A scene at its start, to be run in steps of `dt` s.
-    pub fn new(scene: &Scene, dt: f64, integrator: Integrator, solver: Solver) -> Self {
+    /// A scene in its start state, simulated in steps of `dt` s.
+    pub fn new(scene: &PhysicsScene, dt: f64, integrator: Integrator, solver: Solver) -> Self {
         let dynamics = scene.dynamics(integrator, solver);
         Self { still: vec![[0.0; 6]; scene.bodies.len()], dynamics, dt, impacts: Vec::new() }
     }
@@ -65,13 +65,13 @@ impl Engine for Soffio {
         (0..self.dynamics.bodies.len()).filter(|&body| self.dynamics.is_asleep(body)).count()
     }
 
-    fn states(&self, out: &mut Vec<State>) {
+    fn states(&self, out: &mut Vec<BodyState>) {
         out.clear();
-        out.extend(self.dynamics.bodies.iter().map(State::from));
+        out.extend(self.dynamics.bodies.iter().map(BodyState::from));
     }
 }
 
-/// How long a measurement may take.
+/// Limits of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Most simulated seconds.
@@ -80,25 +80,25 @@ pub struct Limits {
     pub budget: f64,
 }
 
-/// A motion that was watched.
+/// Result of an observed run.
 #[derive(Clone, Debug)]
-pub struct Watched {
+pub struct Observation {
     /// Simulated time, s.
     pub sim_s: f64,
     /// Mean substeps of a step.
     pub substeps: f64,
-    /// What it came to.
+    /// Measures of the motion.
     pub report: Report,
-    /// Bodies that slept at the end.
+    /// Number of sleeping bodies at the end.
     pub asleep: usize,
     /// Time of each step.
     pub times: StepTimes,
 }
 
-/// Runs `engine` in steps of `dt` and watches each; it ends with the scene, at a limit, or when the motion diverges.
-pub fn watch(scene: &Scene, engine: &mut (impl Engine + ?Sized), dt: f64, limits: Limits) -> Watched {
+/// Runs `engine` in steps of `dt` and observes each; ends with the scene, at a limit, or when the motion diverges.
+pub fn observe(scene: &PhysicsScene, engine: &mut (impl Engine + ?Sized), dt: f64, limits: Limits) -> Observation {
     let mut observer = Observer::new(scene);
-    observer.ends(limits.seconds);
+    observer.set_end_time(limits.seconds);
     let mut times = StepTimes::default();
     let mut states = Vec::with_capacity(scene.bodies.len());
     let start = ThreadTime::now();
@@ -111,32 +111,32 @@ pub fn watch(scene: &Scene, engine: &mut (impl Engine + ?Sized), dt: f64, limits
         engine.states(&mut states);
         let t = steps as f64 * dt;
         if !valid {
-            observer.gave_up(t);
+            observer.set_diverged(t);
         }
-        if !observer.see(t, &states) || start.elapsed().as_secs_f64() > limits.budget {
+        if !observer.observe(t, &states) || start.elapsed().as_secs_f64() > limits.budget {
             break;
         }
     }
     let substeps = substeps as f64 / steps.max(1) as f64;
-    Watched { sim_s: steps as f64 * dt, substeps, report: observer.report(&states), asleep: engine.asleep(), times }
+    Observation { sim_s: steps as f64 * dt, substeps, report: observer.report(&states), asleep: engine.asleep(), times }
 }
 
-/// Steps of `dt` in the scene's time or `seconds`, whichever is less; one at least.
-pub fn step_count(scene: &Scene, dt: f64, seconds: f64) -> u64 {
+/// Number of steps of `dt` in the scene's duration or in `seconds`, whichever is less; at least one.
+pub fn step_count(scene: &PhysicsScene, dt: f64, seconds: f64) -> u64 {
     (scene.duration.min(seconds) / dt).round().max(1.0) as u64
 }
 
-/// One measurement of time.
+/// One timing round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Timed {
     steps: u64,
-    /// Processor time of them all, s.
+    /// Processor time of all steps, s.
     seconds: f64,
-    /// Bits of the states after the last one.
+    /// Hash of the final states.
     hash: u64,
 }
 
-/// Runs an engine for at most `steps` steps and about `most` s of processor time; one step at least.
+/// Runs an engine for at most `steps` steps and about `most` s of processor time; at least one step.
 fn time_round(engine: &mut (impl Engine + ?Sized), steps: u64, most: f64) -> Timed {
     let (mut done, mut chunk) = (0, 1);
     let start = ThreadTime::now();
@@ -152,7 +152,7 @@ fn time_round(engine: &mut (impl Engine + ?Sized), steps: u64, most: f64) -> Tim
         if done >= steps || elapsed >= most {
             break;
         }
-        if elapsed - before < LOOK {
+        if elapsed - before < CLOCK_INTERVAL {
             chunk *= 2;
         }
     }
@@ -170,9 +170,9 @@ pub struct Best {
 }
 
 impl Best {
-    /// Runs one more round of `steps` steps. If the first takes longer than a round may, it ends there, and the others
-    /// run the steps that it ran.
-    pub fn round(&mut self, engine: &mut (impl Engine + ?Sized), steps: u64, limits: Limits) {
+    /// Runs one more round of `steps` steps. If the first exceeds the time of a round, it ends there, and the others
+    /// run as many steps.
+    pub fn run_round(&mut self, engine: &mut (impl Engine + ?Sized), steps: u64, limits: Limits) {
         match self.first {
             None => {
                 let timed = time_round(engine, steps, limits.budget.min(ROUND_TIME));
@@ -191,7 +191,7 @@ impl Best {
         self.first.map_or(0, |timed| timed.steps)
     }
 
-    /// Did all rounds end in the same bits?
+    /// Are the final states of all rounds bit-identical?
     pub fn agree(&self) -> bool {
         self.agree
     }
@@ -202,22 +202,22 @@ impl Best {
     }
 }
 
-/// Measures this engine on a scene: rounds of time, then the pass that watches.
-pub fn measure(scene: &Scene, dt: f64, integrator: Integrator, solver: Solver, limits: Limits) -> Row {
+/// Measures this engine on a scene: timing rounds, then the observed pass.
+pub fn measure(scene: &PhysicsScene, dt: f64, integrator: Integrator, solver: Solver, limits: Limits) -> BenchRecord {
     let engine = || Soffio::new(scene, dt, integrator, solver);
     let mut best = Best::default();
     for _ in 0..ROUNDS {
-        best.round(&mut engine(), step_count(scene, dt, limits.seconds), limits);
+        best.run_round(&mut engine(), step_count(scene, dt, limits.seconds), limits);
     }
-    let mut watched = watch(scene, &mut engine(), dt, limits);
+    let mut watched = observe(scene, &mut engine(), dt, limits);
     for _ in 1..ROUNDS {
-        watched.times.again(&mut engine());
+        watched.times.repeat(&mut engine());
     }
     let config = config(integrator, solver);
-    Row::new(["soffio", env!("CARGO_PKG_VERSION"), &config], scene, dt, &best, &watched)
+    BenchRecord::new(["soffio", env!("CARGO_PKG_VERSION"), &config], scene, dt, &best, &watched)
 }
 
-/// How this engine's settings are called in a row.
+/// Name of this engine's settings in a record.
 pub fn config(integrator: Integrator, solver: Solver) -> String {
     let integrator = match integrator {
         Integrator::Auto => "auto",

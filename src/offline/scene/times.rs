@@ -1,49 +1,49 @@
-//! How long each step of a run took, in processor time of its thread.
+//! Processor time of each step of a run.
 //!
-//! The same steps are run several times and the least time of each counts, as the machine's other work can only add: what
-//! is left of a slow step is the step's own.
+//! The same steps are run several times, and the least time of each counts, since other work on the machine only adds
+//! time.
 
 use cpu_time::ThreadTime;
 use serde::Serialize;
 
 use super::run::Engine;
 
-/// Least time of each step of a run so far, µs.
+/// Least time of each step so far, µs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepTimes {
     us: Vec<f64>,
 }
 
-/// Step times in short, µs.
+/// Summary of the step times, µs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct TimesReport {
     /// Mean.
     pub mean_us: f64,
-    /// Half of the steps take at most so long.
+    /// Median.
     pub p50_us: f64,
-    /// And 99 of 100.
+    /// 99th percentile.
     pub p99_us: f64,
-    /// And all.
+    /// Maximum.
     pub p100_us: f64,
-    /// Index of the longest, from 0.
+    /// Index of the slowest step, from 0.
     pub worst_step: usize,
 }
 
 impl StepTimes {
-    /// Runs the next step of the first round.
+    /// Runs and times the next step of the first round.
     pub fn time<T>(&mut self, step: impl FnOnce() -> T) -> T {
         let (seconds, out) = timed(step);
         self.us.push(1e6 * seconds);
         out
     }
 
-    /// Runs all steps once more in an engine at its start; of each the least time counts.
-    pub fn again(&mut self, engine: &mut (impl Engine + ?Sized)) {
-        self.again_by(|_| engine.step());
+    /// Runs all steps again in an engine at its start; the least time of each step counts.
+    pub fn repeat(&mut self, engine: &mut (impl Engine + ?Sized)) {
+        self.repeat_with(|_| engine.step());
     }
 
-    /// The same with any way to run the step of an index.
-    pub fn again_by<T>(&mut self, mut step: impl FnMut(usize) -> T) {
+    /// As [`Self::repeat`], with a function that runs the step of an index.
+    pub fn repeat_with<T>(&mut self, mut step: impl FnMut(usize) -> T) {
         for (index, least) in self.us.iter_mut().enumerate() {
             *least = least.min(1e6 * timed(|| step(index)).0);
         }
@@ -54,7 +54,7 @@ impl StepTimes {
         &self.us
     }
 
-    /// Mean, percentiles and the longest step; zeros without steps.
+    /// Mean, percentiles and the slowest step; zeros without steps.
     pub fn report(&self) -> TimesReport {
         let mut sorted = self.us.clone();
         sorted.sort_by(f64::total_cmp);
@@ -77,7 +77,7 @@ impl FromIterator<f64> for StepTimes {
     }
 }
 
-/// Runs something; its processor time, s, and what it returns.
+/// Runs a function; returns its processor time, s, and its result.
 pub fn timed<T>(run: impl FnOnce() -> T) -> (f64, T) {
     let start = ThreadTime::now();
     let out = run();

@@ -1,4 +1,4 @@
-//! A sheet of paper: lines, areas and words on pixels.
+//! Raster canvas for charts: lines, discs and text.
 
 use ab_glyph::{Font, FontRef, ScaleFont};
 use image::{Rgb, RgbImage};
@@ -6,40 +6,40 @@ use image::{Rgb, RgbImage};
 /// Red, green, blue.
 pub type Colour = [u8; 3];
 
-/// Paper.
+/// Background colour.
 pub const PAPER: Colour = [252, 251, 248];
-/// Words and axes.
+/// Colour of text and axes.
 pub const INK: Colour = [42, 44, 48];
-/// Lesser words.
+/// Colour of secondary text.
 pub const PALE: Colour = [120, 122, 126];
-/// Lines of a grid.
+/// Colour of grid lines.
 pub const GRID: Colour = [226, 225, 220];
-/// The first curve of a chart.
+/// Colour of the first curve of a chart.
 pub const FIRST: Colour = [28, 92, 160];
-/// The second.
+/// Colour of the second curve.
 pub const SECOND: Colour = [208, 110, 28];
-/// The third.
+/// Colour of the third curve.
 pub const THIRD: Colour = [84, 140, 70];
 
-/// How words stand to their place.
+/// Horizontal alignment of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// They begin there.
+    /// The text begins at the position.
     Left,
-    /// They are centred there.
+    /// The text is centred at the position.
     Middle,
-    /// They end there.
+    /// The text ends at the position.
     Right,
 }
 
-/// A picture under way.
+/// A picture being drawn.
 pub struct Canvas {
     pixels: RgbImage,
     font: FontRef<'static>,
 }
 
 impl Canvas {
-    /// Empty paper.
+    /// An empty canvas.
     pub fn new(width: u32, height: u32) -> Self {
         let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).expect("a font that is compiled in");
         Self { pixels: RgbImage::from_pixel(width, height, Rgb(PAPER)), font }
@@ -50,7 +50,7 @@ impl Canvas {
         self.pixels
     }
 
-    /// Mixes a colour into one pixel.
+    /// Blends a colour into one pixel with opacity `share`.
     pub fn dot(&mut self, x: i64, y: i64, colour: Colour, share: f64) {
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if x < self.pixels.width() && y < self.pixels.height() {
@@ -61,7 +61,7 @@ impl Canvas {
         }
     }
 
-    /// A line of a width in pixels, its edges smooth.
+    /// An antialiased line, its width in pixels.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], width: f64, colour: Colour) {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let length2 = dx * dx + dy * dy;
@@ -81,14 +81,14 @@ impl Canvas {
         }
     }
 
-    /// A line through points.
+    /// A polyline.
     pub fn path(&mut self, points: &[[f64; 2]], width: f64, colour: Colour) {
         for pair in points.windows(2) {
             self.line(pair[0], pair[1], width, colour);
         }
     }
 
-    /// A disc.
+    /// An antialiased disc.
     pub fn disc(&mut self, centre: [f64; 2], radius: f64, colour: Colour, share: f64) {
         let [x, y] = centre;
         for py in (y - radius - 1.0).floor() as i64..=(y + radius + 1.0).ceil() as i64 {
@@ -102,7 +102,7 @@ impl Canvas {
         }
     }
 
-    /// Words on a base line. The answer is their width.
+    /// Draws text on a baseline and returns its width in pixels.
     pub fn words(&mut self, x: f64, y: f64, size: f32, align: Align, colour: Colour, words: &str) -> f64 {
         let font = self.font.clone();
         let scaled = font.as_scaled(size);

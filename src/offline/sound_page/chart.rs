@@ -1,31 +1,31 @@
-//! Axes: a frame with a grid, its numbers, and where a value lies in it.
+//! Chart axes: frame, grid, ticks, and the position of a value.
 
 use super::canvas::{Align, Canvas, GRID, INK, PALE};
 use soffio_math::log10;
 
-/// One direction of a chart.
+/// One axis of a chart.
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
     /// Value at the start.
     pub low: f64,
     /// Value at the end.
     pub high: f64,
-    /// Whether equal ratios are equal lengths.
+    /// Is the scale logarithmic?
     pub logarithmic: bool,
 }
 
 impl Axis {
-    /// Equal differences, equal lengths.
+    /// A linear scale.
     pub fn linear(low: f64, high: f64) -> Self {
         Self { low, high, logarithmic: false }
     }
 
-    /// Equal ratios, equal lengths.
+    /// A logarithmic scale.
     pub fn logarithmic(low: f64, high: f64) -> Self {
         Self { low, high, logarithmic: true }
     }
 
-    /// Place of a value, 0…1.
+    /// Position of a value, 0…1.
     pub fn at(&self, value: f64) -> f64 {
         if self.logarithmic {
             log10(value / self.low) / log10(self.high / self.low)
@@ -34,7 +34,7 @@ impl Axis {
         }
     }
 
-    /// Value at a place 0…1.
+    /// Value at a position 0…1.
     pub fn value(&self, at: f64) -> f64 {
         if self.logarithmic {
             self.low * soffio_math::pow(self.high / self.low, at)
@@ -43,12 +43,12 @@ impl Axis {
         }
     }
 
-    /// Values that get a line, and whether a number too.
+    /// Tick values, and whether each is labelled.
     fn ticks(&self) -> Vec<(f64, bool)> {
         let mut out = Vec::new();
         if self.logarithmic {
             let mut decade = soffio_math::pow(10.0, log10(self.low).floor());
-            // 1, 2, 5 where there is room for them.
+            // 1, 2 and 5 of each decade where there is space.
             let wide = self.high / self.low > 1e4;
             while decade <= self.high {
                 for step in 1..10 {
@@ -74,7 +74,7 @@ impl Axis {
     }
 }
 
-/// A value in few characters: 200, 2k, 0.05.
+/// A short label of a value: 200, 2k, 0.05.
 pub fn short(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude >= 1000.0 {
@@ -89,31 +89,31 @@ fn trim(value: f64, digits: usize) -> String {
     if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }
 
-/// A frame on the canvas.
+/// A chart on the canvas.
 #[derive(Clone, Copy, Debug)]
 pub struct Chart {
     /// Left edge, top edge, width, height, pixels.
     pub place: [f64; 4],
-    /// Across.
+    /// Horizontal axis.
     pub x: Axis,
-    /// Up.
+    /// Vertical axis.
     pub y: Axis,
 }
 
 impl Chart {
-    /// Pixel of a pair of values, held inside the frame.
+    /// Pixel of a pair of values, clamped to the frame.
     pub fn point(&self, x: f64, y: f64) -> [f64; 2] {
         let [left, top, width, height] = self.place;
         [left + width * self.x.at(x).clamp(0.0, 1.0), top + height * (1.0 - self.y.at(y).clamp(0.0, 1.0))]
     }
 
-    /// The same round a picture: without lines over it.
+    /// Draws the frame around a picture, without grid lines over it.
     pub fn frame_over(&self, canvas: &mut Canvas, title: &str, across: &str, up: &str) {
         self.numbers(canvas, false);
         self.titles(canvas, title, across, up);
     }
 
-    /// The grid, its numbers and what it shows.
+    /// Draws grid, tick labels and titles.
     pub fn frame(&self, canvas: &mut Canvas, title: &str, across: &str, up: &str) {
         self.numbers(canvas, true);
         self.titles(canvas, title, across, up);

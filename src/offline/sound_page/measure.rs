@@ -1,28 +1,28 @@
-//! What the pictures show: spectra, spectrograms, and how long each band rings.
+//! Sound analysis for the charts: spectra, spectrograms, and the decay time of each band.
 
 use soffio_fourier::real_forward;
 
 use soffio_math::{PI, cos, decibels, log10};
 
-/// Power of frames of a sound, a row of bins each.
+/// Power spectra of the frames of a sound.
 pub struct Frames {
-    /// Power of each bin, full-scale sine = 1.
+    /// Power of each bin of each frame, full-scale sine = 1.
     pub rows: Vec<Vec<f64>>,
-    /// Hz from bin to bin.
+    /// Distance of the bins, Hz.
     pub bin: f64,
-    /// s from row to row.
+    /// Distance of the frames, s.
     pub hop: f64,
 }
 
 impl Frames {
-    /// Frames of `n` samples, Hann's window, a quarter apart.
+    /// Frames of `n` samples under a Hann window, each a quarter of `n` after the last.
     pub fn new(sound: &[f32], rate: f64, n: usize) -> Self {
         let transform = real_forward(n);
         let window: Vec<f64> = (0..n).map(|i| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / n as f64)).collect();
         let mut bins = transform.make_output_vec();
         let mut rows = Vec::new();
         let hop = n / 4;
-        // The first frame is centred on the first sample, so that an attack is not windowed away.
+        // The first frame is centred on the first sample, so that the window keeps the attack.
         let mut start = -(n as i64) / 2;
         while start + (n as i64) / 2 < sound.len() as i64 {
             let at = |i: usize| {
@@ -54,11 +54,11 @@ impl Frames {
     }
 }
 
-/// T60 of half octaves as they are heard: (Hz, s) of each band that falls far enough to tell.
+/// Audible T60 of half octaves: (Hz, s) of each band whose decay is long enough to measure.
 pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
-    /// Fall over which the slope is taken, dB below the band's top.
+    /// Decay over which the slope is fitted, dB below the band's maximum.
     const FALL: (f64, f64) = (-3.0, -23.0);
-    /// Bands this far below the loudest are not heard.
+    /// Bands this far below the loudest are inaudible.
     const FAINT: f64 = 1e-6;
     let mut out = Vec::new();
     let bands: Vec<(f64, Vec<f64>)> = (0..19)
@@ -94,12 +94,12 @@ pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
     out
 }
 
-/// Greatest sample, dBFS.
+/// Peak level, dBFS.
 pub fn peak(sound: &[f32]) -> f64 {
     decibels(f64::from(sound.iter().fold(0.0f32, |m, x| m.max(x.abs()))))
 }
 
-/// Root mean square of the loudest 50 ms, dBFS.
+/// Level of the loudest 50 ms, root mean square, dBFS.
 pub fn loudest(sound: &[f32], rate: f64) -> f64 {
     let n = (0.05 * rate) as usize;
     let power = |part: &[f32]| part.iter().map(|x| f64::from(*x) * f64::from(*x)).sum::<f64>() / part.len() as f64;

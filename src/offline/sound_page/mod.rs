@@ -1,5 +1,5 @@
-//! Pictures of sounds, for curators: one sheet a timbre (waveform, spectrogram, spectrum, how long its partials ring),
-//! its sound beside it, and a page that shows them all.
+//! Sound charts for curators: for each timbre its waveform, spectrogram, spectrum and decay times as a picture, its
+//! sound as a WAV, and a page that shows them all.
 
 pub(super) mod canvas;
 pub(super) mod chart;
@@ -10,9 +10,9 @@ use std::path::Path;
 
 use image::RgbImage;
 
-use super::audition::{Audition, AuditionError};
+use super::atomic_file::AtomicFile;
+use super::audition::{AuditionError, TestSound};
 use super::wav;
-use super::whole_file::WholeFile;
 use canvas::{Align, Canvas, Colour, FIRST, INK, PALE, SECOND, THIRD};
 use chart::{Axis, Chart, short};
 use measure::Frames;
@@ -21,20 +21,20 @@ use soffio_sound::modes::T60_DECAYS;
 use soffio_sound::timbre::Specimen;
 use soffio_sound::{Mode, Preset, partials};
 
-/// Pixels of a sheet.
+/// Width of a picture, pixels.
 const WIDTH: u32 = 1600;
 const HEIGHT: u32 = 1080;
-/// Length of what the wind or a slide plays, and bounds for what was hit, s.
-const LASTING: f64 = 6.0;
-const SHORTEST: f64 = 0.5;
-const LONGEST: f64 = 8.0;
-/// Range of the pictures, dB below their loudest.
+/// Length of sustained sounds (wind, slide), and shortest and longest length of struck ones, s.
+const SUSTAINED_SECONDS: f64 = 6.0;
+const MIN_SECONDS: f64 = 0.5;
+const MAX_SECONDS: f64 = 8.0;
+/// Range of the charts, dB below their maximum.
 const RANGE: f64 = 90.0;
 
-/// Why a page could not be made.
+/// Errors of a sound page.
 #[derive(Debug, thiserror::Error)]
 pub enum PageError {
-    /// A timbre makes no sound.
+    /// A timbre cannot be rendered.
     #[error(transparent)]
     Sound(#[from] AuditionError),
     /// A file could not be written.
@@ -43,21 +43,21 @@ pub enum PageError {
     /// A sound could not be written.
     #[error(transparent)]
     Wav(#[from] wav::WavError),
-    /// A picture could not be packed.
+    /// A picture could not be encoded.
     #[error("{0}")]
     Picture(#[from] image::ImageError),
 }
 
-/// What one sheet is of.
-pub type Subject = (Preset, Specimen, Audition);
+/// A timbre with its specimen and its test sound.
+pub type Subject = (Preset, Specimen, TestSound);
 
-/// Writes `NAME.png`, `NAME.wav` for each timbre and an `index.html`; makes the folder where there is none.
+/// Writes `NAME.png` and `NAME.wav` for each timbre and an `index.html`; creates the folder if missing.
 pub fn write(folder: &Path, subjects: &[Subject]) -> Result<(), PageError> {
     std::fs::create_dir_all(folder)?;
     let mut page = String::from(HEAD);
     for subject in subjects {
         let (preset, ..) = subject;
-        let sheet = Sheet::new(subject)?;
+        let sheet = TimbreSheet::new(subject)?;
         wav::write_float(folder.join(format!("{}.wav", preset.name)), 1, SAMPLE_RATE, &sheet.sound)?;
         let mut bytes = Vec::new();
         sheet.draw()?.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)?;
@@ -66,7 +66,7 @@ pub fn write(folder: &Path, subjects: &[Subject]) -> Result<(), PageError> {
         page += &format!(
             "<h2 id=\"{name}\">{name}</h2>\n<p>{about}</p>\n<audio controls src=\"{name}.wav\"></audio>\n\
              <img src=\"{name}.png\" alt=\"Waveform, spectrum and decay of {name}: {}\">\n",
-            escaped(&sheet.figures())
+            escaped(&sheet.values_line())
         );
     }
     whole(&folder.join("index.html"), page.as_bytes())?;
@@ -82,25 +82,26 @@ fn escaped(text: &str) -> String {
 }
 
 fn whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = WholeFile::create(path)?;
+    let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;
     file.finish()
 }
 
-/// A timbre, heard and measured.
-struct Sheet<'a> {
+/// A timbre, rendered and measured.
+struct TimbreSheet<'a> {
     preset: &'a Preset,
     modes: Vec<Mode>,
     sound: Vec<f32>,
-    /// The same at half and twice the speed, of what the wind or a slide plays.
+    /// Sustained sounds at half and at twice the speed; empty for struck ones.
     others: Vec<Vec<f32>>,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> TimbreSheet<'a> {
     fn new((preset, specimen, audition): &'a Subject) -> Result<Self, PageError> {
         let modes = partials(preset, &specimen.spec(&preset.name)).map_err(AuditionError::from)?;
         let longest = modes.iter().map(|mode| T60_DECAYS / mode.decay).fold(0.0, f64::max);
-        let seconds = if preset.continuous() { LASTING } else { (0.8 * longest).clamp(SHORTEST, LONGEST) };
+        let seconds =
+            if preset.continuous() { SUSTAINED_SECONDS } else { (0.8 * longest).clamp(MIN_SECONDS, MAX_SECONDS) };
         let mut others = Vec::new();
         if preset.continuous() {
             for factor in [0.5, 2.0] {
@@ -111,8 +112,8 @@ impl<'a> Sheet<'a> {
         Ok(Self { preset, modes, sound: audition.render(preset, specimen, seconds)?, others })
     }
 
-    /// The sound in a line of figures.
-    fn figures(&self) -> String {
+    /// The measured values of the sound in one line.
+    fn values_line(&self) -> String {
         let rate = f64::from(SAMPLE_RATE);
         let mut parts = vec![
             format!("peak {:.1} dBFS at 1 m", measure::peak(&self.sound)).replace('-', "−"),
@@ -132,7 +133,7 @@ impl<'a> Sheet<'a> {
         let mut canvas = Canvas::new(WIDTH, HEIGHT);
         canvas.words(70.0, 62.0, 40.0, Align::Left, INK, &self.preset.name);
         canvas.words(70.0, 94.0, 21.0, Align::Left, PALE, &self.preset.description);
-        canvas.words(1540.0, 94.0, 18.0, Align::Right, INK, &self.figures());
+        canvas.words(1540.0, 94.0, 18.0, Align::Right, INK, &self.values_line());
         let seconds = self.sound.len() as f64 / f64::from(SAMPLE_RATE);
         self.wave(&mut canvas, [70.0, 160.0, 960.0, 190.0], 0.0, seconds, "Waveform");
         let (from, length) = if self.preset.continuous() { (2.0, 0.06) } else { (0.0, 0.03) };
@@ -146,7 +147,7 @@ impl<'a> Sheet<'a> {
         Ok(canvas.finish())
     }
 
-    /// The sound between two times.
+    /// Waveform between two times.
     fn wave(&self, canvas: &mut Canvas, place: [f64; 4], from: f64, length: f64, title: &str) {
         let rate = f64::from(SAMPLE_RATE);
         let (start, count) = ((from * rate) as usize, (length * rate) as usize);
@@ -160,7 +161,7 @@ impl<'a> Sheet<'a> {
         };
         chart.frame(canvas, title, if scale > 1.0 { "ms" } else { "s" }, "full scale = 1");
         if part.len() > 2 * place[2] as usize {
-            // More samples than pixels: the range within each column, up to where the next begins.
+            // With more samples than pixels, draw the range within each column.
             let per = part.len() as f64 / place[2];
             for column in 0..place[2] as usize {
                 let first = |column: usize| (column as f64 * per) as usize;
@@ -177,7 +178,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Power over time and pitch.
+    /// Spectrogram: power over time and frequency.
     fn spectrogram(&self, canvas: &mut Canvas, place: [f64; 4], seconds: f64) {
         let short_sound = seconds < 1.0;
         let frames = Frames::new(&self.sound, f64::from(SAMPLE_RATE), if short_sound { 1024 } else { 4096 });
@@ -204,10 +205,10 @@ impl<'a> Sheet<'a> {
         chart.frame_over(canvas, "Spectrogram", "s", &format!("Hz, {RANGE:.0} dB from dark to light"));
     }
 
-    /// Power over pitch, and at other speeds where there are any.
+    /// Power spectrum, also at the other speeds where there are any.
     fn spectrum(&self, canvas: &mut Canvas, place: [f64; 4]) {
         let rate = f64::from(SAMPLE_RATE);
-        // Of a hit the first half second; else all of it.
+        // The first half second of a struck sound, all of a sustained one.
         let part = |sound: &[f32]| {
             let end = if self.preset.continuous() { sound.len() } else { sound.len().min(rate as usize / 2) };
             let begin = if self.preset.continuous() { end / 8 } else { 0 };
@@ -234,7 +235,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// How long what rings: each partial as it should, each half octave as it does.
+    /// Decay times: nominal for each partial, measured for each half octave.
     fn decay(&self, canvas: &mut Canvas, place: [f64; 4]) {
         let short_sound = self.sound.len() < SAMPLE_RATE as usize;
         let frames = Frames::new(&self.sound, f64::from(SAMPLE_RATE), if short_sound { 512 } else { 2048 });
@@ -281,7 +282,7 @@ fn curve(canvas: &mut Canvas, chart: &Chart, frames: &Frames, colour: Colour) {
     canvas.path(&points, 1.5, colour);
 }
 
-/// Dark to light for 0…1.
+/// Colour of a level 0…1, dark to light.
 fn heat(level: f64) -> Colour {
     const COLOURS: [[f64; 3]; 6] = [
         [16.0, 18.0, 30.0],

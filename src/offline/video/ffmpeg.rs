@@ -1,4 +1,4 @@
-//! Films by the machine's `ffmpeg`: raw frames go to it through a pipe, the sound is added when the run is over.
+//! Video by the system's `ffmpeg`: raw frames go through a pipe, and the sound is added at the end.
 
 use std::fs::File;
 use std::io::Write;
@@ -8,12 +8,15 @@ use std::process::{Child, Command, Stdio};
 use image::RgbaImage;
 use tempfile::TempDir;
 
-/// How to get it.
+/// How to install `ffmpeg`.
 const REMEDY: &str = "install it (Debian: apt-get install ffmpeg)";
-/// Quality of the picture, 0 … 51, less is better: this one shows no difference on a screen.
+/// H.264 rate factor, 0 … 51, lower is better: this one is visually lossless on a screen.
 const RATE_FACTOR: &str = "18";
 
-/// Is there an `ffmpeg` that writes H.264 and AAC? Otherwise why not, and what to do.
+/// Checks that `ffmpeg` can write H.264 and AAC.
+///
+/// # Errors
+/// The reason, and what to do.
 pub(super) fn usable() -> Result<(), String> {
     let listed = Command::new("ffmpeg").args(["-hide_banner", "-loglevel", "error", "-encoders"]).output();
     let text = match listed {
@@ -26,14 +29,14 @@ pub(super) fn usable() -> Result<(), String> {
     }
 }
 
-/// A film on its way: all that is unfinished lies in a folder of its own beside the film's place.
-pub(super) struct Film {
+/// A video being encoded; its temporary files are in a folder beside its destination.
+pub(super) struct FfmpegEncoder {
     child: Child,
     folder: TempDir,
     path: PathBuf,
 }
 
-impl Film {
+impl FfmpegEncoder {
     pub fn create(path: &Path, size: (u32, u32), fps: u32) -> Result<Self, String> {
         let place = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = tempfile::Builder::new()
@@ -43,7 +46,7 @@ impl Film {
         let mut command = ffmpeg(folder.path())?;
         command.args(["-f", "rawvideo", "-pixel_format", "rgba", "-video_size", &format!("{}x{}", size.0, size.1)]);
         command.args(["-framerate", &fps.to_string(), "-i", "pipe:0", "-an"]);
-        // Broadcast's colours, told in the file: without that, players guess by the picture's height.
+        // BT.709 tags: without them players guess the colours by the picture's height.
         command.args(["-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"]);
         command.args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"]);
         command.args(["-c:v", "libx264", "-preset", "medium", "-crf", RATE_FACTOR]);
@@ -53,7 +56,7 @@ impl Film {
         Ok(Self { child, folder, path: path.into() })
     }
 
-    /// Where the run's sound is kept until the end.
+    /// Path of the sound file until the end.
     pub fn sound(&self) -> PathBuf {
         self.folder.path().join("sound.wav")
     }
@@ -67,7 +70,7 @@ impl Film {
     }
 
     pub fn finish(mut self, sound: Option<&Path>) -> Result<(), String> {
-        // The end of the pipe is the end of the film.
+        // The end of the pipe ends the video.
         drop(self.child.stdin.take());
         if !self.child.wait().is_ok_and(|status| status.success()) {
             return Err(self.ended());
@@ -79,7 +82,7 @@ impl Film {
         if let Some(sound) = sound {
             command.arg("-i").arg(sound).args(["-map", "0:v", "-map", "1:a", "-c:a", "aac", "-b:a", "160k"]);
         }
-        // What a player needs first stands first in the file, so that it plays while it still comes over the network.
+        // The index is at the start of the file, so that it plays while it is being downloaded.
         command.args(["-c:v", "copy", "-map_metadata", "-1", "-fflags", "+bitexact", "-movflags", "+faststart"]);
         let status = command.arg(&whole).stdin(Stdio::null()).status();
         if !status.is_ok_and(|status| status.success()) {
@@ -88,7 +91,7 @@ impl Film {
         std::fs::rename(&whole, &self.path).map_err(|e| format!("cannot write {}: {e}", self.path.display()))
     }
 
-    /// What `ffmpeg` said when it gave up.
+    /// Error output of `ffmpeg`.
     fn ended(&self) -> String {
         let said = std::fs::read_to_string(log(self.folder.path())).unwrap_or_default();
         let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
@@ -96,9 +99,9 @@ impl Film {
     }
 }
 
-impl Drop for Film {
+impl Drop for FfmpegEncoder {
     fn drop(&mut self) {
-        // A run that ended early has no use for the rest; one that is over is not there to be stopped.
+        // The encoder of an aborted run is killed; a finished one has exited.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -108,13 +111,13 @@ fn log(folder: &Path) -> PathBuf {
     folder.join("ffmpeg.log")
 }
 
-/// `ffmpeg` with what all uses of it share; what it says goes to a file in `folder`.
+/// The common arguments of `ffmpeg`; its log goes to a file in `folder`.
 fn ffmpeg(folder: &Path) -> Result<Command, String> {
     let log = File::options().create(true).append(true).open(log(folder));
     let log = log.map_err(|e| format!("cannot write in {}: {e}", folder.display()))?;
     let mut command = Command::new("ffmpeg");
     command.args(["-hide_banner", "-loglevel", "error", "-y"]).stdout(Stdio::null()).stderr(log);
-    // Ctrl-C is the run's affair: it ends `ffmpeg` itself, and tidies up.
+    // On Ctrl-C the run stops `ffmpeg` itself and removes its files.
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     Ok(command)

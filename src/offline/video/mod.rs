@@ -1,4 +1,4 @@
-//! Moving pictures of a run: frames go to their file one by one, so that memory does not grow with length.
+//! Video of a run: frames are written one by one, so memory does not grow with the length.
 //!
 //! | file | made by | sound |
 //! |---|---|---|
@@ -6,8 +6,8 @@
 //! | `.apng`, `.png` | here: animated PNG, lossless | none |
 //! | `.y4m` | here: YUV4MPEG2, uncompressed | none |
 //!
-//! Where `ffmpeg` is missing, or cannot do it, an animated PNG takes the place of the first kind. Invariant: whatever
-//! ends a run early, the file is there whole or not at all.
+//! Where `ffmpeg` is missing or lacks the codecs, an animated PNG takes the place of the first kind. Invariant: videos
+//! are written atomically.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -15,43 +15,46 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 
-use super::whole_file::WholeFile;
+use super::atomic_file::AtomicFile;
 
 mod ffmpeg;
 mod y4m;
 
-use ffmpeg::Film;
+use ffmpeg::FfmpegEncoder;
 use y4m::Y4m;
 
-/// What a video is written as.
+/// Format of a video.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// H.264 and AAC, by `ffmpeg`.
-    Film,
+    FfmpegEncoder,
     /// Animated PNG.
     Apng,
     /// YUV4MPEG2.
     Y4m,
 }
 
-/// Where a video goes and how, settled before the run.
+/// Destination and format of a video, decided before the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// How it is written.
+    /// Format.
     pub format: Format,
-    /// What is not as asked, and why.
+    /// What differs from the request, and why.
     pub note: Option<String>,
 }
 
 impl Plan {
-    /// Chooses by the file's extension and by what the machine has, for pictures of `size` pixels.
+    /// Chooses the format by the file's extension and by the codecs of the system, for pictures of `size` pixels.
+    ///
+    /// # Errors
+    /// Where the extension is unknown, or a side is odd.
     pub fn new(path: &Path, size: (u32, u32)) -> Result<Self, String> {
         Self::choose(path, size, ffmpeg::usable)
     }
 
-    /// The same with `usable` to say why there is no `ffmpeg`.
+    /// As [`Self::new`], with `usable` as the check for `ffmpeg`.
     fn choose(path: &Path, size: (u32, u32), usable: impl FnOnce() -> Result<(), String>) -> Result<Self, String> {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
         let silent = |what: &str| Some(format!("{} is {what}, which has no sound; --audio writes it", path.display()));
@@ -60,7 +63,7 @@ impl Plan {
             "apng" | "png" => Ok(plan(Format::Apng, silent("an animated PNG"))),
             "y4m" => Ok(plan(Format::Y4m, silent("YUV4MPEG2"))),
             "mp4" | "mov" | "mkv" => match usable() {
-                Ok(()) if size.0.is_multiple_of(2) && size.1.is_multiple_of(2) => Ok(plan(Format::Film, None)),
+                Ok(()) if size.0.is_multiple_of(2) && size.1.is_multiple_of(2) => Ok(plan(Format::FfmpegEncoder, None)),
                 Ok(()) => {
                     let [w, h] = [size.0, size.1].map(|side| side.next_multiple_of(2));
                     Err(format!("H.264 needs even sides: {}x{} pixels cannot be; --size {w}x{h} can", size.0, size.1))
@@ -82,44 +85,44 @@ impl Plan {
     }
 }
 
-/// A video on its way.
+/// A video being written.
 pub struct Video {
     sink: Sink,
     left: u32,
 }
 
 enum Sink {
-    Film(Film),
-    Apng { writer: png::Writer<BufWriter<File>>, file: WholeFile, rgb: Vec<u8> },
+    FfmpegEncoder(FfmpegEncoder),
+    Apng { writer: png::Writer<BufWriter<File>>, file: AtomicFile, rgb: Vec<u8> },
     Y4m(Y4m),
 }
 
 impl Video {
-    /// Begins a video of `frames` pictures (one at least) of `size` pixels, `fps` a second.
+    /// Creates a video of `frames` pictures (at least one) of `size` pixels, `fps` a second.
     pub fn create(plan: &Plan, size: (u32, u32), fps: u32, frames: u32) -> Result<Self, String> {
         let frames = frames.max(1);
         let sink = match plan.format {
-            Format::Film => Sink::Film(Film::create(&plan.path, size, fps)?),
+            Format::FfmpegEncoder => Sink::FfmpegEncoder(FfmpegEncoder::create(&plan.path, size, fps)?),
             Format::Apng => apng(&plan.path, size, fps, frames)?,
             Format::Y4m => Sink::Y4m(Y4m::create(&plan.path, size, fps).map_err(|e| e.to_string())?),
         };
         Ok(Self { sink, left: frames })
     }
 
-    /// Where the run's sound (WAV) is to be written for this video, if it has any and nobody else wants it.
+    /// Path to which the run's sound (WAV) must be written for this video; `None` where it has no sound.
     pub fn sound(&self) -> Option<PathBuf> {
         match &self.sink {
-            Sink::Film(film) => Some(film.sound()),
+            Sink::FfmpegEncoder(film) => Some(film.sound()),
             _ => None,
         }
     }
 
-    /// Adds the next picture; what comes after the last is left out.
+    /// Adds the next picture; pictures after the last are ignored.
     pub fn push(&mut self, picture: &RgbaImage) -> Result<(), String> {
         let Some(left) = self.left.checked_sub(1) else { return Ok(()) };
         self.left = left;
         match &mut self.sink {
-            Sink::Film(film) => film.push(picture),
+            Sink::FfmpegEncoder(film) => film.push(picture),
             Sink::Apng { writer, rgb, file } => {
                 rgb.clear();
                 rgb.extend(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]));
@@ -129,10 +132,10 @@ impl Video {
         }
     }
 
-    /// Adds the sound and puts the file in its place.
+    /// Adds the sound and completes the file.
     pub fn finish(self, sound: Option<&Path>) -> Result<(), String> {
         match self.sink {
-            Sink::Film(film) => film.finish(sound),
+            Sink::FfmpegEncoder(film) => film.finish(sound),
             Sink::Apng { writer, file, .. } => {
                 writer.finish().map_err(|e| unwritten(file.path(), &e))?;
                 file.finish().map_err(|e| e.to_string())
@@ -143,7 +146,7 @@ impl Video {
 }
 
 fn apng(path: &Path, size: (u32, u32), fps: u32, frames: u32) -> Result<Sink, String> {
-    let file = WholeFile::create(path).map_err(|e| e.to_string())?;
+    let file = AtomicFile::create(path).map_err(|e| e.to_string())?;
     let handle = file.reopen().map_err(|e| unwritten(path, &e))?;
     let mut encoder = png::Encoder::new(BufWriter::new(handle), size.0, size.1);
     encoder.set_color(png::ColorType::Rgb);
@@ -177,7 +180,7 @@ mod tests {
     #[test]
     fn the_extension_chooses_and_odd_sides_are_refused_before_the_run() {
         let format = |path| plan(path, (64, 36), true).map(|plan| plan.format);
-        assert_eq!(format("a.MP4"), Ok(Format::Film));
+        assert_eq!(format("a.MP4"), Ok(Format::FfmpegEncoder));
         assert_eq!(format("a.y4m"), Ok(Format::Y4m));
         assert_eq!(format("a.png"), Ok(Format::Apng));
         assert!(format("a.gif").is_err_and(|e| e.contains(".apng")));

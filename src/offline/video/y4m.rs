@@ -5,21 +5,21 @@ use std::path::Path;
 
 use image::RgbaImage;
 
-use super::WholeFile;
+use super::AtomicFile;
 
-/// A file on its way.
+/// A file being written.
 pub(super) struct Y4m {
-    file: WholeFile,
-    /// Luma's shares of red and blue.
+    file: AtomicFile,
+    /// Luma coefficients of red and blue.
     shares: [f32; 2],
     planes: [Vec<u8>; 3],
 }
 
 impl Y4m {
     pub fn create(path: &Path, (width, height): (u32, u32), fps: u32) -> io::Result<Self> {
-        let mut file = WholeFile::create(path)?;
+        let mut file = AtomicFile::create(path)?;
         writeln!(file, "YUV4MPEG2 W{width} H{height} F{fps}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED")?;
-        // The format has no word for the matrix; players take BT.709 for high definition and BT.601 below.
+        // The format does not name the matrix; players assume BT.709 for high definition and BT.601 below.
         let shares = if width >= 1280 || height > 576 { [0.2126, 0.0722] } else { [0.299, 0.114] };
         Ok(Self { file, shares, planes: Default::default() })
     }
@@ -40,8 +40,8 @@ impl Y4m {
     }
 }
 
-/// Y′, C_B and C_R of 8 bits in the limited range (ITU-R BT.601 2.5, BT.709 3.3): Y′ = k_r R + (1 − k_r − k_b) G + k_b B,
-/// 16 + 219 Y′ and 128 + 224 (B − Y′)/(2 − 2 k_b), and the same with R.
+/// Y′, C_B and C_R in 8 bits, limited range (ITU-R BT.601 2.5, BT.709 3.3): Y′ = k_r R + (1 − k_r − k_b) G + k_b B,
+/// stored as 16 + 219 Y′; C_B as 128 + 224 (B − Y′)/(2 − 2 k_b), and C_R likewise with R.
 fn codes([red, blue]: [f32; 2], rgb: [u8; 3]) -> [u8; 3] {
     let [r, g, b] = rgb.map(|code| f32::from(code) / 255.0);
     let y = red * r + (1.0 - red - blue) * g + blue * b;

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use soffio_math::noise::{Random, hash_words};
-use soffio_offline::{wav, whole_file::WholeFile};
+use soffio_offline::{atomic_file::AtomicFile, wav};
 use soffio_soundscape::scenes::{Condition, Hearing, World};
 use soffio_soundscape::{Kind, RATE, Take};
 
@@ -61,7 +61,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     }
     let labels = args.folder.join("labels.csv");
     let fail = |error: std::io::Error| Failure::input(format!("{}: {error}", labels.display()));
-    let file = WholeFile::create(&labels).map_err(fail)?;
+    let file = AtomicFile::create(&labels).map_err(fail)?;
     file.reopen().and_then(|mut out| out.write_all(table.as_bytes())).map_err(fail)?;
     file.finish().map_err(fail)?;
     println!("{}: {} scenes", args.folder.display(), 5 * args.count);

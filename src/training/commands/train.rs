@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use soffio_detector::BlowSettings;
-use soffio_offline::whole_file::WholeFile;
+use soffio_offline::atomic_file::AtomicFile;
 use soffio_soundscape::Take;
 use soffio_soundscape::scenes::Hearing;
 
@@ -103,7 +103,7 @@ fn teach<const IN: usize, const FIRST: usize, const SECOND: usize>(
     };
     examine(args, &course::ear(subject, &network));
     let fail = |error: std::io::Error| Failure::input(format!("{}: {error}", path.display()));
-    let file = WholeFile::create(path).map_err(fail)?;
+    let file = AtomicFile::create(path).map_err(fail)?;
     let table = tables::written(subject, &network);
     file.reopen().and_then(|mut out| out.write_all(table.as_bytes())).map_err(fail)?;
     file.finish().map_err(fail)

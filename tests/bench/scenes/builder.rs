@@ -12,7 +12,10 @@
 
 use serde_json::to_value;
 use soffio_math::{DQuat, DVec3, PI};
-use soffio_offline::scene::{Body, FORMAT, Joint, JointKind, Meta, Scene, Solid, SolidAxis, State, Static, Surface};
+use soffio_offline::scene::{
+    BodyState, ContactSurface, FORMAT, JointKind, Meta, PhysicsScene, SceneBody, SceneJoint, SceneShape, ShapeAxis,
+    StaticShape,
+};
 
 /// m/s².
 const G: f64 = 9.81;
@@ -25,39 +28,39 @@ pub const STEEL: f64 = 7_800.0;
 const ROUNDING: f64 = 0.02;
 
 /// A box with rounded edges.
-pub fn cuboid(half: DVec3) -> Solid {
-    Solid::Box { half: half.to_array(), rounding: ROUNDING * half.min_element() }
+pub fn cuboid(half: DVec3) -> SceneShape {
+    SceneShape::Box { half: half.to_array(), rounding: ROUNDING * half.min_element() }
 }
 
 /// A ball.
-pub fn ball(radius: f64) -> Solid {
-    Solid::Sphere { radius }
+pub fn ball(radius: f64) -> SceneShape {
+    SceneShape::Sphere { radius }
 }
 
 /// A cylinder along y with rounded edges.
-pub fn cylinder(radius: f64, half_height: f64) -> Solid {
+pub fn cylinder(radius: f64, half_height: f64) -> SceneShape {
     let rounding = ROUNDING * radius.min(half_height);
-    Solid::Cylinder { radius, half_height, axis: SolidAxis::Y, rounding }
+    SceneShape::Cylinder { radius, half_height, axis: ShapeAxis::Y, rounding }
 }
 
 /// A capsule.
-pub fn capsule(radius: f64, half_height: f64, axis: SolidAxis) -> Solid {
-    Solid::Capsule { radius, half_height, axis }
+pub fn capsule(radius: f64, half_height: f64, axis: ShapeAxis) -> SceneShape {
+    SceneShape::Capsule { radius, half_height, axis }
 }
 
 /// A body at rest at a place.
-pub fn at(position: DVec3) -> State {
-    State { position, ..State::WORLD }
+pub fn at(position: DVec3) -> BodyState {
+    BodyState { position, ..BodyState::WORLD }
 }
 
 pub struct Builder {
-    scene: Scene,
-    states: Vec<State>,
+    scene: PhysicsScene,
+    states: Vec<BodyState>,
 }
 
 impl Builder {
     pub fn new(name: &str, about: &str, duration: f64) -> Self {
-        let scene = Scene {
+        let scene = PhysicsScene {
             format: FORMAT.into(),
             name: name.into(),
             about: about.into(),
@@ -77,27 +80,27 @@ impl Builder {
 
     /// Shapes collide with this friction and restitution.
     pub fn colliding(mut self, friction: f64, restitution: f64) -> Self {
-        self.scene.surface = Some(Surface { friction, restitution, ..Surface::default() });
+        self.scene.surface = Some(ContactSurface { friction, restitution, ..ContactSurface::default() });
         self
     }
 
     /// A floor at height 0.
     pub fn floor(mut self) -> Self {
-        self.fixed(Solid::Plane { normal: [0.0, 1.0, 0.0] }, DVec3::ZERO, DQuat::IDENTITY);
+        self.fixed(SceneShape::Plane { normal: [0.0, 1.0, 0.0] }, DVec3::ZERO, DQuat::IDENTITY);
         self
     }
 
     /// A shape of the world.
-    pub fn fixed(&mut self, shape: Solid, position: DVec3, rotation: DQuat) {
-        self.scene.statics.push(Static::new(shape, position, rotation));
+    pub fn fixed(&mut self, shape: SceneShape, position: DVec3, rotation: DQuat) {
+        self.scene.statics.push(StaticShape::new(shape, position, rotation));
     }
 
     /// A homogeneous body; returns its index.
-    pub fn body(&mut self, solid: Solid, density: f64, state: State) -> usize {
+    pub fn body(&mut self, solid: SceneShape, density: f64, state: BodyState) -> usize {
         let (mass, inertia) = weigh(&solid, density);
         let index = self.states.len();
         self.states.push(state);
-        self.scene.bodies.push(Body {
+        self.scene.bodies.push(SceneBody {
             name: format!("body{index}"),
             mass,
             inertia,
@@ -112,11 +115,18 @@ impl Builder {
     }
 
     /// A joint between two bodies (no `a` is the world) at a point of the world.
-    fn joint(&mut self, kind: JointKind, a: Option<usize>, b: usize, point: DVec3, axis: Option<DVec3>) -> &mut Joint {
-        let state = |body: Option<usize>| body.map_or(State::WORLD, |body| self.states[body]);
+    fn joint(
+        &mut self,
+        kind: JointKind,
+        a: Option<usize>,
+        b: usize,
+        point: DVec3,
+        axis: Option<DVec3>,
+    ) -> &mut SceneJoint {
+        let state = |body: Option<usize>| body.map_or(BodyState::WORLD, |body| self.states[body]);
         let (first, second) = (state(a), state(Some(b)));
-        let local = |state: &State, v: DVec3| (state.rotation.conjugate() * v).to_array();
-        let joint = Joint {
+        let local = |state: &BodyState, v: DVec3| (state.rotation.conjugate() * v).to_array();
+        let joint = SceneJoint {
             kind,
             a: a.map_or(-1, |a| a as i64),
             b,
@@ -141,8 +151,8 @@ impl Builder {
     }
 
     /// The scene; its energy is what moves at the start and what can fall to a height of `ground`.
-    pub fn finish(mut self, ground: f64) -> Scene {
-        let energy = |(body, state): (&Body, &State)| {
+    pub fn finish(mut self, ground: f64) -> PhysicsScene {
+        let energy = |(body, state): (&SceneBody, &BodyState)| {
             let spin = state.rotation.conjugate() * state.angular_velocity;
             let turning = 0.5 * spin.dot(DVec3::from_array(body.inertia) * spin);
             0.5 * body.mass * state.velocity.length_squared() + turning + body.mass * G * (state.position.y - ground)
@@ -153,32 +163,32 @@ impl Builder {
 }
 
 /// Mass and principal moments of a homogeneous solid.
-fn weigh(solid: &Solid, density: f64) -> (f64, [f64; 3]) {
-    let round = |axis: SolidAxis, along: f64, across: f64| match axis {
-        SolidAxis::X => [along, across, across],
-        SolidAxis::Y => [across, along, across],
-        SolidAxis::Z => [across, across, along],
+fn weigh(solid: &SceneShape, density: f64) -> (f64, [f64; 3]) {
+    let round = |axis: ShapeAxis, along: f64, across: f64| match axis {
+        ShapeAxis::X => [along, across, across],
+        ShapeAxis::Y => [across, along, across],
+        ShapeAxis::Z => [across, across, along],
     };
     match *solid {
-        Solid::Box { half: [a, b, c], .. } => {
+        SceneShape::Box { half: [a, b, c], .. } => {
             let mass = 8.0 * density * a * b * c;
             let moment = |p: f64, q: f64| mass * (p * p + q * q) / 3.0;
             (mass, [moment(b, c), moment(c, a), moment(a, b)])
         }
-        Solid::Sphere { radius: r } => {
+        SceneShape::Sphere { radius: r } => {
             let mass = 4.0 / 3.0 * PI * density * r * r * r;
             (mass, [0.4 * mass * r * r; 3])
         }
-        Solid::Cylinder { radius: r, half_height: h, axis, .. } => {
+        SceneShape::Cylinder { radius: r, half_height: h, axis, .. } => {
             let mass = 2.0 * PI * density * r * r * h;
             (mass, round(axis, 0.5 * mass * r * r, mass * (0.25 * r * r + h * h / 3.0)))
         }
-        Solid::Capsule { radius: r, half_height: h, axis } => {
+        SceneShape::Capsule { radius: r, half_height: h, axis } => {
             let (tube, caps) = (2.0 * PI * density * r * r * h, 4.0 / 3.0 * PI * density * r * r * r);
             let along = (0.5 * tube + 0.4 * caps) * r * r;
             let across = tube * (0.25 * r * r + h * h / 3.0) + caps * (0.4 * r * r + h * h + 0.75 * h * r);
             (tube + caps, round(axis, along, across))
         }
-        Solid::Plane { .. } => unreachable!("a plane is no body"),
+        SceneShape::Plane { .. } => unreachable!("a plane is no body"),
     }
 }

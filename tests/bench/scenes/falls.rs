@@ -2,7 +2,7 @@
 
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, PI, cos, rotation, sin};
-use soffio_offline::scene::{Scene, SolidAxis, State};
+use soffio_offline::scene::{BodyState, PhysicsScene, ShapeAxis};
 
 use crate::builder::{Builder, STEEL, WOOD, at, ball, capsule, cuboid, cylinder};
 
@@ -12,13 +12,13 @@ fn turned(random: &mut Random) -> DQuat {
 }
 
 /// Cubes of 0.1 m dropped from random places.
-pub fn pile(n: usize, seed: u64) -> Scene {
+pub fn pile(n: usize, seed: u64) -> PhysicsScene {
     let name = format!("pile_{n}");
     let mut builder =
         Builder::new(&name, "wooden cubes of 0.1 m that fall into a heap", 10.0).colliding(0.5, 0.0).floor();
     let mut random = Random::new(seed);
     for place in columns(n, 3, 0.22, &mut random) {
-        let state = State { rotation: turned(&mut random), ..at(place) };
+        let state = BodyState { rotation: turned(&mut random), ..at(place) };
         builder.body(cuboid(DVec3::splat(0.05)), WOOD, state);
     }
     builder.finish(0.0)
@@ -35,7 +35,7 @@ fn columns(n: usize, across: usize, pitch: f64, random: &mut Random) -> Vec<DVec
 }
 
 /// Dominoes 0.05 m apart, the first tipped past its balance.
-pub fn dominoes(n: usize) -> Scene {
+pub fn dominoes(n: usize) -> PhysicsScene {
     /// Half a domino, m: it falls by itself from a lean of atan(0.01/0.05), 11.3 degrees.
     const HALF: DVec3 = DVec3::new(0.01, 0.05, 0.025);
     const SPACING: f64 = 0.05;
@@ -46,13 +46,13 @@ pub fn dominoes(n: usize) -> Scene {
         let edge = DVec3::X * (SPACING * i as f64 + HALF.x);
         let lean = rotation(DVec3::Z * if i == 0 { -TIPPED } else { 0.0 });
         let centre = edge + lean * DVec3::new(-HALF.x, HALF.y, 0.0);
-        builder.body(cuboid(HALF), 2.0 * WOOD, State { rotation: lean, ..at(centre) });
+        builder.body(cuboid(HALF), 2.0 * WOOD, BodyState { rotation: lean, ..at(centre) });
     }
     builder.finish(0.0)
 }
 
 /// Balls of 1 cm that fall through rows of pegs in a narrow case.
-pub fn pegs(n: usize, seed: u64) -> Scene {
+pub fn pegs(n: usize, seed: u64) -> PhysicsScene {
     const RADIUS: f64 = 0.01;
     /// Half the case, m.
     const CASE: DVec3 = DVec3::new(0.2, 0.6, 0.03);
@@ -90,7 +90,7 @@ pub fn pegs(n: usize, seed: u64) -> Scene {
 }
 
 /// Boxes, balls, cylinders and capsules dropped from random places between four walls.
-pub fn heap(n: usize, seed: u64) -> Scene {
+pub fn heap(n: usize, seed: u64) -> PhysicsScene {
     let mut builder =
         Builder::new(&format!("heap_{n}"), "boxes, balls, cylinders and capsules that fall into a heap", 8.0)
             .colliding(0.4, 0.2)
@@ -102,15 +102,15 @@ pub fn heap(n: usize, seed: u64) -> Scene {
             0 => cuboid(size * DVec3::new(1.0, random.range(0.5, 1.0), random.range(0.5, 1.0))),
             1 => ball(size),
             2 => cylinder(size, random.range(0.4, 1.2) * size),
-            _ => capsule(0.6 * size, 0.7 * size, SolidAxis::Y),
+            _ => capsule(0.6 * size, 0.7 * size, ShapeAxis::Y),
         };
-        builder.body(solid, 2.0 * WOOD, State { rotation: turned(&mut random), ..at(place) });
+        builder.body(solid, 2.0 * WOOD, BodyState { rotation: turned(&mut random), ..at(place) });
     }
     builder.finish(0.0)
 }
 
 /// A chain of capsules that hangs in the air and falls on a floor, end first.
-pub fn chain(links: usize) -> Scene {
+pub fn chain(links: usize) -> PhysicsScene {
     const RADIUS: f64 = 0.008;
     const HALF: f64 = 0.02;
     let mut builder = Builder::new(&format!("falling_chain_{links}"), "a chain that falls on a floor, end first", 6.0)
@@ -122,8 +122,8 @@ pub fn chain(links: usize) -> Scene {
     let foot = DVec3::Y * 0.1;
     for i in 0..links {
         let centre = foot + (2 * i + 1) as f64 * HALF * along;
-        let solid = capsule(RADIUS, HALF - RADIUS, SolidAxis::Y);
-        let link = builder.body(solid, STEEL, State { rotation: turn, ..at(centre) });
+        let solid = capsule(RADIUS, HALF - RADIUS, ShapeAxis::Y);
+        let link = builder.body(solid, STEEL, BodyState { rotation: turn, ..at(centre) });
         if let Some(below) = link.checked_sub(1) {
             builder.spherical(Some(below), link, foot + 2.0 * i as f64 * HALF * along);
         }
@@ -132,7 +132,7 @@ pub fn chain(links: usize) -> Scene {
 }
 
 /// A bowl of fixed boxes in rings, and balls that run down into it.
-pub fn bowl(facets: usize, balls: usize, seed: u64) -> Scene {
+pub fn bowl(facets: usize, balls: usize, seed: u64) -> PhysicsScene {
     let mut builder = Builder::new(&format!("bowl_{facets}_{balls}"), "balls in a bowl made of boxes", 8.0)
         .colliding(0.3, 0.4)
         .floor();

@@ -2,12 +2,12 @@
 
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI, rotation};
-use soffio_offline::scene::{Scene, SolidAxis, State};
+use soffio_offline::scene::{BodyState, PhysicsScene, ShapeAxis};
 
 use crate::builder::{Builder, STEEL, ball, capsule};
 
 /// Rods that hang 3 cm apart by ball joints over their tops; one of four is pushed.
-pub fn chimes([across, deep]: [usize; 2], seed: u64) -> Scene {
+pub fn chimes([across, deep]: [usize; 2], seed: u64) -> PhysicsScene {
     const PITCH: f64 = 0.03;
     const RADIUS: f64 = 0.005;
     const HALF: f64 = 0.1;
@@ -20,15 +20,16 @@ pub fn chimes([across, deep]: [usize; 2], seed: u64) -> Scene {
         let arm = DVec3::Y * (CORD + HALF);
         let pushed = random.unit() < 0.25;
         let spin = DVec3::new(random.signed(), 0.0, random.signed()) * if pushed { 3.0 } else { 0.0 };
-        let state = State { position: nail - arm, velocity: -spin.cross(arm), angular_velocity: spin, ..State::WORLD };
-        let rod = builder.body(capsule(RADIUS, HALF - RADIUS, SolidAxis::Y), STEEL, state);
+        let state =
+            BodyState { position: nail - arm, velocity: -spin.cross(arm), angular_velocity: spin, ..BodyState::WORLD };
+        let rod = builder.body(capsule(RADIUS, HALF - RADIUS, ShapeAxis::Y), STEEL, state);
         builder.spherical(None, rod, nail);
     }
     builder.finish(-(CORD + HALF))
 }
 
 /// Newton's cradle: balls on pairs of cords, which let each swing in one plane; the first is lifted by 40 degrees.
-pub fn cradle(balls: usize, gap: f64) -> Scene {
+pub fn cradle(balls: usize, gap: f64) -> PhysicsScene {
     const RADIUS: f64 = 0.02;
     const CORD: f64 = 0.3;
     const LIFTED: f64 = 40.0 * PI / 180.0;
@@ -39,7 +40,7 @@ pub fn cradle(balls: usize, gap: f64) -> Scene {
         let nail = DVec3::X * (2.0 * RADIUS + gap) * i as f64;
         let turn = rotation(DVec3::Z * if i == 0 { -LIFTED } else { 0.0 });
         let position = nail - turn * (DVec3::Y * CORD);
-        let index = builder.body(ball(RADIUS), STEEL, State { position, rotation: turn, ..State::WORLD });
+        let index = builder.body(ball(RADIUS), STEEL, BodyState { position, rotation: turn, ..BodyState::WORLD });
         builder.hinge(None, index, nail, None);
     }
     builder.finish(-CORD)

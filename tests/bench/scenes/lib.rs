@@ -16,13 +16,13 @@ mod hung;
 mod loops;
 mod stacks;
 
-use soffio_offline::scene::{Scene, make};
+use soffio_offline::scene::{PhysicsScene, make};
 
 /// Seed of what is random.
 const SEED: u64 = 2;
 
 /// The scenes that bars are measured on.
-pub fn measured() -> Vec<Scene> {
+pub fn measured() -> Vec<PhysicsScene> {
     let mut scenes = Vec::new();
     scenes.extend([10, 16, 20].map(stacks::tower));
     scenes.push(falls::pile(50, SEED));
@@ -43,7 +43,7 @@ pub fn measured() -> Vec<Scene> {
 }
 
 /// Other scenes, to tune on.
-pub fn tuning() -> Vec<Scene> {
+pub fn tuning() -> Vec<PhysicsScene> {
     vec![
         stacks::leaning_wall(8, 5),
         stacks::pyramid(9),

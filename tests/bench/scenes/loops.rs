@@ -2,7 +2,7 @@
 
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, cos, sin};
-use soffio_offline::scene::{Scene, State};
+use soffio_offline::scene::{BodyState, PhysicsScene};
 
 use crate::builder::{Builder, STEEL, at, ball, cuboid};
 
@@ -12,14 +12,14 @@ const DURATION: f64 = 10.0;
 const THIN: f64 = 0.003;
 
 /// A bar from one point to another: half length along x, and its state at rest.
-fn bar(from: DVec3, to: DVec3) -> (DVec3, State) {
+fn bar(from: DVec3, to: DVec3) -> (DVec3, BodyState) {
     let rotation = DQuat::from_rotation_arc(DVec3::X, (to - from).normalize());
-    (DVec3::new(0.5 * from.distance(to), THIN, THIN), State { rotation, ..at(0.5 * (from + to)) })
+    (DVec3::new(0.5 * from.distance(to), THIN, THIN), BodyState { rotation, ..at(0.5 * (from + to)) })
 }
 
 /// Four-bar linkages under each other: two rails hang on the rung above and carry the next. All joints are hinges, the
 /// rails lean at the start; with `limits` each left rail stops at a lean of −0.3 and 0.6 rad.
-pub fn ladder(rungs: usize, limits: bool) -> Scene {
+pub fn ladder(rungs: usize, limits: bool) -> PhysicsScene {
     const WIDTH: f64 = 0.2;
     const RAIL: f64 = 0.05;
     const LEAN: f64 = 0.4;
@@ -50,7 +50,7 @@ pub fn ladder(rungs: usize, limits: bool) -> Scene {
 /// A net of `n` by `n` knots and the rods between them on ball joints, its corners nailed. It hangs between two equal
 /// arcs that carry each other (a translation surface), so that all rods have one length. Knots differ in weight, so that it
 /// sways.
-pub fn net(n: usize) -> Scene {
+pub fn net(n: usize) -> PhysicsScene {
     const ROD: f64 = 0.05;
     const KNOT: f64 = 0.004;
     /// Lean of the first and last rod of an arc, rad.

@@ -1,7 +1,7 @@
 //! What should stand still.
 
 use soffio_math::DVec3;
-use soffio_offline::scene::Scene;
+use soffio_offline::scene::PhysicsScene;
 
 use crate::builder::{Builder, WOOD, at, cuboid};
 
@@ -17,7 +17,7 @@ fn wood(name: &str, about: &str) -> Builder {
 }
 
 /// `n` cubes of 0.1 m on each other.
-pub fn tower(n: usize) -> Scene {
+pub fn tower(n: usize) -> PhysicsScene {
     let mut builder = wood(&format!("tower_{n}"), "wooden cubes of 0.1 m on each other");
     for i in 0..n {
         builder.body(cuboid(DVec3::splat(HALF)), WOOD, at(DVec3::Y * (2 * i + 1) as f64 * HALF));
@@ -26,7 +26,7 @@ pub fn tower(n: usize) -> Scene {
 }
 
 /// Cubes of 0.1 m in rows on a floor, `gap` apart.
-pub fn floor(name: &str, [across, deep]: [usize; 2], gap: f64) -> Scene {
+pub fn floor(name: &str, [across, deep]: [usize; 2], gap: f64) -> PhysicsScene {
     let mut builder = wood(name, "wooden cubes of 0.1 m side by side on a floor: four points each");
     let pitch = 2.0 * HALF + gap;
     for i in 0..across * deep {
@@ -37,7 +37,7 @@ pub fn floor(name: &str, [across, deep]: [usize; 2], gap: f64) -> Scene {
 }
 
 /// Rows of cubes, each one shorter than the row below.
-pub fn pyramid(base: usize) -> Scene {
+pub fn pyramid(base: usize) -> PhysicsScene {
     let mut builder = wood(&format!("pyramid_{base}"), "rows of wooden cubes, each on two of the row below");
     for row in 0..base {
         for i in 0..base - row {
@@ -49,7 +49,7 @@ pub fn pyramid(base: usize) -> Scene {
 }
 
 /// Courses of bricks in running bond, each a little farther over the edge of the course below.
-pub fn leaning_wall(courses: usize, bricks: usize) -> Scene {
+pub fn leaning_wall(courses: usize, bricks: usize) -> PhysicsScene {
     /// Half a brick, m, and how far a course stands over, m.
     const BRICK: DVec3 = DVec3::new(0.12, 0.03, 0.055);
     const LEAN: f64 = 4e-3;

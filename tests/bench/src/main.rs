@@ -12,7 +12,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::run::{self, Best, ROUNDS};
-use soffio_offline::scene::{Engine, Limits, Row, Scene, Soffio};
+use soffio_offline::scene::{BenchRecord, Engine, Limits, PhysicsScene, Soffio};
 
 /// Version of the peer, as the manifest pins it.
 const RAPIER: &str = "0.36.1";
@@ -47,11 +47,11 @@ struct Contender {
     engine: &'static str,
     version: String,
     config: String,
-    make: Box<dyn Fn(&Scene, f64) -> Option<Box<dyn Engine>>>,
+    make: Box<dyn Fn(&PhysicsScene, f64) -> Option<Box<dyn Engine>>>,
 }
 
 fn peer(name: &str) -> Option<Contender> {
-    let make: Box<dyn Fn(&Scene, f64) -> Option<Box<dyn Engine>>> = match name {
+    let make: Box<dyn Fn(&PhysicsScene, f64) -> Option<Box<dyn Engine>>> = match name {
         "impulse-f32" => Box::new(|scene, dt| rapier::single::impulse(scene, dt, 4, false)),
         "impulse-f32-it20-warm" => Box::new(|scene, dt| rapier::single::impulse(scene, dt, 20, true)),
         "impulse-f64" => Box::new(|scene, dt| rapier::double::impulse(scene, dt, 4, false)),
@@ -73,34 +73,34 @@ fn ours() -> Contender {
 }
 
 /// Has a scene nothing but joints and couplings?
-fn articulated(scene: &Scene) -> bool {
+fn articulated(scene: &PhysicsScene) -> bool {
     scene.surface.is_none() && scene.joints.iter().all(|joint| joint.limits.is_none())
 }
 
 /// A row of each contender that can run the scene, in their order.
-fn measure(contenders: &[Contender], scene: &Scene, dt: f64, limits: Limits) -> Vec<Option<Row>> {
+fn measure(contenders: &[Contender], scene: &PhysicsScene, dt: f64, limits: Limits) -> Vec<Option<BenchRecord>> {
     let mut best = vec![Best::default(); contenders.len()];
     for _ in 0..ROUNDS {
         for (contender, best) in contenders.iter().zip(&mut best) {
             if let Some(mut engine) = (contender.make)(scene, dt) {
-                best.round(engine.as_mut(), run::step_count(scene, dt, limits.seconds), limits);
+                best.run_round(engine.as_mut(), run::step_count(scene, dt, limits.seconds), limits);
             }
         }
     }
     let row = |(contender, best): (&Contender, &Best)| {
         let mut engine = (contender.make)(scene, dt)?;
-        let mut watched = run::watch(scene, engine.as_mut(), dt, limits);
+        let mut watched = run::observe(scene, engine.as_mut(), dt, limits);
         for _ in 1..ROUNDS {
             if let Some(mut engine) = (contender.make)(scene, dt) {
-                watched.times.again(engine.as_mut());
+                watched.times.repeat(engine.as_mut());
             }
         }
-        Some(Row::new([contender.engine, &contender.version, &contender.config], scene, dt, best, &watched))
+        Some(BenchRecord::new([contender.engine, &contender.version, &contender.config], scene, dt, best, &watched))
     };
     contenders.iter().zip(&best).map(row).collect()
 }
 
-fn cell(row: &Row) -> String {
+fn cell(row: &BenchRecord) -> String {
     let energy = match row.diverged_at_s {
         Some(t) => format!("div {t:.2}s"),
         None => format!("{:.1e}", row.max_energy_drift_rel),
@@ -123,7 +123,7 @@ fn main() -> ExitCode {
         println!("{:<20} {:>8} | soffio {head} | {:<22} {head} | theirs/ours", "scene", "dt", "rapier3d");
     }
     for path in &args.scenes {
-        let scene = match Scene::read(path) {
+        let scene = match PhysicsScene::read(path) {
             Ok(scene) => scene,
             Err(error) => {
                 eprintln!("compare: {error}");

@@ -12,7 +12,7 @@ macro_rules! engine {
         pub mod $module {
             use $rapier::prelude::*;
             use soffio_math::{DQuat, DVec3};
-            use soffio_offline::scene::{Engine, JointKind, Scene, State};
+            use soffio_offline::scene::{BodyState, Engine, JointKind, PhysicsScene};
 
             struct World {
                 world: PhysicsWorld,
@@ -45,13 +45,13 @@ macro_rules! engine {
                     self.world.integration_parameters.num_solver_iterations as u32
                 }
 
-                fn states(&self, out: &mut Vec<State>) {
+                fn states(&self, out: &mut Vec<BodyState>) {
                     out.clear();
                     out.extend(self.bodies.iter().map(|&handle| {
                         let body = &self.world.bodies[handle];
                         let q = body.rotation();
                         let rotation = [q.x, q.y, q.z, q.w].map(f64::from);
-                        State {
+                        BodyState {
                             position: wide(body.translation()),
                             rotation: DQuat::from_array(rotation).normalize(),
                             velocity: wide(body.linvel()),
@@ -62,15 +62,15 @@ macro_rules! engine {
             }
 
             /// Parent's state, turn of the joint's frame in the parent, and in the child.
-            fn frames(scene: &Scene, joint: usize) -> (State, DQuat, DQuat) {
+            fn frames(scene: &PhysicsScene, joint: usize) -> (BodyState, DQuat, DQuat) {
                 let joint = &scene.joints[joint];
-                let parent = joint.parent().map_or(State::WORLD, |body| scene.bodies[body].state());
+                let parent = joint.parent().map_or(BodyState::WORLD, |body| scene.bodies[body].state());
                 let first = joint.axes().map_or(DQuat::IDENTITY, |(axis, _)| DQuat::from_rotation_arc(DVec3::X, axis));
                 let child = scene.bodies[joint.b].state().rotation;
                 (parent, first, child.conjugate() * (parent.rotation * first))
             }
 
-            fn build(scene: &Scene, dt: f64, substeps: usize, warm: bool, reduced: bool) -> Option<World> {
+            fn build(scene: &PhysicsScene, dt: f64, substeps: usize, warm: bool, reduced: bool) -> Option<World> {
                 let mut world = PhysicsWorld::new();
                 world.gravity = vector(DVec3::from_array(scene.gravity));
                 world.integration_parameters = IntegrationParameters {
@@ -123,7 +123,7 @@ macro_rules! engine {
 
             /// Speeds and couplings of a scene in reduced coordinates.
             fn reduce(
-                scene: &Scene,
+                scene: &PhysicsScene,
                 world: &mut PhysicsWorld,
                 bodies: &[RigidBodyHandle],
                 any: MultibodyJointHandle,
@@ -142,7 +142,7 @@ macro_rules! engine {
                     let child = scene.bodies[joint.b].state();
                     let seen = |v: DVec3| (parent.rotation * first).conjugate() * v;
                     let spin = seen(child.angular_velocity - parent.angular_velocity);
-                    let moving = |state: &State, point: DVec3| {
+                    let moving = |state: &BodyState, point: DVec3| {
                         state.velocity + state.angular_velocity.cross(point - state.position)
                     };
                     let point = child.point(joint.anchor_b);
@@ -174,13 +174,13 @@ macro_rules! engine {
             }
 
             /// Impulse joints, `substeps` a step; `None` for scenes with couplings or contacts.
-            pub fn impulse(scene: &Scene, dt: f64, substeps: usize, warm: bool) -> Option<Box<dyn Engine>> {
+            pub fn impulse(scene: &PhysicsScene, dt: f64, substeps: usize, warm: bool) -> Option<Box<dyn Engine>> {
                 let runs = crate::articulated(scene) && scene.couplings.is_empty();
                 runs.then(|| build(scene, dt, substeps, warm, false))?.map(|world| Box::new(world) as Box<dyn Engine>)
             }
 
             /// Reduced coordinates with the default substeps; `None` for figures too large for it or with contacts.
-            pub fn multibody(scene: &Scene, dt: f64) -> Option<Box<dyn Engine>> {
+            pub fn multibody(scene: &PhysicsScene, dt: f64) -> Option<Box<dyn Engine>> {
                 let runs = crate::articulated(scene) && scene.bodies.len() <= crate::MULTIBODY_MOST;
                 runs.then(|| build(scene, dt, 4, false, true))?.map(|world| Box::new(world) as Box<dyn Engine>)
             }

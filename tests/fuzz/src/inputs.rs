@@ -9,8 +9,8 @@ use std::sync::Arc;
 use soffio_config::Config;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_multibody::dynamics::{Integrator, Solver};
-use soffio_offline::audition::Audition;
-use soffio_offline::scene::Scene;
+use soffio_offline::audition::TestSound;
+use soffio_offline::scene::PhysicsScene;
 use soffio_offline::scene::run::{Engine, Soffio};
 use soffio_offline::wav;
 use soffio_simulation::{Script, Settings, Simulation, StepInput, record};
@@ -48,7 +48,7 @@ pub fn sidecar(folder: &Path, bytes: &[u8]) {
 pub fn model(folder: &Path, bytes: &[u8]) {
     let path = folder.join("torn.glb");
     put(&path, bytes);
-    match exhibit::plain(&path) {
+    match exhibit::load_model(&path) {
         Ok(exhibit) => begin(exhibit),
         Err(report) => drop(report.render(false)),
     }
@@ -70,7 +70,7 @@ pub fn timbre(_: &Path, bytes: &[u8]) {
     // A timbre is called as its file is; here every name is right.
     let name = text.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next()).unwrap_or("torn");
     match Preset::parse(name, text) {
-        Ok(preset) => drop(Audition::default().render(&preset, &preset.specimen, SOUNDS)),
+        Ok(preset) => drop(TestSound::default().render(&preset, &preset.specimen, SOUNDS)),
         Err(error) => drop(error.to_string()),
     }
 }
@@ -101,7 +101,7 @@ pub fn script(_: &Path, bytes: &[u8]) {
 /// A physics scene's JSON.
 pub fn scene(_: &Path, bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    match Scene::parse(text, "torn.json") {
+    match PhysicsScene::parse(text, "torn.json") {
         Ok(scene) => {
             let mut run = Soffio::new(&scene, scene.dts[0], Integrator::Auto, Solver::Sparse);
             for _ in 0..STEPS {

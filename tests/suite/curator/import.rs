@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use soffio_authoring::{Made, imported};
+use soffio_authoring::{ExhibitFolder, FolderFile, imported};
 use soffio_exhibit::{self as exhibit, Exhibit, codes};
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI};
@@ -31,23 +31,23 @@ fn top(scene: &mut Scene, shapes: Value, lists: Value) {
     ));
 }
 
-fn made(model: &[u8]) -> (tempfile::TempDir, Made) {
+fn made(model: &[u8]) -> (tempfile::TempDir, ExhibitFolder) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("model.glb");
     std::fs::write(&path, model).expect("writable");
     let made = imported::folder(&path, "taken").unwrap_or_else(|report| panic!("{}", report.render(false)));
-    for (name, bytes) in &made.files {
+    for FolderFile { name, bytes } in &made.files {
         std::fs::write(folder.path().join(name), bytes).expect("writable");
     }
     (folder, made)
 }
 
-fn sidecar(made: &Made) -> String {
-    let (_, bytes) = made.files.iter().find(|(name, _)| name == "exhibit.toml").expect("a sidecar");
+fn sidecar(made: &ExhibitFolder) -> String {
+    let FolderFile { bytes, .. } = made.files.iter().find(|file| file.name == "exhibit.toml").expect("a sidecar");
     String::from_utf8(bytes.clone()).expect("UTF-8")
 }
 
-fn loaded(model: &[u8]) -> (Made, Exhibit) {
+fn loaded(model: &[u8]) -> (ExhibitFolder, Exhibit) {
     let (folder, made) = made(model);
     let exhibit =
         exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}\n{}", report.render(false), sidecar(&made)));
@@ -271,8 +271,8 @@ fn what_cannot_be_said_here_is_told_node_by_node() {
         ("Floor", "endless"),
     ] {
         let start = format!("node \"{node}\": ");
-        let told = made.remarks.iter().any(|remark| remark.starts_with(&start) && remark.contains(words));
-        assert!(told, "{node}: {words}\n{:#?}", made.remarks);
+        let output = made.remarks.iter().any(|remark| remark.starts_with(&start) && remark.contains(words));
+        assert!(output, "{node}: {words}\n{:#?}", made.remarks);
         // And it stands in the file, where the curator works.
         assert!(sidecar(&made).contains(words), "{words}");
     }
@@ -314,7 +314,7 @@ fn files_beside_a_model_come_along() {
     let path = folder.path().join("thing.gltf");
     std::fs::write(&path, json.to_string()).expect("writable");
     let made = imported::folder(&path, "thing").unwrap_or_else(|report| panic!("{}", report.render(false)));
-    let names: Vec<&str> = made.files.iter().map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = made.files.iter().map(|file| file.name.as_str()).collect();
     assert_eq!(names, ["data/my buffer.bin", "thing.gltf", "exhibit.toml"]);
     // Nothing outside the model's folder is read.
     json["buffers"][0]["uri"] = json!("../secret.bin");

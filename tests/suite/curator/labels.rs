@@ -1,7 +1,7 @@
 //! Label texts as a table and back: nothing is lost, nothing else is touched, and what is missing or unknown is said.
 
 use soffio_exhibit::Report;
-use soffio_exhibit::labels::{Taken, from_csv, to_csv};
+use soffio_exhibit::labels::{MergedTexts, from_csv, to_csv};
 
 const SIDECAR: &str = r#"schema = "exhibit/1"
 model = "m.glb"   # the model
@@ -33,7 +33,7 @@ maker = '''شخص ما'''
 text = { invite = "انفخ برفق" }
 "#;
 
-fn taken(table: &str) -> Taken {
+fn taken(table: &str) -> MergedTexts {
     from_csv("exhibit.toml", SIDECAR, "words.csv", table).unwrap_or_else(|report| panic!("{}", report.render(false)))
 }
 

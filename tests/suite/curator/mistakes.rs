@@ -45,9 +45,9 @@ fn an_exhibit_is_begun_played_translated_and_never_written_over() {
     for words in ["\"ko\" has no column", "\"body\" has no row", "4 texts changed"] {
         assert!(read.err.contains(words), "{words}: {}", read.err);
     }
-    let told = desk.soffio(&["check", "--quick", "red-mobile"]);
-    told.done();
-    assert!(told.err.contains("missing in \"fr\""), "what is left to translate: {}", told.err);
+    let output = desk.soffio(&["check", "--quick", "red-mobile"]);
+    output.done();
+    assert!(output.err.contains("missing in \"fr\""), "what is left to translate: {}", output.err);
     desk.soffio(&["labels", "red-mobile"]).refused(2, &["--csv"]);
     desk.soffio(&["labels", "red-mobil", "--csv", "a.csv"]).refused(1, &["red-mobil", "\"red-mobile\""]);
     desk.soffio(&["labels", "red-mobile", "--from", "none.csv"]).refused(1, &["none.csv"]);
@@ -145,12 +145,12 @@ fn every_mistake_is_told_with_its_line_its_cause_and_a_remedy() {
         let at = good.find(find).unwrap_or_else(|| panic!("no {find} in\n{good}"));
         std::fs::write(&path, good.replacen(find, replace, 1)).expect("writable");
         let line = good[..at].matches('\n').count() + 1;
-        let told = desk.soffio(&["check", "--quick", "mine"]);
-        assert_eq!(told.code, Some(1), "{replace}: {}", told.err);
-        assert_eq!(told.out, "");
+        let output = desk.soffio(&["check", "--quick", "mine"]);
+        assert_eq!(output.code, Some(1), "{replace}: {}", output.err);
+        assert_eq!(output.out, "");
         let place = format!("mine/exhibit.toml:{line}:");
         for word in [place.as_str(), "help: "].iter().chain(words) {
-            assert!(told.err.contains(word), "{replace}: no \"{word}\" in\n{}", told.err);
+            assert!(output.err.contains(word), "{replace}: no \"{word}\" in\n{}", output.err);
         }
     }
     std::fs::write(&path, &good).expect("writable");

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use soffio_authoring::drawing::outlines;
-use soffio_authoring::given::{self, Metal, Outline, sized};
 use soffio_authoring::notes::{self, chime, note};
+use soffio_authoring::plate_mobile::{self, Metal, Outline, sized};
 use soffio_authoring::template::Template;
-use soffio_authoring::{Made, starter};
+use soffio_authoring::{ExhibitFolder, FolderFile, starter};
 use soffio_exhibit::{self as exhibit, Exhibit, Report};
 use soffio_math::DVec3;
 use soffio_math::noise::Random;
@@ -24,9 +24,9 @@ fn steps(seconds: f64) -> usize {
 }
 
 /// The exhibit of what is made, without a warning.
-fn loaded(made: &Made) -> Arc<Exhibit> {
+fn loaded(made: &ExhibitFolder) -> Arc<Exhibit> {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for (name, bytes) in &made.files {
+    for FolderFile { name, bytes } in &made.files {
         std::fs::write(folder.path().join(name), bytes).expect("a writable folder");
     }
     let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
@@ -87,16 +87,19 @@ fn blown(name: &str, exhibit: &Arc<Exhibit>, aims: &[[f64; 2]]) -> usize {
 
 /// A mobile of these plates, tried; and its figures.
 fn tried(name: &str, plates: &[Outline], thickness: f64, metal: Metal) {
-    let told = |problems: Vec<_>| format!("{name}: {}", Report::from(problems).render(false));
-    let work = given::mobile(name, plates, thickness, metal).unwrap_or_else(|problems| panic!("{}", told(problems)));
+    let output = |problems: Vec<_>| format!("{name}: {}", Report::from(problems).render(false));
+    let work =
+        plate_mobile::mobile(name, plates, thickness, metal).unwrap_or_else(|problems| panic!("{}", output(problems)));
     // The rule that the branches are bent by: what the wires balance, they balance to rounding.
     let offset = work.mobile.statics().worst_offset;
     assert!(offset < 1e-9, "{name}: {offset} m from under a hook");
-    let made = starter::mobile(name, plates, thickness, metal).unwrap_or_else(|problems| panic!("{}", told(problems)));
+    let made =
+        starter::mobile(name, plates, thickness, metal).unwrap_or_else(|problems| panic!("{}", output(problems)));
     let exhibit = loaded(&made);
     assert_eq!(exhibit.bodies.len(), 2 * plates.len() - 1);
     rests(name, &exhibit);
-    let aims: Vec<[f64; 2]> = work.pairs.iter().take(4).map(|[_, front]| work.plates[*front].2).collect();
+    let aims: Vec<[f64; 2]> =
+        work.pairs.iter().take(4).map(|[_, front]| work.plates[*front].picture_position).collect();
     blown(name, &exhibit, &aims);
 }
 
@@ -186,19 +189,19 @@ fn what_is_no_plate_is_refused_where_it_stands() {
     for (element, why, other) in cases {
         let text = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{element}\n</svg>");
         let report = outlines("plates.svg", &text).expect_err(element);
-        let told = report.render(false);
+        let output = report.render(false);
         for word in [why, other] {
-            assert!(told.contains(word), "{element}: no \"{word}\" in\n{told}");
+            assert!(output.contains(word), "{element}: no \"{word}\" in\n{output}");
         }
         let line = if element.is_empty() { "plates.svg:1:" } else { "plates.svg:2:" };
-        assert!(told.contains(line), "{element}: no {line} in\n{told}");
+        assert!(output.contains(line), "{element}: no {line} in\n{output}");
     }
     // All at once, and what is not SVG at all.
     let both = "<svg xmlns=\"http://www.w3.org/2000/svg\"><text>a</text><line/></svg>";
     assert_eq!(outlines("plates.svg", both).expect_err("two problems").diagnostics.len(), 2);
     for text in ["", "not SVG", "<svg", "<html/>", "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0"] {
-        let told = outlines("plates.svg", text).expect_err(text).render(false);
-        assert!(told.contains("E0601"), "{text}: {told}");
+        let output = outlines("plates.svg", text).expect_err(text).render(false);
+        assert!(output.contains("E0601"), "{text}: {output}");
     }
 }
 
@@ -213,8 +216,8 @@ fn plates_that_cannot_hang_are_refused_with_the_reason() {
     ];
     for (list, thickness, word) in cases {
         let problems = starter::mobile("x", &sizes(list), 1e-3 * thickness, Metal::Steel).expect_err(list);
-        let told = Report::from(problems).render(false);
-        assert!(told.contains(word), "{list}: no \"{word}\" in\n{told}");
+        let output = Report::from(problems).render(false);
+        assert!(output.contains(word), "{list}: no \"{word}\" in\n{output}");
     }
     for text in ["", "x", "12x", "0", "-5", "1x2x3", "nan", "inf", "12 by 3"] {
         assert!(sized(text).is_err(), "{text}");

@@ -271,8 +271,8 @@ fn what_is_not_enabled_does_not_act_and_can_still_be_pointed_at() {
     assert_eq!((on.constraints.len(), on.limits.len(), on.springs.len()), (3, 2, 1));
     assert_eq!((off.constraints.len(), off.limits.len(), off.springs.len()), (0, 0, 1));
     assert!(on.excluded_pairs.len() > off.excluded_pairs.len(), "what does not hold may collide");
-    let told = soffio::commands::explain::explain(&off);
-    assert!(told.contains("it does not act"), "{told}");
+    let output = soffio::commands::explain::explain(&off);
+    assert!(output.contains("it is not active"), "{output}");
     assert!(try_load(&text("enabled = 1")).is_err());
 }
 
@@ -285,8 +285,8 @@ fn a_constraint_may_gather_at_its_own_pace() {
     );
     let times: Vec<Option<f64>> = own.constraints.iter().map(|c| c.stabilization_time).collect();
     assert_eq!(times, [Some(0.3), None]);
-    let told = soffio::commands::explain::explain(&own);
-    assert!(told.contains("0.3 s"), "{told}");
+    let output = soffio::commands::explain::explain(&own);
+    assert!(output.contains("0.3 s"), "{output}");
     let spring = "[[constraint.spring]]\nname = \"leaf\"\na = { node = \"Weight\" }\nb = { node = \"Rail\" }\n\
                   stiffness = 12\nstabilize = { time_constant = 1 }\n";
     assert_eq!(try_load(spring).expect_err("a problem").diagnostics[0].code, codes::WRONG_SHAPE.name);

@@ -3,22 +3,22 @@
 use std::collections::BTreeSet;
 
 use serde_json::Value;
-use soffio_exhibit::shape::schema;
-use soffio_exhibit::shape::validate::KEYWORDS;
+use soffio_exhibit::schema::schema;
+use soffio_exhibit::schema::validate::KEYWORDS;
 
 #[test]
 fn all_keywords_of_the_format_are_known() {
     fn look(schema: &Value, seen: &mut BTreeSet<String>) {
-        for (keyword, asked) in schema.as_object().into_iter().flatten() {
+        for (keyword, checked) in schema.as_object().into_iter().flatten() {
             seen.insert(keyword.clone());
             match keyword.as_str() {
                 "properties" | "patternProperties" | "$defs" => {
-                    asked.as_object().into_iter().flatten().for_each(|(_, part)| look(part, seen));
+                    checked.as_object().into_iter().flatten().for_each(|(_, part)| look(part, seen));
                 }
                 "anyOf" | "oneOf" | "prefixItems" => {
-                    asked.as_array().into_iter().flatten().for_each(|part| look(part, seen))
+                    checked.as_array().into_iter().flatten().for_each(|part| look(part, seen))
                 }
-                "items" | "additionalProperties" => look(asked, seen),
+                "items" | "additionalProperties" => look(checked, seen),
                 _ => {}
             }
         }

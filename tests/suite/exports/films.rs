@@ -34,10 +34,10 @@ const NO_DRIVER: i32 = 3;
 /// Did it end well? `None` where there is no driver.
 #[track_caller]
 fn done(output: &Output) -> Option<()> {
-    let told = String::from_utf8_lossy(&output.stderr);
-    let found = if output.status.code() == Some(NO_DRIVER) { Err(&told) } else { Ok(()) };
+    let output = String::from_utf8_lossy(&output.stderr);
+    let found = if output.status.code() == Some(NO_DRIVER) { Err(&output) } else { Ok(()) };
     require("Vulkan driver", found)?;
-    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert_eq!(output.status.code(), Some(0), "{output}");
     Some(())
 }
 
@@ -66,8 +66,8 @@ fn without_ffmpeg_a_video_is_an_animated_png_of_the_same_frames() {
     let args = ["play", &exhibit, "--seconds", "0.2", "--fps", "25", "--size", "160x90"];
     let run = soffio(&folder, &[&args[..], &["--video", "a.mp4", "--frames", "frames"]].concat(), Some("/nonexistent"));
     let Some(()) = done(&run) else { return };
-    let told = String::from_utf8_lossy(&run.stderr);
-    assert!(["ffmpeg", "a.apng"].iter().all(|word| told.contains(word)), "{told}");
+    let output = String::from_utf8_lossy(&run.stderr);
+    assert!(["ffmpeg", "a.apng"].iter().all(|word| output.contains(word)), "{output}");
     assert_eq!(names(&folder), ["a.apng", "frames"]);
     let file = std::fs::File::open(folder.path().join("a.apng")).expect("written");
     let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
@@ -99,9 +99,9 @@ fn a_film_has_all_frames_and_the_runs_sound() {
     }
     let probe = ["-v", "error", "-show_entries", "stream=codec_name,nb_frames,width", "-of", "csv=p=0", "a.mp4"];
     let probed = Command::new("ffprobe").args(probe).current_dir(folder.path()).output().expect("it comes with ffmpeg");
-    let told = String::from_utf8_lossy(&probed.stdout);
-    assert!(told.contains("h264,160,10"), "{told}");
-    assert!(told.contains("aac,"), "{told}");
+    let output = String::from_utf8_lossy(&probed.stdout);
+    assert!(output.contains("h264,160,10"), "{output}");
+    assert!(output.contains("aac,"), "{output}");
 }
 
 #[test]

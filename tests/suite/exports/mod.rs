@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use soffio_exhibit::model::{self, Model};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::{DQuat, DVec3, PI, Pose};
-use soffio_offline::export::key_frames::Bake;
+use soffio_offline::export::key_frames::AnimationBake;
 use soffio_offline::export::mjcf;
 use soffio_offline::feed::WavFeed;
 use soffio_offline::play::{self, Play};
@@ -53,7 +53,7 @@ fn read(bytes: &[u8]) -> Model {
 #[test]
 fn key_frames_read_back_are_where_the_run_was_in_every_step() {
     let exhibit = shipped("steel-fish");
-    let mut bake = Bake::new(&exhibit, 240);
+    let mut bake = AnimationBake::new(&exhibit, 240);
     let all = frames(&exhibit, 2.0, 240, |now| bake.push(&now.poses));
     let model = read(&bake.bytes(&exhibit));
     let [animation] = model.animations.as_slice() else { panic!("one animation") };
@@ -211,7 +211,7 @@ fn a_scene_a_frame_holds_the_poses_of_both_ends_of_its_shutter() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut writer = RibWriter::create(&exhibit, folder.path(), (320, 180), 24).expect("writable");
     let mut number = 0;
-    let poses = frames(&exhibit, 1.5, writer.moments_per_second(), |now| {
+    let poses = frames(&exhibit, 1.5, writer.samples_per_second(), |now| {
         writer.push(number, &now.poses).expect("writable");
         number += 1;
     });

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use soffio_exhibit::{Attract, AttractAction, AttractStep, Exhibit, Leeway, View};
+use soffio_exhibit::{Attract, AttractAction, AttractStep, Exhibit, OrbitLimits, View};
 use soffio_kiosk::live::recording::Recording;
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
@@ -77,8 +77,8 @@ fn a_pull_beside_the_work_turns_it_as_far_as_it_goes_and_nothing_else() {
 #[test]
 fn ends_are_soft_nothing_goes_beyond_and_whoever_pulls_back_is_answered() {
     for id in ["steel-fish", "billiards", "terry-clock", "twelve-moons"] {
-        let leeway = load(id).leeway(ASPECT);
-        let Leeway { aside, down, up } = leeway;
+        let leeway = load(id).orbit_limits(ASPECT);
+        let OrbitLimits { yaw: aside, down, up } = leeway;
         for (way, end, axis) in
             [([-3.0, 0.0], aside, 0), ([3.0, 0.0], aside, 0), ([0.0, 3.0], up, 1), ([0.0, -3.0], down, 1)]
         {
@@ -238,7 +238,7 @@ fn breath_and_hand_go_where_they_are_seen_to_go() {
     let mut stage = Stage::new(exhibit.clone(), settings, None, None);
     drag(&mut stage, &round(), [-0.4, 0.2]);
     wait(&mut stage, &round(), FOLLOWED);
-    let view = exhibit.view(ASPECT).turned(stage.snapshot().turn);
+    let view = exhibit.view(ASPECT).orbited(stage.snapshot().turn);
     let aim = [0.3, 0.4];
     wait(&mut stage, &Controls { aim: Some(aim), ..round() }, 240);
     let seen = view.project(stage.snapshot().breath.ring.center, ASPECT).expect("before the eye");
@@ -342,8 +342,8 @@ fn after_a_drag_the_silhouette_is_where_the_formula_says() {
     for (i, way) in [[0.0, 0.0], [0.35, 0.0], [0.0, 0.25], [-0.6, -0.2]].into_iter().enumerate() {
         drag(&mut stage, &controls, way);
         wait(&mut stage, &controls, FOLLOWED);
-        let view = exhibit.view(aspect).turned(stage.snapshot().turn);
-        let frame = soffio_render::Frame { poses: &poses, motes: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
+        let view = exhibit.view(aspect).orbited(stage.snapshot().turn);
+        let frame = soffio_render::FrameInput { poses: &poses, dust: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
             picture.save(std::path::Path::new(&folder).join(format!("orbit-{i}.png"))).expect("a writable folder");

@@ -92,7 +92,7 @@ fn what_stands_still_is_at_rest_after_half_a_second_and_each_sign_ends_it_in_its
 fn a_quarter_of_a_pixel_between_two_pictures_is_what_counts_wherever_it_is() {
     for id in ["pendulum", "steel-fish", "windmill"] {
         let base = Watch::new(id);
-        let (axes, reach) = (base.view.axes(), base.exhibit.reaches()[0]);
+        let (axes, reach) = (base.view.axes(), base.exhibit.body_radii()[0]);
         // Aside, where a way is seen in full; what is nearest to the eye counts.
         let depth = (base.moment.poses[0].position - base.view.eye).dot(axes.2) - reach;
         let unseen = UNSEEN * base.view.height_at(depth);

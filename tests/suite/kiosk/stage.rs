@@ -82,8 +82,8 @@ fn no_script_lets_a_work_jump_that_comes_to_rest_by_itself() {
         let folder = exhibit::resolve(&id).expect("a shipped work");
         let work = exhibit::load(&folder).expect("a good one");
         let resets = work.attract.steps.iter().any(|step| matches!(step.action, AttractAction::Reset));
-        assert!(work.calm.is_none() || !resets, "{id} is put back while it hangs where it came to rest");
-        calm += usize::from(work.calm.is_some());
+        assert!(work.idle_damping.is_none() || !resets, "{id} is put back while it hangs where it came to rest");
+        calm += usize::from(work.idle_damping.is_some());
     }
     assert!(calm >= 8, "{calm} works come to rest by themselves");
 }

@@ -16,7 +16,7 @@ fn load(id: &str) -> Arc<Exhibit> {
 
 /// What a dragged chain does from the fourth to the twentieth second.
 #[derive(Clone, Copy, Debug, Default)]
-struct Figures {
+struct Mechanisms {
     /// How far its end hangs beside its hook, rms, m.
     beside: f64,
     /// Turn of a link, rms over the links, rad/s.
@@ -35,7 +35,7 @@ fn square(x: f64) -> f64 {
     x * x
 }
 
-fn drag(mode: MotionMode) -> [Figures; 2] {
+fn drag(mode: MotionMode) -> [Mechanisms; 2] {
     const FROM: usize = 960;
     const STEPS: usize = 4800;
     let exhibit = load("chains");
@@ -46,7 +46,7 @@ fn drag(mode: MotionMode) -> [Figures; 2] {
         let links: Vec<usize> = (1..=LINKS).map(|k| index(&exhibit, &format!("{kind}{k}"))).collect();
         (links, index(&exhibit, &format!("{kind}Disc")))
     });
-    let mut figures = [Figures::default(); 2];
+    let mut mechanisms = [Mechanisms::default(); 2];
     let (mut way, mut ends) = (Vec::new(), [Vec::new(), Vec::new()]);
     for step in 0..STEPS {
         simulation.step(&StepInput { mode: Some(mode), ..StepInput::default() });
@@ -57,28 +57,29 @@ fn drag(mode: MotionMode) -> [Figures; 2] {
         let bodies = simulation.bodies();
         let x = bodies[carriage].position.x;
         way.push(x);
-        for (k, ((links, disc), figures)) in chains.iter().zip(&mut figures).enumerate() {
+        for (k, ((links, disc), mechanisms)) in chains.iter().zip(&mut mechanisms).enumerate() {
             let hook = bodies[links[0]].pose().position;
             let end = bodies[*disc].pose().position;
             ends[k].push(end.x - hook.x + x);
-            figures.beside += square(end.x - hook.x);
+            mechanisms.beside += square(end.x - hook.x);
             for pair in links.windows(2) {
                 let [a, b] = [pair[0], pair[1]].map(|link| bodies[link].rotation * DVec3::Y);
-                figures.bend += square(a.angle_between(b)) / (LINKS - 1) as f64;
+                mechanisms.bend += square(a.angle_between(b)) / (LINKS - 1) as f64;
             }
-            figures.spin +=
+            mechanisms.spin +=
                 links.iter().map(|&l| bodies[l].angular_velocity.length_squared()).sum::<f64>() / LINKS as f64;
         }
     }
-    for (figures, end) in figures.iter_mut().zip(&ends) {
+    for (mechanisms, end) in mechanisms.iter_mut().zip(&ends) {
         let mean = |sum: f64| (sum / way.len() as f64).sqrt();
-        (figures.beside, figures.spin, figures.bend) = (mean(figures.beside), mean(figures.spin), mean(figures.bend));
+        (mechanisms.beside, mechanisms.spin, mechanisms.bend) =
+            (mean(mechanisms.beside), mean(mechanisms.spin), mean(mechanisms.bend));
         let apart = |delay: usize| -> f64 { (240..way.len()).map(|i| square(end[i] - way[i - delay])).sum() };
         let best = (0..240).min_by(|&a, &b| apart(a).total_cmp(&apart(b))).expect("delays");
-        figures.behind = best as f64 / 240.0;
+        mechanisms.behind = best as f64 / 240.0;
     }
-    println!("{mode:?}: light {:?}\n  heavy {:?}", figures[0], figures[1]);
-    figures
+    println!("{mode:?}: light {:?}\n  heavy {:?}", mechanisms[0], mechanisms[1]);
+    mechanisms
 }
 
 #[test]

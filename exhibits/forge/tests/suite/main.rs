@@ -6,7 +6,7 @@ use std::path::Path;
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Knot, area_and_centroid, closed_spline, ellipse};
 use soffio_authoring::piece::Piece;
-use soffio_authoring::solid::{Solid, sheet, turned, wire_mass};
+use soffio_authoring::solid::{Solid, extrude, revolve, revolve_ring, wire_mass};
 use soffio_forge as workshop;
 use soffio_forge::steel_fish;
 use soffio_math::{DVec2, DVec3, PI, Pose, sin};
@@ -14,7 +14,7 @@ use soffio_math::{DVec2, DVec3, PI, Pose, sin};
 /// Sums of a few thousand products in f64, relative.
 const ROUNDING: f64 = 1e-9;
 
-fn work() -> Mobile {
+fn mobile() -> Mobile {
     steel_fish::glb().0
 }
 
@@ -22,7 +22,7 @@ fn work() -> Mobile {
 fn works() -> Vec<Mobile> {
     use workshop::{lobster_tree, noise_mobile, plates, snow, twelve_moons, windy_corner};
     let others = [plates::glb, windy_corner::glb, twelve_moons::glb, lobster_tree::glb, snow::glb, noise_mobile::glb];
-    others.into_iter().map(|glb| glb().0).chain([work()]).collect()
+    others.into_iter().map(|glb| glb().0).chain([mobile()]).collect()
 }
 
 fn exhibits() -> std::path::PathBuf {
@@ -75,8 +75,8 @@ fn assert_closed(name: &str, solid: &Solid) {
 
 #[test]
 fn every_solid_is_closed_and_its_normals_point_outwards() {
-    for work in works() {
-        let pieces = work.pieces.iter().map(|(piece, _)| piece).chain([&work.stand]);
+    for mobile in works() {
+        let pieces = mobile.pieces.iter().map(|(piece, _)| piece).chain([&mobile.stand]);
         for part in pieces.flat_map(|piece| &piece.parts) {
             assert_closed(part.name, &part.solid);
             for t in &part.solid.triangles {
@@ -100,7 +100,7 @@ fn every_solid_is_closed_and_its_normals_point_outwards() {
 fn a_square_sheet_weighs_as_a_box() {
     let (a, b, thickness) = (0.04, 0.03, 0.002);
     let corners = [(0.0, 0.0), (a, 0.0), (a, b), (0.0, b)].map(|(x, y)| DVec2::new(x, y));
-    let got = sheet(&corners.to_vec(), &[], thickness, 0.0).mass(7850.0);
+    let got = extrude(&corners.to_vec(), &[], thickness, 0.0).mass(7850.0);
     let mass = 7850.0 * a * b * thickness;
     assert_close("mass", got.mass, mass, ROUNDING * mass);
     assert_close("centre", got.center.distance(DVec3::new(0.5 * a, 0.5 * b, 0.0)), 0.0, ROUNDING);
@@ -115,7 +115,7 @@ fn a_hole_and_a_bevel_take_away_what_they_should() {
     const CORNERS: usize = 48;
     let (radius, hole, thickness, bevel) = (0.02, 0.004, 0.001, 0.0002);
     let circle = |r: f64| ellipse(DVec2::ZERO, DVec2::splat(r), 0.0, CORNERS);
-    let got = sheet(&circle(radius), &[circle(hole)], thickness, bevel).mass(1.0).mass;
+    let got = extrude(&circle(radius), &[circle(hole)], thickness, bevel).mass(1.0).mass;
     // A regular polygon of n corners has the area n/2 sin(2π/n) r². A mitred inset by b keeps it regular, with a
     // radius less by b/cos(π/n); between two similar sections the volume is that of a frustum.
     let n = CORNERS as f64;
@@ -134,8 +134,8 @@ fn turned_parts_and_wires_weigh_as_their_formulas() {
     let n = SEGMENTS as f64;
     let section = 0.5 * n * sin(2.0 * PI / n);
     let at = |r: f64, y: f64| DVec2::new(r, y);
-    let rod = turned(&[at(0.0, 0.0), at(radius, 0.0), at(radius, height), at(0.0, height)], false, SEGMENTS);
-    let tube = turned(&[at(bore, 0.0), at(radius, 0.0), at(radius, height), at(bore, height)], true, SEGMENTS);
+    let rod = revolve(&[at(0.0, 0.0), at(radius, 0.0), at(radius, height), at(0.0, height)], SEGMENTS);
+    let tube = revolve_ring(&[at(bore, 0.0), at(radius, 0.0), at(radius, height), at(bore, height)], SEGMENTS);
     for (name, solid, square) in [("rod", rod, radius * radius), ("tube", tube, radius * radius - bore * bore)] {
         assert_closed(name, &solid);
         let expected = section * square * height;
@@ -176,9 +176,9 @@ const PLUMB: f64 = 1e-7;
 
 #[test]
 fn every_piece_hangs_in_balance_below_its_hook() {
-    for work in works() {
-        for (i, (piece, _)) in work.pieces.iter().enumerate() {
-            let loaded = work.loaded(i);
+    for mobile in works() {
+        for (i, (piece, _)) in mobile.pieces.iter().enumerate() {
+            let loaded = mobile.loaded(i);
             let torque = 9.81 * loaded.mass * DVec2::new(loaded.center.x, loaded.center.z).length();
             let tolerance = 9.81 * loaded.mass * PLUMB;
             assert!(torque <= tolerance, "{}: {torque} N m turn it out of its rest", piece.name);
@@ -189,12 +189,12 @@ fn every_piece_hangs_in_balance_below_its_hook() {
 
 #[test]
 fn the_work_has_the_figures_of_the_maquette() {
-    let work = work();
-    let s = work.statics();
+    let mobile = mobile();
+    let s = mobile.statics();
     // Reference: the 1:6 design sheet. Eyes, stems and the cup are extra, hence the stated margins.
     assert_close("moving mass", s.total_mass, 60.7e-3, 0.03 * 60.7e-3);
     assert!(s.worst_offset <= PLUMB, "{} m", s.worst_offset);
-    let lead = work.pieces[0].0.parts.iter().find(|part| part.name == "Counterweight").expect("a lead weight");
+    let lead = mobile.pieces[0].0.parts.iter().find(|part| part.name == "Counterweight").expect("a lead weight");
     assert_close("lead", lead.solid.mass(lead.density).mass, 8.83e-3, 0.15 * 8.83e-3);
     assert_close("yaw inertia", s.yaw_inertia, 2.43e-3, 0.10 * 2.43e-3);
     assert_close("depth", s.depth, 30e-3, 0.05 * 30e-3);
@@ -242,8 +242,8 @@ fn gap(a: &(Piece, Pose), b: &(Piece, Pose)) -> f64 {
 
 #[test]
 fn the_red_plate_and_the_white_disc_are_neighbours_that_a_hard_breath_brings_together() {
-    let work = work();
-    let named = |name: &str| work.pieces.iter().find(|(piece, _)| piece.name == name).expect("a piece of the work");
+    let mobile = mobile();
+    let named = |name: &str| mobile.pieces.iter().find(|(piece, _)| piece.name == name).expect("a piece of the work");
     let (red, white) = (named("RedPlate"), named("WhiteDisc"));
     let between = gap(red, white);
     assert!((3e-3..15e-3).contains(&between), "{between} m apart at rest");
@@ -321,9 +321,9 @@ fn the_loader_weighs_the_work_as_the_forge_balanced_it() {
     /// The file stores corners as 32-bit floats and points to 0.1 µm: sub-micrometre against millimetres.
     const FILE_ROUNDING: f64 = 2e-4;
     let exhibit = soffio_exhibit::load(&exhibits().join("steel-fish")).unwrap_or_else(|report| panic!("{report}"));
-    let work = work();
-    assert_eq!(exhibit.bodies.len(), work.pieces.len());
-    for (piece, pose) in &work.pieces {
+    let mobile = mobile();
+    assert_eq!(exhibit.bodies.len(), mobile.pieces.len());
+    for (piece, pose) in &mobile.pieces {
         let body = exhibit.bodies.iter().find(|body| body.name == piece.name).expect("a body per piece");
         let (got, expected) = (body.properties, piece.mass());
         assert_close(piece.name, got.mass, expected.mass, FILE_ROUNDING * expected.mass);

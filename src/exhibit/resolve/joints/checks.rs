@@ -11,7 +11,7 @@ use soffio_multibody::dynamics::KinematicBody;
 
 /// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
 pub(super) const APART: f64 = 1e-4;
-/// Axes of an orientation may be this far from their angle at rest: 0.1°.
+/// Axes of an orientation may be this far from their angle at the start: 0.1°.
 const OBLIQUE: f64 = 0.1 * PI / 180.0;
 /// Ratio of two joined masses above which digits run short: f64 has 16, the solver keeps 10.
 const MASS_RATIO: f64 = 1e6;
@@ -25,18 +25,18 @@ impl Context<'_> {
         }
         match kind {
             ConstraintKind::PointToPoint { a, b } => {
-                let (p, q) = (self.at_start(a), self.at_start(b));
+                let (p, q) = (self.start_position(a), self.start_position(b));
                 self.check_gap(p.distance(q), &format!("the two points of \"{name}\""), at, || {
                     format!("{} and {}", meters(p), meters(q))
                 });
             }
             ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
-                let (p, s) = (self.at_start(point), self.at_start(plane));
+                let (p, s) = (self.start_position(point), self.start_position(plane));
                 let height = self.start_of(plane.body).vector(*normal).dot(p - s);
                 let wanted = offset.at(0.0).value;
                 self.check_gap((height - wanted).abs(), &format!("the point and the plane of \"{name}\""), at, || {
                     format!(
-                        "the point is {:.3} mm above the plane, and belongs at {:.3} mm",
+                        "the point is {:.3} mm above the plane, but must be at {:.3} mm",
                         height * 1e3,
                         wanted * 1e3
                     )
@@ -47,10 +47,13 @@ impl Context<'_> {
                 let off = soffio_math::asin(t.dot(n).clamp(-1.0, 1.0)) - angle.at(0.0).value;
                 if off.abs() > OBLIQUE {
                     let degrees = off.abs() * 180.0 / PI;
-                    let message = format!("the two axes of \"{name}\" are {degrees:.2}° from their angle at rest");
+                    let message = format!("the two axes of \"{name}\" are {degrees:.2}° from their angle at the start");
                     let problem = Diagnostic::new(codes::NOT_PERPENDICULAR, message);
                     let problem = problem.label(format!("{t} and {n} in the world"));
-                    self.report(at, problem.help("turn them in the model or here, or write the angle that they have"));
+                    self.report(
+                        at,
+                        problem.help("rotate them in the model or here, or write the angle that they have"),
+                    );
                 }
             }
             ConstraintKind::Coupling { .. } => {}
@@ -59,7 +62,7 @@ impl Context<'_> {
 
     fn check_gap(&mut self, gap: f64, what: &str, at: &str, label: impl Fn() -> String) {
         if gap > APART {
-            let message = format!("{what} are {:.2} mm apart at rest", gap * 1e3);
+            let message = format!("{what} are {:.2} mm apart at the start", gap * 1e3);
             let help = format!(
                 "move one of the two nodes (up to {} mm is taken as meant together), or let the figure assemble itself: \
                  [solver] assemble = true",
@@ -92,7 +95,7 @@ impl Context<'_> {
                 let (one, other) = (self.body_name(a), self.body_name(b));
                 let message = format!("\"{group}\" joins {one} ({x:.3e} kg) and {other} ({y:.3e} kg)");
                 let label = format!("one is {ratio:.1e} times as heavy as the other");
-                let help = "beyond a million the joint loses digits; are both masses meant so?";
+                let help = "above a million the joint loses precision; check both masses";
                 let place = self.place(&group);
                 self.report(&place, Diagnostic::new(codes::MASS_RATIO, message).label(label).help(help));
                 warned.push(group);

@@ -27,7 +27,7 @@ impl Context<'_> {
         let (friction, first) = (self.friction(given.friction, at), out.constraints.len());
         self.push(out, &header, point, ConstraintKind::PointToPoint { a, b }, friction);
         self.across(out, &header, axis, b.body);
-        self.trace_header(&header, if point == "nail" { "hinge" } else { "windmill" }, out, first);
+        self.record_header_origins(&header, if point == "nail" { "hinge" } else { "windmill" }, out, first);
         let measure = Measure::Angle { axis, frame: b.body };
         if let Some(stops) = given.limit {
             let range = (stops.min.map(|x| x.0), stops.max.map(|x| x.0), stops.restitution);
@@ -46,7 +46,7 @@ impl Context<'_> {
         let (friction, first) = (self.friction(given.friction, at), out.constraints.len());
         self.push(out, &header, "nail", ConstraintKind::PointToPoint { a, b }, friction);
         self.push(out, &header, "cross", perpendicular(axis, other), None);
-        self.trace_header(&header, "universal", out, first);
+        self.record_header_origins(&header, "universal", out, first);
     }
 
     pub(super) fn slider(&mut self, given: &sidecar::Slider, at: &str, out: &mut Joints) {
@@ -61,7 +61,7 @@ impl Context<'_> {
         let fixed = |this: &Self, body, v| Axis { body, direction: this.pose_of(body).inverse_vector(v) };
         let about = perpendicular(fixed(self, a.body, t), fixed(self, b.body, n));
         self.push(out, &header, "about", about, None);
-        self.trace_header(&header, "slider", out, first);
+        self.record_header_origins(&header, "slider", out, first);
         let measure = Measure::Way { point: a, direction: fixed(self, b.body, way) };
         if let Some(stops) = given.limit {
             let range = (stops.min.map(|x| x.0), stops.max.map(|x| x.0), stops.restitution);
@@ -77,7 +77,7 @@ impl Context<'_> {
         let first = out.constraints.len();
         let way = self.pose_of(axis.body).vector(axis.direction);
         self.planes(out, &header, (a, b), way);
-        self.trace_header(&header, "line", out, first);
+        self.record_header_origins(&header, "line", out, first);
     }
 
     pub(super) fn weld(&mut self, given: &sidecar::Weld, at: &str, out: &mut Joints) {
@@ -92,7 +92,7 @@ impl Context<'_> {
             let kind = perpendicular(fixed(a.body, t), fixed(b.body, n));
             self.push(out, &header, part, kind, None);
         }
-        self.trace_header(&header, "weld", out, first);
+        self.record_header_origins(&header, "weld", out, first);
     }
 
     /// The point of the body and what carries it; `None` where a problem was reported.
@@ -106,7 +106,7 @@ impl Context<'_> {
         let a = self.point_of(body, point, header.at, header.name);
         let b = match to {
             Some(to) => self.target(to, &format!("{}/to", header.at), header.name),
-            None => a.map(|a| Anchor { body: None, point: self.at_rest(&a) }),
+            None => a.map(|a| Anchor { body: None, point: self.reference_position(&a) }),
         };
         let (a, b) = a.zip(b)?;
         self.joinable(a.body, b.body, header.name, header.at).then_some((a, b))
@@ -170,7 +170,7 @@ impl Context<'_> {
             return;
         }
         let shown = super::limits::range_shown(&measure, min, max);
-        self.trace(&format!("constraint {}", header.name), "limit", shown, &place, "");
+        self.record_origin(&format!("constraint {}", header.name), "limit", shown, &place, "");
         let kind = LimitKind::Range { measure, min, max };
         out.limits.push(Limit { name: header.name.to_owned(), kind, restitution });
     }
@@ -178,11 +178,11 @@ impl Context<'_> {
     /// Reports a range that is empty, endless, or does not hold its start.
     pub(super) fn check_range(&mut self, (min, max): (f64, f64), start: Option<f64>, at: &str, name: &str) -> bool {
         let problem = if min == f64::NEG_INFINITY && max == f64::INFINITY {
-            (codes::MISSING_KEY, format!("\"{name}\" bounds nothing"), "give min, max, or both")
+            (codes::MISSING_KEY, format!("\"{name}\" has no bounds"), "give min, max, or both")
         } else if min >= max {
-            (codes::RANGE, format!("the bounds of \"{name}\" leave nothing: {min} to {max}"), "min must be below max")
+            (codes::RANGE, format!("the bounds of \"{name}\" are empty: {min} to {max}"), "min must be below max")
         } else if start.is_some_and(|start| start < min || start > max) {
-            let help = "turns and ways count from the start, where they are 0";
+            let help = "rotations and displacements count from the start, where they are 0";
             (codes::RANGE, format!("\"{name}\" starts outside its bounds {min} to {max}"), help)
         } else {
             return true;

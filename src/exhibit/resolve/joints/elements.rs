@@ -81,8 +81,8 @@ impl Context<'_> {
                 (point, None)
             }
             _ => {
-                let message = format!("element \"{}\" needs of or body, one of them", header.name);
-                let help = "of = \"axle\" holds the two bodies of that constraint further; body = \"Wheel\" one body";
+                let message = format!("element \"{}\" needs either `of` or `body`", header.name);
+                let help = "of = \"axle\" constrains the two bodies of that constraint further; body = \"Wheel\" constrains one body";
                 self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help(help));
                 return;
             }
@@ -104,7 +104,7 @@ impl Context<'_> {
             let b = Axis { body: against, direction: local(self, against, d.cross(t)) };
             ConstraintKind::Orientation { a, b, angle: value }
         } else {
-            let place = self.at_rest(&point);
+            let place = self.reference_position(&point);
             let there = Anchor { body: against, point: self.pose_of(against).inverse_point(place) };
             if own {
                 // The plane moves with the body, and the fixed point lies below it by as much as the body rises.
@@ -117,7 +117,7 @@ impl Context<'_> {
         };
         let first = out.constraints.len();
         self.push(out, header, "", kind, None);
-        self.trace_header(header, "", out, first);
+        self.record_header_origins(header, "", out, first);
     }
 
     fn remove_element(&mut self, given: &sidecar::Element, header: &Header, out: &mut Joints) {
@@ -128,7 +128,7 @@ impl Context<'_> {
             return;
         };
         if header.schedule.trigger.is_some() || header.breaking.is_some() {
-            let message = format!("element \"{}\" frees by its windows alone", header.name);
+            let message = format!("element \"{}\" can have windows, but no trigger and no break", header.name);
             let help = "leave trigger and break out; the constraint itself can have them";
             self.report(at, Diagnostic::new(codes::WINDOW, message).help(help));
             return;
@@ -144,8 +144,8 @@ impl Context<'_> {
         };
         let Some(row) = row else {
             let dof = format!("{:?}", given.dof).to_lowercase();
-            let message = format!("\"{of}\" does not hold {dof} by a row of its own");
-            let help = "turn the frame so that one of its axes lies along the freedom; `soffio explain` shows the rows";
+            let message = format!("\"{of}\" does not constrain {dof} by a row of its own");
+            let help = "choose a frame with an axis along the freedom; `soffio explain` shows the rows";
             self.report(&format!("{at}/dof"), Diagnostic::new(codes::NOT_HELD, message).help(help));
             return;
         };
@@ -162,9 +162,9 @@ impl Context<'_> {
         let (name, windows) = (freed.name.clone(), freed.schedule.windows.clone());
         let spans = windows.iter().map(|w| format!("{} to {} s", w.start, w.end)).collect::<Vec<_>>().join(", ");
         let source = format!("without element {}", header.name);
-        self.trace(&format!("constraint {name}"), "window", spans, "/-", &source);
-        self.trace(&format!("constraint {}", header.name), "frees", name, at, "");
-        self.trace_timing(&format!("constraint {}", header.name), header);
+        self.record_origin(&format!("constraint {name}"), "window", spans, "/-", &source);
+        self.record_origin(&format!("constraint {}", header.name), "frees", name, at, "");
+        self.record_timing_origins(&format!("constraint {}", header.name), header);
     }
 
     /// The orientation row that holds the turn about `d`.
@@ -216,7 +216,7 @@ impl Context<'_> {
         let source = format!("split from {}", whole.name);
         for part in &parts {
             let shown = self.shown(&part.kind);
-            self.trace(&format!("constraint {}", part.name), "holds", shown, "/-", &source);
+            self.record_origin(&format!("constraint {}", part.name), "holds", shown, "/-", &source);
         }
         out.constraints.splice(point..=point, parts);
         Some(point + index)

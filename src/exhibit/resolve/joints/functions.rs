@@ -54,9 +54,9 @@ impl Context<'_> {
         let mut last = f64::NEG_INFINITY;
         for (i, time) in times.enumerate() {
             if time <= last || time < 0.0 {
-                let message = format!("key {i} is at {time} s, and must come after the one before it and after 0");
+                let message = format!("key {i} is at {time} s, but times must increase from key to key, from 0 on");
                 let problem = Diagnostic::new(codes::KEYS, message);
-                self.report(&format!("{at}/{i}"), problem.help("write keys as [time, value] in the order of time"));
+                self.report(&format!("{at}/{i}"), problem.help("write keys as [time, value] in increasing time"));
                 return;
             }
             last = time;

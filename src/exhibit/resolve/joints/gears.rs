@@ -53,7 +53,7 @@ impl Context<'_> {
             let kind = ConstraintKind::Coupling { terms: vec![term(a, size_a), term(b, sense * size_b)] };
             let first = out.constraints.len();
             self.push(out, &header, "", kind, None);
-            self.trace_header(&header, "", out, first);
+            self.record_header_origins(&header, "", out, first);
         }
         if !teeth_a && cosine.abs() > PARALLEL {
             let wanted = if given.internal { (size_a - size_b).abs() } else { size_a + size_b };
@@ -65,16 +65,16 @@ impl Context<'_> {
     fn loose_gear(&mut self, header: &Header, kind: LimitKind, out: &mut Joints) {
         let Header { name, at, .. } = header;
         if !header.schedule.is_always() || header.breaking.is_some() || header.stabilization_time.is_some() {
-            let message = format!("gear \"{name}\" has backlash and comes, goes, breaks or gathers");
+            let message = format!("gear \"{name}\" has backlash together with a window, trigger, break or stabilize");
             let help =
-                "teeth with play between them always act: leave out backlash, or window, trigger, break and stabilize";
+                "a gear with backlash is always active: leave out backlash, or window, trigger, break and stabilize";
             self.report(at, Diagnostic::new(codes::WRONG_SHAPE, message).help(help));
             return;
         }
         if let LimitKind::Play { terms: [a, b], play } = &kind {
             let [one, other] = [a, b].map(|t| format!("{} · {}", t.coefficient, self.shown_measure(&t.measure)));
             let shown = format!("{one} + {other} within ± {}", 0.5 * play);
-            self.trace(&format!("constraint {name}"), "holds", shown, at, "");
+            self.record_origin(&format!("constraint {name}"), "holds", shown, at, "");
         }
         out.limits.push(Limit { name: (*name).to_owned(), kind, restitution: 0.0 });
     }
@@ -86,7 +86,7 @@ impl Context<'_> {
             (Some(teeth), None) => Some((axis, f64::from(teeth), true)),
             (None, Some(radius)) => Some((axis, self.positive(radius.0, &format!("{at}/radius")), false)),
             _ => {
-                let message = format!("a wheel of \"{name}\" needs teeth or a radius, one of them");
+                let message = format!("a wheel of \"{name}\" needs either teeth or a radius");
                 self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help("add teeth = 42"));
                 None
             }
@@ -110,13 +110,13 @@ impl Context<'_> {
                 ConstraintKind::PointToPoint { b, .. } if b.body == body => Some(*b),
                 _ => None,
             });
-            held.map_or(self.pose_of(body).position, |anchor| self.at_rest(&anchor))
+            held.map_or(self.pose_of(body).position, |anchor| self.reference_position(&anchor))
         };
         let distance = (place(a) - place(b)).reject_from_normalized(along).length();
         if (distance - wanted).abs() > PLAY * wanted.max(distance) {
             let (is, should) = (distance * 1e3, wanted * 1e3);
-            let message = format!("the axles of \"{name}\" are {is:.2} mm apart, and its radii say {should:.2} mm");
-            let help = "the wheels overlap or do not touch; they turn together all the same";
+            let message = format!("the axles of \"{name}\" are {is:.2} mm apart, but its radii require {should:.2} mm");
+            let help = "the wheels overlap or do not touch; they still turn together";
             self.report(at, Diagnostic::new(codes::GEAR_DISTANCE, message).help(help));
         }
     }
@@ -131,7 +131,7 @@ impl Context<'_> {
             self.report(at, problem.help("name a hinge, or a body, an axis and the frame it turns with"));
             return;
         }
-        self.trace(&format!("constraint {}", given.name), "slips", format!("beyond {torque} N m"), at, "");
+        self.record_origin(&format!("constraint {}", given.name), "slips", format!("beyond {torque} N m"), at, "");
         let kind = ConstraintKind::Coupling { terms: vec![Term { measure, coefficient: 1.0 }] };
         out.constraints.push(Constraint { slips: Some(torque), ..Constraint::new(&given.name, kind) });
     }
@@ -158,7 +158,7 @@ impl Context<'_> {
         ];
         let first = out.constraints.len();
         self.push(out, &header, "", ConstraintKind::Coupling { terms }, None);
-        self.trace_header(&header, "", out, first);
+        self.record_header_origins(&header, "", out, first);
     }
 
     /// Reports rings of gears that cannot turn.
@@ -180,7 +180,7 @@ impl Context<'_> {
             }
             let names: Vec<&str> = way.iter().map(|(gear, _)| gear.name.as_str()).chain([gear.name.as_str()]).collect();
             let message = format!("gear \"{}\" closes a ring that cannot turn: {}", gear.name, names.join(", "));
-            let label = format!("going round, one turn becomes {product:.6} turns");
+            let label = format!("around the ring, one turn becomes {product:.6} turns");
             let help = "the product of all ratios must be 1; an odd ring of external gears always jams";
             let place = self.place(&gear.name);
             self.report(&place, Diagnostic::new(codes::GEAR_RING, message).label(label).help(help));

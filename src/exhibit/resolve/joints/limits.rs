@@ -45,18 +45,18 @@ impl Context<'_> {
 
     fn tilt(&mut self, name: &str, a: Axis, b: Axis, max: f64, restitution: f64, at: &str) -> Option<Limit> {
         if !(max > 0.0 && max < PI) {
-            let message = format!("a tilt limit of {:.1}° limits nothing, or all", max * DEGREES);
+            let message = format!("a tilt limit of {:.1}° is out of range", max * DEGREES);
             let problem = Diagnostic::new(codes::RANGE, message);
             self.report(&format!("{at}/max"), problem.help("give an angle between 0 and 180 deg"));
             return None;
         }
         let (u, v) = (self.start_of(a.body).vector(a.direction), self.start_of(b.body).vector(b.direction));
         if u.dot(v) < cos(max) && !self.assembles() {
-            let message = format!("constraint \"{name}\" is beyond its tilt limit at rest");
+            let message = format!("constraint \"{name}\" exceeds its tilt limit at the start");
             let problem = Diagnostic::new(codes::RANGE, message);
-            self.report(&format!("{at}/max"), problem.help("turn the axis round, or allow more"));
+            self.report(&format!("{at}/max"), problem.help("reverse the axis, or allow more"));
         }
-        self.trace(&format!("constraint {name}"), "limit", format!("{:.2}°", max * DEGREES), at, "");
+        self.record_origin(&format!("constraint {name}"), "limit", format!("{:.2}°", max * DEGREES), at, "");
         Some(Limit { name: name.to_owned(), kind: LimitKind::Tilt { a, b, max }, restitution })
     }
 
@@ -115,7 +115,10 @@ impl Context<'_> {
             (Some(_), Some(_)) => {
                 let problem =
                     Diagnostic::new(codes::WRONG_SHAPE, format!("limit \"{name}\" has an axis and a direction"));
-                self.report(at, problem.help("an axis bounds a turn, a direction a way"));
+                self.report(
+                    at,
+                    problem.help("an axis bounds a rotation, a direction a displacement; give one of them"),
+                );
             }
         }
     }
@@ -127,7 +130,7 @@ impl Context<'_> {
         let (Some(min), Some(max)) = (min, max) else { return };
         if self.check_range((min, max), Some(0.0), at, &given.name) {
             let shown = format!("{}: {}", self.shown_measure(&measure), range_shown(&measure, min, max));
-            self.trace(&format!("limit {}", given.name), "bounds", shown, at, "");
+            self.record_origin(&format!("limit {}", given.name), "bounds", shown, at, "");
             let kind = LimitKind::Range { measure, min, max };
             out.limits.push(Limit { name: given.name.clone(), kind, restitution: given.restitution });
         }
@@ -144,14 +147,14 @@ impl Context<'_> {
         }
         // A cord drawn taut in the model may be a hair too long.
         let slack = super::checks::APART;
-        let length = self.at_start(&a).distance(self.at_start(&b));
+        let length = self.start_position(&a).distance(self.start_position(&b));
         if !self.assembles() && !(min - slack..=max + slack).contains(&length) {
             let message = format!("the points of \"{}\" are {length:.4} m apart, outside {min} to {max} m", given.name);
             let help = "move one of the two nodes, or the bounds";
             self.report(at, Diagnostic::new(codes::RANGE, message).help(help));
         }
         let shown = format!("distance {min} to {max} m ({length:.6} m at the start)");
-        self.trace(&format!("limit {}", given.name), "bounds", shown, at, "");
+        self.record_origin(&format!("limit {}", given.name), "bounds", shown, at, "");
         let kind = LimitKind::Distance { a, b, min, max };
         out.limits.push(Limit { name: given.name.clone(), kind, restitution: given.restitution });
     }
@@ -172,7 +175,7 @@ impl Context<'_> {
             Some(Travel::Way(way)) if !turn => Some(way.0),
             Some(_) => {
                 let (is, wanted) = if turn { ("a length", "an angle") } else { ("an angle", "a length") };
-                let message = format!("\"{name}\" is bounded by {is}, and needs {wanted}");
+                let message = format!("\"{name}\" is bounded by {is}, but needs {wanted}");
                 let help = if turn { "write it as \"12 deg\"" } else { "write it as \"12 mm\"" };
                 self.report(at, Diagnostic::new(codes::WRONG_TYPE, message).help(help));
                 None
@@ -196,7 +199,7 @@ impl Context<'_> {
             (Some(_), _) => {
                 let problem =
                     Diagnostic::new(codes::WRONG_SHAPE, format!("ratchet \"{}\" needs its pitch", given.name));
-                self.report(at, problem.help("a wheel has teeth or a pitch, one of them; a rack has a pitch"));
+                self.report(at, problem.help("give a wheel either teeth or a pitch, and a rack a pitch"));
                 return;
             }
             (None, pitch) => {
@@ -207,7 +210,7 @@ impl Context<'_> {
         };
         let shown =
             format!("{} grows; pitch {pitch} {}", self.shown_measure(&measure), if is_turn { "rad" } else { "m" });
-        self.trace(&format!("limit {}", given.name), "ratchet", shown, at, "");
+        self.record_origin(&format!("limit {}", given.name), "ratchet", shown, at, "");
         let kind = LimitKind::Ratchet { measure, pitch };
         out.limits.push(Limit { name: given.name.clone(), kind, restitution: 0.0 });
     }

@@ -17,7 +17,7 @@ mod schedule;
 mod springs;
 
 use super::super::codes;
-use super::super::diagnostic::{Diagnostic, near, quoted};
+use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::sidecar::Friction;
 use super::bodies::meters;
 use super::context::Context;
@@ -84,7 +84,7 @@ impl Context<'_> {
         if out.constraints.len() > MAX_CONSTRAINTS {
             let message = format!("{} constraints; the limit is {MAX_CONSTRAINTS}", out.constraints.len());
             let problem = Diagnostic::new(codes::MODEL_LIMIT, message);
-            self.report("/constraint", problem.help("make one body of what does not move against each other"));
+            self.report("/constraint", problem.help("join bodies that do not move against each other"));
         }
         out
     }
@@ -104,10 +104,10 @@ impl Context<'_> {
     /// Notes a table that is switched off.
     fn enable(&mut self, name: &str, enabled: Option<bool>, at: &str, out: &mut Joints) {
         if enabled == Some(false) {
-            self.trace(
+            self.record_origin(
                 &format!("constraint {name}"),
                 "enabled",
-                "false: it does not act".into(),
+                "false: it is not active".into(),
                 &format!("{at}/enabled"),
                 "",
             );
@@ -117,11 +117,11 @@ impl Context<'_> {
 
     /// Can these two be held together? One of them must be a body that moves freely.
     fn joinable(&mut self, a: Option<usize>, b: Option<usize>, name: &str, at: &str) -> bool {
-        let given = |body: Option<usize>| body.is_none_or(|body| self.is_driven(body));
+        let given = |body: Option<usize>| body.is_none_or(|body| self.is_kinematic(body));
         let message = if a == b && a.is_some() {
             format!("constraint \"{name}\" joins {} to itself", self.body_name(a))
         } else if given(a) && given(b) {
-            format!("constraint \"{name}\" joins two things that stand still or follow a path")
+            format!("constraint \"{name}\" joins two nodes that are fixed or kinematic")
         } else {
             return true;
         };
@@ -142,18 +142,18 @@ impl Context<'_> {
         let name = if part.is_empty() { header.name.to_owned() } else { format!("{}/{part}", header.name) };
         // What acts later may be open until then.
         let schedule = &header.schedule;
-        let at_start = schedule.windows.is_empty() || schedule.windows.iter().any(|window| window.start <= 0.0);
-        if at_start && schedule.trigger.is_none() {
+        let start_position = schedule.windows.is_empty() || schedule.windows.iter().any(|window| window.start <= 0.0);
+        if start_position && schedule.trigger.is_none() {
             self.check_rest(&kind, &name, header.at);
         }
         let of = format!("constraint {name}");
-        let source = if part.is_empty() { "" } else { "part of the combination" };
+        let source = if part.is_empty() { "" } else { "part of the combined joint" };
         let place = if part.is_empty() { header.at } else { "/-" };
         let shown = self.shown(&kind);
-        self.trace(&of, "holds", shown, place, source);
+        self.record_origin(&of, "holds", shown, place, source);
         if let Some(f) = friction {
             let value = format!("μ {}, r {} m", f.coefficient, f.radius);
-            self.trace(&of, "friction", value, &format!("{}/friction", header.at), "");
+            self.record_origin(&of, "friction", value, &format!("{}/friction", header.at), "");
         }
         out.constraints.push(Constraint {
             name,
@@ -167,14 +167,14 @@ impl Context<'_> {
     }
 
     /// Notes what a combination was expanded into, and when the table's rows act and break.
-    fn trace_header(&mut self, header: &Header, kind: &str, out: &Joints, first: usize) {
+    fn record_header_origins(&mut self, header: &Header, kind: &str, out: &Joints, first: usize) {
         let of = format!("constraint {}", header.name);
         let parts: Vec<&str> = out.constraints[first..].iter().map(|c| c.name.as_str()).collect();
         if parts.iter().any(|name| name.contains('/')) {
             let rows: usize = out.constraints[first..].iter().map(|c| rows_of(&c.kind)).sum();
-            self.trace(&of, kind, format!("{rows} rows: {}", parts.join(", ")), header.at, "");
+            self.record_origin(&of, kind, format!("{rows} rows: {}", parts.join(", ")), header.at, "");
         }
-        self.trace_timing(&of, header);
+        self.record_timing_origins(&of, header);
     }
 
     fn friction(&mut self, given: Option<Friction>, at: &str) -> Option<PivotFriction> {
@@ -195,7 +195,7 @@ impl Context<'_> {
     }
 
     fn unknown_constraint(&mut self, of: &str, what: &str, names: &[&str], at: &str) {
-        let likely = near(of, names.iter().copied());
+        let likely = similar_names(of, names.iter().copied());
         let help = match (likely.is_empty(), names.is_empty()) {
             (false, _) => format!("did you mean {}?", quoted(&likely)),
             (true, false) => format!("there are {}", quoted(names)),
@@ -240,13 +240,13 @@ impl Context<'_> {
     fn shown_measure(&self, measure: &Measure) -> String {
         match measure {
             Measure::Angle { axis, frame } => format!(
-                "turn of {} about {} against {}",
+                "rotation of {} about {} relative to {}",
                 self.body_name(axis.body),
                 axis.direction,
                 self.body_name(*frame)
             ),
             Measure::Way { point, direction } => format!(
-                "way of {} along {} of {}",
+                "displacement of {} along {} of {}",
                 self.body_name(point.body),
                 direction.direction,
                 self.body_name(direction.body)

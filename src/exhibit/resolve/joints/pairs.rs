@@ -3,10 +3,10 @@
 use soffio_multibody::articulation::ConstraintKind;
 
 /// Two bodies; `None` is the world.
-pub(crate) type Pair = (Option<usize>, Option<usize>);
+pub(crate) type BodyPair = (Option<usize>, Option<usize>);
 
 /// The pairs of bodies that a constraint joins.
-pub(crate) fn pairs(kind: &ConstraintKind) -> Vec<Pair> {
+pub(crate) fn pairs(kind: &ConstraintKind) -> Vec<BodyPair> {
     match kind {
         ConstraintKind::PointToPoint { a, b } => vec![(a.body, b.body)],
         ConstraintKind::Orientation { a, b, .. } => vec![(a.body, b.body)],

@@ -71,7 +71,7 @@ impl Context<'_> {
         // A plane through a node's mark that is given in world axes turns with what carries the mark.
         let world_normal = self.pose_of(normal.body).vector(normal.direction);
         let normal = self.pose_of(plane.body).inverse_vector(world_normal);
-        let height = world_normal.dot(self.at_rest(&point) - self.at_rest(&plane));
+        let height = world_normal.dot(self.reference_position(&point) - self.reference_position(&plane));
         let offset = match &given.plane.offset {
             Some(given) => self.function(given, &format!("{place}/offset")),
             None => height.into(),
@@ -97,7 +97,7 @@ impl Context<'_> {
         let friction = self.friction(friction, header.at);
         let before = out.constraints.len();
         self.push(out, header, "", kind, friction);
-        self.trace_header(header, "", out, before);
+        self.record_header_origins(header, "", out, before);
         if let Some(tilt) = tilt {
             let limit = self.tilt_limit(tilt, first, b, &format!("{}/limit", header.at), header.name);
             out.limits.extend(limit);
@@ -167,7 +167,7 @@ impl Context<'_> {
                 self.body_axis(&other.body, other.axis, &format!("{place}/body"), &format!("{place}/axis"), name)
             }
             _ => {
-                let message = format!("constraint \"{name}\" needs world_axis or other, one of them");
+                let message = format!("constraint \"{name}\" needs either world_axis or other");
                 self.report(at, Diagnostic::new(codes::MISSING_KEY, message).help("add world_axis = [0, 1, 0]"));
                 None
             }

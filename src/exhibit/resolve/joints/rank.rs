@@ -22,12 +22,12 @@ const DEPENDENT: f64 = 1e-6;
 /// Rates that differ by less are the same, of the size of the rates.
 const SAME_RATE: f64 = 1e-4;
 /// Most rows of a ring that are asked together: the cost grows with the cube.
-const MOST_ROWS: usize = 600;
+const MAX_ROWS: usize = 600;
 /// Times at which rates are compared, s: enough to meet any two functions that differ.
 const TIMES: [f64; 8] = [0.0, 0.31, 0.83, 1.37, 2.29, 3.71, 5.93, 9.61];
 
 /// One row: blocks of the freely moving bodies it touches, and its rate r at [`TIMES`].
-struct Row {
+struct ConstraintRow {
     constraint: usize,
     blocks: Vec<(usize, [DVec3; 2])>,
     rates: [f64; TIMES.len()],
@@ -43,24 +43,29 @@ enum Finding {
 impl Context<'_> {
     /// Warns of redundant rows, and reports contradicting ones.
     pub(in super::super) fn check_rank(&mut self, constraints: &[Constraint], drives: &[KinematicBody]) {
-        let mut told: Vec<Vec<usize>> = Vec::new();
+        let mut reported: Vec<Vec<usize>> = Vec::new();
         for active in active_sets(constraints) {
             let rows = self.rows(constraints, &active, drives);
             for component in components(&rows, self.body_nodes.len()) {
-                let members: Vec<&Row> = component.iter().map(|&i| &rows[i]).collect();
+                let members: Vec<&ConstraintRow> = component.iter().map(|&i| &rows[i]).collect();
                 let found = dependent(&members);
                 let mut key: Vec<usize> = found.iter().map(|&(row, _)| members[row].constraint).collect();
                 key.dedup();
-                if found.is_empty() || told.contains(&key) {
+                if found.is_empty() || reported.contains(&key) {
                     continue;
                 }
-                self.tell_rank(constraints, &members, &found);
-                told.push(key);
+                self.report_dependent_rows(constraints, &members, &found);
+                reported.push(key);
             }
         }
     }
 
-    fn tell_rank(&mut self, constraints: &[Constraint], members: &[&Row], found: &[(usize, Finding)]) {
+    fn report_dependent_rows(
+        &mut self,
+        constraints: &[Constraint],
+        members: &[&ConstraintRow],
+        found: &[(usize, Finding)],
+    ) {
         let names = |wanted: Finding| {
             let mut names: Vec<(&str, usize)> = Vec::new();
             for &(row, _) in found.iter().filter(|(_, finding)| *finding == wanted) {
@@ -86,13 +91,13 @@ impl Context<'_> {
             (
                 Finding::Contradicts,
                 codes::CONTRADICTORY,
-                ["asks for what others forbid", "ask for what others forbid"],
-                "two constraints hold the same freedom and move it differently: take one away, or give both one motion",
+                ["contradicts other constraints", "contradict other constraints"],
+                "two constraints prescribe different motions of the same freedom: remove one, or give both the same motion",
             ),
             (
                 Finding::Redundant,
                 codes::REDUNDANT,
-                ["holds again what others hold already", "hold again what others hold already"],
+                ["constrains again what others constrain already", "constrain again what others constrain already"],
                 "the solver leaves such rows out; a universal instead of a hinge, or a line instead of a slider, closes \
                  a ring without them",
             ),
@@ -108,7 +113,7 @@ impl Context<'_> {
     }
 
     /// The rows of the constraints that act, at the poses of the model.
-    fn rows(&self, constraints: &[Constraint], active: &[usize], drives: &[KinematicBody]) -> Vec<Row> {
+    fn rows(&self, constraints: &[Constraint], active: &[usize], drives: &[KinematicBody]) -> Vec<ConstraintRow> {
         let moving = |body: Option<usize>| body.filter(|&b| drives.iter().any(|drive| drive.body == b));
         let points: Vec<DVec3> = self.poses.iter().map(|pose| pose.position).collect();
         let center = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
@@ -118,11 +123,11 @@ impl Context<'_> {
         for &index in active {
             // Each line: which body, force along, moment; and the rate that the constraint itself asks for.
             let mut push = |sides: &[(Option<usize>, DVec3, DVec3)], own: &dyn Fn(f64) -> f64| {
-                let mut row = Row { constraint: index, blocks: Vec::new(), rates: TIMES.map(own) };
+                let mut row = ConstraintRow { constraint: index, blocks: Vec::new(), rates: TIMES.map(own) };
                 for &(body, force, moment) in sides {
                     if let Some(driven) = moving(body) {
                         for (rate, t) in row.rates.iter_mut().zip(TIMES) {
-                            *rate -= driven_rate(drives, driven, t, center, force, moment);
+                            *rate -= kinematic_rate(drives, driven, t, center, force, moment);
                         }
                     } else if let Some(body) = body {
                         let block = [force, moment / size];
@@ -134,7 +139,7 @@ impl Context<'_> {
                 }
                 rows.push(row);
             };
-            let arm = |anchor: &Anchor| self.at_rest(anchor) - center;
+            let arm = |anchor: &Anchor| self.reference_position(anchor) - center;
             match &constraints[index].kind {
                 ConstraintKind::PointToPoint { a, b } => {
                     for e in DVec3::AXES {
@@ -178,7 +183,7 @@ impl Context<'_> {
 }
 
 /// J v of a driven body at a time.
-fn driven_rate(drives: &[KinematicBody], body: usize, t: f64, center: DVec3, force: DVec3, moment: DVec3) -> f64 {
+fn kinematic_rate(drives: &[KinematicBody], body: usize, t: f64, center: DVec3, force: DVec3, moment: DVec3) -> f64 {
     let Some(drive) = drives.iter().find(|drive| drive.body == body) else { return 0.0 };
     let now = drive.motion.at(t);
     let at_center = now.velocity + now.angular_velocity.cross(center - now.pose.position);
@@ -207,7 +212,7 @@ fn active_sets(constraints: &[Constraint]) -> Vec<Vec<usize>> {
 }
 
 /// Rows that have to be asked together: those of one joint of a tree, and those of the rings.
-fn components(rows: &[Row], bodies: usize) -> Vec<Vec<usize>> {
+fn components(rows: &[ConstraintRow], bodies: usize) -> Vec<Vec<usize>> {
     let mut edges: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
     for (i, row) in rows.iter().enumerate() {
         let mut ends: Vec<usize> = row.blocks.iter().map(|(body, _)| *body).collect();
@@ -236,7 +241,7 @@ fn components(rows: &[Row], bodies: usize) -> Vec<Vec<usize>> {
             members.extend(rows);
         }
         members.sort_unstable();
-        if members.len() <= MOST_ROWS {
+        if members.len() <= MAX_ROWS {
             out.push(members);
         }
     }
@@ -244,7 +249,7 @@ fn components(rows: &[Row], bodies: usize) -> Vec<Vec<usize>> {
 }
 
 /// The rows that depend on those before them.
-fn dependent(rows: &[&Row]) -> Vec<(usize, Finding)> {
+fn dependent(rows: &[&ConstraintRow]) -> Vec<(usize, Finding)> {
     let mut bodies: Vec<usize> = rows.iter().flat_map(|row| row.blocks.iter().map(|(body, _)| *body)).collect();
     bodies.sort_unstable();
     bodies.dedup();

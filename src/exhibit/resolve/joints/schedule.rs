@@ -77,7 +77,7 @@ impl Context<'_> {
             let length = end - start;
             Some((format!("is {length} s long, shorter than its ramps"), "shorten ramp_in and ramp_out"))
         } else if after.is_some_and(|before| start < before) {
-            Some(("starts before the one above it ends".into(), "write windows in the order of time, apart"))
+            Some(("starts before the one above it ends".into(), "write windows in increasing time, without overlap"))
         } else if late {
             Some((format!("starts at {start} s, after the run of {duration} s"), "see [scene] duration"))
         } else if schedule.period.is_some_and(|period| start >= period || (end.is_finite() && end > period)) {
@@ -99,9 +99,9 @@ impl Context<'_> {
                 let at_body = format!("{place}/body");
                 let node = self.node(body, &at_body, &format!("the trigger of \"{name}\""))?;
                 let Some(index) = self.owner[node] else {
-                    let message = format!("node \"{body}\" stands still, and nothing hits it that could be told");
+                    let message = format!("node \"{body}\" is fixed, so its impacts are not reported");
                     let problem = Diagnostic::new(codes::UNKNOWN_BODY, message);
-                    self.report(&at_body, problem.help("name the body that moves and hits"));
+                    self.report(&at_body, problem.help("name the moving body of the impact"));
                     return None;
                 };
                 let least_impulse = self.not_negative(least.0, &format!("{place}/least"));
@@ -126,7 +126,7 @@ impl Context<'_> {
             }
             reported.push(name);
             let body = self.body_name(Some(body)).to_owned();
-            let message = format!("\"{name}\" waits for hits on \"{body}\", which has no collider");
+            let message = format!("\"{name}\" waits for impacts on \"{body}\", which has no collider");
             let help = format!("add [[collider]] node = \"{body}\"");
             let place = format!("{}/trigger", self.place(name));
             self.report(&place, Diagnostic::new(codes::TRIGGER, message).help(help));
@@ -140,7 +140,7 @@ impl Context<'_> {
             ("impulse", given.impulse.map(|x| x.0)),
         ];
         if loads.iter().all(|(_, load)| load.is_none()) {
-            let message = format!("\"{name}\" breaks at no load");
+            let message = format!("\"{name}\" has no breaking load");
             let help = "add force = \"25 N\", torque or impulse; or leave `break` out";
             self.report(at, Diagnostic::new(codes::NO_BREAK, message).help(help));
             return None;
@@ -155,33 +155,33 @@ impl Context<'_> {
     }
 
     /// Notes when the rows of a table act and break.
-    pub(super) fn trace_timing(&mut self, of: &str, header: &Header) {
+    pub(super) fn record_timing_origins(&mut self, of: &str, header: &Header) {
         let Header { schedule, breaking, at, stabilization_time, .. } = header;
         if let Some(time) = stabilization_time {
-            self.trace(of, "time_constant", format!("{time} s"), &format!("{at}/stabilize/time_constant"), "");
+            self.record_origin(of, "time_constant", format!("{time} s"), &format!("{at}/stabilize/time_constant"), "");
         }
         if !schedule.windows.is_empty() {
             let spans = schedule.windows.iter().map(|w| format!("{} to {} s", w.start, w.end));
             let repeated = schedule.period.map(|p| format!(", every {p} s")).unwrap_or_default();
             let ramps = format!("; ramps {} s and {} s", schedule.ramp_in, schedule.ramp_out);
             let value = spans.collect::<Vec<_>>().join(", ") + &repeated + &ramps;
-            self.trace(of, "window", value, &format!("{at}/window"), "");
+            self.record_origin(of, "window", value, &format!("{at}/window"), "");
         }
         if let Some(trigger) = schedule.trigger {
             let value = match trigger {
                 Trigger::Impact { body, least_impulse } => {
-                    format!("a hit on {} of {least_impulse} N s", self.body_name(Some(body)))
+                    format!("an impact on {} of {least_impulse} N s", self.body_name(Some(body)))
                 }
                 Trigger::Breath { least_speed } => format!("a breath of {least_speed} m/s"),
             };
-            self.trace(of, "trigger", value, &format!("{at}/trigger"), "");
+            self.record_origin(of, "trigger", value, &format!("{at}/trigger"), "");
         }
         if let Some(Breaking { force, torque, impulse, restore }) = breaking {
             let loads = [(force, "N"), (torque, "N m"), (impulse, "N s")];
             let loads = loads.iter().filter(|(load, _)| load.is_finite()).map(|(load, unit)| format!("{load} {unit}"));
             let back = if restore.is_finite() { format!("closes after {restore} s") } else { "until reset".into() };
             let value = format!("{}, {back}", loads.collect::<Vec<_>>().join(" or "));
-            self.trace(of, "break", value, &format!("{at}/break"), "");
+            self.record_origin(of, "break", value, &format!("{at}/break"), "");
         }
     }
 }

@@ -19,7 +19,7 @@ impl Context<'_> {
         }
         let rest = match &given.rest_length {
             Some(rest) => self.function_from_zero(rest, &format!("{at}/rest_length")),
-            None => self.at_rest(&a).distance(self.at_rest(&b)).into(),
+            None => self.reference_position(&a).distance(self.reference_position(&b)).into(),
         };
         let stiffness = self.function_from_zero(&given.stiffness, &format!("{at}/stiffness"));
         let damping = given.damping.as_ref();
@@ -57,14 +57,14 @@ impl Context<'_> {
         if header.stabilization_time.is_some() {
             let message = format!("spring \"{}\" has a stabilizer", header.name);
             let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
-            let help = "a spring draws by its stiffness and damping: leave out stabilize";
+            let help = "a spring acts by its stiffness and damping: leave out stabilize";
             self.report(&format!("{}/stabilize", header.at), problem.help(help));
         }
         for (function, (key, unit)) in functions.iter().zip(units) {
-            let otherwise = if key == "rest_length" { "derived: length at rest" } else { "default" };
-            self.trace(&of, key, functions::shown(function, unit), &format!("{}/{key}", header.at), otherwise);
+            let otherwise = if key == "rest_length" { "derived: length in the model" } else { "default" };
+            self.record_origin(&of, key, functions::shown(function, unit), &format!("{}/{key}", header.at), otherwise);
         }
-        self.trace_timing(&of, header);
+        self.record_timing_origins(&of, header);
         let [rest, stiffness, damping] = functions;
         out.springs.push(Spring {
             name: header.name.to_owned(),

@@ -1,23 +1,24 @@
-//! An exhibit as a MuJoCo model (MJCF): bodies, inertias, joints, couplings, limits, springs, shapes, touches.
+//! MJCF export: an exhibit as a MuJoCo model with bodies, inertias, joints, couplings, limits, springs, geoms and
+//! contacts.
 //!
-//! The model stands as the exhibit does at its start, and all coordinates are 0 there. Joints make a tree (`tree`); rings
-//! are closed by equalities; gears are fixed tendons that keep their length. What MuJoCo has no word for is left out and
-//! named: nothing is replaced by what only resembles it.
+//! The model has the exhibit's start pose, where all coordinates are 0. Joints form a tree (`tree`); loops are closed
+//! by equality constraints; gears are fixed tendons of constant length. Features without a MuJoCo equivalent are left
+//! out and listed: nothing is replaced by a mere approximation.
 //!
-//! | here | there |
+//! | exhibit | MJCF |
 //! |---|---|
 //! | point, hinge, universal, slider, line, weld | `ball`, `hinge`, two `hinge`, `slide`, `slide` and `ball`, nothing |
-//! | the same, closing a ring | `connect`, two of them, `weld` |
-//! | coupling; play of a gear | `tendon/fixed` held by `equality/tendon`; limited |
+//! | the same, closing a loop | `connect`, two of them, `weld` |
+//! | coupling; backlash of a gear | `tendon/fixed` held by `equality/tendon`; limited |
 //! | range; distance | `range`, or a limited tendon |
 //! | spring | `tendon` with stiffness and damping |
-//! | pair of colliders that can meet | `contact/pair` with the friction of both |
+//! | pair of colliders that can touch | `contact/pair` with the friction of both |
 
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-use super::super::whole_file::WholeFile;
+use super::super::atomic_file::AtomicFile;
 use soffio_exhibit::Exhibit;
 use soffio_math::Function;
 use soffio_math::{DQuat, DVec3, Pose};
@@ -26,28 +27,28 @@ use soffio_multibody::articulation::{Anchor, ConstraintKind, LimitKind, Measure,
 mod shapes;
 mod tree;
 
-use tree::{Closing, Freedom, Tree};
+use tree::{Equality, Freedom, Tree};
 
-/// Time step, s: touches and equalities are stiff springs there, of a few steps' time.
+/// Time step, s: MuJoCo's contacts and equalities are stiff springs with time constants of a few steps.
 const STEP: f64 = 1e-3;
-/// What stands for a bound that there is none of: rad or m.
+/// Value of a missing bound, rad or m.
 const UNBOUNDED: f64 = 1e3;
 
-/// The model's text, and what it leaves out, a line each.
+/// An exported model.
 pub struct Exported {
     /// MJCF.
     pub text: String,
-    /// Name of what is left out, and why.
-    pub left_out: Vec<String>,
+    /// Names of the omitted features and the reasons, one line each.
+    pub omitted: Vec<String>,
 }
 
-/// Writes the exhibit; what was left out.
+/// Writes the exhibit as MJCF; returns what was omitted.
 pub fn write(exhibit: &Exhibit, path: &Path) -> io::Result<Vec<String>> {
-    let Exported { text, left_out } = export(exhibit);
-    let mut file = WholeFile::create(path)?;
+    let Exported { text, omitted } = export(exhibit);
+    let mut file = AtomicFile::create(path)?;
     file.write_all(text.as_bytes())?;
     file.finish()?;
-    Ok(left_out)
+    Ok(omitted)
 }
 
 /// The exhibit as a MuJoCo model.
@@ -56,7 +57,7 @@ pub fn export(exhibit: &Exhibit) -> Exported {
     let mut writer = Writer {
         exhibit,
         tree: &tree,
-        left_out: Vec::new(),
+        omitted: Vec::new(),
         sites: vec![String::new(); exhibit.bodies.len() + 1],
         site_count: 0,
         meshes: String::new(),
@@ -66,10 +67,10 @@ pub fn export(exhibit: &Exhibit) -> Exported {
         velocities: Vec::new(),
         places: Vec::new(),
     };
-    for (name, why) in &tree.left_out {
-        writer.leave_out(name, why);
+    for (name, why) in &tree.omitted {
+        writer.omit(name, why);
     }
-    writer.closings();
+    writer.equalities();
     writer.couplings();
     writer.limits();
     writer.springs();
@@ -79,7 +80,7 @@ pub fn export(exhibit: &Exhibit) -> Exported {
         writer.body(root, None, 2, &mut world);
     }
     let world_sites = std::mem::take(&mut writer.sites[0]);
-    writer.unsaid();
+    writer.report_unsupported();
     let gravity = numbers(&exhibit.gravity.to_array());
     let mut text = format!(
         "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" balanceinertia=\"false\"/>\n  \
@@ -105,32 +106,32 @@ pub fn export(exhibit: &Exhibit) -> Exported {
         }
     }
     text += "</mujoco>\n";
-    Exported { text, left_out: writer.left_out }
+    Exported { text, omitted: writer.omitted }
 }
 
 struct Writer<'a> {
     exhibit: &'a Exhibit,
     tree: &'a Tree,
-    left_out: Vec<String>,
-    /// Marked points: of the world, then of each body.
+    omitted: Vec<String>,
+    /// Sites: of the world, then of each body.
     sites: Vec<String>,
     site_count: usize,
     meshes: String,
     tendons: String,
     equalities: String,
-    /// Bounds of joint coordinates: body, freedom, least, greatest.
+    /// Ranges of joint coordinates: body, degree of freedom, least, greatest.
     ranges: Vec<(usize, usize, [f64; 2])>,
-    /// Speeds and places of all coordinates at the start, in the model's order.
+    /// Velocities and positions of all coordinates at the start, in the model's order.
     velocities: Vec<f64>,
     places: Vec<f64>,
 }
 
 impl Writer<'_> {
-    fn leave_out(&mut self, name: &str, why: &str) {
-        self.left_out.push(format!("{name}: {why}"));
+    fn omit(&mut self, name: &str, why: &str) {
+        self.omitted.push(format!("{name}: {why}"));
     }
 
-    /// Marks a point; its name.
+    /// Adds a site at a point and returns its name.
     fn site(&mut self, anchor: &Anchor) -> String {
         let name = format!("site {}", self.site_count);
         self.site_count += 1;
@@ -143,14 +144,14 @@ impl Writer<'_> {
         name
     }
 
-    fn closings(&mut self) {
-        for closing in &self.tree.closings {
+    fn equalities(&mut self) {
+        for closing in &self.tree.equalities {
             match closing {
-                Closing::Points(name, a, b) => {
+                Equality::Points(name, a, b) => {
                     let (a, b) = (self.site(a), self.site(b));
                     let _ = writeln!(self.equalities, "    <connect {} site1=\"{a}\" site2=\"{b}\"/>", named(name));
                 }
-                Closing::Rigid(name, a, b) => {
+                Equality::Rigid(name, a, b) => {
                     let [a, b] = [a, b]
                         .map(|body| escaped(body.map_or("world", |body| self.exhibit.bodies[body].name.as_str())));
                     let _ = writeln!(self.equalities, "    <weld {} body1=\"{a}\" body2=\"{b}\"/>", named(name));
@@ -159,7 +160,8 @@ impl Writer<'_> {
         }
     }
 
-    /// A sum of turns and ways as a tendon's joints; `None` where one of them is no sum of joints' coordinates.
+    /// A sum of rotations and displacements as terms of joint coordinates; `None` where one of them is not a joint
+    /// coordinate.
     fn sum(&self, terms: &[(Measure, f64)]) -> Option<Vec<(usize, usize, f64)>> {
         let mut all = Vec::new();
         for (measure, coefficient) in terms {
@@ -169,7 +171,7 @@ impl Writer<'_> {
         Some(all)
     }
 
-    /// Adds a tendon that measures a sum of coordinates, with more attributes.
+    /// Adds a tendon that measures a sum of coordinates, with further attributes.
     fn tendon(&mut self, name: &str, sum: &[(usize, usize, f64)], more: &str) {
         let _ = writeln!(self.tendons, "    <fixed {}{more}>", named(name));
         for (body, freedom, coefficient) in sum {
@@ -183,19 +185,19 @@ impl Writer<'_> {
         for constraint in &self.exhibit.constraints {
             let ConstraintKind::Coupling { terms } = &constraint.kind else { continue };
             if constraint.slips.is_some() {
-                self.leave_out(&constraint.name, "slips");
+                self.omit(&constraint.name, "slips");
                 continue;
             }
             if !constraint.schedule.is_always() || constraint.breaking.is_some() {
-                // Told with the others that come and go.
+                // A constraint with a schedule is reported by the tree.
                 if constraint.schedule.is_always() {
-                    self.leave_out(&constraint.name, "breaks");
+                    self.omit(&constraint.name, "breaks");
                 }
                 continue;
             }
             let terms: Vec<_> = terms.iter().map(|term| (term.measure, term.coefficient)).collect();
             let Some(sum) = self.sum(&terms) else {
-                self.leave_out(&constraint.name, "couples what no joint measures");
+                self.omit(&constraint.name, "couples what no joint measures");
                 continue;
             };
             self.tendon(&constraint.name, &sum, "");
@@ -241,7 +243,7 @@ impl Writer<'_> {
                 LimitKind::Tilt { .. } => "a bound on a tilt; MuJoCo bounds a ball joint's whole turn only",
                 LimitKind::Ratchet { .. } => "a ratchet",
             };
-            self.leave_out(&limit.name, why);
+            self.omit(&limit.name, why);
         }
     }
 
@@ -257,11 +259,11 @@ impl Writer<'_> {
             let (Function::Constant(rest), Function::Constant(stiffness), Function::Constant(damping)) =
                 (&spring.rest, &spring.stiffness, &spring.damping)
             else {
-                self.leave_out(&spring.name, "a spring that changes with time");
+                self.omit(&spring.name, "a spring that changes with time");
                 continue;
             };
             if !spring.schedule.is_always() || spring.breaking.is_some() {
-                self.leave_out(&spring.name, "a spring that comes and goes, or breaks");
+                self.omit(&spring.name, "a spring that comes and goes, or breaks");
                 continue;
             }
             let more = format!(" stiffness=\"{stiffness}\" damping=\"{damping}\" springlength=\"{rest}\"");
@@ -269,7 +271,7 @@ impl Writer<'_> {
                 SpringKind::Linear { a, b } => self.distance(&spring.name, a, b, &more),
                 SpringKind::Angular { measure } => match self.sum(&[(*measure, 1.0)]) {
                     Some(sum) => self.tendon(&spring.name, &sum, &more),
-                    None => self.leave_out(&spring.name, "a spring on what no joint measures"),
+                    None => self.omit(&spring.name, "a spring on what no joint measures"),
                 },
             }
         }
@@ -279,10 +281,10 @@ impl Writer<'_> {
         format!("{} {freedom}", self.exhibit.bodies[body].name)
     }
 
-    /// Writes a body and all that it carries.
+    /// Writes a body and all bodies that it carries.
     fn body(&mut self, index: usize, parent: Option<usize>, depth: usize, out: &mut String) {
         let (exhibit, tree) = (self.exhibit, self.tree);
-        let (body, member) = (&exhibit.bodies[index], &tree.members[index]);
+        let (body, tree_body) = (&exhibit.bodies[index], &tree.bodies[index]);
         let indent = "  ".repeat(depth);
         let frame = parent.map_or(Pose::IDENTITY, |parent| exhibit.bodies[parent].pose);
         let (at, turn) = (frame.inverse_point(body.pose.position), frame.rotation.conjugate() * body.pose.rotation);
@@ -292,14 +294,14 @@ impl Writer<'_> {
         let inertia = numbers(&[i.x_axis.x, i.y_axis.y, i.z_axis.z, i.x_axis.y, i.x_axis.z, i.y_axis.z]);
         let mass = body.properties.mass;
         let _ = writeln!(out, "{indent}  <inertial pos=\"{center}\" mass=\"{mass}\" fullinertia=\"{inertia}\"/>");
-        let point = numbers(&body.pose.inverse_point(member.joint.point).to_array());
+        let point = numbers(&body.pose.inverse_point(tree_body.joint.point).to_array());
         let damping = self.damping(index);
-        if !member.joint.names.is_empty() {
+        if !tree_body.joint.names.is_empty() {
             // XML has no two dashes inside a comment.
-            let names = member.joint.names.join(", ").replace("--", "- -");
+            let names = tree_body.joint.names.join(", ").replace("--", "- -");
             let _ = writeln!(out, "{indent}  <!-- {names} -->");
         }
-        for (k, freedom) in member.joint.freedoms.iter().enumerate() {
+        for (k, freedom) in tree_body.joint.freedoms.iter().enumerate() {
             let name = named(&self.joint_name(index, k));
             let axis = |v: &DVec3| numbers(&body.pose.inverse_vector(*v).to_array());
             let range = self.ranges.iter().filter(|r| (r.0, r.1) == (index, k)).map(|r| r.2);
@@ -308,14 +310,14 @@ impl Writer<'_> {
             let _ = match freedom {
                 Freedom::Free => writeln!(out, "{indent}  <freejoint {name}/>"),
                 Freedom::Ball => writeln!(out, "{indent}  <joint {name} type=\"ball\" pos=\"{point}\"/>"),
-                Freedom::Turn(v) => {
+                Freedom::Rotation(v) => {
                     let axis = axis(v);
                     writeln!(
                         out,
                         "{indent}  <joint {name} type=\"hinge\" pos=\"{point}\" axis=\"{axis}\"{damping}{limit}/>"
                     )
                 }
-                Freedom::Way(v) => {
+                Freedom::Translation(v) => {
                     let axis = axis(v);
                     writeln!(
                         out,
@@ -329,41 +331,43 @@ impl Writer<'_> {
         for line in self.sites[index + 1].lines() {
             let _ = writeln!(out, "{indent}  {line}");
         }
-        for &child in &member.children {
+        for &child in &tree_body.children {
             self.body(child, Some(index), depth + 1, out);
         }
         let _ = writeln!(out, "{indent}</body>");
     }
 
-    /// A body's own damping −c m v, −c I ω as a joint's, where one joint to the world is all that it has.
+    /// A body's damping −c m v, −c I ω as that of a joint, where its only joint is one to the world.
     fn damping(&mut self, index: usize) -> String {
-        let (body, member) = (&self.exhibit.bodies[index], &self.tree.members[index]);
+        let (body, tree_body) = (&self.exhibit.bodies[index], &self.tree.bodies[index]);
         if body.linear_damping == 0.0 && body.angular_damping == 0.0 {
             return String::new();
         }
-        let alone = member.parent.is_none() && member.children.is_empty();
-        match member.joint.freedoms.as_slice() {
-            [Freedom::Turn(axis)] if alone => {
-                let arm = body.pose.point(body.properties.center) - member.joint.point;
+        let alone = tree_body.parent.is_none() && tree_body.children.is_empty();
+        match tree_body.joint.freedoms.as_slice() {
+            [Freedom::Rotation(axis)] if alone => {
+                let arm = body.pose.point(body.properties.center) - tree_body.joint.point;
                 let own = body.pose.inverse_vector(*axis);
                 let c = body.linear_damping * body.properties.mass * axis.cross(arm).length_squared()
                     + body.angular_damping * own.dot(body.properties.inertia * own);
                 format!(" damping=\"{c}\"")
             }
-            [Freedom::Way(_)] if alone => format!(" damping=\"{}\"", body.linear_damping * body.properties.mass),
+            [Freedom::Translation(_)] if alone => {
+                format!(" damping=\"{}\"", body.linear_damping * body.properties.mass)
+            }
             [] => String::new(),
             _ => {
-                self.leave_out(&body.name, "damping of a body in space; MuJoCo damps joints");
+                self.omit(&body.name, "damping of a body in space; MuJoCo damps joints");
                 String::new()
             }
         }
     }
 
-    /// Place and speed of a freedom at the start.
+    /// Position and velocity of a degree of freedom at the start.
     fn start(&mut self, index: usize, parent: Option<usize>, freedom: &Freedom) {
         let body = &self.exhibit.bodies[index];
-        let about = self.tree.members[index].joint.point;
-        // Spin, and velocity of the material point at `about`.
+        let about = self.tree.bodies[index].joint.point;
+        // Angular velocity, and velocity of the material point at `about`.
         let motion = |body: &soffio_exhibit::Body| {
             let center = body.pose.point(body.properties.center);
             (body.angular_velocity, body.velocity + body.angular_velocity.cross(about - center))
@@ -381,18 +385,18 @@ impl Writer<'_> {
                 self.places.extend([1.0, 0.0, 0.0, 0.0]);
                 self.velocities.extend(body.pose.inverse_vector(spin - other_spin).to_array());
             }
-            Freedom::Turn(axis) => {
+            Freedom::Rotation(axis) => {
                 self.places.push(0.0);
                 self.velocities.push(axis.dot(spin - other_spin));
             }
-            Freedom::Way(axis) => {
+            Freedom::Translation(axis) => {
                 self.places.push(0.0);
                 self.velocities.push(axis.dot(speed - other_speed));
             }
         }
     }
 
-    /// The start as a key frame, where anything moves then.
+    /// The start state as a key frame, where anything moves.
     fn key(&self) -> String {
         if self.velocities.iter().all(|v| *v == 0.0) {
             return String::new();
@@ -401,29 +405,29 @@ impl Writer<'_> {
         format!("    <key name=\"start\" qpos=\"{places}\" qvel=\"{speeds}\"/>\n")
     }
 
-    /// What whole exhibits have and MuJoCo's models do not.
-    fn unsaid(&mut self) {
+    /// Reports features of exhibits that MuJoCo models lack.
+    fn report_unsupported(&mut self) {
         let exhibit = self.exhibit;
         for drive in &exhibit.drives {
-            self.leave_out(&exhibit.bodies[drive.body].name, "its given motion; it stands still where it starts");
+            self.omit(&exhibit.bodies[drive.body].name, "its given motion; it stands still where it starts");
         }
         for constraint in exhibit.constraints.iter().filter(|c| c.friction.is_some()) {
             let why = "friction of its pivot, which grows with the load; MuJoCo's does not";
-            self.leave_out(constraint.group(), why);
+            self.omit(constraint.group(), why);
         }
         if !exhibit.wind_surfaces.is_empty() || !exhibit.winds.is_empty() {
-            self.leave_out("air", "wind and the air's drag; the model moves in a vacuum");
+            self.omit("air", "wind and the air's drag; the model moves in a vacuum");
         }
         if exhibit.colliders.iter().any(|c| exhibit.materials[c.material].restitution > 0.0) {
-            self.leave_out("touches", "restitution; MuJoCo's touches are soft, their friction is taken over");
+            self.omit("touches", "restitution; MuJoCo's touches are soft, their friction is taken over");
         }
     }
 }
 
-/// Pairs of colliders that can meet.
+/// Contact pairs: colliders that can touch.
 fn pairs(exhibit: &Exhibit) -> String {
     let mut out = String::new();
-    for pair in exhibit.pairs().meet {
+    for pair in exhibit.collider_pairs().meet {
         let surface = exhibit.surface_pair(pair);
         let [a, b] = [pair.a, pair.b].map(|i| escaped(&format!("geom {i} {}", exhibit.colliders[i].node)));
         let (slide, spin, roll) = (surface.friction, surface.resistance.spinning, surface.resistance.rolling);
@@ -443,12 +447,12 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Numbers apart by spaces, each as short as it reads back to the same bits.
+/// Numbers separated by spaces, each the shortest that reads back to the same bits.
 fn numbers(list: &[f64]) -> String {
     list.iter().map(|x| format!("{}", x + 0.0)).collect::<Vec<_>>().join(" ")
 }
 
-/// Scalar first.
+/// A quaternion, scalar first.
 fn quaternion(q: DQuat) -> String {
     numbers(&[q.w, q.x, q.y, q.z])
 }

@@ -1,4 +1,4 @@
-//! Colliders and wires as MuJoCo's geoms.
+//! Colliders and wires as MuJoCo geoms.
 
 use std::fmt::Write;
 
@@ -8,10 +8,10 @@ use soffio_geometry::support::Core;
 use soffio_math::{DQuat, DVec3, Pose, tangents};
 use soffio_multibody::collision::Shape;
 
-/// Two ends of a wire's segment nearer than this are one, m.
-const APART: f64 = 1e-6;
+/// Ends of a wire segment nearer than this are one point, m.
+const SAME_POINT: f64 = 1e-6;
 
-/// The geoms of a body (`None` is the world), a line each, and the meshes that they are made of.
+/// The geoms of a body (`None` is the world), one line each; adds the meshes that they use.
 pub(super) fn geoms(exhibit: &Exhibit, body: Option<usize>, indent: &str, meshes: &mut String) -> String {
     let mut out = String::new();
     for (index, collider) in exhibit.colliders.iter().enumerate().filter(|(_, c)| c.body == body) {
@@ -20,7 +20,7 @@ pub(super) fn geoms(exhibit: &Exhibit, body: Option<usize>, indent: &str, meshes
         let _ = writeln!(out, "{indent}<geom {} {shape} class=\"collider\"/>", named(&name));
     }
     for wire in exhibit.wires.iter().filter(|wire| wire.body == body) {
-        for (a, b) in wire.points.iter().zip(wire.points.iter().skip(1)).filter(|(a, b)| a.distance(**b) > APART) {
+        for (a, b) in wire.points.iter().zip(wire.points.iter().skip(1)).filter(|(a, b)| a.distance(**b) > SAME_POINT) {
             let _ = writeln!(out, "{indent}<geom {} class=\"wire\"/>", segment(wire, *a, *b));
         }
     }
@@ -37,10 +37,10 @@ fn segment(wire: &Wire, a: DVec3, b: DVec3) -> String {
     )
 }
 
-/// Type, size and place.
+/// Type, size and pose attributes of a geom.
 fn shape(shape: &Shape, name: &str, meshes: &mut String) -> String {
     let r = shape.radius;
-    // MuJoCo's axis is z, ours y.
+    // MuJoCo's cylinder axis is z, ours y.
     let upright = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
     let turned = Pose { rotation: shape.place.rotation * upright, position: shape.place.position };
     let placed = |kind: &str, size: &[f64], at: &Pose| {
@@ -52,7 +52,7 @@ fn shape(shape: &Shape, name: &str, meshes: &mut String) -> String {
         Core::Segment { half } => placed("capsule", &[r, *half], &turned),
         Core::Box { half } => placed("box", &(*half + r).to_array(), &shape.place),
         Core::Cylinder { half, radius } => placed("cylinder", &[radius + r, half + r], &turned),
-        // Half sizes 0 are without end; the third number is the spacing of the grid that is drawn.
+        // Half sizes 0 mean infinite; the third number is the spacing of the grid in the viewer.
         Core::HalfSpace => placed("plane", &[0.0, 0.0, 0.1], &turned),
         Core::Hull(hull) => {
             let corners = padded(hull.corners(), r, &shape.place);
@@ -63,7 +63,7 @@ fn shape(shape: &Shape, name: &str, meshes: &mut String) -> String {
     }
 }
 
-/// Corners of the hull with the ball around it: of a plate both its faces, of a body its corners pushed out.
+/// Vertices of the hull with its sphere radius: both faces of a plate, or the corners of a body pushed outwards.
 fn padded(corners: &[DVec3], radius: f64, place: &Pose) -> Vec<DVec3> {
     let points: Vec<DVec3> = corners.iter().map(|p| place.point(*p)).collect();
     if radius == 0.0 && normal(&points).is_none() {
@@ -78,7 +78,7 @@ fn padded(corners: &[DVec3], radius: f64, place: &Pose) -> Vec<DVec3> {
 
 /// Normal of points that lie in one plane.
 fn normal(points: &[DVec3]) -> Option<DVec3> {
-    /// Flat, relative to its size.
+    /// Relative thickness below which points count as coplanar.
     const FLAT: f64 = 1e-6;
     let first = *points.first()?;
     let far = points.iter().copied().max_by(|a, b| a.distance(first).total_cmp(&b.distance(first)))?;

@@ -1,7 +1,8 @@
-//! Joints between pairs of bodies, read off the constraints, and the tree that they make.
+//! Kinematic tree: joints between pairs of bodies, found from their constraints.
 //!
-//! What holds two bodies together for ever is counted: points, planes and orientations. The counts that are joints of the
-//! field become joints of a tree, found breadth first from the world; what closes a ring becomes an equality.
+//! The permanent constraints between two bodies are counted: points, planes and orientations. Counts that match a
+//! MuJoCo joint become joints of a tree, found breadth first from the world. Constraints that close a loop become
+//! equalities.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -12,89 +13,89 @@ use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, M
 
 /// Points farther apart at the start are not yet joined, m.
 const CLOSED: f64 = 1e-5;
-/// Directions that make a smaller sine are one.
+/// Directions whose angle has a smaller sine count as parallel.
 const SAME: f64 = 1e-6;
 
-/// A degree of freedom of a joint, in the world at the start.
+/// A degree of freedom of a joint, world frame at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Freedom {
-    /// Any turn about a point.
+    /// All rotations about a point.
     Ball,
-    /// A turn about this axis.
-    Turn(DVec3),
-    /// A way along this axis.
-    Way(DVec3),
-    /// Anything.
+    /// Rotation about this axis.
+    Rotation(DVec3),
+    /// Translation along this axis.
+    Translation(DVec3),
+    /// All six degrees of freedom.
     Free,
 }
 
-/// How a body hangs from what carries it.
+/// The joint between a body and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
-    /// Names of the constraints that it stands for.
+    /// Names of the constraints that it represents.
     pub names: Vec<String>,
-    /// In the order in which they act.
+    /// Degrees of freedom in the order in which they act.
     pub freedoms: Vec<Freedom>,
-    /// Where, in the world at the start, m.
+    /// Position, world, at the start, m.
     pub point: DVec3,
 }
 
 /// A body in the tree.
 #[derive(Clone, Debug)]
-pub struct Member {
-    /// What carries it; `None` is the world.
+pub struct TreeBody {
+    /// Parent body; `None` is the world.
     pub parent: Option<usize>,
-    /// How.
+    /// Joint to the parent.
     pub joint: Joint,
-    /// What it carries, in order.
+    /// Bodies that it carries, in order.
     pub children: Vec<usize>,
 }
 
-/// A ring's last link: bodies, and what holds them.
+/// An equality constraint that closes a loop.
 #[derive(Clone, Debug)]
-pub enum Closing {
-    /// Two points, each in its body's node frame.
+pub enum Equality {
+    /// Two points coincide, each in its body's node frame.
     Points(String, Anchor, Anchor),
-    /// Two bodies, turned and placed as at the start.
+    /// Two bodies keep their relative pose.
     Rigid(String, Option<usize>, Option<usize>),
 }
 
-/// All bodies by their joints.
+/// The kinematic tree of all bodies.
 pub struct Tree {
-    /// A member a body.
-    pub members: Vec<Member>,
-    /// Bodies without a carrier, in order.
+    /// Node of each body.
+    pub bodies: Vec<TreeBody>,
+    /// Bodies without a parent, in order.
     pub roots: Vec<usize>,
-    /// What closes rings.
-    pub closings: Vec<Closing>,
-    /// Constraints that have no equivalent, and why.
-    pub left_out: Vec<(String, &'static str)>,
+    /// Equality constraints that close loops.
+    pub equalities: Vec<Equality>,
+    /// Constraints without an equivalent, and the reasons.
+    pub omitted: Vec<(String, &'static str)>,
 }
 
 type Ends = (Option<usize>, Option<usize>);
 
 impl Tree {
-    /// Reads the exhibit's constraints.
+    /// Builds the tree from the exhibit's constraints.
     pub fn new(exhibit: &Exhibit) -> Self {
         let count = exhibit.bodies.len();
-        let mut left_out = Vec::new();
+        let mut omitted = Vec::new();
         let mut links: BTreeMap<Ends, Vec<&Constraint>> = BTreeMap::new();
         for constraint in &exhibit.constraints {
             match ends(&constraint.kind) {
-                _ if !constraint.schedule.is_always() => left_out.push((constraint.name.clone(), "comes and goes")),
+                _ if !constraint.schedule.is_always() => omitted.push((constraint.name.clone(), "comes and goes")),
                 None => {}
-                Some(_) if constraint.breaking.is_some() => left_out.push((constraint.name.clone(), "breaks")),
+                Some(_) if constraint.breaking.is_some() => omitted.push((constraint.name.clone(), "breaks")),
                 Some((a, b)) => links.entry((a.min(b), a.max(b))).or_default().push(constraint),
             }
         }
         let driven: Vec<bool> = (0..count).map(|i| exhibit.drives.iter().any(|drive| drive.body == i)).collect();
         let still = Joint { names: Vec::new(), freedoms: Vec::new(), point: DVec3::ZERO };
         let free = Joint { freedoms: vec![Freedom::Free], ..still.clone() };
-        let mut members: Vec<Option<Member>> = vec![None; count];
-        let mut tree = Self { members: Vec::new(), roots: Vec::new(), closings: Vec::new(), left_out };
+        let mut bodies: Vec<Option<TreeBody>> = vec![None; count];
+        let mut tree = Self { bodies: Vec::new(), roots: Vec::new(), equalities: Vec::new(), omitted };
         let mut open: VecDeque<Option<usize>> = VecDeque::from([None]);
         for body in (0..count).filter(|&i| driven[i]) {
-            members[body] = Some(Member { parent: None, joint: still.clone(), children: Vec::new() });
+            bodies[body] = Some(TreeBody { parent: None, joint: still.clone(), children: Vec::new() });
             tree.roots.push(body);
             open.push_back(Some(body));
         }
@@ -103,65 +104,66 @@ impl Tree {
             let here: Vec<Ends> = links.keys().copied().filter(|(a, b)| *a == carrier || *b == carrier).collect();
             for ends in here {
                 let other = if ends.0 == carrier { ends.1 } else { ends.0 };
-                let Some(body) = other.filter(|&body| members[body].is_none()) else { continue };
+                let Some(body) = other.filter(|&body| bodies[body].is_none()) else { continue };
                 let Some((joint, rest)) = joint(exhibit, body, &links[&ends]) else { continue };
                 links.insert(ends, rest);
-                members[body] = Some(Member { parent: carrier, joint, children: Vec::new() });
+                bodies[body] = Some(TreeBody { parent: carrier, joint, children: Vec::new() });
                 match carrier {
-                    Some(parent) => members[parent].iter_mut().for_each(|member| member.children.push(body)),
+                    Some(parent) => bodies[parent].iter_mut().for_each(|tree_body| tree_body.children.push(body)),
                     None => tree.roots.push(body),
                 }
                 open.push_back(Some(body));
             }
-            // What hangs from nothing that is reached is free, and may carry others.
+            // A body that is not reached is free, and can carry others.
             while open.is_empty() && next_free < count {
-                if members[next_free].is_none() {
-                    members[next_free] = Some(Member { parent: None, joint: free.clone(), children: Vec::new() });
+                if bodies[next_free].is_none() {
+                    bodies[next_free] = Some(TreeBody { parent: None, joint: free.clone(), children: Vec::new() });
                     tree.roots.push(next_free);
                     open.push_back(Some(next_free));
                 }
                 next_free += 1;
             }
         }
-        tree.members = members.into_iter().flatten().collect();
+        tree.bodies = bodies.into_iter().flatten().collect();
         for (ends, rest) in links {
             tree.close(exhibit, ends, &rest);
         }
         tree
     }
 
-    /// Closes a ring by what is left between two bodies.
+    /// Closes a loop by the remaining constraints between two bodies.
     fn close(&mut self, exhibit: &Exhibit, ends: Ends, rest: &[&Constraint]) {
         let orientations = rest.iter().filter(|c| matches!(c.kind, ConstraintKind::Orientation { .. })).count();
         let rigid = orientations == 3 && rest.iter().any(|c| matches!(c.kind, ConstraintKind::PointToPoint { .. }));
         if let Some(first) = rest.first().filter(|_| rigid) {
-            return self.closings.push(Closing::Rigid(first.group().to_owned(), ends.0, ends.1));
+            return self.equalities.push(Equality::Rigid(first.group().to_owned(), ends.0, ends.1));
         }
-        // Right angles are a hinge's where a point is held as well.
+        // Right angles belong to a hinge where a point is constrained as well.
         let held = rest.iter().any(|c| matches!(c.kind, ConstraintKind::PointToPoint { .. }));
         let axis = axis_of(exhibit, rest).filter(|_| held);
         for constraint in rest {
             match &constraint.kind {
                 ConstraintKind::PointToPoint { a, b } => {
-                    self.closings.push(Closing::Points(constraint.name.clone(), *a, *b));
+                    self.equalities.push(Equality::Points(constraint.name.clone(), *a, *b));
                     if let Some(axis) = axis {
-                        /// A second point of a hinge's axis, this far along it, m.
+                        /// Distance of a second point along a hinge's axis, m.
                         const ALONG: f64 = 0.02;
                         let along = |anchor: &Anchor| Anchor {
                             point: local(exhibit, anchor.body, world(exhibit, anchor) + axis * ALONG),
                             ..*anchor
                         };
                         let name = format!("{}/along", constraint.name);
-                        self.closings.push(Closing::Points(name, along(a), along(b)));
+                        self.equalities.push(Equality::Points(name, along(a), along(b)));
                     }
                 }
                 ConstraintKind::Orientation { .. } if axis.is_some() => {}
-                _ => self.left_out.push((constraint.name.clone(), "closes a ring, and is no point, hinge or weld")),
+                _ => self.omitted.push((constraint.name.clone(), "closes a ring, and is no point, hinge or weld")),
             }
         }
     }
 
-    /// A measure as a sum of joint coordinates: (body, index of its freedom, coefficient); `None` where it is none.
+    /// A measure as a sum of joint coordinates: (body, index of its degree of freedom, coefficient); `None` where it is
+    /// not one.
     pub fn coordinates(&self, exhibit: &Exhibit, measure: &Measure) -> Option<Vec<(usize, usize, f64)>> {
         let (body, frame) = measure.bodies();
         let (direction, turns) = match measure {
@@ -172,24 +174,24 @@ impl Tree {
         let mut at = body;
         while at != frame {
             let index = at?;
-            let member = &self.members[index];
-            for (k, freedom) in member.joint.freedoms.iter().enumerate() {
+            let tree_body = &self.bodies[index];
+            for (k, freedom) in tree_body.joint.freedoms.iter().enumerate() {
                 match freedom {
-                    Freedom::Turn(axis) if turns && axis.cross(direction).length() < SAME => {
+                    Freedom::Rotation(axis) if turns && axis.cross(direction).length() < SAME => {
                         out.push((index, k, axis.dot(direction).signum()));
                     }
-                    Freedom::Way(axis) if !turns => out.push((index, k, axis.dot(direction))),
-                    Freedom::Way(_) => {}
+                    Freedom::Translation(axis) if !turns => out.push((index, k, axis.dot(direction))),
+                    Freedom::Translation(_) => {}
                     _ => return None,
                 }
             }
-            at = member.parent;
+            at = tree_body.parent;
         }
         Some(out).filter(|out| !out.is_empty())
     }
 }
 
-/// The bodies that a constraint of two bodies holds; `None` for a coupling.
+/// The two bodies of a constraint; `None` for a coupling.
 fn ends(kind: &ConstraintKind) -> Option<Ends> {
     match kind {
         ConstraintKind::PointToPoint { a, b } => Some((a.body, b.body)),
@@ -211,7 +213,7 @@ fn direction(exhibit: &Exhibit, axis: &Axis) -> DVec3 {
     axis.body.map_or(axis.direction, |body| exhibit.bodies[body].pose.vector(axis.direction))
 }
 
-/// The joint of `body` that some of what is between it and its carrier makes, and the rest.
+/// The joint of `body` that constraints to its parent form, and the remaining constraints.
 fn joint<'a>(exhibit: &Exhibit, body: usize, between: &[&'a Constraint]) -> Option<(Joint, Vec<&'a Constraint>)> {
     let point = between.iter().find_map(|c| match &c.kind {
         ConstraintKind::PointToPoint { a, b } => {
@@ -225,7 +227,7 @@ fn joint<'a>(exhibit: &Exhibit, body: usize, between: &[&'a Constraint]) -> Opti
         .iter()
         .filter_map(|c| match &c.kind {
             ConstraintKind::Orientation { a, b, angle } if still(angle) => {
-                // The carrier's axis first.
+                // The parent's axis first.
                 let (own, other) = if a.body == Some(body) { (a, b) } else { (b, a) };
                 Some((direction(exhibit, other), direction(exhibit, own)))
             }
@@ -247,16 +249,16 @@ fn joint<'a>(exhibit: &Exhibit, body: usize, between: &[&'a Constraint]) -> Opti
         _ => None,
     };
     let (freedoms, at) = match (point, right.len(), planes.len()) {
-        (Some(p), 1, 0) => (vec![Freedom::Turn(right[0].0), Freedom::Turn(right[0].1)], p),
-        (Some(p), 2, 0) => (vec![axis_of(exhibit, between).map_or(Freedom::Ball, Freedom::Turn)], p),
+        (Some(p), 1, 0) => (vec![Freedom::Rotation(right[0].0), Freedom::Rotation(right[0].1)], p),
+        (Some(p), 2, 0) => (vec![axis_of(exhibit, between).map_or(Freedom::Ball, Freedom::Rotation)], p),
         (Some(p), 3, 0) => (Vec::new(), p),
-        (None, 3, 2) => (vec![Freedom::Way(way?)], planes[0].0),
-        (None, 0, 2) => (vec![Freedom::Way(way?), Freedom::Ball], planes[0].0),
-        // Of several points the first carries, the others close.
+        (None, 3, 2) => (vec![Freedom::Translation(way?)], planes[0].0),
+        (None, 0, 2) => (vec![Freedom::Translation(way?), Freedom::Ball], planes[0].0),
+        // The first of several points is the joint's; the others are closed by equalities.
         (Some(p), _, _) => (vec![Freedom::Ball], p),
         _ => return None,
     };
-    // One point is in the joint, and of a ball nothing else is.
+    // A ball joint uses one point and nothing else.
     let mut points = 0;
     let ball = freedoms == [Freedom::Ball];
     let (used, rest): (Vec<&Constraint>, Vec<&Constraint>) = between.iter().partition(|c| match c.kind {
@@ -271,7 +273,7 @@ fn joint<'a>(exhibit: &Exhibit, body: usize, between: &[&'a Constraint]) -> Opti
     Some((Joint { names, freedoms, point: at }, rest))
 }
 
-/// The line that two right angles leave to turn about: one direction of one body across two of the other.
+/// The rotation axis that two right angles leave: one direction of one body, perpendicular to two of the other.
 fn axis_of(exhibit: &Exhibit, between: &[&Constraint]) -> Option<DVec3> {
     let mut pairs = between.iter().filter_map(|c| match &c.kind {
         ConstraintKind::Orientation { a, b, angle: Function::Constant(0.0) } => {

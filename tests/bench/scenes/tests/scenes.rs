@@ -1,13 +1,13 @@
 //! Every generated scene is valid, the same each time, and stands a short run.
 
 use soffio_multibody::dynamics::{Integrator, Solver};
-use soffio_offline::scene::run::{Limits, watch};
-use soffio_offline::scene::{Scene, Soffio};
+use soffio_offline::scene::run::{Limits, observe};
+use soffio_offline::scene::{PhysicsScene, Soffio};
 
 /// Step, s.
 const DT: f64 = 1.0 / 240.0;
 
-fn all() -> Vec<Scene> {
+fn all() -> Vec<PhysicsScene> {
     soffio_scenes::measured().into_iter().chain(soffio_scenes::tuning()).collect()
 }
 
@@ -17,7 +17,7 @@ fn every_scene_is_read_back_as_it_was_made_and_has_a_name_of_its_own() {
     for (scene, again) in scenes.iter().zip(all()) {
         let text = scene.to_json();
         assert_eq!(text, again.to_json(), "{}: made twice", scene.name);
-        let read = Scene::parse(&text, &scene.name).unwrap_or_else(|error| panic!("{error}"));
+        let read = PhysicsScene::parse(&text, &scene.name).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(&read, scene);
     }
     let mut names: Vec<_> = scenes.iter().map(|scene| &scene.name).collect();
@@ -52,7 +52,7 @@ fn nothing_overlaps_at_the_start_and_a_step_of_each_goes_well() {
     const INSTANT: f64 = 1e-6;
     for scene in all() {
         let mut engine = Soffio::new(&scene, INSTANT, Integrator::Auto, Solver::Sparse);
-        let watched = watch(&scene, &mut engine, INSTANT, Limits { seconds: INSTANT, budget: f64::INFINITY });
+        let watched = observe(&scene, &mut engine, INSTANT, Limits { seconds: INSTANT, budget: f64::INFINITY });
         assert_eq!(watched.report.diverged_at_s, None, "{}", scene.name);
         if let Some(contacts) = watched.report.contacts {
             assert!(contacts.max_penetration_m < TOUCHING, "{}: {contacts:?}", scene.name);
@@ -68,7 +68,7 @@ fn a_short_run_of_every_small_scene_stands() {
     const SHORT: f64 = 0.05;
     for scene in all().into_iter().filter(|scene| scene.bodies.len() <= SMALL) {
         let mut engine = Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
-        let watched = watch(&scene, &mut engine, DT, Limits { seconds: SHORT, budget: f64::INFINITY });
+        let watched = observe(&scene, &mut engine, DT, Limits { seconds: SHORT, budget: f64::INFINITY });
         assert_eq!(watched.report.diverged_at_s, None, "{}: {:?}", scene.name, watched.report);
         assert_eq!(watched.times.us().len(), 12, "{}: a step for each time", scene.name);
     }

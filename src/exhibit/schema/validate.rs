@@ -1,9 +1,9 @@
-//! Holds a value against a JSON Schema (draft 2020-12), and finds all that is wrong with it.
+//! JSON Schema validation (draft 2020-12): all violations of a value.
 //!
-//! It knows the keywords that the format's schema has, and no others: `$ref` into the schema's own `$defs`, `type`, `const`,
-//! `enum`, `anyOf`, `oneOf`, `properties`, `patternProperties`, `additionalProperties`, `required`, `items`, `prefixItems`,
-//! `minItems`, `maxItems`, `minimum`, `maximum` and `pattern`. A test holds it against a whole implementation, and fails when
-//! the schema gets a keyword that is not in [`KEYWORDS`].
+//! It supports only the keywords that the format's schema uses: `$ref` into the schema's own `$defs`, `type`, `const`,
+//! `enum`, `anyOf`, `oneOf`, `properties`, `patternProperties`, `additionalProperties`, `required`, `items`,
+//! `prefixItems`, `minItems`, `maxItems`, `minimum`, `maximum` and `pattern`. A test compares it with a complete
+//! implementation, and fails when the schema contains a keyword that is not in [`KEYWORDS`].
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 
 use crate::source::join;
 
-/// What this knows of: keywords that ask something of a value, and those that only tell people something.
+/// Supported keywords: those that constrain a value, and those that only document it.
 pub const KEYWORDS: [&str; 23] = [
     "$defs",
     "$ref",
@@ -39,52 +39,52 @@ pub const KEYWORDS: [&str; 23] = [
     "type",
 ];
 
-/// Something wrong with a value.
+/// A violation of the schema.
 #[derive(Debug)]
 pub struct Problem<'a> {
-    /// Where the value stands: a JSON pointer.
+    /// JSON pointer of the value.
     pub at: String,
     /// The value.
     pub value: &'a Value,
-    /// The part of the schema that it does not satisfy.
+    /// The part of the schema that it violates.
     pub schema: &'a Value,
-    /// What is wrong.
+    /// Kind of the violation.
     pub kind: Kind<'a>,
 }
 
-/// What can be wrong with a value.
+/// Kinds of violations.
 #[derive(Debug)]
 pub enum Kind<'a> {
     /// Keys that the object may not have.
     Unknown(Vec<&'a str>),
-    /// A key that it must have.
+    /// A required key that is missing.
     Missing(&'a str),
-    /// It is none of the choices; of each, what is wrong.
+    /// The value matches none of the choices; the problems of each.
     Choice(Vec<Vec<Problem<'a>>>),
-    /// It is of none of these types.
+    /// The value has none of these types.
     Type(Vec<&'a str>),
-    /// It is not the only value there is.
+    /// The value is not this constant.
     Constant(&'a Value),
-    /// It is not one of these values.
-    Words(&'a [Value]),
-    /// The text does not match.
+    /// The value is not one of these.
+    OneOf(&'a [Value]),
+    /// The text does not match the pattern.
     Pattern(&'a str),
-    /// The number is less.
+    /// The number is below the minimum.
     Minimum(&'a Value),
-    /// The number is more.
+    /// The number is above the maximum.
     Maximum(&'a Value),
-    /// The list is shorter.
-    Short(u64),
-    /// The list is longer.
-    Long(u64),
-    /// It satisfies so many choices where one is wanted.
-    Many(usize),
-    /// Nothing may stand here.
+    /// The list is shorter than the minimum.
+    TooShort(u64),
+    /// The list is longer than the maximum.
+    TooLong(u64),
+    /// The value matches so many choices where only one is allowed.
+    Ambiguous(usize),
+    /// No value is allowed here.
     Forbidden,
 }
 
 impl Problem<'_> {
-    /// How deep in the file the value stands.
+    /// Depth of the value in the file.
     pub fn depth(&self) -> usize {
         self.at.matches('/').count()
     }
@@ -96,87 +96,88 @@ impl fmt::Display for Problem<'_> {
         match &self.kind {
             Kind::Unknown(keys) => write!(f, "unknown here: {}", keys.join(", ")),
             Kind::Missing(key) => write!(f, "\"{key}\" is missing"),
-            Kind::Choice(_) => write!(f, "{value} is none of what may stand here"),
+            Kind::Choice(_) => write!(f, "{value} is not allowed here"),
             Kind::Type(types) => write!(f, "{value} is not of type {}", types.join(" or ")),
             Kind::Constant(only) => write!(f, "{value} is not {only}"),
-            Kind::Words(words) => write!(f, "{value} is none of {}", Value::from(words.to_vec())),
+            Kind::OneOf(values) => write!(f, "{value} is none of {}", Value::from(values.to_vec())),
             Kind::Pattern(pattern) => write!(f, "{value} does not match {pattern}"),
             Kind::Minimum(limit) => write!(f, "{value} is less than {limit}"),
             Kind::Maximum(limit) => write!(f, "{value} is more than {limit}"),
-            Kind::Short(limit) => write!(f, "the list has fewer than {limit} entries"),
-            Kind::Long(limit) => write!(f, "the list has more than {limit} entries"),
-            Kind::Many(count) => write!(f, "{value} can be read in {count} ways"),
-            Kind::Forbidden => write!(f, "nothing may stand here"),
+            Kind::TooShort(limit) => write!(f, "the list has fewer than {limit} entries"),
+            Kind::TooLong(limit) => write!(f, "the list has more than {limit} entries"),
+            Kind::Ambiguous(count) => write!(f, "{value} can be read in {count} ways"),
+            Kind::Forbidden => write!(f, "no value is allowed here"),
         }
     }
 }
 
-/// All that is wrong with `value`; the schema's own parts are found in `root`.
+/// All violations of `value`; `root` contains the `$defs` of the schema.
 pub fn problems<'a>(root: &'a Value, value: &'a Value) -> Vec<Problem<'a>> {
     let mut found = Vec::new();
-    Place { root, value, at: String::new() }.hold(root, &mut found);
+    Instance { root, value, at: String::new() }.validate(root, &mut found);
     found
 }
 
-/// A value, and where it stands.
-struct Place<'a> {
+/// A value with its JSON pointer.
+struct Instance<'a> {
     root: &'a Value,
     value: &'a Value,
     at: String,
 }
 
-impl<'a> Place<'a> {
+impl<'a> Instance<'a> {
     fn within(&self, key: &str, value: &'a Value) -> Self {
         Self { root: self.root, value, at: join(&self.at, key) }
     }
 
-    fn hold(&self, schema: &'a Value, found: &mut Vec<Problem<'a>>) {
+    fn validate(&self, schema: &'a Value, found: &mut Vec<Problem<'a>>) {
         // `true` allows everything, `false` nothing.
         if schema == &Value::Bool(false) {
             found.push(Problem { at: self.at.clone(), value: self.value, schema, kind: Kind::Forbidden });
         }
-        for (keyword, asked) in schema.as_object().into_iter().flatten() {
+        for (keyword, requirement) in schema.as_object().into_iter().flatten() {
             let mut wrong = |kind| found.push(Problem { at: self.at.clone(), value: self.value, schema, kind });
             match keyword.as_str() {
                 "$ref" => {
-                    let part = asked.as_str().and_then(|path| self.root.pointer(path.strip_prefix('#')?));
+                    let part = requirement.as_str().and_then(|path| self.root.pointer(path.strip_prefix('#')?));
                     if let Some(part) = part {
-                        self.hold(part, found);
+                        self.validate(part, found);
                     }
                 }
                 "type" => {
-                    let types = one_or_all(asked);
+                    let types = one_or_all(requirement);
                     if !types.iter().any(|name| is_of(self.value, name)) {
                         wrong(Kind::Type(types));
                     }
                 }
-                "const" if asked != self.value => wrong(Kind::Constant(asked)),
-                "enum" => match asked.as_array() {
-                    Some(words) if !words.contains(self.value) => wrong(Kind::Words(words)),
+                "const" if requirement != self.value => wrong(Kind::Constant(requirement)),
+                "enum" => match requirement.as_array() {
+                    Some(values) if !values.contains(self.value) => wrong(Kind::OneOf(values)),
                     _ => {}
                 },
                 "anyOf" | "oneOf" => {
-                    let branches: Vec<Vec<Problem>> = list(asked).iter().map(|branch| self.against(branch)).collect();
+                    let branches: Vec<Vec<Problem>> =
+                        list(requirement).iter().map(|branch| self.problems_with(branch)).collect();
                     match branches.iter().filter(|branch| branch.is_empty()).count() {
                         0 => wrong(Kind::Choice(branches)),
                         1 => {}
-                        count if keyword == "oneOf" => wrong(Kind::Many(count)),
+                        count if keyword == "oneOf" => wrong(Kind::Ambiguous(count)),
                         _ => {}
                     }
                 }
                 _ => match self.value {
-                    Value::Object(object) => self.hold_object(object, schema, keyword, found),
-                    Value::Array(entries) => self.hold_list(entries, schema, keyword, found),
+                    Value::Object(object) => self.validate_object(object, schema, keyword, found),
+                    Value::Array(entries) => self.validate_list(entries, schema, keyword, found),
                     Value::Number(_) => {
-                        let (limit, number) = (asked.as_f64(), self.value.as_f64());
+                        let (limit, number) = (requirement.as_f64(), self.value.as_f64());
                         match keyword.as_str() {
-                            "minimum" if number < limit => wrong(Kind::Minimum(asked)),
-                            "maximum" if number > limit => wrong(Kind::Maximum(asked)),
+                            "minimum" if number < limit => wrong(Kind::Minimum(requirement)),
+                            "maximum" if number > limit => wrong(Kind::Maximum(requirement)),
                             _ => {}
                         }
                     }
                     Value::String(text) if keyword == "pattern" => {
-                        let pattern = asked.as_str().unwrap_or_default();
+                        let pattern = requirement.as_str().unwrap_or_default();
                         if !matches(pattern, text) {
                             wrong(Kind::Pattern(pattern));
                         }
@@ -187,23 +188,24 @@ impl<'a> Place<'a> {
         }
     }
 
-    fn against(&self, schema: &'a Value) -> Vec<Problem<'a>> {
+    fn problems_with(&self, schema: &'a Value) -> Vec<Problem<'a>> {
         let mut found = Vec::new();
-        self.hold(schema, &mut found);
+        self.validate(schema, &mut found);
         found
     }
 
-    fn hold_object(
+    fn validate_object(
         &self,
         object: &'a Map<String, Value>,
         schema: &'a Value,
         keyword: &str,
         found: &mut Vec<Problem<'a>>,
     ) {
-        let asked = &schema[keyword];
+        let requirement = &schema[keyword];
         match keyword {
             "required" => {
-                let missing = list(asked).iter().filter_map(Value::as_str).filter(|key| !object.contains_key(*key));
+                let missing =
+                    list(requirement).iter().filter_map(Value::as_str).filter(|key| !object.contains_key(*key));
                 found.extend(missing.map(|key| Problem {
                     at: self.at.clone(),
                     value: self.value,
@@ -212,16 +214,16 @@ impl<'a> Place<'a> {
                 }));
             }
             "properties" => {
-                for (key, part) in asked.as_object().into_iter().flatten() {
+                for (key, part) in requirement.as_object().into_iter().flatten() {
                     if let Some(value) = object.get(key) {
-                        self.within(key, value).hold(part, found);
+                        self.within(key, value).validate(part, found);
                     }
                 }
             }
             "patternProperties" => {
-                for (pattern, part) in asked.as_object().into_iter().flatten() {
+                for (pattern, part) in requirement.as_object().into_iter().flatten() {
                     for (key, value) in object.iter().filter(|(key, _)| matches(pattern, key)) {
-                        self.within(key, value).hold(part, found);
+                        self.within(key, value).validate(part, found);
                     }
                 }
             }
@@ -230,36 +232,36 @@ impl<'a> Place<'a> {
                 let patterns = schema.get("patternProperties").and_then(Value::as_object);
                 let matched = |key: &str| patterns.into_iter().flatten().any(|(pattern, _)| matches(pattern, key));
                 let others = object.iter().filter(|(key, _)| !named(key) && !matched(key));
-                if asked == &Value::Bool(false) {
+                if requirement == &Value::Bool(false) {
                     let unknown: Vec<&str> = others.map(|(key, _)| key.as_str()).collect();
                     if !unknown.is_empty() {
                         let kind = Kind::Unknown(unknown);
                         found.push(Problem { at: self.at.clone(), value: self.value, schema, kind });
                     }
                 } else {
-                    others.for_each(|(key, value)| self.within(key, value).hold(asked, found));
+                    others.for_each(|(key, value)| self.within(key, value).validate(requirement, found));
                 }
             }
             _ => {}
         }
     }
 
-    fn hold_list(&self, entries: &'a [Value], schema: &'a Value, keyword: &str, found: &mut Vec<Problem<'a>>) {
-        let asked = &schema[keyword];
-        let (count, limit) = (entries.len() as u64, asked.as_u64());
+    fn validate_list(&self, entries: &'a [Value], schema: &'a Value, keyword: &str, found: &mut Vec<Problem<'a>>) {
+        let requirement = &schema[keyword];
+        let (count, limit) = (entries.len() as u64, requirement.as_u64());
         let mut wrong = |kind| found.push(Problem { at: self.at.clone(), value: self.value, schema, kind });
         match (keyword, limit) {
-            ("minItems", Some(limit)) if count < limit => wrong(Kind::Short(limit)),
-            ("maxItems", Some(limit)) if count > limit => wrong(Kind::Long(limit)),
+            ("minItems", Some(limit)) if count < limit => wrong(Kind::TooShort(limit)),
+            ("maxItems", Some(limit)) if count > limit => wrong(Kind::TooLong(limit)),
             ("prefixItems", _) => {
-                for ((index, entry), part) in entries.iter().enumerate().zip(list(asked)) {
-                    self.within(&index.to_string(), entry).hold(part, found);
+                for ((index, entry), part) in entries.iter().enumerate().zip(list(requirement)) {
+                    self.within(&index.to_string(), entry).validate(part, found);
                 }
             }
             ("items", _) => {
                 let before = schema.get("prefixItems").map_or(0, |parts| list(parts).len());
                 for (index, entry) in entries.iter().enumerate().skip(before) {
-                    self.within(&index.to_string(), entry).hold(asked, found);
+                    self.within(&index.to_string(), entry).validate(requirement, found);
                 }
             }
             _ => {}
@@ -283,13 +285,13 @@ fn is_of(value: &Value, name: &str) -> bool {
         "array" => value.is_array(),
         "object" => value.is_object(),
         "number" => value.is_number(),
-        // 2.0 is one: JSON does not tell 2 and 2.0 apart.
+        // JSON does not distinguish 2 and 2.0.
         "integer" => value.as_f64().is_some_and(|number| number.fract() == 0.0),
         _ => false,
     }
 }
 
-/// Patterns are the schema's own, so they can be read; one that cannot matches nothing, and the test of them fails.
+/// Patterns come from the schema itself; one that cannot be read matches nothing, and a test fails.
 fn matches(pattern: &str, text: &str) -> bool {
     Regex::new(pattern).is_ok_and(|pattern| pattern.is_match(text))
 }

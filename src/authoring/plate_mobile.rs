@@ -9,12 +9,12 @@
 //! ends together, so nothing but the two of a pair ever meets.
 
 use super::glb::{Finish, Scene};
-use super::hung::{HOLE_RADIUS, as_hung, drawn_plate};
+use super::hanging::{HOLE_RADIUS, drawn_plate, hang_by_hole};
 use super::mobile::Mobile;
 use super::outline::{Polygon, area_and_centroid, ellipse};
 use super::piece::{Piece, named};
-use super::stock::{self, MM, ceiling};
-use super::tree::{Bough, Hanging, hang};
+use super::stock_parts::{self, MM, ceiling};
+use super::tree::{BranchNode, TreeNode, assemble_tree};
 use soffio_exhibit::codes;
 use soffio_exhibit::diagnostic::Diagnostic;
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, asin, cos, sin};
@@ -85,10 +85,10 @@ impl Metal {
     /// kg/m³.
     fn density(self) -> f64 {
         match self {
-            Self::Aluminium => stock::ALUMINIUM,
-            Self::Steel => stock::STEEL,
-            Self::Brass => stock::BRASS,
-            Self::Copper => stock::COPPER,
+            Self::Aluminium => stock_parts::ALUMINIUM,
+            Self::Steel => stock_parts::STEEL,
+            Self::Brass => stock_parts::BRASS,
+            Self::Copper => stock_parts::COPPER,
         }
     }
 
@@ -108,20 +108,31 @@ impl Metal {
     }
 }
 
+/// A plate of a finished mobile.
+#[derive(Clone, Debug)]
+pub struct PlacedPlate {
+    /// Name of its node.
+    pub node: &'static str,
+    /// Name of the outline it is cut from.
+    pub source: String,
+    /// Picture coordinates of its centre: (0,0) top left, (1,1) bottom right.
+    pub picture_position: [f64; 2],
+}
+
 /// A balanced mobile and its model.
 #[derive(Debug)]
-pub struct Given {
+pub struct PlateMobile {
     /// The pieces where they hang.
     pub mobile: Mobile,
     /// The model.
     pub glb: Vec<u8>,
-    /// Names of the plates' nodes, the heaviest first, what each was given as, and where its middle is in the picture.
-    pub plates: Vec<(&'static str, String, [f64; 2])>,
+    /// The plates, the heaviest first.
+    pub plates: Vec<PlacedPlate>,
     /// Plates that hang in pairs, by their places in `plates`: the one behind, the one in front.
     pub pairs: Vec<[usize; 2]>,
 }
 
-fn refused(message: String, help: &str) -> Diagnostic {
+fn rejection(message: String, help: &str) -> Diagnostic {
     Diagnostic::new(codes::NEW, message).help(help)
 }
 
@@ -134,10 +145,10 @@ fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
     let [least, most] = EXTENT;
     if size.min_element() < least || size.max_element() > most {
         let message = format!("{name} is {:.1} × {:.1} mm", size.x, size.y);
-        return Some(refused(message, &format!("plates are {least} to {most} mm high and wide")));
+        return Some(rejection(message, &format!("plates are {least} to {most} mm high and wide")));
     }
-    let (hung, _) = as_hung(&(polygon.clone(), Vec::new()), INSET);
-    let sides = || hung.iter().zip(hung.iter().cycle().skip(1));
+    let (hanging, _) = hang_by_hole(&(polygon.clone(), Vec::new()), INSET);
+    let sides = || hanging.iter().zip(hanging.iter().cycle().skip(1));
     let left = sides().map(|(p, q)| {
         let along = ((-*p).dot(*q - *p) / (*q - *p).length_squared()).clamp(0.0, 1.0);
         (*p + along * (*q - *p)).length()
@@ -149,14 +160,14 @@ fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
         let need = 2.0 * (HOLE_RADIUS + RIM);
         let help =
             format!("leave {need:.0} mm of sheet about a point {INSET} mm below its upper edge, over its centre");
-        return Some(refused(message, &help));
+        return Some(rejection(message, &help));
     }
     None
 }
 
 /// A unit of the chain: what hangs, how far it reaches from its plumb line, and its mass.
-struct Unit {
-    hanging: Hanging,
+struct Subtree {
+    hanging: TreeNode,
     reach: f64,
     mass: f64,
 }
@@ -168,44 +179,44 @@ fn wire_for(mass: f64) -> f64 {
 }
 
 /// The farthest that what hangs at the ends of a bough reaches from its loop; the balance decides the arms.
-fn reach(chord: f64, [right, left]: [&Unit; 2]) -> f64 {
+fn reach(chord: f64, [right, left]: [&Subtree; 2]) -> f64 {
     let arm = chord * left.mass / (left.mass + right.mass);
     (arm + right.reach).max(chord - arm + left.reach)
 }
 
 /// The unit of a bough that carries two.
-fn carried(name: String, chord: f64, rise: f64, depth: f64, turn: f64, [right, left]: [Unit; 2]) -> Unit {
+fn branch_subtree(name: String, chord: f64, rise: f64, depth: f64, turn: f64, [right, left]: [Subtree; 2]) -> Subtree {
     let reach = reach(chord, [&right, &left]);
     let loads = right.mass + left.mass;
     let radius = wire_for(loads);
     // The wire and its eyes: once more for what its curve and loop take.
-    let mass = loads + 2.0 * stock::STEEL * PI * radius * radius * chord;
+    let mass = loads + 2.0 * stock_parts::STEEL * PI * radius * radius * chord;
     let ends = [right.hanging, left.hanging];
-    Unit { hanging: Hanging::bough(Bough { name, radius, chord, rise, depth, turn, ends }), reach, mass }
+    Subtree { hanging: TreeNode::branch(BranchNode { name, radius, chord, rise, depth, turn, ends }), reach, mass }
 }
 
 /// A plate ready to hang.
-struct Ready {
+struct CutPlate {
     piece: Piece,
     reach: f64,
     height: f64,
 }
 
-impl Ready {
-    fn unit(&self, turn: f64) -> Unit {
-        Unit { hanging: Hanging::Plate(self.piece.clone(), turn), reach: self.reach, mass: self.piece.mass().mass }
+impl CutPlate {
+    fn subtree(&self, turn: f64) -> Subtree {
+        Subtree { hanging: TreeNode::Plate(self.piece.clone(), turn), reach: self.reach, mass: self.piece.mass().mass }
     }
 }
 
 /// Cuts plate `k` with a stem of `stem` m.
-fn cut(k: usize, outline: &Outline, stem: f64, thickness: f64, metal: Metal, finish: usize) -> Ready {
+fn cut(k: usize, outline: &Outline, stem: f64, thickness: f64, metal: Metal, finish: usize) -> CutPlate {
     let names = ["", "Hook", "Stem"].map(|end| named(format!("Plate{}{end}", k + 1)));
     let drawn = (outline.polygon.clone(), Vec::new());
-    let (hung, _) = as_hung(&drawn, INSET);
-    let reach = MM * hung.iter().map(|p| p.x.abs()).fold(0.0, f64::max) + thickness;
-    let height = MM * (INSET - hung.iter().map(|p| p.y).fold(0.0, f64::min));
+    let (hanging, _) = hang_by_hole(&drawn, INSET);
+    let reach = MM * hanging.iter().map(|p| p.x.abs()).fold(0.0, f64::max) + thickness;
+    let height = MM * (INSET - hanging.iter().map(|p| p.y).fold(0.0, f64::min));
     let piece = drawn_plate(names, &drawn, INSET, stem, (thickness, metal.density(), finish));
-    Ready { piece, reach, height }
+    CutPlate { piece, reach, height }
 }
 
 /// Stem of a plate that hangs alone or behind, m.
@@ -213,12 +224,12 @@ const STEM: f64 = 24.0 * MM;
 
 /// Two plates on a short bough, `behind` the heavier; the one in front hangs lower by a third of the other's height. Pair
 /// `number` leans now to one side, now to the other.
-fn pair(number: usize, behind: &Ready, front: &Ready, thickness: f64) -> Result<Unit, Diagnostic> {
+fn pair(number: usize, behind: &CutPlate, front: &CutPlate, thickness: f64) -> Result<Subtree, Diagnostic> {
     let (heavy, light) = (behind.piece.mass().mass, front.piece.mass().mass);
     if heavy > PAIR_RATIO * light {
         let (a, b) = (1e3 * heavy, 1e3 * light);
         let message = format!("two neighbours in weight, {a:.1} g and {b:.1} g, differ by more than 1 to {PAIR_RATIO}");
-        return Err(refused(message, "give plates that are more alike, or one of a size between them"));
+        return Err(rejection(message, "give plates that are more alike, or one of a size between them"));
     }
     let swing = STEM + 0.33 * behind.height + front.height;
     let gap = (0.08 * swing).clamp(9.0 * MM, 15.0 * MM) + thickness;
@@ -227,12 +238,12 @@ fn pair(number: usize, behind: &Ready, front: &Ready, thickness: f64) -> Result<
     // Where the balance asks for a longer bough it points more to the side: the plates stay as near to each other.
     let towards = asin(gap / chord);
     let turn = if number % 2 == 1 { towards } else { PI - towards };
-    let units = [behind.unit(0.0), front.unit(0.0)];
-    Ok(carried(format!("Pair{number}"), chord, -depth, depth, turn, units))
+    let subtrees = [behind.subtree(0.0), front.subtree(0.0)];
+    Ok(branch_subtree(format!("Pair{number}"), chord, -depth, depth, turn, subtrees))
 }
 
 /// Draws, balances and writes a mobile of `outlines`, cut from sheet of `thickness` m; the scene is called `title`.
-pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<Given, Vec<Diagnostic>> {
+pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<PlateMobile, Vec<Diagnostic>> {
     let problems: Vec<Diagnostic> = outlines.iter().filter_map(plate_problem).collect();
     if !problems.is_empty() {
         return Err(problems);
@@ -240,12 +251,12 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
     let [fewest, most] = COUNT;
     if !(fewest..=most).contains(&outlines.len()) {
         let message = format!("{} plates make no mobile here", outlines.len());
-        return Err(vec![refused(message, &format!("give {fewest} to {most} of them"))]);
+        return Err(vec![rejection(message, &format!("give {fewest} to {most} of them"))]);
     }
     let [thinnest, thickest] = THICKNESS.map(|t| t * MM);
     if !(thinnest..=thickest).contains(&thickness) {
         let message = format!("a sheet of {} mm is not cut and hung here", thickness / MM);
-        return Err(vec![refused(message, &format!("give {} to {} mm", THICKNESS[0], THICKNESS[1]))]);
+        return Err(vec![rejection(message, &format!("give {} to {} mm", THICKNESS[0], THICKNESS[1]))]);
     }
     let mut sorted: Vec<&Outline> = outlines.iter().collect();
     sorted.sort_by(|a, b| area_and_centroid(&b.polygon).0.total_cmp(&area_and_centroid(&a.polygon).0));
@@ -256,90 +267,90 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
     let alone = sorted.len() % 2;
     let pairs: Vec<[usize; 2]> = (alone..sorted.len()).step_by(2).map(|k| [k, k + 1]).collect();
     let cut = |k: usize, stem: f64| cut(k, sorted[k], stem, thickness, metal, finishes[k % finishes.len()]);
-    let tree = || -> Result<Hanging, Diagnostic> {
-        let mut units = Vec::new();
+    let tree = || -> Result<TreeNode, Diagnostic> {
+        let mut subtrees = Vec::new();
         if alone == 1 {
-            units.push(cut(0, STEM).unit(0.2));
+            subtrees.push(cut(0, STEM).subtree(0.2));
         }
         for (number, [behind, front]) in (1..).zip(&pairs) {
             let behind = cut(*behind, STEM);
             let front = cut(*front, STEM + 0.33 * behind.height);
-            units.push(pair(number, &behind, &front, thickness)?);
+            subtrees.push(pair(number, &behind, &front, thickness)?);
         }
         // The lightest is the lowest; each bough points the other way.
-        let mut level = units.len();
-        let mut units = units.into_iter().rev();
-        let lowest = units.next();
-        let chain = units.fold(lowest, |below, unit| {
+        let mut level = subtrees.len();
+        let mut subtrees = subtrees.into_iter().rev();
+        let lowest = subtrees.next();
+        let chain = subtrees.fold(lowest, |below, subtree| {
             let below = below?;
             level -= 1;
-            let arm = SHORTEST_ARM * (below.mass + unit.mass) / below.mass.min(unit.mass);
-            let chord = (below.reach + unit.reach + CLEAR).max(arm);
+            let arm = SHORTEST_ARM * (below.mass + subtree.mass) / below.mass.min(subtree.mass);
+            let chord = (below.reach + subtree.reach + CLEAR).max(arm);
             let depth = (0.04 * chord).clamp(8.0 * MM, 30.0 * MM);
             let turn = if level % 2 == 1 { 0.12 } else { PI - 0.16 };
-            Some(carried(format!("Bough{level}"), chord, 0.04 * chord, depth, turn, [below, unit]))
+            Some(branch_subtree(format!("Bough{level}"), chord, 0.04 * chord, depth, turn, [below, subtree]))
         });
         // There are at least two plates, hence a pair.
-        chain.map(|unit| unit.hanging).ok_or_else(|| refused("there is no plate".into(), "give at least two"))
+        chain.map(|subtree| subtree.hanging).ok_or_else(|| rejection("there is no plate".into(), "give at least two"))
     };
     // Hung from nothing first, to see how low it reaches.
     let one = |problem| vec![problem];
-    let (low, _) = bounds(&hang(DVec3::ZERO, tree().map_err(one)?));
+    let (low, _) = bounds(&assemble_tree(DVec3::ZERO, tree().map_err(one)?));
     let hook = DVec3::new(0.0, ((ABOVE_FLOOR - low.y) * 1e3).ceil() * MM, 0.0);
-    let work = Mobile { pieces: hang(hook, tree().map_err(one)?), stand: ceiling(iron) };
-    work.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: hook });
-    for (piece, pose) in &work.pieces {
+    let mobile = Mobile { pieces: assemble_tree(hook, tree().map_err(one)?), stand: ceiling(iron) };
+    mobile.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: hook });
+    for (piece, pose) in &mobile.pieces {
         piece.write(&mut scene, *pose);
     }
-    let eye = Eye::on(&work, hook);
-    scene.camera("CamFront", eye.place, eye.target, FOVY, ASPECT);
+    let camera = FramingCamera::framing(&mobile, hook);
+    scene.camera("CamFront", camera.position, camera.target, FOVY, ASPECT);
     let plates = (0..sorted.len()).map(|k| {
-        let name = named(format!("Plate{}", k + 1));
-        let middle = work.pieces.iter().find(|(piece, _)| piece.name == name);
-        let middle = middle.map_or(eye.target, |(piece, pose)| pose.point(piece.mass().center));
-        (name, sorted[k].name.clone(), eye.sees(middle))
+        let node = named(format!("Plate{}", k + 1));
+        let piece = mobile.pieces.iter().find(|(piece, _)| piece.name == node);
+        let center = piece.map_or(camera.target, |(piece, pose)| pose.point(piece.mass().center));
+        PlacedPlate { node, source: sorted[k].name.clone(), picture_position: camera.project(center) }
     });
     let plates = plates.collect();
-    Ok(Given { mobile: work, glb: scene.into_glb(title, "Made with Soffio from given plates"), plates, pairs })
+    Ok(PlateMobile { mobile, glb: scene.into_glb(title, "Made with Soffio from given plates"), plates, pairs })
 }
 
 /// The box of all that pieces are.
 fn bounds(pieces: &[(Piece, Pose)]) -> (DVec3, DVec3) {
     let corners = pieces.iter().flat_map(|(piece, pose)| {
-        let bends = piece.bends.iter().flat_map(|bend| bend.points.clone());
+        let wires = piece.wires.iter().flat_map(|bend| bend.points.clone());
         let parts = piece.parts.iter().flat_map(|part| part.solid.positions.iter().map(|p| part.place.point(*p)));
-        bends.chain(parts).map(|p| pose.point(p)).collect::<Vec<_>>()
+        wires.chain(parts).map(|p| pose.point(p)).collect::<Vec<_>>()
     });
     let none = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
     corners.fold(none, |(low, high), p| (low.min(p), high.max(p)))
 }
 
-/// Where the visitor looks from, and at.
-struct Eye {
-    place: DVec3,
+/// The camera of the model.
+struct FramingCamera {
+    position: DVec3,
     target: DVec3,
 }
 
-impl Eye {
-    /// Before the work, so far that all of it and a little of the rod is seen.
-    fn on(work: &Mobile, hook: DVec3) -> Self {
-        let (low, high) = bounds(&work.pieces);
+impl FramingCamera {
+    /// In front of the mobile, far enough to show all of it and a little of the rod.
+    fn framing(mobile: &Mobile, hook: DVec3) -> Self {
+        let (low, high) = bounds(&mobile.pieces);
         let high = high.max(hook + 0.04 * DVec3::Y);
         let half = 0.5 * (high - low);
         let target = 0.5 * (low + high);
         let tall = half.y.max(half.x / ASPECT) * 1.12;
         let far = tall * cos(0.5 * FOVY) / sin(0.5 * FOVY) + half.z;
-        Self { place: target + far * DVec3::new(-0.08, 0.05, 1.0).normalize(), target }
+        Self { position: target + far * DVec3::new(-0.08, 0.05, 1.0).normalize(), target }
     }
 
     /// Picture coordinates of a point, (0,0) top left, to hundredths.
-    fn sees(&self, point: DVec3) -> [f64; 2] {
-        let back = (self.place - self.target).normalize();
+    fn project(&self, point: DVec3) -> [f64; 2] {
+        let back = (self.position - self.target).normalize();
         let right = DVec3::Y.cross(back).normalize();
         let up = back.cross(right);
-        let way = point - self.place;
-        let half = -way.dot(back) * sin(0.5 * FOVY) / cos(0.5 * FOVY);
-        let (x, y) = (0.5 + 0.5 * way.dot(right) / (half * ASPECT), 0.5 - 0.5 * way.dot(up) / half);
+        let offset = point - self.position;
+        let half = -offset.dot(back) * sin(0.5 * FOVY) / cos(0.5 * FOVY);
+        let (x, y) = (0.5 + 0.5 * offset.dot(right) / (half * ASPECT), 0.5 - 0.5 * offset.dot(up) / half);
         [x, y].map(|v| (v * 100.0).round() / 100.0)
     }
 }
@@ -347,7 +358,7 @@ impl Eye {
 /// A plate by its size: `120x80` is 120 mm wide and 80 high with round corners, `100` a disc of 100 mm.
 pub fn sized(text: &str) -> Result<Outline, Diagnostic> {
     let wrong = || {
-        refused(
+        rejection(
             format!("\"{text}\" is no size of a plate"),
             "write 120x80 (width x height, mm), or 100 for a disc of 100 mm",
         )

@@ -34,11 +34,11 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
         case 4u: { local = vec3f(1.0, c.x, c.y); }
         default: { local = vec3f(c.x, c.y, 1.0); }
     }
-    let p = local * globals.room_half;
+    let p = local * globals.gallery_half;
     var out: Varying;
     out.local = local;
     out.face = face;
-    out.position = globals.room_center + globals.room_x * p.x + vec3f(0.0, p.y, 0.0) + globals.room_z * p.z;
+    out.position = globals.gallery_center + globals.gallery_x * p.x + vec3f(0.0, p.y, 0.0) + globals.gallery_z * p.z;
     out.clip = globals.clip_from_world * vec4f(out.position, 1.0);
     return out;
 }
@@ -142,12 +142,12 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     var normal: vec3f;
     var uv: vec2f;
     switch v.face {
-        case 0u: { normal = globals.room_z; uv = v.local.xy; }
+        case 0u: { normal = globals.gallery_z; uv = v.local.xy; }
         case 1u: { normal = vec3f(0.0, 1.0, 0.0); uv = v.local.xz; }
         case 2u: { normal = vec3f(0.0, -1.0, 0.0); uv = v.local.xz; }
-        case 3u: { normal = globals.room_x; uv = v.local.yz; }
-        case 4u: { normal = -globals.room_x; uv = v.local.yz; }
-        default: { normal = -globals.room_z; uv = v.local.xy; }
+        case 3u: { normal = globals.gallery_x; uv = v.local.yz; }
+        case 4u: { normal = -globals.gallery_x; uv = v.local.yz; }
+        default: { normal = -globals.gallery_z; uv = v.local.xy; }
     }
     let map = textureSampleLevel(lightmap, smooth_sampler, uv * 0.5 + 0.5, i32(v.face), 0.0);
     // The map's fourth channel is the radiance of a luminous field.
@@ -162,13 +162,13 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     var radiance = albedo / PI * irradiance + vec3f(map.a);
     if v.face == FLOOR {
         let pixel = globals.pixel_angle * length(globals.eye - v.position);
-        radiance *= boards(v.local.x * globals.room_half.x, pixel);
+        radiance *= boards(v.local.x * globals.gallery_half.x, pixel);
         radiance += floor_gloss(v.position, normal) * open;
     }
     if v.face != FLOOR {
         // The walls end a finger above the floor: a dark line, covered in parts of pixels.
         let away = globals.eye - v.position;
-        let pixel = globals.pixel_angle * length(away) / globals.room_half.y;
+        let pixel = globals.pixel_angle * length(away) / globals.gallery_half.y;
         let above = select(v.local.y + 1.0, 1.0, v.face == 2u);
         radiance *= 1.0 - 0.72 * clamp((GAP - above) / pixel + 0.5, 0.0, 1.0) * min(GAP / pixel, 1.0);
     }

@@ -1,39 +1,39 @@
-//! Key frames that change shapes: scales of nodes and weights of morph targets (glTF 2.0, 3.7.2.2 and 3.11).
+//! Animated shapes: key frames of node scales and of morph-target weights (glTF 2.0, 3.7.2.2 and 3.11).
 //!
-//! Bodies are rigid, so physics, wind and hands keep what stands at rest, and the picture alone shows these, at the time since
-//! the reset. They need no word in the sidecar: what is below a kinematic body goes on with the animation that the body
-//! follows, anything else with the first of the model that has such key frames, over and over.
+//! Bodies are rigid: physics, wind and grabs use the shape at rest, and the picture alone shows animated shapes, by the
+//! time since the reset. The sidecar needs no key for them. Nodes below a kinematic body play the animation that the
+//! body follows. All others loop the first animation of the model that has such key frames.
 
 use super::model::{Channel, Model, Track};
 
-/// Key frames of one shape, and how they go on.
+/// The key frames of one shape and how they repeat.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeTrack {
-    /// A scale or weights.
+    /// The channel: a scale or morph weights.
     pub channel: Channel,
-    /// First and last key of all its animation, s: what is in one animation begins anew together.
+    /// First and last key of the whole animation, s: its channels repeat together.
     pub span: (f64, f64),
-    /// Does it begin anew after the last?
+    /// Does it start again after the last key?
     pub repeat: bool,
 }
 
 impl ShapeTrack {
-    /// The time in the animation at `t` seconds after the reset.
+    /// Time in the animation at `t` seconds after the reset, s.
     pub fn time(&self, t: f64) -> f64 {
         let (first, last) = self.span;
         let length = last - first;
         if self.repeat && length > 0.0 { t - length * ((t - first) / length).floor() } else { t }
     }
 
-    /// May the shape be another one after `t` seconds?
-    pub fn moves(&self, t: f64) -> bool {
+    /// Can the shape still change after `t` seconds?
+    pub fn is_changing(&self, t: f64) -> bool {
         let (first, last) = self.span;
         last > first && (self.repeat || t < last)
     }
 }
 
-/// The key frames of all shapes of a model. `followed` tells of a node the animation that its body follows, and whether over and
-/// over.
+/// The animated shapes of a model. `followed` gives, for a node, the animation that its body follows and whether it
+/// repeats.
 pub fn shapes(model: &Model, followed: impl Fn(usize) -> Option<(usize, bool)>) -> Vec<ShapeTrack> {
     let mut tracks: Vec<ShapeTrack> = Vec::new();
     let keyed = model.animations.iter().flat_map(|animation| &animation.channels).filter(|channel| channel.shapes());
@@ -57,7 +57,7 @@ pub fn shapes(model: &Model, followed: impl Fn(usize) -> Option<(usize, bool)>) 
     tracks
 }
 
-/// Are these of the same property of the same node?
+/// Do both animate the same property of the same node?
 fn alike(a: &Channel, b: &Channel) -> bool {
     let same =
         matches!((&a.track, &b.track), (Track::Scale(..), Track::Scale(..)) | (Track::Weights(_), Track::Weights(_)));

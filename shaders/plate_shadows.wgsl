@@ -20,7 +20,7 @@ struct Shaded {
 }
 
 @vertex
-fn sheet_vertex(@builtin(vertex_index) index: u32, @location(0) bounds: vec4f, @location(1) rim: vec4u) -> Shaded {
+fn plate_shadow_vertex(@builtin(vertex_index) index: u32, @location(0) bounds: vec4f, @location(1) rim: vec4u) -> Shaded {
     let plane = globals.planes[PLANE];
     var corners = array<vec2f, 6>(vec2f(0.0, 0.0), vec2f(1.0, 0.0), vec2f(1.0, 1.0), vec2f(0.0, 0.0), vec2f(1.0, 1.0), vec2f(0.0, 1.0));
     let at = mix(bounds.xy, bounds.zw, corners[index]);
@@ -42,22 +42,22 @@ fn turn_between(a: vec2f, b: vec2f) -> vec2f {
 
 // Twice the signed area that the triangle of the unit disc's centre, a and b has in the disc.
 fn disc_wedge(a: vec2f, b: vec2f) -> f32 {
-    let way = b - a;
-    let squared = max(dot(way, way), 1e-20);
-    let turn = a.x * way.y - a.y * way.x;
+    let edge = b - a;
+    let squared = max(dot(edge, edge), 1e-20);
+    let turn = a.x * edge.y - a.y * edge.x;
     // Where the edge enters the disc and leaves it; both the same where it passes by.
     let half = sqrt(max(squared - turn * turn, 0.0)) / squared;
-    let nearest = -dot(a, way) / squared;
+    let nearest = -dot(a, edge) / squared;
     let enters = clamp(nearest - half, 0.0, 1.0);
     let leaves = clamp(nearest + half, 0.0, 1.0);
-    let before = select(vec2f(1.0, 0.0), turn_between(a, a + enters * way), enters > 0.0);
-    let after = select(vec2f(1.0, 0.0), turn_between(a + leaves * way, b), leaves < 1.0);
+    let before = select(vec2f(1.0, 0.0), turn_between(a, a + enters * edge), enters > 0.0);
+    let after = select(vec2f(1.0, 0.0), turn_between(a + leaves * edge, b), leaves < 1.0);
     let outside = complex_product(before, after);
     return (leaves - enters) * turn + atan2(outside.y, outside.x);
 }
 
 @fragment
-fn sheet_fragment(v: Shaded) -> @location(0) vec4f {
+fn plate_shadow_fragment(v: Shaded) -> @location(0) vec4f {
     let lamp = globals.lamps[v.rim.z];
     let frame = frame_of(lamp.axis);
     let to_lamp = lamp.position - v.position;

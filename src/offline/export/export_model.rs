@@ -1,5 +1,4 @@
-//! What other programs are to draw: the exhibit's model with each moving body a root of its own, wires as meshes, and the
-//! visitor's camera.
+//! The model for export: each moving body as a root node, wires as meshes, and the visitor's camera.
 
 use soffio_exhibit::model::{Appearance, Camera, Mesh, Model, Node};
 use soffio_exhibit::{Exhibit, Wire};
@@ -7,29 +6,29 @@ use soffio_math::{DMat3, DMat4, DQuat, DVec3};
 
 use super::tube::tube;
 
-/// The picture that a camera is made for where the exhibit has none.
+/// Aspect of the camera where the exhibit has none.
 const ASPECT: f64 = 16.0 / 9.0;
 
-/// A drawing of an exhibit for other programs.
-pub struct Scenery {
-    /// Nodes of bodies are roots, at their pose of the start; their descendants that are no bodies hang from them.
+/// An exhibit's model for other programs.
+pub struct ExportModel {
+    /// The model: nodes of bodies are roots at their start pose, with those descendants that are no bodies.
     pub model: Model,
-    /// For each body what its node does to what it carries beside its pose: the scale of the file.
+    /// For each body, the scale of its node, which applies to its descendants.
     pub scales: Vec<DMat4>,
 }
 
 /// A mesh in the rigid frame of the body that carries it.
-pub struct Piece<'a> {
+pub struct PlacedPrimitive<'a> {
     /// Index of the body; `None` is the world.
     pub body: Option<usize>,
-    /// What is drawn.
+    /// The mesh.
     pub mesh: &'a Mesh,
-    /// The mesh's frame in the body's.
+    /// Transform from the mesh to the body's frame.
     pub place: DMat4,
 }
 
-impl Scenery {
-    /// Takes an exhibit apart.
+impl ExportModel {
+    /// Builds the model of an exhibit.
     pub fn new(exhibit: &Exhibit) -> Self {
         let mut model = Model { animations: Vec::new(), ..exhibit.model.clone() };
         let mut scales = Vec::with_capacity(exhibit.bodies.len());
@@ -37,7 +36,7 @@ impl Scenery {
             let (_, rotation, position) = exhibit.model.nodes[body.node].world.to_scale_rotation_translation();
             let rigid = DMat4::from_rotation_translation(rotation, position);
             let scale = rigid.inverse() * exhibit.model.nodes[body.node].world;
-            // A scale that is one but for rounding is none.
+            // A scale of one within rounding is none.
             let scale = if scale.abs_diff_eq(DMat4::IDENTITY, 1e-6) { DMat4::IDENTITY } else { scale };
             if let Some(parent) = model.nodes[body.node].parent.take() {
                 model.nodes[parent].children.retain(|&child| child != body.node);
@@ -100,8 +99,8 @@ impl Scenery {
         self.model.nodes.push(node);
     }
 
-    /// All meshes that are seen, in the frames of the bodies that carry them.
-    pub fn pieces(&self, exhibit: &Exhibit) -> Vec<Piece<'_>> {
+    /// All visible meshes, in the frames of the bodies that carry them.
+    pub fn placed_primitives(&self, exhibit: &Exhibit) -> Vec<PlacedPrimitive<'_>> {
         let body_of = |node| exhibit.bodies.iter().position(|body| body.node == node);
         let mut out = Vec::new();
         for &root in &self.model.roots {
@@ -114,7 +113,7 @@ impl Scenery {
                 }
                 let node = &self.model.nodes[index];
                 if let Some(mesh) = node.mesh.and_then(|mesh| self.model.meshes.get(mesh)) {
-                    out.push(Piece { body, mesh, place });
+                    out.push(PlacedPrimitive { body, mesh, place });
                 }
                 open.extend(node.children.iter().map(|&child| (child, place * self.model.nodes[child].local)));
             }
@@ -122,10 +121,10 @@ impl Scenery {
         out
     }
 
-    /// For each body how far its points are from its origin, m.
-    pub fn reaches(&self, exhibit: &Exhibit) -> Vec<f64> {
+    /// Bounding radius of each body about its node, m.
+    pub fn node_radii(&self, exhibit: &Exhibit) -> Vec<f64> {
         let mut reaches = vec![0.0; exhibit.bodies.len()];
-        for Piece { body, mesh, place } in self.pieces(exhibit) {
+        for PlacedPrimitive { body, mesh, place } in self.placed_primitives(exhibit) {
             let Some(body) = body else { continue };
             for corner in mesh.primitives.iter().flat_map(|primitive| &primitive.positions) {
                 let at = place.transform_point3(DVec3::from(corner.map(f64::from)));

@@ -1,14 +1,14 @@
-//! Shadows of plates on wall and floor, in closed form.
+//! Analytic soft shadows of flat plates on wall and floor.
 //!
-//! A plate that is flat is a *sheet*: its outline, holes too, between two heights over its middle plane. Seen from a lamp it is
-//! bounded by the rim of its far side where the rim faces the lamp, and of its near side elsewhere. Each frame finds
-//! that line for each lamp, and the rectangle of wall and floor that its shadow can reach; `sheets.wgsl` measures in
-//! each texel how much of the lamp's disc lies behind it, as seen from there.
+//! A flat plate is its outline, with holes, between two heights over its middle plane. Seen from a lamp it is bounded
+//! by the rim of its far side where the rim faces the lamp, and by that of its near side elsewhere. Each frame finds
+//! that line for each lamp, and the rectangle of wall and floor that its shadow can reach. In each texel
+//! `plate_shadows.wgsl` computes the fraction of the lamp's disc that the plate covers.
 //!
-//! What is not exact: the outline has at most [`MOST_EDGES`] edges and passes the plate's by at most [`NEAR`], its area kept;
-//! the line is that of the lamp's middle, which is wrong by the plate's thickness times the angle that the lamp is wide;
-//! and of two plates that cover parts of a lamp it is not known whether these are the same: they are taken
-//! to be independent, 1 − (1 − a)(1 − b), where the truth lies between max(a, b) and min(a + b, 1), ¼ away at most.
+//! Approximations: the outline has at most [`MAX_EDGES`] edges and differs from the plate's by at most
+//! [`OUTLINE_TOLERANCE`], with the same area. The line is that of the lamp's centre; its error is the plate's thickness
+//! times the lamp's angular size. Two plates that cover parts of a lamp count as independent, 1 − (1 − a)(1 − b); the
+//! true value lies between max(a, b) and min(a + b, 1), at most ¼ away.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -20,57 +20,57 @@ use super::gallery::Lamp;
 use super::outlines::{Edge, Plate};
 use super::shadows::ReceivingPlane;
 
-/// Texels along a row of the texture that holds the rims.
+/// Texels along a row of the texture with the rims.
 pub(super) const RIM_ROW: u32 = 256;
-/// Most edges of a sheet, its holes' too.
-const MOST_EDGES: usize = 96;
-/// How far the outline may pass the plate's, and how uneven a rim may lie, m.
-const NEAR: f32 = 0.0005;
-/// How far corners may be left out of outlines, m, before the area is given back; the first that is near enough is taken.
-const REACHES: [f32; 4] = [0.0008, 0.0006, 0.0004, 0.0002];
-/// Sine of a slope from which on a face looks up or down.
+/// Most edges of a plate, its holes' included.
+const MAX_EDGES: usize = 96;
+/// Largest deviation of the outline from the plate's, and of a rim from a plane, m.
+const OUTLINE_TOLERANCE: f32 = 0.0005;
+/// Tolerances of outline simplification, m; the first whose result is within [`OUTLINE_TOLERANCE`] is used.
+const SIMPLIFY_TOLERANCES: [f32; 4] = [0.0008, 0.0006, 0.0004, 0.0002];
+/// Sine of the slope from which a face counts as facing up or down.
 const SLOPE: f32 = 0.05;
-/// How much the areas within both rims may differ, relative.
+/// Largest relative difference of the areas within both rims.
 const SAME_AREA: f32 = 0.02;
 
-/// A flat plate, in the frame of its body.
-pub(super) struct Sheet {
+/// A flat plate prepared for shadows, in the frame of its body.
+pub(super) struct ShadowPlate {
     frame: usize,
-    /// Unit axes; outlines lie along the first two.
+    /// Unit axes; the outlines lie in the plane of the first two.
     axes: [Vec3; 3],
-    /// Anticlockwise about the third axis around the sheet, clockwise around its holes, m.
+    /// Outlines, m: counter-clockwise about the third axis around the plate, clockwise around its holes.
     loops: Vec<Vec<Vec2>>,
-    /// Of the two rims, along the third axis, m.
+    /// Heights of the two rims along the third axis, m.
     heights: [f32; 2],
 }
 
-/// The part of a wall or floor that one sheet and one lamp shade, as `sheets.wgsl` reads it.
+/// The part of a wall or floor that one plate and one lamp can shade, in the layout of `plate_shadows.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(super) struct Shade {
+pub(super) struct ShadowInstance {
     /// Lowest and highest texture coordinates.
     bounds: [f32; 4],
-    /// First point of the rim, points, lamp, 0.
+    /// First point of the rim, number of points, index of the lamp, 0.
     rim: [u32; 4],
 }
 
-/// The shadows of one frame.
-pub(super) struct Sheets {
-    sheets: Vec<Sheet>,
+/// The plate shadows of a frame.
+pub(super) struct PlateShadows {
+    plates: Vec<ShadowPlate>,
     lamps: [Lamp; 2],
     planes: [ReceivingPlane; 2],
-    /// Points along the rims, world, m; w is 1 where a line begins. Each ends where it begins.
+    /// Points along the rims, world, m; w is 1 at the first point of a line. Each line ends at its first point.
     pub points: Vec<Vec4>,
-    /// On the wall, then on the floor.
-    pub shades: Vec<Shade>,
-    /// How many are the wall's.
+    /// Instances on the wall, then on the floor.
+    pub instances: Vec<ShadowInstance>,
+    /// Number of instances on the wall.
     on_wall: u32,
-    /// Where the points of each sheet and lamp lie.
+    /// Range of the points of each plate and lamp.
     rims: Vec<Range<usize>>,
 }
 
-impl Sheet {
-    /// The sheet that a plate is, where it is flat and few edges say so.
+impl ShadowPlate {
+    /// The shadow plate of a plate; `None` where it is not flat or has too many edges.
     pub fn of(plate: &Plate) -> Option<Self> {
         let normal = plate.normal;
         let (x, y) = normal.any_orthonormal_pair();
@@ -81,7 +81,7 @@ impl Sheet {
         let height = |chains: &[Vec<u16>]| {
             let heights = chains.iter().flatten().map(|&i| plate.corners[usize::from(i)].dot(normal));
             let (low, high) = heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
-            (high - low <= NEAR).then_some(0.5 * (low + high))
+            (high - low <= OUTLINE_TOLERANCE).then_some(0.5 * (low + high))
         };
         let heights = [height(&lower)?, height(&upper)?];
         let flat = |chain: &Vec<u16>| -> Vec<Vec2> {
@@ -92,18 +92,21 @@ impl Sheet {
         if above <= 0.0 || (above + below).abs() > SAME_AREA * above {
             return None;
         }
-        let loops = REACHES.iter().find_map(|&reach| {
+        let loops = SIMPLIFY_TOLERANCES.iter().find_map(|&reach| {
             let fewer: Vec<_> = upper.iter().map(|points| simplified(points, reach)).collect();
-            let near = upper.iter().zip(&fewer).all(|(points, fewer)| points.iter().all(|&p| away(p, fewer) <= NEAR));
+            let near = upper
+                .iter()
+                .zip(&fewer)
+                .all(|(points, fewer)| points.iter().all(|&p| distance_to_outline(p, fewer) <= OUTLINE_TOLERANCE));
             near.then_some(fewer)
         })?;
-        if loops.iter().map(Vec::len).sum::<usize>() > MOST_EDGES {
+        if loops.iter().map(Vec::len).sum::<usize>() > MAX_EDGES {
             return None;
         }
         Some(Self { frame: plate.frame, axes, loops, heights })
     }
 
-    /// Its edges.
+    /// Number of its edges.
     fn edges(&self) -> usize {
         self.loops.iter().map(Vec::len).sum()
     }
@@ -123,7 +126,7 @@ impl Sheet {
         };
         for corners in &self.loops {
             let count = corners.len();
-            // Where the rim of the edge from corner k on is the line.
+            // The height of the line at the edge from corner k on.
             let height = |k: usize| {
                 let (a, b) = (corners[k % count], corners[(k + 1) % count]);
                 let towards = (b - a).perp_dot(eye - a) < 0.0;
@@ -143,73 +146,74 @@ impl Sheet {
     }
 }
 
-impl Sheets {
-    /// The sheets of a scene under the lamps of its room; no shadow found yet.
-    pub fn new(sheets: Vec<Sheet>, lamps: [Lamp; 2], planes: [ReceivingPlane; 2]) -> Self {
-        // An outline may change rims at each corner, and its first point comes twice.
-        let most = |sheet: &Sheet| 2 * sheet.edges() + 2 * sheet.loops.len();
-        let points = lamps.len() * sheets.iter().map(most).sum::<usize>();
+impl PlateShadows {
+    /// The plates of a scene under the lamps of its gallery, without shadows yet.
+    pub fn new(shadow_plates: Vec<ShadowPlate>, lamps: [Lamp; 2], planes: [ReceivingPlane; 2]) -> Self {
+        // The line can change between rims at each corner, and its first point is repeated.
+        let most = |shadow_plate: &ShadowPlate| 2 * shadow_plate.edges() + 2 * shadow_plate.loops.len();
+        let points = lamps.len() * shadow_plates.iter().map(most).sum::<usize>();
         Self {
             points: Vec::with_capacity(points.next_multiple_of(RIM_ROW as usize).max(RIM_ROW as usize)),
-            shades: Vec::with_capacity(lamps.len() * planes.len() * sheets.len()),
+            instances: Vec::with_capacity(lamps.len() * planes.len() * shadow_plates.len()),
             on_wall: 0,
-            rims: Vec::with_capacity(lamps.len() * sheets.len()),
-            sheets,
+            rims: Vec::with_capacity(lamps.len() * shadow_plates.len()),
+            plates: shadow_plates,
             lamps,
             planes,
         }
     }
 
-    /// Is there any?
+    /// Are there no plates?
     pub fn is_empty(&self) -> bool {
-        self.sheets.is_empty()
+        self.plates.is_empty()
     }
 
-    /// Rows of the texture that holds the rims.
+    /// Rows of the texture with the rims.
     pub fn rows(&self) -> u32 {
         self.points.capacity() as u32 / RIM_ROW
     }
 
-    /// Most shades that there can be.
-    pub fn most(&self) -> usize {
-        self.shades.capacity()
+    /// Largest number of instances.
+    pub fn max_instances(&self) -> usize {
+        self.instances.capacity()
     }
 
-    /// The shades on a plane: 0 the wall, 1 the floor.
-    pub fn on(&self, plane: usize) -> Range<u32> {
-        if plane == 0 { 0..self.on_wall } else { self.on_wall..self.shades.len() as u32 }
+    /// The instances on a plane: 0 the wall, 1 the floor.
+    pub fn instances_on(&self, plane: usize) -> Range<u32> {
+        if plane == 0 { 0..self.on_wall } else { self.on_wall..self.instances.len() as u32 }
     }
 
-    /// Finds what the sheets shade where a frame has them.
-    pub fn find(&mut self, frames: &[[Vec4; 3]]) {
+    /// Finds the shadows for the poses of a frame.
+    pub fn update(&mut self, frames: &[[Vec4; 3]]) {
         self.points.clear();
         self.rims.clear();
-        for sheet in &self.sheets {
+        for shadow_plate in &self.plates {
             for lamp in &self.lamps {
                 let first = self.points.len();
-                sheet.rim(&frames[sheet.frame], lamp.position, &mut self.points);
+                shadow_plate.rim(&frames[shadow_plate.frame], lamp.position, &mut self.points);
                 self.rims.push(first..self.points.len());
             }
         }
-        self.shades.clear();
+        self.instances.clear();
         for (index, plane) in self.planes.iter().enumerate() {
             for (k, rim) in self.rims.iter().enumerate() {
                 let lamp = k % self.lamps.len();
                 if let Some(bounds) = bounds(plane, &self.lamps[lamp], &self.points[rim.clone()]) {
-                    self.shades.push(Shade { bounds, rim: [rim.start as u32, rim.len() as u32, lamp as u32, 0] });
+                    self.instances
+                        .push(ShadowInstance { bounds, rim: [rim.start as u32, rim.len() as u32, lamp as u32, 0] });
                 }
             }
             if index == 0 {
-                self.on_wall = self.shades.len() as u32;
+                self.on_wall = self.instances.len() as u32;
             }
         }
-        // Whole rows are brought to the device.
+        // Whole rows are uploaded.
         self.points.resize(self.points.len().next_multiple_of(RIM_ROW as usize), Vec4::ZERO);
     }
 }
 
-/// The rectangle of a plane, in its texture coordinates, that a lamp leaves in part behind these points; none where it
-/// shades none of the plane.
+/// The rectangle of a plane, in texture coordinates, that these points can shade from a lamp; `None` where they shade
+/// none of it.
 fn bounds(plane: &ReceivingPlane, lamp: &Lamp, points: &[Vec4]) -> Option<[f32; 4]> {
     let light = lamp.position - plane.origin;
     let d = light.dot(plane.normal);
@@ -220,7 +224,7 @@ fn bounds(plane: &ReceivingPlane, lamp: &Lamp, points: &[Vec4]) -> Option<[f32; 
     let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
     for point in points {
         let p = point.truncate() - plane.origin;
-        // What is behind the plane throws its shadow on its own foot, what is beside the lamp beyond the room.
+        // Points behind the plane cast their shadow at their own foot, points beside the lamp beyond the gallery.
         let h = height(point).max(0.0);
         let rest = (d - h - lamp.radius).max(0.05 * d);
         let foot = light + (p - light) * (d / (d - h).max(0.05 * d));
@@ -235,7 +239,7 @@ fn bounds(plane: &ReceivingPlane, lamp: &Lamp, points: &[Vec4]) -> Option<[f32; 
     (low.x < high.x && low.y < high.y).then_some([low.x, low.y, high.x, high.y])
 }
 
-/// The closed lines around the faces of a kind, as these run; none where two of them meet in a corner.
+/// The closed lines around the faces for which `inside` holds; `None` where two of them meet at a corner.
 fn chains(edges: &[Edge], inside: impl Fn(u16) -> bool) -> Option<Vec<Vec<u16>>> {
     let mut next = BTreeMap::new();
     for edge in edges {
@@ -269,18 +273,18 @@ fn sides(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
 }
 
 /// Distance of a point from a closed line.
-fn away(p: Vec2, line: &[Vec2]) -> f32 {
-    sides(line).map(|(a, b)| from_segment(p, a, b)).fold(f32::INFINITY, f32::min)
+fn distance_to_outline(p: Vec2, line: &[Vec2]) -> f32 {
+    sides(line).map(|(a, b)| distance_to_segment(p, a, b)).fold(f32::INFINITY, f32::min)
 }
 
-fn from_segment(p: Vec2, a: Vec2, b: Vec2) -> f32 {
+fn distance_to_segment(p: Vec2, a: Vec2, b: Vec2) -> f32 {
     let along = b - a;
     let t = ((p - a).dot(along) / along.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
     p.distance(a + t * along)
 }
 
-/// A closed line with fewer corners: those within `reach` of the rest are left out (Douglas and Peucker 1973), and the area that
-/// goes with them is given back to all sides alike.
+/// A closed line without the corners that lie within `reach` of the rest (Douglas and Peucker 1973), offset so that its
+/// area stays the same.
 fn simplified(points: &[Vec2], reach: f32) -> Vec<Vec2> {
     let far = (0..points.len())
         .max_by(|&i, &j| points[i].distance_squared(points[0]).total_cmp(&points[j].distance_squared(points[0])));
@@ -290,7 +294,7 @@ fn simplified(points: &[Vec2], reach: f32) -> Vec<Vec2> {
     let mut open = vec![(0, far), (far, points.len())];
     while let Some((from, to)) = open.pop() {
         keep[from] = true;
-        let off = |k: usize| from_segment(at(k), at(from), at(to));
+        let off = |k: usize| distance_to_segment(at(k), at(from), at(to));
         let worst = (from + 1..to).max_by(|&i, &j| off(i).total_cmp(&off(j)));
         if let Some(worst) = worst.filter(|&k| off(k) > reach) {
             open.extend([(from, worst), (worst, to)]);
@@ -302,7 +306,7 @@ fn simplified(points: &[Vec2], reach: f32) -> Vec<Vec2> {
     (0..fewer.len()).map(|k| fewer[k] + lost * corner_normal(&fewer, k)).collect()
 }
 
-/// How far a corner goes when both its sides move outwards by one, at most two.
+/// Offset of a corner when both its sides move outwards by one, at most two.
 fn corner_normal(line: &[Vec2], k: usize) -> Vec2 {
     let count = line.len();
     let outwards = |a: Vec2, b: Vec2| -(b - a).normalize_or_zero().perp();
@@ -318,18 +322,18 @@ mod tests {
 
     #[test]
     fn an_outline_with_fewer_corners_keeps_its_area_and_its_place() {
-        // What mitres give beside the sides: the second order, largest for an octagon.
+        // Second-order error of the mitres, largest for an octagon.
         const SAME: f32 = 5e-3;
         let circle = |radius: f32| -> Vec<Vec2> {
             (0..96).map(|k| radius * Vec2::from_angle(k as f32 / 96.0 * std::f32::consts::TAU)).collect()
         };
         for radius in [0.01, 0.05, 0.15] {
             let points = circle(radius);
-            for reach in REACHES {
+            for reach in SIMPLIFY_TOLERANCES {
                 let fewer = simplified(&points, reach);
                 assert!((area(&fewer) / area(&points) - 1.0).abs() < SAME, "{radius} m, {reach} m");
-                assert!(points.iter().all(|&p| away(p, &fewer) <= reach), "{radius} m, {reach} m");
-                assert!(reach < REACHES[0] || fewer.len() <= 32, "{radius} m: {} corners", fewer.len());
+                assert!(points.iter().all(|&p| distance_to_outline(p, &fewer) <= reach), "{radius} m, {reach} m");
+                assert!(reach < SIMPLIFY_TOLERANCES[0] || fewer.len() <= 32, "{radius} m: {} corners", fewer.len());
             }
         }
         let square = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
@@ -338,7 +342,7 @@ mod tests {
 
     #[test]
     fn lines_around_faces_run_with_them_and_end_where_they_begin() {
-        // Two triangles of a square up, its other side one that looks down.
+        // Two triangles of a square face up, its other side has one that faces down.
         let edge = |a, b, f, g| Edge { a, b, faces: [f, g] };
         let edges = [edge(0, 1, 0, 2), edge(1, 2, 0, 2), edge(2, 0, 0, 1), edge(2, 3, 1, 2), edge(3, 0, 1, 2)];
         assert_eq!(chains(&edges, |face| face < 2), Some(vec![vec![0, 1, 2, 3]]));

@@ -1,4 +1,4 @@
-//! Shapes that collide, shapes of the world, and what surfaces do.
+//! Collision shapes of scenes, static shapes, and contact surfaces.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,12 +6,12 @@ use soffio_math::{DQuat, DVec3, Pose};
 use soffio_multibody::collision::{Collider, Shape};
 use soffio_multibody::dynamics::RollingResistance;
 
-use super::valid::{Fault, finite, positive, unit};
+use super::validate::{Problem, finite, positive, unit};
 
 /// A coordinate axis of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum SolidAxis {
+pub enum ShapeAxis {
     /// (1, 0, 0).
     X,
     /// (0, 1, 0).
@@ -21,7 +21,7 @@ pub enum SolidAxis {
     Z,
 }
 
-impl SolidAxis {
+impl ShapeAxis {
     /// Unit vector.
     pub fn direction(self) -> DVec3 {
         match self {
@@ -32,57 +32,57 @@ impl SolidAxis {
     }
 }
 
-/// A shape about the origin of its own frame.
+/// A collision shape about the origin of its own frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
-pub enum Solid {
+pub enum SceneShape {
     /// A box.
     Box {
-        /// Half its edges, m.
+        /// Half edges, m.
         half: [f64; 3],
-        /// Radius of its edges, inside the stated size, m.
+        /// Edge radius, within the stated size, m.
         #[serde(default)]
         rounding: f64,
     },
-    /// A ball.
+    /// A sphere.
     Sphere {
-        /// m.
+        /// Radius, m.
         radius: f64,
     },
     /// A cylinder.
     Cylinder {
-        /// m.
+        /// Radius, m.
         radius: f64,
         /// Half its height, m.
         half_height: f64,
         /// Its axis.
         #[serde(default)]
-        axis: SolidAxis,
-        /// Radius of its edges, inside the stated size, m.
+        axis: ShapeAxis,
+        /// Edge radius, within the stated size, m.
         #[serde(default)]
         rounding: f64,
     },
     /// All points within `radius` of a segment.
     Capsule {
-        /// m.
+        /// Radius, m.
         radius: f64,
         /// Half the segment's length, without the caps, m.
         half_height: f64,
         /// Its axis.
         #[serde(default)]
-        axis: SolidAxis,
+        axis: ShapeAxis,
     },
-    /// All that lies below the plane across `normal`. Only of the world.
+    /// The half-space below the plane with this normal; only static.
     Plane {
-        /// Unit length.
+        /// Normal, unit.
         normal: [f64; 3],
     },
 }
 
-impl Solid {
-    /// As a collision shape at a pose.
+impl SceneShape {
+    /// The shape as a collision shape at a pose.
     pub fn shape(&self, place: Pose) -> Shape {
-        let ends = |axis: SolidAxis, half: f64| [-half, half].map(|way| place.point(way * axis.direction()));
+        let ends = |axis: ShapeAxis, half: f64| [-half, half].map(|way| place.point(way * axis.direction()));
         match *self {
             Self::Box { half, rounding } => Shape::cuboid(place, DVec3::from_array(half), rounding),
             Self::Sphere { radius } => Shape::sphere(place.position, radius),
@@ -101,8 +101,8 @@ impl Solid {
         }
     }
 
-    /// The first thing that makes it no shape.
-    pub(super) fn fault(&self, key: &str) -> Fault {
+    /// The first problem of the shape.
+    pub(super) fn problem(&self, key: &str) -> Problem {
         let sizes: &[(&str, f64)] = match self {
             Self::Box { half: [x, y, z], .. } => &[("half[0]", *x), ("half[1]", *y), ("half[2]", *z)],
             Self::Sphere { radius } => &[("radius", *radius)],
@@ -124,21 +124,21 @@ impl Solid {
     }
 }
 
-/// What a surface does to others. Two surfaces have the roots of the products of their frictions and restitutions, and
-/// the sums of their resistances, as materials of exhibits.
+/// Contact properties of a surface. Frictions and restitutions of two surfaces combine by the geometric mean,
+/// resistances by the sum, as materials of exhibits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Surface {
+pub struct ContactSurface {
     /// Coulomb coefficient.
     pub friction: f64,
     /// Energetic coefficient of restitution, 0 … 1.
     pub restitution: f64,
-    /// Its part of the couple against rolling over the normal force, m.
+    /// Its part of the rolling resistance: torque over normal force, m.
     #[serde(default)]
     pub rolling_resistance: f64,
 }
 
-impl Surface {
+impl ContactSurface {
     /// Restitution, friction and resistance of two surfaces.
     pub fn with(&self, other: &Self) -> (f64, f64, RollingResistance) {
         let rolling = self.rolling_resistance + other.rolling_resistance;
@@ -147,7 +147,7 @@ impl Surface {
         (mean(self.restitution, other.restitution), mean(self.friction, other.friction), resistance)
     }
 
-    pub(super) fn fault(&self, key: &str) -> Fault {
+    pub(super) fn problem(&self, key: &str) -> Problem {
         for (own, value) in [("friction", self.friction), ("rolling_resistance", self.rolling_resistance)] {
             if !(value.is_finite() && value >= 0.0) {
                 return Some((format!("{key}.{own}"), format!("{value} is not a finite number of zero or more")));
@@ -158,47 +158,47 @@ impl Surface {
     }
 }
 
-/// A shape of the world.
+/// A static shape.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Static {
+pub struct StaticShape {
     /// Its shape.
-    pub shape: Solid,
+    pub shape: SceneShape,
     /// Origin of the shape, or a point of the plane, m.
     #[serde(default)]
     pub pos: [f64; 3],
-    /// Shape axes to world axes, (x, y, z, w).
+    /// Rotation from shape axes to world axes, (x, y, z, w).
     #[serde(default = "unturned")]
     pub quat: [f64; 4],
-    /// If it differs from the scene's.
+    /// Contact surface, where it differs from the scene's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub surface: Option<Surface>,
+    pub surface: Option<ContactSurface>,
 }
 
 fn unturned() -> [f64; 4] {
     DQuat::IDENTITY.to_array()
 }
 
-impl Static {
-    /// One with the scene's surface.
-    pub fn new(shape: Solid, position: DVec3, rotation: DQuat) -> Self {
+impl StaticShape {
+    /// A static shape with the scene's surface.
+    pub fn new(shape: SceneShape, position: DVec3, rotation: DQuat) -> Self {
         Self { shape, pos: position.to_array(), quat: rotation.to_array(), surface: None }
     }
 
-    /// As a collider; its material is `material`.
+    /// The shape as a collider with this material.
     pub(super) fn collider(&self, index: usize, material: usize) -> Collider {
         let place = Pose { rotation: DQuat::from_array(self.quat).normalize(), position: DVec3::from_array(self.pos) };
         Collider { body: None, shape: self.shape.shape(place), material, node: format!("static-{index}") }
     }
 
-    pub(super) fn fault(&self, key: &str) -> Fault {
+    pub(super) fn problem(&self, key: &str) -> Problem {
         if !finite(&self.pos) {
             return Some((format!("{key}.pos"), format!("{:?} is not finite", self.pos)));
         }
         if !unit(&self.quat) {
             return Some((format!("{key}.quat"), format!("{:?} is not of length 1", self.quat)));
         }
-        let surface = || self.surface.as_ref().and_then(|surface| surface.fault(&format!("{key}.surface")));
-        self.shape.fault(&format!("{key}.shape")).or_else(surface)
+        let surface = || self.surface.as_ref().and_then(|surface| surface.problem(&format!("{key}.surface")));
+        self.shape.problem(&format!("{key}.shape")).or_else(surface)
     }
 }

@@ -1,20 +1,20 @@
-//! Nodes whose scale key frames change.
+//! Scene-graph transforms of nodes whose scale is animated by key frames (glTF 2.0, 3.11).
 
 use super::exhibit::Exhibit;
 use super::model::Track;
-use super::shapes::ShapeTrack;
+use super::shape_tracks::ShapeTrack;
 use soffio_math::{DMat4, DQuat, DVec3};
 
-/// Where a node stands at a time as far as scales move it, its own and those above it.
+/// World transform of a node as a function of time, as far as animated scales change it: its own and its ancestors'.
 #[derive(Clone, Debug)]
-pub struct Growth(Vec<Link>);
+pub struct AnimatedScale(Vec<Link>);
 
-/// A node on the way from the root.
+/// A node on the path from the root.
 #[derive(Clone, Debug)]
 struct Link {
-    /// In its parent at rest.
+    /// Transform to the parent in the model.
     local: DMat4,
-    /// What changes its scale, beside the rotation and translation that it has.
+    /// Animated scale with the node's own rotation and translation; `None` where the scale is constant.
     track: Option<(ShapeTrack, DQuat, DVec3)>,
 }
 
@@ -26,8 +26,8 @@ impl Link {
     }
 }
 
-impl Growth {
-    /// Of a node of an exhibit's model.
+impl AnimatedScale {
+    /// The transforms of a node of an exhibit's model.
     pub fn of(exhibit: &Exhibit, node: usize) -> Self {
         let above = std::iter::successors(Some(node), |&n| exhibit.model.nodes[n].parent);
         let mut links: Vec<Link> =
@@ -36,17 +36,18 @@ impl Growth {
         Self(links)
     }
 
-    /// Does any scale change?
-    pub fn grows(&self) -> bool {
+    /// Is any scale on the path animated?
+    pub fn is_animated(&self) -> bool {
         self.0.iter().any(|link| link.track.is_some())
     }
 
-    /// Node to world at `t` seconds.
+    /// Transform from node to world at `t` seconds.
     pub fn world(&self, t: f64) -> DMat4 {
         self.0.iter().fold(DMat4::IDENTITY, |above, link| above * link.at(t))
     }
 
-    /// Its rotation and place in the world at `t` seconds; `None` where a scale above it is zero then.
+    /// Rotation and position in the world at `t` seconds, without scale; `None` where a scale above the node is zero
+    /// then.
     pub fn frame(&self, t: f64) -> Option<DMat4> {
         let (own, above) = self.0.split_last()?;
         let world = above.iter().fold(DMat4::IDENTITY, |above, link| above * link.at(t)) * own.local;

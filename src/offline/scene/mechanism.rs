@@ -1,16 +1,16 @@
-//! A scene as bodies, rows, limits and colliders.
+//! Converts a scene to rigid bodies, constraint rows, limits and colliders.
 //!
 //! ```text
-//! spherical   a point on a point                                                        3 rows
-//! hinge       a point on a point; t₁ and t₂, across the axis in a, at right angles to the axis in b     5 rows
-//! slider      b's point in two planes of a, across t₁ and t₂; t₁, t₂ ⟂ the axis in b; t₁ ⟂ u₂     5 rows
+//! spherical   point on point                                                        3 rows
+//! hinge       point on point; t₁ and t₂, perpendicular to the axis in a, ⟂ the axis in b     5 rows
+//! slider      b's point in two planes of a, normals t₁ and t₂; t₁, t₂ ⟂ the axis in b; t₁ ⟂ u₂     5 rows
 //! ```
 //!
-//! (t₁, t₂, axis) is a right-handed frame of the parent; u₂ is t₂ as the child sees it at the start, which holds the
-//! last rotation of a slider. Limits are stops without bounce on a hinge's angle or a slider's way.
+//! (t₁, t₂, axis) is a right-handed frame of the parent; u₂ is t₂ in the child's frame at the start, which fixes the
+//! last rotation of a slider. Limits are inelastic stops on a hinge's angle or a slider's displacement.
 
-use super::format::{Joint, JointKind, Scene};
-use super::solid::Surface;
+use super::format::{JointKind, PhysicsScene, SceneJoint};
+use super::shape::ContactSurface;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::Function;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, tangents};
@@ -20,13 +20,13 @@ use soffio_multibody::collision::{Collider, Excluded, Exclusion, Reach, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, Settings, Solver, SurfacePair};
 
-/// Time in which the field draws a drifted joint together, as exhibits have it, s.
+/// Time constant of the constraint stabilisation, as in exhibits, s.
 const STABILIZATION_TIME: f64 = 0.04;
 
-impl Scene {
-    /// The bodies at their start.
+impl PhysicsScene {
+    /// The bodies in their start state.
     pub fn rigid_bodies(&self) -> Vec<RigidBody> {
-        let body = |body: &super::Body| {
+        let body = |body: &super::SceneBody| {
             let inertia = DMat3::from_diagonal(DVec3::from_array(body.inertia));
             let state = body.state();
             RigidBody {
@@ -58,7 +58,7 @@ impl Scene {
 
     /// The joints' limits.
     pub fn limits(&self) -> Vec<Limit> {
-        let limit = |(index, joint): (usize, &Joint)| {
+        let limit = |(index, joint): (usize, &SceneJoint)| {
             let [min, max] = joint.limits?;
             let kind = LimitKind::Range { measure: measure(joint), min, max };
             Some(Limit { name: format!("limit-{index}"), kind, restitution: 0.0 })
@@ -66,12 +66,12 @@ impl Scene {
         self.joints.iter().enumerate().filter_map(limit).collect()
     }
 
-    /// What collides: the bodies' shapes and the world's, each with a material of its own; nothing without a surface.
+    /// The colliders: shapes of bodies and of the world, each with a material of its own; none without a surface.
     pub fn colliders(&self) -> Vec<Collider> {
         if self.surface.is_none() {
             return Vec::new();
         }
-        let body = |(index, body): (usize, &super::Body)| {
+        let body = |(index, body): (usize, &super::SceneBody)| {
             let shape = body.solid()?.shape(Pose::IDENTITY);
             Some(Collider { body: Some(index), shape, material: index, node: body.name.clone() })
         };
@@ -80,14 +80,14 @@ impl Scene {
         self.bodies.iter().enumerate().filter_map(body).chain(statics).collect()
     }
 
-    /// Pairs of colliders that may meet; bodies that a joint connects do not.
+    /// Pairs of colliders that can touch; bodies that a joint connects do not collide.
     pub fn surface_pairs(&self, colliders: &[Collider]) -> Vec<SurfacePair> {
         let Some(surface) = self.surface else { return Vec::new() };
-        let material = |index: usize| -> Surface {
+        let material = |index: usize| -> ContactSurface {
             let body = self.bodies.get(index).map(|body| body.surface);
             body.unwrap_or_else(|| self.statics[index - self.bodies.len()].surface).unwrap_or(surface)
         };
-        let joined = |joint: &Joint| Exclusion { bodies: (joint.parent(), Some(joint.b)), why: Excluded::Joined };
+        let joined = |joint: &SceneJoint| Exclusion { bodies: (joint.parent(), Some(joint.b)), why: Excluded::Joined };
         let excluded: Vec<_> = self.joints.iter().map(joined).collect();
         let poses: Vec<_> = self
             .bodies
@@ -108,7 +108,7 @@ impl Scene {
         .collect()
     }
 
-    /// The scene in motion, its pivots without friction.
+    /// The dynamics of the scene, with frictionless pivots.
     pub fn dynamics(&self, integrator: Integrator, solver: Solver) -> Dynamics {
         let bodies = self.rigid_bodies();
         let colliders = self.colliders();
@@ -132,7 +132,7 @@ impl Scene {
         Dynamics::new(figure, settings)
     }
 
-    fn joint_rows(&self, joint: &Joint) -> Vec<ConstraintKind> {
+    fn joint_rows(&self, joint: &SceneJoint) -> Vec<ConstraintKind> {
         let (a, b) = anchors(joint);
         let point = ConstraintKind::PointToPoint { a, b };
         let Some((axis_a, axis_b)) = joint.axes() else { return vec![point] };
@@ -153,13 +153,13 @@ impl Scene {
     }
 }
 
-fn anchors(joint: &Joint) -> (Anchor, Anchor) {
+fn anchors(joint: &SceneJoint) -> (Anchor, Anchor) {
     let anchor = |body, point| Anchor { body, point: DVec3::from_array(point) };
     (anchor(joint.parent(), joint.anchor_a), anchor(Some(joint.b), joint.anchor_b))
 }
 
 /// The coordinate of a hinge or slider.
-fn measure(joint: &Joint) -> Measure {
+fn measure(joint: &SceneJoint) -> Measure {
     let (a, b) = anchors(joint);
     let (axis_a, axis_b) = joint.axes().expect("a coupled joint has an axis");
     match joint.kind {

@@ -1,4 +1,4 @@
-//! The shape check: is the sidecar what the format's JSON Schema says? All violations at once, each where it stands.
+//! Schema check: validates the sidecar against the format's JSON Schema and locates every violation.
 
 pub mod validate;
 
@@ -7,15 +7,15 @@ use schemars::{Schema, generate::SchemaSettings};
 use serde_json::{Value, json};
 
 use super::codes;
-use super::diagnostic::{Diagnostic, near, quoted};
+use super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::sidecar::Sidecar;
-use super::source::{Source, join};
+use super::source::{SidecarText, join};
 use validate::{Kind, Problem};
 
 /// JSON Schema (draft 2020-12) of `exhibit.toml`.
 pub fn schema() -> Value {
     let open = RecursiveTransform(|schema: &mut Schema| {
-        // Keys of other programs: closed objects stay open for x_*.
+        // Keys of other programs: closed objects accept x_*.
         if schema.get("additionalProperties") == Some(&json!(false)) {
             schema.insert("patternProperties".into(), json!({ "^x_": true }));
         }
@@ -26,8 +26,8 @@ pub fn schema() -> Value {
     root.to_value()
 }
 
-/// All places where the sidecar does not have the shape of the format.
-pub fn check(source: &Source) -> Vec<Diagnostic> {
+/// All violations of the sidecar's schema, each with its location and remedy.
+pub fn check(source: &SidecarText) -> Vec<Diagnostic> {
     let schema = schema();
     let mut found = Vec::new();
     for problem in validate::problems(&schema, &source.value) {
@@ -36,16 +36,16 @@ pub fn check(source: &Source) -> Vec<Diagnostic> {
     found
 }
 
-fn explain(source: &Source, problem: &Problem, found: &mut Vec<Diagnostic>) {
+fn explain(source: &SidecarText, problem: &Problem, found: &mut Vec<Diagnostic>) {
     let at = &problem.at;
     let place = if at.is_empty() { "at the top of the file".to_owned() } else { format!("in {}", readable(at)) };
     match &problem.kind {
         Kind::Unknown(keys) => {
             let known = properties(problem);
             for key in keys {
-                let likely = near(key, known.iter().copied());
+                let likely = similar_names(key, known.iter().copied());
                 let help = match likely.as_slice() {
-                    [] => format!("known here: {}; keys of your own begin with x_", known.join(", ")),
+                    [] => format!("allowed here: {}; keys of your own begin with x_", known.join(", ")),
                     names => format!("did you mean {}? Keys of your own begin with x_", quoted(names)),
                 };
                 let mut diagnostic = Diagnostic::new(codes::UNKNOWN_KEY, format!("unknown key \"{key}\" {place}"))
@@ -77,11 +77,11 @@ fn explain(source: &Source, problem: &Problem, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Of a choice, the branch that was meant: not one for another type of value or with another tag, and of the rest the
-/// one with the fewest problems.
+/// The branch of a choice that was probably meant. Branches for another type or another tag are ruled out; of the rest,
+/// the one with the fewest problems.
 fn meant<'p, 'v>(all: &'p [Vec<Problem<'v>>], here: usize) -> Option<&'p [Problem<'v>]> {
     let other = |problem: &Problem| match problem.kind {
-        // Of a choice of words none is meant more than the others: all of them are named.
+        // Of a choice between words none is more likely than the others: all are named.
         Kind::Constant(_) => true,
         Kind::Missing(_) | Kind::Unknown(_) => false,
         _ => problem.depth() == here,
@@ -98,7 +98,7 @@ fn meant<'p, 'v>(all: &'p [Vec<Problem<'v>>], here: usize) -> Option<&'p [Proble
         .min_by_key(|branch| branch.iter().map(problems).sum::<usize>())
 }
 
-/// The branches of a choice; one that is itself a choice of the same value (an optional one is) stands for its own branches.
+/// The branches of a choice; a branch that is itself a choice of the same value is replaced by its own branches.
 fn branches<'p, 'v>(all: &'p [Vec<Problem<'v>>], here: usize, out: &mut Vec<&'p [Problem<'v>]>) {
     for branch in all {
         match branch.as_slice() {
@@ -108,7 +108,7 @@ fn branches<'p, 'v>(all: &'p [Vec<Problem<'v>>], here: usize, out: &mut Vec<&'p 
     }
 }
 
-/// All problems of a choice with the value itself, choices within it included.
+/// All problems of the value itself in a choice, nested choices included.
 fn flat<'p, 'v>(all: &'p [Vec<Problem<'v>>], out: &mut Vec<&'p Problem<'v>>) {
     for problem in all.iter().flatten() {
         match &problem.kind {
@@ -129,7 +129,7 @@ fn value_problem(kind: &Kind, value: &Value, place: &str) -> (codes::Code, Strin
                 "boolean" => "write true or false",
                 "array" => "write a list: [ …, … ]",
                 "object" => "write a table: { key = …, … }",
-                _ => "`soffio schema exhibit` says what may stand here",
+                _ => "`soffio schema exhibit` lists what is allowed here",
             };
             (
                 codes::WRONG_TYPE,
@@ -138,14 +138,14 @@ fn value_problem(kind: &Kind, value: &Value, place: &str) -> (codes::Code, Strin
             )
         }
         Kind::Choice(all) => {
-            // A choice of words or quantities: each branch is one of them.
+            // A choice between words or quantities: each branch is one of them.
             let mut problems = Vec::new();
             flat(all, &mut problems);
             let mut words: Vec<&str> = problems
                 .iter()
                 .flat_map(|problem| match problem.kind {
                     Kind::Constant(word) => std::slice::from_ref(word),
-                    Kind::Words(words) => words,
+                    Kind::OneOf(words) => words,
                     _ => &[],
                 })
                 .filter_map(Value::as_str)
@@ -159,7 +159,7 @@ fn value_problem(kind: &Kind, value: &Value, place: &str) -> (codes::Code, Strin
                 (Some(units), no_words) => {
                     let words = if no_words { String::new() } else { format!("; or {}", quoted(&words)) };
                     let help = format!("write a number, or a text with one of these units: {units}{words}");
-                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has no unit that fits"), Some(help))
+                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has no valid unit"), Some(help))
                 }
                 (None, false) => {
                     let help = format!("allowed are {}", quoted(&words));
@@ -167,11 +167,11 @@ fn value_problem(kind: &Kind, value: &Value, place: &str) -> (codes::Code, Strin
                 }
                 (None, true) => {
                     let help = problems.iter().max_by_key(|problem| problem.depth()).map(ToString::to_string);
-                    (codes::WRONG_TYPE, format!("{place} is {shown}, which has not the shape of this key"), help)
+                    (codes::WRONG_TYPE, format!("{place} is {shown}, which does not have the form of this key"), help)
                 }
             }
         }
-        Kind::Words(words) => {
+        Kind::OneOf(words) => {
             let names: Vec<&str> = words.iter().filter_map(Value::as_str).collect();
             (codes::WRONG_SHAPE, format!("{place} is {shown}"), Some(format!("allowed are {}", quoted(&names))))
         }
@@ -181,14 +181,14 @@ fn value_problem(kind: &Kind, value: &Value, place: &str) -> (codes::Code, Strin
         Kind::Maximum(limit) => {
             (codes::RANGE, format!("{place} is {shown}"), Some(format!("it must be at most {limit}")))
         }
-        Kind::Short(limit) => {
+        Kind::TooShort(limit) => {
             (codes::WRONG_SHAPE, format!("{place} has too few entries"), Some(format!("give at least {limit}")))
         }
-        Kind::Long(limit) => {
+        Kind::TooLong(limit) => {
             (codes::WRONG_SHAPE, format!("{place} has too many entries"), Some(format!("give at most {limit}")))
         }
         _ => {
-            let help = "`soffio schema exhibit` says what may stand here";
+            let help = "`soffio schema exhibit` lists what is allowed here";
             (codes::WRONG_SHAPE, format!("{place} is {shown}, which this key does not allow"), Some(help.to_owned()))
         }
     }
@@ -207,7 +207,7 @@ fn brief(value: &Value) -> String {
     if text.chars().count() <= LENGTH { text } else { text.chars().take(LENGTH).chain("…".chars()).collect() }
 }
 
-/// `/body/2/node` as `body[2].node`, numbers from 0 as in the file's order.
+/// `/body/2/node` as `body[2].node`, counted from 0.
 fn readable(pointer: &str) -> String {
     let mut text = String::new();
     for key in pointer.split('/').skip(1) {

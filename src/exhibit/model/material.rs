@@ -1,6 +1,6 @@
-//! Appearances of a glTF file.
+//! Converts glTF materials and their extensions to [`Appearance`].
 //!
-//! Extensions are read as plain JSON, all in one way; a number that is missing or of the wrong type has its default.
+//! Extensions are read as JSON. A number that is missing or of the wrong type takes its default.
 
 use gltf::json::Value;
 use gltf::material::AlphaMode as GltfAlpha;
@@ -9,7 +9,7 @@ use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 use super::appearance::{AlphaMode, Appearance, Details, Levels, Sampler, TextureUse, Wrap};
 use soffio_math as math;
 
-/// Layers of a surface that are not drawn at all.
+/// Material extensions that are not drawn.
 const IGNORED: [&str; 4] = [
     "KHR_materials_anisotropy",
     "KHR_materials_iridescence",
@@ -17,7 +17,7 @@ const IGNORED: [&str; 4] = [
     "KHR_materials_diffuse_transmission",
 ];
 
-/// The metallic–roughness appearance of a glTF material of `document`; `note` is told what is not drawn.
+/// The appearance of a glTF material of `document`; `note` receives what is not drawn.
 pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: impl FnMut(String)) -> Appearance {
     let name = material.name().unwrap_or_default().to_owned();
     let mut textures = Textures { material, document, name: &name, note };
@@ -28,10 +28,10 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: im
     let emissive_texture = material.emissive_texture().map(|i| textures.info(&i));
     let normal_texture = material
         .normal_texture()
-        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.scale()));
+        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.scale()));
     let occlusion_texture = material
         .occlusion_texture()
-        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(MOVED)), t.strength()));
+        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.strength()));
     let details = textures.details();
     for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
         (textures.note)(format!("material \"{name}\": {extension} is not drawn"));
@@ -74,10 +74,10 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: im
     }
 }
 
-/// How KHR_texture_transform is named in a file.
-const MOVED: &str = "KHR_texture_transform";
+/// Name of the texture-transform extension.
+const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
-/// Reads the textures of a material, and notes what is not drawn as the file says.
+/// Reads the textures of a material and reports what is not drawn.
 struct Textures<'a, N> {
     material: &'a gltf::Material<'a>,
     document: &'a gltf::Document,
@@ -86,7 +86,7 @@ struct Textures<'a, N> {
 }
 
 impl<N: FnMut(String)> Textures<'_, N> {
-    /// A texture on a set of coordinates, moved on them by `transform`.
+    /// A texture on a set of coordinates, with `transform` as KHR_texture_transform.
     fn texture(&mut self, texture: gltf::Texture, set: u32, transform: Option<&Value>) -> TextureUse {
         let set = transform.and_then(|t| t.get("texCoord")?.as_u64()).unwrap_or(u64::from(set));
         if set > 1 {
@@ -102,15 +102,15 @@ impl<N: FnMut(String)> Textures<'_, N> {
     }
 
     fn info(&mut self, info: &gltf::texture::Info) -> TextureUse {
-        self.texture(info.texture(), info.tex_coord(), info.extension_value(MOVED))
+        self.texture(info.texture(), info.tex_coord(), info.extension_value(TEXTURE_TRANSFORM))
     }
 
-    /// A texture of an extension, with its scale. Such textures are named by index: one that does not exist is none.
+    /// A texture of an extension, with its scale; `None` where the file has no such texture.
     fn detail(&mut self, extension: &str, key: &str) -> Option<(TextureUse, f32)> {
         let info = self.material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key))?;
         let index = info.get("index")?.as_u64()? as usize;
         let set = info.get("texCoord").and_then(Value::as_u64).unwrap_or(0) as u32;
-        let moved = info.get("extensions").and_then(|e| e.get(MOVED));
+        let moved = info.get("extensions").and_then(|e| e.get(TEXTURE_TRANSFORM));
         let scale = info.get("scale").and_then(Value::as_f64).unwrap_or(1.0) as f32;
         Some((self.texture(self.document.textures().nth(index)?, set, moved), scale))
     }
@@ -147,13 +147,13 @@ fn number(material: &gltf::Material, extension: &str, key: &str, default: f64) -
     value.filter(|v| v.is_finite()).unwrap_or(default) as f32
 }
 
-/// A colour of an extension; what is missing of it is `default`.
+/// A colour of an extension; missing components are `default`.
 fn color(material: &gltf::Material, extension: &str, key: &str, default: f64) -> [f32; 3] {
     let list = material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key)?.as_array());
     std::array::from_fn(|i| list.and_then(|l| l.get(i)?.as_f64()).unwrap_or(default) as f32)
 }
 
-/// Translation · rotation · scale of KHR_texture_transform; it turns against the clock, v down.
+/// Translation · rotation · scale of KHR_texture_transform; it rotates counter-clockwise with v down.
 fn rows(transform: &Value) -> [[f32; 3]; 2] {
     let number = |value: Option<&Value>, default: f64| value.and_then(Value::as_f64).unwrap_or(default);
     let pair = |key: &str, default: f64| [0, 1].map(|i| number(transform.get(key).and_then(|v| v.get(i)), default));

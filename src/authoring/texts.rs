@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 /// Words of one language.
 #[derive(Clone, Debug, Default)]
-pub struct Words {
+pub struct LabelTexts {
     /// Language code.
     pub code: &'static str,
     /// Title of the work.
@@ -19,8 +19,16 @@ pub struct Words {
     pub captions: Vec<(&'static str, String)>,
 }
 
-/// A breath of the attract script: when (s), how strong (0…1), where.
-pub type Puff = (f64, f64, [f64; 2]);
+/// A breath of the attract script.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttractBreath {
+    /// Seconds since the script began.
+    pub at: f64,
+    /// Speed at the lips over that of the hardest blow, 0…1.
+    pub strength: f64,
+    /// Picture coordinates: (0,0) top left, (1,1) bottom right.
+    pub aim: [f64; 2],
+}
 
 /// A TOML string.
 pub fn quoted(text: &str) -> String {
@@ -28,8 +36,8 @@ pub fn quoted(text: &str) -> String {
 }
 
 /// What happens when nobody is there: the invitation, and breaths. What hangs comes to rest by itself, and is not put back.
-pub fn attract(puffs: &[Puff]) -> String {
-    let end = puffs.last().map_or(20.0, |puff| puff.0 + 19.0);
+pub fn attract(breaths: &[AttractBreath]) -> String {
+    let end = breaths.last().map_or(20.0, |breath| breath.at + 19.0);
     let mut out = format!(
         "# ---- when nobody is there ------------------------------------------------------------------------------------\n\
          # Steps in the order of time, seconds since the round began. A step shows a text, blows, looks\n\
@@ -38,7 +46,7 @@ pub fn attract(puffs: &[Puff]) -> String {
          # strength: 0.22 is a gentle breath, 1 the hardest. aim: (0,0) is the picture's top left, (1,1) its bottom right.\n\n\
          [attract]\nduration = {end}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n"
     );
-    for (at, strength, [x, y]) in puffs {
+    for AttractBreath { at, strength, aim: [x, y] } in breaths {
         let _ = write!(
             out,
             "\n[[attract.step]]\nat = {at}\nblow = {{ strength = {strength}, hold = \"1.5 s\", aim = [{x}, {y}] }}\n"
@@ -48,13 +56,13 @@ pub fn attract(puffs: &[Puff]) -> String {
 }
 
 /// Labels and credit.
-pub fn labels(languages: &[Words]) -> String {
+pub fn labels(languages: &[LabelTexts]) -> String {
     let mut out = "# ---- words ---------------------------------------------------------------------------------------------------\n\
                    # REPLACE these texts by yours; `soffio labels ID --csv texts.csv` makes a table of them for translators. `alt`\n\
                    # says what is to be seen to those who cannot see it; `caption` is written when a sound is heard.\n\n\
                    [label]\ndefault_language = \"en\"\n"
         .to_owned();
-    for Words { code, title, maker, body, alt, captions } in languages {
+    for LabelTexts { code, title, maker, body, alt, captions } in languages {
         let invite = match *code {
             "ko" => "부드럽게 불어 보세요. 고리를 움직여 방향을 정하세요.",
             "it" => "Soffia piano. Muovi l'anello per mirare.",
@@ -78,12 +86,12 @@ pub fn labels(languages: &[Words]) -> String {
 }
 
 /// English, Korean and Italian words of a new work: title, wall text, what is to be seen, and captions by key.
-pub fn three(
+pub fn in_three_languages(
     titles: [&str; 3],
     bodies: [&str; 3],
     alts: [String; 3],
     captions: &[(&'static str, [&str; 3])],
-) -> Vec<Words> {
+) -> Vec<LabelTexts> {
     let makers = ["REPLACE: the maker's name", "바꾸세요: 만든 이의 이름", "DA SOSTITUIRE: il nome dell'autore"];
     let begin = [
         "REPLACE this text: who made it, when, of what, and what a breath does to it.",
@@ -94,7 +102,7 @@ pub fn three(
     ["en", "ko", "it"]
         .into_iter()
         .enumerate()
-        .map(|(i, code)| Words {
+        .map(|(i, code)| LabelTexts {
             code,
             title: titles[i].to_owned(),
             maker: makers[i].to_owned(),

@@ -1,4 +1,4 @@
-//! Words by language, credit, and what is shown and blown when nobody is there.
+//! Label texts by language, credit, and the attract script.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,13 @@ use serde::Deserialize;
 
 use super::super::quantity::{Angle, Time};
 
-/// What happens when nobody is there.
+/// The attract script: what the exhibit does when nobody is there.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Attract {
     /// Steps in time order; the script repeats after the last.
     pub step: Vec<AttractStep>,
-    /// Length of one round; by default 10 s after the last step.
+    /// Length of the script before it repeats; by default 10 s after the last step.
     pub duration: Option<Time>,
 }
 
@@ -21,20 +21,20 @@ pub struct Attract {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AttractStep {
-    /// Since the script began.
+    /// Time since the script began.
     pub at: Time,
     /// Key of a label text to show.
     pub show: Option<String>,
     /// A breath.
     pub blow: Option<Blow>,
-    /// Leads the camera round the work, to the right and up from where it stands; [0, 0] leads it back.
+    /// Orbits the camera: to the right and up from its own position; [0, 0] returns it.
     pub look: Option<[Angle; 2]>,
-    /// Puts everything back to where it started. It jumps there: for works whose parts break or roll away.
+    /// Resets the exhibit to its start. It jumps there: for exhibits whose parts break or roll away.
     #[serde(default)]
     pub reset: bool,
 }
 
-/// A breath: a recording, or made from its strength.
+/// A breath: a recording, or synthesised from its strength.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Blow {
@@ -43,37 +43,37 @@ pub struct Blow {
     /// Instead of a recording: speed at the lips over that of the hardest blow (17 m/s), 0 … 1. Gentle is 0.22.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub strength: Option<f64>,
-    /// With `strength`: from nothing to the height; by default 0.12 s.
+    /// With `strength`: time from zero to the full speed; by default 0.12 s.
     pub attack: Option<Time>,
-    /// With `strength`: time at the height; by default 1.2 s.
+    /// With `strength`: time at full speed; by default 1.2 s.
     pub hold: Option<Time>,
-    /// With `strength`: from there to nothing; by default 0.3 s.
+    /// With `strength`: time from full speed to zero; by default 0.3 s.
     pub release: Option<Time>,
     /// Picture coordinates, (0,0) top left, (1,1) bottom right; by default the centre.
     pub aim: Option<[f64; 2]>,
 }
 
-/// Words by language code.
+/// Label texts by language code.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 pub struct Label {
     /// Language shown first.
     pub default_language: Option<String>,
     /// One table per language.
     #[serde(flatten)]
-    pub languages: BTreeMap<String, Words>,
+    pub languages: BTreeMap<String, LabelTexts>,
 }
 
-/// Words of one language.
+/// The label texts of one language.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Words {
-    /// Title of the work.
+pub struct LabelTexts {
+    /// Title of the exhibit.
     pub title: String,
     /// Maker.
     pub maker: String,
     /// Wall text.
     pub body: String,
-    /// What is to be seen, for those who cannot.
+    /// Description for visitors who cannot see it.
     pub alt: String,
     /// Texts by key.
     pub text: BTreeMap<String, String>,
@@ -81,13 +81,13 @@ pub struct Words {
     pub caption: BTreeMap<String, String>,
 }
 
-/// Who made it, and whose rights it carries.
+/// Author, licence and rights notice.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Credit {
     /// SPDX id of the model's licence.
     pub model_license: String,
-    /// Who made the model.
+    /// Author of the model.
     pub model_author: String,
     /// Rights notice shown with the label.
     pub notice: String,

@@ -1,5 +1,5 @@
-//! Files that appear under their name only when they are whole: written beside their place, then moved into it. A run
-//! that ends early leaves nothing half-written.
+//! Atomic files: written beside their destination and renamed when complete, so an interrupted run leaves no partial
+//! file.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -7,14 +7,17 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// A file on its way.
-pub struct WholeFile {
+/// A file that is not yet complete. Dropped before [`AtomicFile::finish`], it leaves nothing.
+pub struct AtomicFile {
     out: BufWriter<NamedTempFile>,
     path: PathBuf,
 }
 
-impl WholeFile {
-    /// Begins a file beside its final place. The error names the file and what stands in the way.
+impl AtomicFile {
+    /// Creates a temporary file beside `path`.
+    ///
+    /// # Errors
+    /// Names the file and the cause.
     pub fn create(path: &Path) -> io::Result<Self> {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !folder.is_dir() {
@@ -22,24 +25,24 @@ impl WholeFile {
             return Err(io::Error::new(io::ErrorKind::NotFound, format!("cannot write {}: {why}", path.display())));
         }
         let mut builder = tempfile::Builder::new();
-        // Temporary files are private; what a user asked for is an ordinary file, readable as the umask allows.
+        // Temporary files are private; the finished file is an ordinary one, readable as the umask allows.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file = builder.tempfile_in(folder).map_err(|error| failed(path, &error))?;
         Ok(Self { out: BufWriter::new(file), path: path.to_path_buf() })
     }
 
-    /// A second handle on the same bytes, for writers that keep theirs to themselves.
+    /// A second handle to the same file, for writers that take ownership.
     pub fn reopen(&self) -> io::Result<File> {
         self.out.get_ref().reopen()
     }
 
-    /// Where it will be.
+    /// Destination.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Puts the file in its place.
+    /// Renames the file to its destination.
     pub fn finish(self) -> io::Result<()> {
         let file = self.out.into_inner().map_err(|e| failed(&self.path, e.error()))?;
         file.persist(&self.path).map_err(|e| failed(&self.path, &e.error))?;
@@ -47,13 +50,13 @@ impl WholeFile {
     }
 }
 
-/// The error of a file that could not be written: which, why, what to look at.
+/// The error of a file that could not be written: which, why, what to check.
 fn failed(path: &Path, why: &io::Error) -> io::Error {
     let help = "check the folder, its permissions and the free space";
     io::Error::new(why.kind(), format!("cannot write {}: {why}; {help}", path.display()))
 }
 
-impl Write for WholeFile {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.out.write(bytes).map_err(|error| failed(&self.path, &error))
     }

@@ -1,47 +1,47 @@
-//! What a device keeps while works come and go: layouts, pipelines, samplers, the tables that are the same for every
-//! work, and the buffers and textures whose size no work decides.
+//! Device resources that all exhibits share: layouts, pipelines, samplers, lookup tables, and the buffers and textures
+//! whose size does not depend on an exhibit.
 //!
-//! Invariant: once the states of a work have been covered, showing it again makes nothing here.
+//! Invariant: once the pipelines of an exhibit exist, showing it again creates nothing here.
 
 use std::collections::BTreeMap;
 
 use super::environment::{TABLE_SIZE, split_sum_table};
 use super::frames::MAX_FRAMES;
 use super::globals::Globals;
-use super::passes::Plan;
+use super::passes::PassPlan;
 use super::pipelines::{Layouts, Pipelines};
 use super::resources::{attachment, half4, light_texture, sampler};
-use super::shadows::MapCamera;
+use super::shadows::ShadowMapCamera;
 use super::textures;
 use super::{Gpu, Options, details};
 use soffio_exhibit::model::Sampler;
 
-/// Most motes drawn.
-pub(super) const MAX_MOTES: usize = 4096;
+/// Most dust particles drawn.
+pub(super) const MAX_DUST: usize = 4096;
 
-/// What all works share on one device.
-pub(super) struct Fixtures {
+/// Resources that all exhibits share on one device.
+pub(super) struct SharedResources {
     pub layouts: Layouts,
     pub pipelines: Pipelines,
     pub globals_buffer: wgpu::Buffer,
     pub frames_buffer: wgpu::Buffer,
-    pub motes_buffer: wgpu::Buffer,
+    pub dust_buffer: wgpu::Buffer,
     pub frame_group: wgpu::BindGroup,
     /// Split-sum table.
     pub table: wgpu::TextureView,
-    /// For all textures of the light.
+    /// Sampler of all textures of the light.
     pub smooth: wgpu::Sampler,
-    /// Shadow map: the order of what is drawn, and the same depths to be read.
+    /// Shadow map: depth target, and the same depths for reading.
     pub map_views: [wgpu::TextureView; 2],
-    /// Texture of what has none.
+    /// White texture in place of a missing one.
     pub white: wgpu::TextureView,
-    /// The same for the textures of extensions: colours, and data.
+    /// White texture arrays in place of missing extension textures: colours, and data.
     pub no_details: [wgpu::TextureView; 2],
-    /// Of the materials.
+    /// Samplers of the materials.
     pub samplers: BTreeMap<Sampler, wgpu::Sampler>,
 }
 
-impl Fixtures {
+impl SharedResources {
     pub fn new(gpu: &Gpu, options: &Options) -> Self {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
@@ -64,13 +64,13 @@ impl Fixtures {
             ],
         });
         let table: Vec<_> = split_sum_table().iter().map(|&[a, b, c]| half4([a, b, c, 1.0])).collect();
-        let map = Plan::shadow_map(MapCamera::size(options.quality));
+        let map = PassPlan::shadow_map(ShadowMapCamera::size(options.shadow_quality));
         Self {
             pipelines: Pipelines::new(gpu, &layouts, options),
             layouts,
             globals_buffer,
             frames_buffer,
-            motes_buffer: buffer("motes", MAX_MOTES * 16, wgpu::BufferUsages::VERTEX),
+            dust_buffer: buffer("dust", MAX_DUST * 16, wgpu::BufferUsages::VERTEX),
             frame_group,
             table: light_texture(gpu, "split sum", (TABLE_SIZE, 1, 1), &table, wgpu::TextureViewDimension::D2),
             smooth: sampler(device),

@@ -6,8 +6,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
 use super::glb::{Finish, Scene};
 use super::outline::{Polygon, open_spline};
-use super::piece::{Bend, Part, Piece};
-use super::solid::{Solid, sheet, turned};
+use super::piece::{BentWire, Part, Piece};
+use super::solid::{Solid, extrude, revolve, revolve_ring};
 
 /// m.
 pub const MM: f64 = 1e-3;
@@ -67,26 +67,26 @@ pub fn rod(radius: f64, low: f64, high: f64) -> Solid {
     let profile =
         [(0.0, low), (radius - edge, low), (radius, low + edge), (radius, high - edge), (radius - edge, high)];
     let profile: Vec<DVec2> = profile.iter().map(|&(r, y)| DVec2::new(r, y)).chain([DVec2::new(0.0, high)]).collect();
-    turned(&profile, false, ROUND)
+    revolve(&profile, ROUND)
 }
 
 /// A flat ring about y, `thickness` high.
 pub fn ring(inner: f64, outer: f64, thickness: f64) -> Solid {
     let half = 0.5 * thickness;
     let corners = [(inner, -half), (outer, -half), (outer, half), (inner, half)];
-    turned(&corners.map(|(r, y)| DVec2::new(r, y)), true, 2 * ROUND)
+    revolve_ring(&corners.map(|(r, y)| DVec2::new(r, y)), 2 * ROUND)
 }
 
 /// A thin board with its long side along x.
 pub fn slab(length: f64, width: f64, thickness: f64) -> Solid {
     let (x, y) = (0.5 * length, 0.5 * width);
     let outline: Polygon = [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| DVec2::new(x, y)).into();
-    sheet(&outline, &[], thickness, 0.15 * thickness)
+    extrude(&outline, &[], thickness, 0.15 * thickness)
 }
 
 /// A spur wheel with straight-sided teeth: `module` is twice the pitch radius over the number of teeth. A tooth's middle
 /// lies at the angle `phase`.
-pub fn spur(teeth: usize, module: f64, thickness: f64, phase: f64, holes: &[Polygon]) -> Solid {
+pub fn spur_gear(teeth: usize, module: f64, thickness: f64, phase: f64, holes: &[Polygon]) -> Solid {
     let pitch = 0.5 * module * teeth as f64;
     let (tip, root) = (pitch + module, pitch - 1.25 * module);
     let step = 2.0 * PI / teeth as f64;
@@ -96,7 +96,7 @@ pub fn spur(teeth: usize, module: f64, thickness: f64, phase: f64, holes: &[Poly
         .flat_map(|k| corners.map(|(r, share)| (r, phase + step * (k as f64 + share))))
         .map(|(r, angle)| DVec2::new(r * cos(angle), r * sin(angle)))
         .collect();
-    sheet(&outline, holes, thickness, 0.3 * MM)
+    extrude(&outline, holes, thickness, 0.3 * MM)
 }
 
 /// Where the middle of a tooth must lie on a wheel that meshes with another along the direction `toward` (rad, from the
@@ -108,7 +108,7 @@ pub fn meshing_phase(teeth: usize, other_teeth: usize, other_phase: f64, toward:
 }
 
 /// Turns what lies along y to lie along z.
-pub fn facing() -> DQuat {
+pub fn y_to_z() -> DQuat {
     rotation(0.5 * PI * DVec3::X)
 }
 
@@ -126,9 +126,9 @@ pub fn vane(name: &'static str, size: [f64; 3], radius: f64, angle: f64, pitch: 
 
 /// A foot with a bent rod that ends at `top`: the rod stands at `post` (x, z) and bows over. The sidecar draws the rod
 /// through `StandRod.*`, 3 mm in radius.
-pub fn gallows(top: DVec3, post: DVec2, finish: usize) -> Piece {
+pub fn bent_rod_stand(top: DVec3, post: DVec2, finish: usize) -> Piece {
     let foot = [(0.0, 0.0), (58.0, 0.0), (60.0, 2.0), (60.0, 7.0), (57.0, 9.0), (8.0, 12.0), (0.0, 12.0)];
-    let foot = turned(&foot.map(|(r, y)| DVec2::new(r, y) * MM), false, 2 * ROUND);
+    let foot = revolve(&foot.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let at = |height: f64, share: f64| {
         DVec3::new(post.x, 0.0, post.y) * (1.0 - share) + DVec3::new(top.x * share, height, top.z * share)
     };
@@ -138,8 +138,8 @@ pub fn gallows(top: DVec3, post: DVec2, finish: usize) -> Piece {
     Piece {
         name: "Stand",
         parts: vec![part("Foot", foot, DVec3::new(post.x, 0.0, post.y), DQuat::IDENTITY, STEEL, finish)],
-        bends: vec![Bend { name: "StandRod", points: rod, radius: 3.0 * MM, density: STEEL }],
-        marks: vec![("StandHook", top)],
+        wires: vec![BentWire { name: "StandRod", points: rod, radius: 3.0 * MM, density: STEEL }],
+        markers: vec![("StandHook", top)],
     }
 }
 
@@ -155,11 +155,11 @@ pub fn ceiling(finish: usize) -> Piece {
     Piece {
         name: "Ceiling",
         parts: vec![
-            part("Rose", turned(&rose, false, ROUND), DVec3::ZERO, DQuat::IDENTITY, STEEL, finish),
+            part("Rose", revolve(&rose, ROUND), DVec3::ZERO, DQuat::IDENTITY, STEEL, finish),
             part("Rod", rod(1.5 * MM, 12.0 * MM, 0.8), DVec3::ZERO, DQuat::IDENTITY, STEEL, finish),
         ],
-        bends: vec![Bend { name: "CeilingHook", points: hook.collect(), radius: 1.5 * MM, density: STEEL }],
-        marks: vec![("CeilingPoint", DVec3::ZERO)],
+        wires: vec![BentWire { name: "CeilingHook", points: hook.collect(), radius: 1.5 * MM, density: STEEL }],
+        markers: vec![("CeilingPoint", DVec3::ZERO)],
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::super::diagnostic::Diagnostic;
 use super::super::quantity::{Angle, Quantity};
 use super::super::source::join;
-use super::super::view::{ASIDE, DOWN, UP};
+use super::super::view::{MAX_PITCH_DOWN, MAX_PITCH_UP, MAX_YAW};
 use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
 use super::context::Context;
 use soffio_detector::generate::{self, BreathShape, HARDEST_M_S};
@@ -18,7 +18,7 @@ const BREATH_RATE: u32 = 16_000;
 /// Quiet before and after a made breath, s: the detector learns the room's noise in it.
 const QUIET_AROUND: f64 = 0.4;
 /// Longest attack, hold or release of a made breath, s.
-const LONGEST_BREATH: f64 = 30.0;
+const MAX_BREATH_SECONDS: f64 = 30.0;
 /// Pause after the last step, s, where the sidecar gives no duration.
 const PAUSE: f64 = 10.0;
 
@@ -31,16 +31,16 @@ impl Context<'_> {
         let default_language = given.or_else(|| order.first().cloned()).unwrap_or_else(|| "en".to_owned());
         let mut languages = Vec::new();
         for code in &order {
-            let Some(words) = sidecar.label.languages.get(code) else { continue };
+            let Some(texts) = sidecar.label.languages.get(code) else { continue };
             let at = join("/label", code);
-            for (key, value) in [("title", &words.title), ("alt", &words.alt)] {
+            for (key, value) in [("title", &texts.title), ("alt", &texts.alt)] {
                 if value.is_empty() {
                     let code_of = if key == "alt" { codes::NO_ALT } else { codes::MISSING_WORDS };
                     let problem = Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}"));
                     self.report(&at, problem.help(format!("write {key} = \"…\" there")));
                 }
             }
-            languages.push((code.clone(), self.label(words, &at)));
+            languages.push((code.clone(), self.label(texts, &at)));
         }
         match sidecar.label.languages.get(&default_language) {
             Some(default) => self.compare_languages(default, &default_language),
@@ -55,33 +55,33 @@ impl Context<'_> {
         }
         for (i, sound) in sidecar.sound.iter().enumerate() {
             if let Some(key) = &sound.caption {
-                self.needs(key, "caption", &format!("/sound/{i}/caption"), |words| &words.caption);
+                self.require_text(key, "caption", &format!("/sound/{i}/caption"), |texts| &texts.caption);
             }
         }
         Labels { default_language, languages }
     }
 
     /// Words in the order of the file.
-    fn label(&self, words: &sidecar::Words, at: &str) -> Label {
+    fn label(&self, texts: &sidecar::LabelTexts, at: &str) -> Label {
         let ordered = |key: &str, map: &BTreeMap<String, String>| {
             let keys = self.source.keys_of(&join(at, key)).into_iter();
             keys.filter_map(|k| map.get(&k).map(|text| (k.clone(), text.clone()))).collect()
         };
         Label {
-            title: words.title.clone(),
-            maker: words.maker.clone(),
-            body: words.body.clone(),
-            alt: words.alt.clone(),
-            text: ordered("text", &words.text),
-            caption: ordered("caption", &words.caption),
+            title: texts.title.clone(),
+            maker: texts.maker.clone(),
+            body: texts.body.clone(),
+            alt: texts.alt.clone(),
+            text: ordered("text", &texts.text),
+            caption: ordered("caption", &texts.caption),
         }
     }
 
     /// Warns where a language lacks what the default one has.
-    fn compare_languages(&mut self, default: &sidecar::Words, default_code: &str) {
+    fn compare_languages(&mut self, default: &sidecar::LabelTexts, default_code: &str) {
         let sidecar = self.sidecar;
-        for (code, words) in sidecar.label.languages.iter().filter(|(code, _)| *code != default_code) {
-            let pairs = [("text", &default.text, &words.text), ("caption", &default.caption, &words.caption)];
+        for (code, texts) in sidecar.label.languages.iter().filter(|(code, _)| *code != default_code) {
+            let pairs = [("text", &default.text, &texts.text), ("caption", &default.caption, &texts.caption)];
             for (kind, wanted, has) in pairs {
                 for key in wanted.keys().filter(|key| !has.contains_key(*key)) {
                     let message = format!("{kind} \"{key}\" is missing in \"{code}\"");
@@ -96,9 +96,15 @@ impl Context<'_> {
     }
 
     /// Reports a key that no language has words for.
-    fn needs(&mut self, key: &str, kind: &str, at: &str, map: fn(&sidecar::Words) -> &BTreeMap<String, String>) {
+    fn require_text(
+        &mut self,
+        key: &str,
+        kind: &str,
+        at: &str,
+        map: fn(&sidecar::LabelTexts) -> &BTreeMap<String, String>,
+    ) {
         let languages = &self.sidecar.label.languages;
-        if !languages.values().any(|words| map(words).contains_key(key)) {
+        if !languages.values().any(|texts| map(texts).contains_key(key)) {
             let message = format!("no language has a {kind} \"{key}\"");
             let help = format!("add it: [label.en] {kind} = {{ {key} = \"…\" }}");
             self.report(at, Diagnostic::new(codes::NO_TEXT, message).help(help));
@@ -134,7 +140,7 @@ impl Context<'_> {
         let last = steps.last().map_or(0.0, |step| step.at);
         let duration = sidecar.attract.duration.map_or(if steps.is_empty() { 0.0 } else { last + PAUSE }, |d| d.0);
         if duration < last {
-            let message = format!("the round ends after {duration} s, and its last step is at {last} s");
+            let message = format!("the script ends after {duration} s, but its last step is at {last} s");
             let problem = Diagnostic::new(codes::ATTRACT_ORDER, message);
             self.report("/attract/duration", problem.help("make it longer, or leave it out"));
         }
@@ -151,7 +157,7 @@ impl Context<'_> {
         match (&given.show, &given.blow, &given.look, given.reset) {
             (Some(key), None, None, false) => {
                 if !labels.languages.is_empty() {
-                    self.needs(key, "text", &format!("{at}/show"), |words| &words.text);
+                    self.require_text(key, "text", &format!("{at}/show"), |texts| &texts.text);
                 }
                 Some(AttractAction::Show(key.clone()))
             }
@@ -169,7 +175,7 @@ impl Context<'_> {
             }
             (None, None, None, true) => Some(AttractAction::Reset),
             _ => {
-                let problem = Diagnostic::new(codes::WRONG_SHAPE, "a step does one thing");
+                let problem = Diagnostic::new(codes::WRONG_SHAPE, "a step must have exactly one action");
                 self.report(
                     at,
                     problem.help("give one of show, blow, look and reset = true; two steps may have the same time"),
@@ -181,11 +187,12 @@ impl Context<'_> {
 
     /// How far the camera is led, rad: no farther than visitors may go.
     fn look(&mut self, turn: [f64; 2], at: &str) -> [f64; 2] {
-        let ends = [[-ASIDE, ASIDE], [-DOWN, UP]];
+        let ends = [[-MAX_YAW, MAX_YAW], [-MAX_PITCH_DOWN, MAX_PITCH_UP]];
         for (i, (turn, [least, most])) in turn.into_iter().zip(ends).enumerate() {
             if !(least..=most).contains(&turn) {
                 let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
-                let problem = Diagnostic::new(codes::RANGE, format!("the camera does not go by {} deg", degrees(turn)));
+                let problem =
+                    Diagnostic::new(codes::RANGE, format!("the camera cannot orbit by {} deg", degrees(turn)));
                 let help = format!("give {} to {} deg", degrees(least), degrees(most));
                 self.report(&format!("{at}/{i}"), problem.help(help));
             }
@@ -210,9 +217,10 @@ impl Context<'_> {
                 for (value, (key, time)) in seconds.iter_mut().zip(times) {
                     let Some(time) = time else { continue };
                     *value = time.0;
-                    if !(0.0..=LONGEST_BREATH).contains(value) {
-                        let problem = Diagnostic::new(codes::RANGE, format!("{value} s is no time of a breath"));
-                        self.report(&format!("{at}/{key}"), problem.help(format!("give 0 to {LONGEST_BREATH} s")));
+                    if !(0.0..=MAX_BREATH_SECONDS).contains(value) {
+                        let problem =
+                            Diagnostic::new(codes::RANGE, format!("{value} s is not a valid time of a breath"));
+                        self.report(&format!("{at}/{key}"), problem.help(format!("give 0 to {MAX_BREATH_SECONDS} s")));
                         return None;
                     }
                 }
@@ -223,8 +231,8 @@ impl Context<'_> {
                 Some((generate::breath(BREATH_RATE, seed as u64, &shape).into(), BREATH_RATE))
             }
             _ => {
-                let problem = Diagnostic::new(codes::WRONG_SHAPE, "a breath is a recording, or made from its strength");
-                let help = "give wav alone, or strength with attack, hold and release where they differ from the usual";
+                let problem = Diagnostic::new(codes::WRONG_SHAPE, "a breath needs either a recording or a strength");
+                let help = "give wav alone, or strength, optionally with attack, hold and release";
                 self.report(at, problem.help(help));
                 None
             }

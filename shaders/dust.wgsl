@@ -7,17 +7,17 @@ struct Varying {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) index: u32, @location(0) mote: vec4f) -> Varying {
+fn vertex(@builtin(vertex_index) index: u32, @location(0) particle: vec4f) -> Varying {
     var corners = array<vec2f, 6>(vec2f(-1.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0), vec2f(-1.0, -1.0), vec2f(1.0, 1.0), vec2f(-1.0, 1.0));
     let c = corners[index];
-    let distance = length(mote.xyz - globals.eye);
+    let distance = length(particle.xyz - globals.eye);
     // Never below a pixel and a half: a sub-pixel speck would blink. What it gains in area it loses in light.
-    let radius = max(globals.mote_radius, 1.5 * globals.pixel_angle * distance);
-    let share = globals.mote_radius / radius;
+    let radius = max(globals.dust_radius, 1.5 * globals.pixel_angle * distance);
+    let share = globals.dust_radius / radius;
     var out: Varying;
     out.at = c;
-    out.brightness = mote.w * share * share;
-    out.clip = globals.clip_from_world * vec4f(mote.xyz + (globals.right * c.x + globals.up * c.y) * radius, 1.0);
+    out.brightness = particle.w * share * share;
+    out.clip = globals.clip_from_world * vec4f(particle.xyz + (globals.right * c.x + globals.up * c.y) * radius, 1.0);
     return out;
 }
 

@@ -1,68 +1,68 @@
-//! One line of a benchmark.
+//! Record of a benchmark: one JSON line.
 
 use serde::Serialize;
 
 use super::contact::ContactReport;
-use super::format::Scene;
+use super::format::PhysicsScene;
 use super::measure::Report;
-use super::run::{Best, Watched};
+use super::run::{Best, Observation};
 use super::times::TimesReport;
 
-/// One line of a benchmark. It has many fields, because it is the table that is written, column by column.
+/// One record of a benchmark, with a field for each column of the output.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    /// Who ran it.
+pub struct BenchRecord {
+    /// Name of the engine.
     pub engine: String,
-    /// Which version.
+    /// Version of the engine.
     pub version: String,
-    /// How it was set.
+    /// Settings of the engine.
     pub config: String,
     /// Name of the scene.
     pub scene: String,
-    /// Bodies.
+    /// Number of bodies.
     pub n: usize,
-    /// Step, s.
+    /// Step length, s.
     pub dt: f64,
-    /// Processor time of a step, best of the rounds.
+    /// Mean processor time of a step, µs, best of the rounds.
     pub us_per_step: f64,
-    /// Processor time of a simulated second.
+    /// Processor time of a simulated second, µs.
     pub us_per_sim_s: f64,
-    /// Steps of each round.
+    /// Number of steps of each round.
     pub timed_steps: u64,
-    /// Each step's own time.
+    /// Times of the single steps.
     #[serde(flatten)]
     pub times: TimesReport,
-    /// Simulated over processor time, by the mean step.
+    /// Simulated time over processor time, by the mean step.
     pub real_time_factor: f64,
-    /// Simulated seconds of the pass that measures the motion.
+    /// Simulated time of the pass that measures the motion, s.
     pub sim_s: f64,
-    /// Mean substeps of its steps.
+    /// Mean number of substeps.
     pub substeps: f64,
-    /// Bodies that sleep at its end.
+    /// Number of sleeping bodies at the end.
     pub asleep: usize,
-    /// As [`Report`] has them, and so on down.
+    /// Joint error of [`Report`], as the following fields.
     pub max_joint_err_m: f64,
     /// |E − E₀|, relative.
     pub max_energy_drift_rel: f64,
     /// E − E₀ at the end, relative.
     pub final_energy_drift_rel: f64,
-    /// s.
+    /// Time of divergence, s.
     pub diverged_at_s: Option<f64>,
-    /// Do the rounds agree bit for bit?
+    /// Are the rounds bit-identical?
     pub repeat_bitwise: bool,
-    /// Weight's speed.
+    /// Error of the weight's speed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s4_speed_rel_err: Option<f64>,
-    /// Weight's way.
+    /// Error of the weight's displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s4_drop_rel_err: Option<f64>,
     /// Phase error of the gears.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s4_max_coupling_err_m: Option<f64>,
-    /// Mean period by straight lines.
+    /// Error of the mean period by linear interpolation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s5_period_err_ppm: Option<f64>,
-    /// Mean period by cubics.
+    /// Error of the mean period by cubic interpolation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s5_period_err_hermite_ppm: Option<f64>,
     /// Amplitude at the end over that at the start.
@@ -73,9 +73,9 @@ pub struct Row {
     pub contacts: Option<ContactReport>,
 }
 
-impl Row {
-    /// A line from what was measured.
-    pub fn new(who: [&str; 3], scene: &Scene, dt: f64, best: &Best, watched: &Watched) -> Self {
+impl BenchRecord {
+    /// The record of a measurement.
+    pub fn new(who: [&str; 3], scene: &PhysicsScene, dt: f64, best: &Best, watched: &Observation) -> Self {
         let [engine, version, config] = who.map(str::to_owned);
         let Report { weight, pendulum, contacts, .. } = watched.report;
         let times = watched.times.report();

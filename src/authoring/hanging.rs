@@ -4,8 +4,8 @@ use soffio_math::{DVec2, DVec3, PI, Pose};
 
 use super::mobile::{EYE_STEPS, STEEL};
 use super::outline::{Polygon, area_and_centroid, ellipse, ring};
-use super::piece::{Bend, Part, Piece};
-use super::solid::{Solid, sheet, wire_mass};
+use super::piece::{BentWire, Part, Piece};
+use super::solid::{Solid, extrude, wire_mass};
 
 /// m.
 const MM: f64 = 1e-3;
@@ -19,24 +19,24 @@ const HOLE_INSET: f64 = 2.4;
 pub const HOLE_RADIUS: f64 = 1.0;
 
 /// A stem hung by its eye from the origin, straight down to `length` m; it ends in a small eye through a plate.
-fn stem(name: &'static str, length: f64) -> Bend {
+fn stem(name: &'static str, length: f64) -> BentWire {
     let (radius, eye, foot) = (0.3 * MM, 1.6 * MM, 1.2 * MM);
     let mut points = ring(DVec3::new(0.0, radius - eye, 0.0), eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
     points.push(DVec3::new(0.0, 2.0 * foot - length, 0.0));
     points.extend(ring(DVec3::new(0.0, foot - length, 0.0), foot, DVec3::Y, DVec3::Z, EYE_STEPS).split_off(1));
-    Bend { name, points, radius, density: STEEL }
+    BentWire { name, points, radius, density: STEEL }
 }
 
 /// A plate (solid, density, finish) on a stem: the hole of the plate at the stem's foot, `length` m below the hook.
 /// `names` are those of the piece, its hook and its stem.
-pub fn hung_plate(names: [&'static str; 3], plate: (Solid, f64, usize), length: f64) -> Piece {
+pub fn hanging_plate(names: [&'static str; 3], plate: (Solid, f64, usize), length: f64) -> Piece {
     let [name, hook, stem_name] = names;
     let (solid, density, finish) = plate;
     Piece {
         name,
-        parts: vec![Part { name, solid: solid.moved(-length * DVec3::Y), place: Pose::IDENTITY, density, finish }],
-        bends: vec![stem(stem_name, length)],
-        marks: vec![(hook, DVec3::ZERO)],
+        parts: vec![Part { name, solid: solid.translated(-length * DVec3::Y), place: Pose::IDENTITY, density, finish }],
+        wires: vec![stem(stem_name, length)],
+        markers: vec![(hook, DVec3::ZERO)],
     }
 }
 
@@ -45,14 +45,14 @@ pub fn disc(names: [&'static str; 3], (diameter, thickness): (f64, f64), length:
     let radius = 0.5 * diameter;
     let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS * MM), 0.0, ROUND / 4);
     let outline = ellipse(DVec2::new(0.0, HOLE_INSET * MM - radius), DVec2::splat(radius), 0.5 * PI, ROUND);
-    hung_plate(names, (sheet(&outline, &[hole], thickness, BEVEL), stuff.0, stuff.1), length)
+    hanging_plate(names, (extrude(&outline, &[hole], thickness, BEVEL), stuff.0, stuff.1), length)
 }
 
 /// Scales outline and holes, drawn in mm, so that the finished sheet (thickness in m) has this density and mass.
 pub fn to_mass(outline: Polygon, holes: Vec<Polygon>, thickness: f64, (density, mass): (f64, f64)) -> Solid {
     let cut = |scale: f64| {
         let size = |polygon: &Polygon| polygon.iter().map(|p| *p * scale * MM).collect();
-        sheet(&size(&outline), &holes.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL)
+        extrude(&size(&outline), &holes.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL)
     };
     // Mass goes as the square of the scale but for the bevel, a thousandth: three rounds leave nothing.
     let scale = (0..3).fold(1.0, |scale: f64, _| scale * (mass / cut(scale).mass(density).mass).sqrt());
@@ -61,7 +61,7 @@ pub fn to_mass(outline: Polygon, holes: Vec<Polygon>, thickness: f64, (density, 
 
 /// Outline and holes in mm, drawn anywhere, as they hang: their origin is a hole `inset` mm below the upper edge, straight
 /// above the centre. That hole is the last.
-pub fn as_hung((outline, holes): &(Polygon, Vec<Polygon>), inset: f64) -> (Polygon, Vec<Polygon>) {
+pub fn hang_by_hole((outline, holes): &(Polygon, Vec<Polygon>), inset: f64) -> (Polygon, Vec<Polygon>) {
     let (mut area, mut moment) = area_and_centroid(outline);
     moment *= area;
     for hole in holes {
@@ -92,7 +92,7 @@ pub fn cut_plate(
     length: f64,
     (thickness, density, mass, finish): (f64, f64, f64, usize),
 ) -> Piece {
-    let (outline, cuts) = as_hung(&drawn, inset);
+    let (outline, cuts) = hang_by_hole(&drawn, inset);
     let stem_wire = stem(names[2], length);
     let stem_mass = wire_mass(&stem_wire.points, stem_wire.radius, stem_wire.density).mass;
     plumb(names, to_mass(outline, cuts, thickness, (density, mass - stem_mass)), length, (density, finish))
@@ -106,14 +106,14 @@ pub fn drawn_plate(
     length: f64,
     (thickness, density, finish): (f64, f64, usize),
 ) -> Piece {
-    let (outline, cuts) = as_hung(drawn, inset);
+    let (outline, cuts) = hang_by_hole(drawn, inset);
     let size = |polygon: &Polygon| polygon.iter().map(|p| *p * MM).collect::<Polygon>();
-    let solid = sheet(&size(&outline), &cuts.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL);
+    let solid = extrude(&size(&outline), &cuts.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL);
     plumb(names, solid, length, (density, finish))
 }
 
 /// A plate on its stem, its centre right below its hole: bevels have moved it by micrometres.
 fn plumb(names: [&'static str; 3], solid: Solid, length: f64, (density, finish): (f64, usize)) -> Piece {
     let aside = solid.mass(density).center.x;
-    hung_plate(names, (solid.moved(DVec3::new(-aside, 0.0, 0.0)), density, finish), length)
+    hanging_plate(names, (solid.translated(DVec3::new(-aside, 0.0, 0.0)), density, finish), length)
 }
